@@ -28,7 +28,7 @@ use crate::tables::Probe;
 /// Version of the form of the summary.
 const SCHEMA_VERSION: u32 = 1;
 
-/// What a checkpoint of a scene belongs to.
+/// Identity of the checkpoints of a scene.
 #[must_use]
 pub fn identity(loaded: &Loaded) -> Identity {
     Identity::of_text(loaded.table.to_string())
@@ -86,7 +86,7 @@ struct Running<'a> {
     /// The grains, once they are prepared or come from a checkpoint.
     parts: Option<Assembled>,
     progress: Progress,
-    /// What limited the last step.
+    /// Bound that limited the last step.
     limiter: &'static str,
 }
 
@@ -370,7 +370,7 @@ impl Running<'_> {
     }
 }
 
-/// What was measured before the run.
+/// Measurements before the run.
 fn derived(parts: &Assembled) -> BTreeMap<String, f64> {
     let origin = &parts.origin;
     let all = [

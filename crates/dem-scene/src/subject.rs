@@ -73,7 +73,7 @@ impl Subject for Scene {
     }
 
     fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
-        // What a study knows the run by stands beside the scene.
+        // The identity that a study gives the run is added to the scene.
         let mut known = self.0.table.clone();
         let own = Value::String(options.identity.scene.clone());
         known.insert("study".into(), own);

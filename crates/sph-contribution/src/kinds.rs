@@ -7,7 +7,7 @@ use crate::{Contribution, Plugins};
 /// Contributions with the name of their kind.
 pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
 
-/// What the plugins of a kind contribute to a flow.
+/// Contributions of the plugins of a kind to a flow.
 pub struct Contributor {
     /// Name of the kind.
     pub kind: &'static str,

@@ -2,7 +2,7 @@
 
 use crate::PluginInfo;
 
-/// Where a scene names plugins of a kind.
+/// Place of the plugins of a kind in scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// `[KIND.PLUGIN]`, one at most.
@@ -49,11 +49,11 @@ pub struct PluginKind {
     pub name: &'static str,
     /// One sentence.
     pub purpose: &'static str,
-    /// Where a scene names its plugins.
+    /// Place of its plugins in scenes.
     pub place: Place,
     /// The plugin of a scene that names none.
     pub default: Option<&'static str>,
-    /// What a scene has that names none, where no plugin is the default.
+    /// State of a scene that names none, for kinds without a default.
     pub absent: &'static str,
     /// The message to a scene that names a plugin and has no use for it; without one, such a scene is no mistake.
     pub idle: Option<&'static str>,
@@ -129,7 +129,7 @@ impl PluginKind {
         matches!(self.place, Place::One | Place::Any)
     }
 
-    /// What a scene has that names none: "`tait` if left out".
+    /// State of a scene that names none: "`tait` if left out".
     pub fn if_left_out(&self) -> String {
         self.default
             .map_or(self.absent.into(), |name| format!("`{name}` if left out"))

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-/// What is known of a plugin without building it.
+/// Description of a plugin that is not built.
 #[derive(Clone, Copy)]
 pub struct PluginInfo {
     /// Name in scene files.

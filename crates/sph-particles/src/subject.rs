@@ -84,7 +84,7 @@ impl Subject for Scene {
     }
 }
 
-/// What is known of a failed run.
+/// Results of a failed run.
 fn known(error: &RunError) -> Json {
     let RunError::Failed(failure) = error else {
         return Json::Null;

@@ -1,4 +1,4 @@
-//! What a checkpoint belongs to: a scene, the files it read, a version of the program.
+//! Identity of a checkpoint: scene, files that it read, version of the program.
 
 use serde::{Deserialize, Serialize};
 use sph_io::Checksum;

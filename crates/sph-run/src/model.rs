@@ -1,4 +1,4 @@
-//! What a model is to its driver.
+//! Models that a driver runs.
 
 use std::path::Path;
 
@@ -14,9 +14,9 @@ use crate::options::Start;
 /// Where several processes compute one flow together, each has a model and a driver of its own: they are asked the same
 /// in the same order, and one of them alone has files.
 pub trait Model {
-    /// What keeps a run from its end.
+    /// Error that ends a run.
     type Error: From<IoError> + std::error::Error;
-    /// What is left of a run; content of `summary.json`.
+    /// Content of `summary.json`.
     type Summary: Serialize;
 
     /// Puts the model where the run begins: as the scene says, or at a checkpoint; `own` is that of the run's folder.
@@ -35,7 +35,7 @@ pub trait Model {
     /// moves: the state is made ready to be looked at, and judged.
     ///
     /// # Errors
-    /// What went wrong, which ends the run.
+    /// An error that ends the run.
     fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Now, Self::Error>;
 
     /// Names and units of the columns of `series.csv`.
@@ -63,10 +63,10 @@ pub trait Model {
     /// If it cannot be written.
     fn save(&mut self, books: &Books, own: &Path) -> Result<(), Self::Error>;
 
-    /// What all processes of the run decide together: the error of any, or whether any wants to stop.
+    /// Common decision of all processes of the run: the error of any, or the wish of any to stop.
     ///
     /// # Errors
-    /// What one could not write; a process that is gone.
+    /// A file that one could not write; a process that is gone.
     fn agree(&mut self, wish: Wish<Self::Error>) -> Result<bool, Self::Error> {
         match wish {
             Wish::Written(done) => done.map(|()| false),
@@ -74,7 +74,7 @@ pub trait Model {
         }
     }
 
-    /// What there is to tell of a run that is over, or failed: to the error may be added what is found out about it.
+    /// Summary of a run that is over or failed; findings may be added to the error.
     /// Nothing where another process tells it.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ pub trait Model {
     ) -> Result<Option<Self::Summary>, Self::Error>;
 }
 
-/// Where a model is.
+/// Time and step of a model.
 #[derive(Clone, Copy, Debug)]
 pub struct Now {
     /// Simulated time, s.
@@ -96,7 +96,7 @@ pub struct Now {
     pub steps: u64,
     /// The last step, s.
     pub dt: f64,
-    /// What limited it.
+    /// Bound that limited it.
     pub limiter: &'static str,
     /// Particles, grains, or what else the model counts.
     pub size: usize,
@@ -123,7 +123,7 @@ pub enum Status {
     Interrupted,
 }
 
-/// What a driver counts, and a checkpoint keeps.
+/// Counts of a driver, kept in checkpoints.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Books {

@@ -1,6 +1,6 @@
-//! What a run tells whoever watches it.
+//! Progress of a run, for its observers.
 
-/// Where a run is.
+/// Progress of a run.
 #[derive(Clone, Debug)]
 pub struct Progress {
     /// Simulated time, s.
@@ -11,13 +11,13 @@ pub struct Progress {
     pub step: u64,
     /// The last step, s.
     pub dt: f64,
-    /// What limited it.
+    /// Bound that limited it.
     pub limiter: &'static str,
     /// Particles, grains, or what else the model counts.
     pub particles: usize,
 }
 
-/// What the watcher wants.
+/// Command of an observer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
     /// Go on.

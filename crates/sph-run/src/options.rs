@@ -16,7 +16,7 @@ pub const SUMMARY: &str = "summary.json";
 pub struct RunOptions {
     /// Folder of all files of the run; it is created.
     pub out: PathBuf,
-    /// Where the run begins.
+    /// Start of the run.
     pub start: Start,
     /// Threads; `None` for all cores.
     pub threads: Option<usize>,
@@ -24,7 +24,7 @@ pub struct RunOptions {
     pub identity: Identity,
 }
 
-/// Where a run begins.
+/// Start of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Start {
     /// As the scene says, at t = 0.

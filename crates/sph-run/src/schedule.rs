@@ -22,7 +22,7 @@ pub struct Schedule<'a> {
     pub max_wall: Option<f64>,
 }
 
-/// What is to be written.
+/// Outputs that are due.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Due {
     /// A row of the series.
@@ -67,7 +67,7 @@ impl Schedule<'_> {
         }
     }
 
-    /// What is to be written at a time, s.
+    /// Outputs that are due at a time, s.
     pub(crate) fn due(&self, time: f64, books: &Books) -> Due {
         let written = books.last_row == Some(time);
         Due {

@@ -34,7 +34,7 @@ pub fn save_state(path: &Path, meta: Json, state: &impl Serialize) -> Result<(),
 
 /// A checkpoint of a state that [`save_state`] wrote.
 pub struct SavedState {
-    /// What is kept beside the state.
+    /// Content besides the state.
     pub meta: Json,
     words: Option<Vec<u32>>,
 }

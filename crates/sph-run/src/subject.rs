@@ -58,7 +58,7 @@ pub trait Subject: Debug + Send + Sync {
     fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError>;
 }
 
-/// What became of a run, with its summary.
+/// End of a run, with its summary.
 #[derive(Debug)]
 pub enum Ended {
     /// It reached its end.

@@ -17,6 +17,6 @@ pub struct Trouble {
     pub position: Vec<f64>,
     /// The value, if it is finite.
     pub value: Option<f64>,
-    /// What was wrong with it.
+    /// Reason.
     pub reason: String,
 }

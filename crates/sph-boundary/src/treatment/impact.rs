@@ -132,8 +132,8 @@ fn give_way<const D: usize>(
     Ok(())
 }
 
-/// What stopping particles over `dt` did to the walls of movers, each with all its pieces, by all particles wherever
-/// they are at home.
+/// Mean forces over `dt` of stopped particles on the walls of movers, summed over the pieces of each wall and over all
+/// particles.
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,

@@ -23,7 +23,7 @@ pub fn going_on(arguments: &RunArguments, out: &Path) -> String {
     words.join(" ")
 }
 
-/// What is to be done first where a file could not be written.
+/// First remedy where a file could not be written.
 pub fn remedy(error: &IoError) -> Option<&'static str> {
     match error {
         IoError::DiskFull { .. } => Some("make room"),

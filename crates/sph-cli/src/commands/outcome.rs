@@ -47,7 +47,7 @@ pub fn wall_time(seconds: f64, threads: usize) -> String {
     format!("{} on {threads}", number::duration(seconds))
 }
 
-/// What limited the steps, most of them first.
+/// Bounds that limited the steps, the most frequent first.
 pub fn limited_by(shares: &BTreeMap<String, f64>) -> String {
     let mut limiters: Vec<(&String, &f64)> = shares.iter().collect();
     limiters.sort_by(|a, b| b.1.total_cmp(a.1));

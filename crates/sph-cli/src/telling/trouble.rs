@@ -71,7 +71,7 @@ impl From<IoError> for Trouble {
     }
 }
 
-/// What a model says of an error.
+/// Text of an error of a model.
 #[derive(Default)]
 pub struct Failing {
     /// Mistakes of the scene, if it is these.
@@ -81,7 +81,7 @@ pub struct Failing {
     code: u8,
     /// Whether a step failed.
     pub ran: bool,
-    /// What is to be done first where a file could not be written.
+    /// First remedy where a file could not be written.
     pub remedy: Option<&'static str>,
 }
 
@@ -153,7 +153,7 @@ impl From<Failing> for Trouble {
 }
 
 impl Trouble {
-    /// What a model says, with places in the scene where it is the scene's fault.
+    /// Text of an error of a model, with places in the scene if the scene is at fault.
     pub fn of(error: impl Into<Failing>, source: &Source) -> Self {
         let told = error.into();
         match told.mistakes.is_empty() {

@@ -1,9 +1,9 @@
-//! What a failed step tells, for summaries.
+//! Report of a failed step, for summaries.
 
 use sph_core::StepError;
 use sph_run::Trouble;
 
-/// What a failed step tells.
+/// Report of a failed step.
 pub(crate) fn trouble(cause: &StepError, time: f64, step: u64) -> Trouble {
     let bare = Trouble {
         time,

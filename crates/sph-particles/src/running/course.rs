@@ -28,12 +28,12 @@ pub(crate) struct Running<'a, const D: usize> {
     /// All of a flow of which `parts` has this rank's part; on the first of several ranks alone.
     pub(crate) whole: Option<Assembled<D>>,
     pub(crate) counters: Counters,
-    /// What the rows have seen.
+    /// Extrema over the rows.
     pub(crate) extrema: Extrema,
     pub(crate) outputs: Outputs,
     /// The state before the last step.
     pub(crate) good: LastGood<D>,
-    /// What is known of the present state.
+    /// Knowledge of the present state.
     pub(crate) known: Known,
     /// The last step that was tried, s, and what limited it.
     pub(crate) tried: (f64, &'static str),
@@ -61,7 +61,7 @@ impl<const D: usize> LastGood<D> {
     }
 }
 
-/// What has been done with the present state.
+/// Work done with the present state.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Known {
     /// Its derived columns are computed.

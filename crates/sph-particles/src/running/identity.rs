@@ -1,4 +1,4 @@
-//! What a checkpoint belongs to: a scene, and the files that it reads.
+//! Identity of a checkpoint: the scene and the files that it reads.
 
 use sph_run::{FileMark, Identity};
 use sph_scene::Loaded;

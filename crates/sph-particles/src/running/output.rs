@@ -21,7 +21,7 @@ pub(crate) fn shows_depths(scene: &Scene) -> bool {
     shown.any(|name| name == SURFACE_DISTANCE.name)
 }
 
-/// What a scene shows.
+/// Fields and pictures of a scene.
 pub(crate) struct Outputs {
     fields: Vec<String>,
     pictures: Vec<String>,

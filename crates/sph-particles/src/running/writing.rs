@@ -1,4 +1,4 @@
-//! What a run writes on its way: rows, pictures, fields, checkpoints.
+//! Outputs of a run: rows, pictures, fields, checkpoints.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::running::course::Running;
 use crate::running::output::shows_depths;
 use crate::running::pieces::write_own_share;
 
-/// What probes have gathered, by their names.
+/// Sums of probes, by their names.
 fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
     let one =
         |(name, p): &(String, Box<dyn Probe<D>>)| Some((name.clone(), p.as_gathers()?.gathered()));
