@@ -213,6 +213,26 @@ pub enum BoundaryError {
         /// Name of the wall.
         wall: String,
     },
+    /// A wall that a treatment does not have.
+    #[error("wall `{wall}` {reason}; take `walls.usaw`")]
+    NotScaled {
+        /// Name of the wall.
+        wall: String,
+        /// What it is.
+        reason: &'static str,
+    },
+    /// A wall whose map would be too large.
+    #[error(
+        "wall `{wall}` needs a map of {nodes} nodes, and {most} are the most: take `walls.usaw`, or larger particles"
+    )]
+    LargeMap {
+        /// Name of the wall.
+        wall: String,
+        /// Nodes that its map would have.
+        nodes: usize,
+        /// Nodes at most.
+        most: usize,
+    },
     /// A wall closed through periodicity given a rotation.
     #[error("wall `{wall}` is closed through periodicity and cannot rotate")]
     PeriodicWallRotated {

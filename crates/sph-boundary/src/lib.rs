@@ -70,6 +70,7 @@ mod geometry;
 mod integrals;
 mod limits;
 mod rigid;
+mod scale;
 mod treatment;
 
 pub use error::{BoundaryError, SurfaceError, WallWarning};
@@ -102,4 +103,5 @@ pub use treatment::contract::{
     Condition, ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
 };
 pub use treatment::dummy::DummyParticles;
+pub use treatment::symmetric::Symmetric;
 pub use treatment::usaw::Usaw;

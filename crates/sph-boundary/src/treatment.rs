@@ -13,6 +13,7 @@ pub(crate) mod near;
 pub(crate) mod outline;
 pub(crate) mod plates;
 pub(crate) mod shepard;
+pub(crate) mod symmetric;
 pub(crate) mod touching;
 pub(crate) mod unveiling;
 pub(crate) mod usaw;

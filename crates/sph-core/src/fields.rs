@@ -113,6 +113,24 @@ pub const RENORMALISATION: Field<Scalar> = Field::new(
     "1",
     "wall renormalisation factor γ, the share of the kernel inside the walls",
 );
+/// s of walls that scale the kernel: s(x) ∫ s(y) w(x − y) dy = 1 over the fluid's side; 1 away from walls.
+pub const SCALE: Field<Scalar> = Field::new(
+    "wall_scale",
+    "1",
+    "symmetric scale s of the kernel next to walls",
+);
+/// ∇ ln s of walls that scale the kernel.
+pub const SCALE_SLOPE: Field<Vector> = Field::new(
+    "wall_scale_slope",
+    "1/m",
+    "gradient of ln s, s the symmetric scale of the kernel next to walls",
+);
+/// ∂ ln s/∂t at a fixed place, where walls that scale the kernel move.
+pub const SCALE_RATE: Field<Scalar> = Field::new(
+    "wall_scale_rate",
+    "1/s",
+    "rate of ln s at a fixed place by the motion of walls",
+);
 /// K = γρ − mΣθw: what the density sum does not see of the initial state.
 pub const DENSITY_CONSTANT: Field<Scalar> = Field::new(
     "density_constant",

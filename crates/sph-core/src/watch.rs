@@ -81,7 +81,12 @@ impl Watched {
         self.reads.extend(reads.into_iter().flatten().map(name));
         // Nobody walks over neighbours without their places, and what walls cut off.
         if access.sweep {
-            let always = [fields::POSITION.name, fields::RENORMALISATION.name];
+            let always = [
+                fields::POSITION.name,
+                fields::RENORMALISATION.name,
+                fields::SCALE.name,
+                fields::SCALE_SLOPE.name,
+            ];
             self.reads.extend(always);
         }
         self.writes.extend(access.writes.iter().map(name));

@@ -98,6 +98,7 @@ pub struct Bound<'a, const D: usize> {
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
     /// Pressure, density, ρA.
     type Own<L: Lane> = (L, L, [L; D]);
     type Sum<L: Lane> = L;

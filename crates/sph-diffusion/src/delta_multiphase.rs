@@ -193,6 +193,7 @@ pub struct Own<const D: usize, L> {
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
     type Own<L: Lane> = Own<D, L>;
     type Sum<L: Lane> = L;
 

@@ -164,6 +164,7 @@ pub struct Bound<'a, const D: usize> {
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
     /// Density, its gradient, phase.
     type Own<L: Lane> = (L, [L; D], L);
     type Sum<L: Lane> = L;

@@ -194,9 +194,10 @@ struct Bound<'a, const D: usize> {
 }
 
 impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
     /// q V².
     type Own<L: Lane> = L;
-    type Sum<L: Lane> = [L; D];
+    type Sum<L: Lane> = ([L; D], L);
 
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> L {
@@ -204,20 +205,40 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
         all.numbers::<L>(self.pressure) * volume * volume
     }
     #[inline(always)]
-    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
         let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
-        add_scaled(sum, &pair.separation, (*own + other) * pair.factor);
+        add_scaled(&mut sum.0, &pair.separation, (*own + other) * pair.factor);
+    }
+    #[inline(always)]
+    fn pair_at_walls<L: Lane>(
+        &self,
+        own: &L,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut Self::Sum<L>,
+    ) {
+        let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
+        sum.1 += (*own + other) * pair.value;
     }
 }
 
 impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     #[inline(always)]
-    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+    fn finish(
+        &self,
+        (sum, of_values): ([f64; D], f64),
+        at: &Neighbourhood<'_, D>,
+        rates: &mut Rates<D>,
+    ) {
         let i = at.particle;
         // The wall resists as the particle does.
         let (pressure, own) = (self.pressure[i], self.volume[i]);
         let against = |volume: f64| pressure * (own * own + volume * volume);
         let mut sum = Vect::from(sum);
+        if let Some(scale) = at.scale {
+            let itself = 2.0 * pressure * own * own * scale.own_value();
+            sum += scale.slope * (of_values + itself);
+        }
         for (v, pair) in at.wall.pairs() {
             let weight = self.walls.points.share[v] * against(self.walls.points.volume[v]);
             sum += pair.separation * (weight * pair.factor);

@@ -43,6 +43,10 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
         self.divergence()
     }
+    /// Whether its sums follow walls that scale the kernel.
+    fn is_scaled(&self) -> bool {
+        true
+    }
     /// Sets the evolved scalars so that the stages return the density column as it is.
     ///
     /// Called at the start, and again whenever the sum changes for another reason than motion.

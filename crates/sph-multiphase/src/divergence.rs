@@ -7,6 +7,9 @@ use sph_neighbours::{
 };
 
 /// Which weight a pair has in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
+///
+/// With walls that scale the kernel it is D_a{u} = −Σ_b W_ab s_a s_b [u_ab·∇w_ab + w_ab (σ_a + σ_b)], b = a included,
+/// σ_a = d ln s_a/dt = u_a·∇ln s_a + ∂ ln s_a/∂t.
 pub trait DivergenceWeight: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
@@ -95,19 +98,37 @@ pub struct Bound<'a, const D: usize, W: DivergenceWeight> {
     volume: &'a [f64],
     #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[where_there(fields::SCALE_SLOPE)]
+    slope: Option<&'a [Vect<D>]>,
+    #[where_there(fields::SCALE_RATE)]
+    rate: Option<&'a [f64]>,
     #[value(&world.walls)]
     walls: &'a WallSet<D>,
 }
 
+impl<const D: usize, W: DivergenceWeight> Bound<'_, D, W> {
+    /// σ = d ln s/dt of a particle, 1/s.
+    #[inline(always)]
+    fn scale_rate(&self, i: usize) -> f64 {
+        let along = self.slope.map_or(0.0, |g| g[i].dot(&self.velocity[i]));
+        along + self.rate.map_or(0.0, |rate| rate[i])
+    }
+}
+
 impl<const D: usize, W: DivergenceWeight> PairSum<D> for Bound<'_, D, W> {
-    /// Velocity, volume, density.
-    type Own<L: Lane> = ([L; D], L, L);
+    const SCALED: bool = true;
+    /// Velocity, volume, density, d ln s/dt.
+    type Own<L: Lane> = ([L; D], L, L, L);
     type Sum<L: Lane> = L;
 
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
         let (volume, density) = (all.numbers(self.volume), all.numbers(self.density));
-        (all.vectors(self.velocity), volume, density)
+        let scale = match self.slope {
+            Some(_) => all.each(|i| [self.scale_rate(i)])[0],
+            None => L::splat(0.0),
+        };
+        (all.vectors(self.velocity), volume, density, scale)
     }
 
     #[inline(always)]
@@ -117,6 +138,19 @@ impl<const D: usize, W: DivergenceWeight> PairSum<D> for Bound<'_, D, W> {
         let apart = dot(&minus(&own.0, &self.velocity[j]), &pair.separation);
         *sum -= weight * apart * pair.factor;
     }
+
+    #[inline(always)]
+    fn pair_at_walls<L: Lane>(
+        &self,
+        own: &Self::Own<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
+        let weight = self.weight.weight(own.1, own.2, volume, density);
+        *sum -= weight * pair.value * (own.3 + L::splat(self.scale_rate(j)));
+    }
 }
 
 impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
@@ -124,6 +158,10 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (velocity, volume, density) = (self.velocity[i], self.volume[i], self.density[i]);
+        if let Some(scale) = at.scale {
+            let weight = self.weight.weight(volume, density, volume, density);
+            sum -= weight * 2.0 * scale.own_value() * self.scale_rate(i);
+        }
         for (v, pair) in at.wall.pairs() {
             let there = self.walls.points.volume[v];
             let weight = self.weight.weight(volume, density, there, density);

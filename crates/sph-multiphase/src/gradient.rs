@@ -18,6 +18,9 @@ pub struct Side<L = f64> {
 }
 
 /// The weight P_ab of a pair in m_a a = −1/γ_a [Σ_b θ_b P_ab ∇w_ab − Σ_s P_as/V_s ∇γ_as].
+///
+/// With walls that scale the kernel, w̃_ab = s_a s_b w_ab, it is m_a a = −Σ_b P_ab s_a s_b ∇w_ab − B_a ∇ln s_a,
+/// B_a = P_aa s_a² w(0) + Σ_b P_ab w̃_ab: the gradient of the energy of compression if densities sum w̃. Ours.
 pub trait PairPressure: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
@@ -97,8 +100,10 @@ pub struct Bound<'a, const D: usize, P: PairPressure> {
 }
 
 impl<const D: usize, P: PairPressure> PairSum<D> for Bound<'_, D, P> {
+    const SCALED: bool = true;
     type Own<L: Lane> = Side<L>;
-    type Sum<L: Lane> = [L; D];
+    /// Σ P ∇w over its separation, and B without the particle's own part.
+    type Sum<L: Lane> = ([L; D], L);
 
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Side<L> {
@@ -113,23 +118,54 @@ impl<const D: usize, P: PairPressure> PairSum<D> for Bound<'_, D, P> {
     }
 
     #[inline(always)]
-    fn pair<L: Lane>(&self, own: &Side<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+    fn pair<L: Lane>(
+        &self,
+        own: &Side<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut Self::Sum<L>,
+    ) {
+        let weight = self.weight.pair(*own, self.there(j)) * pair.factor;
+        add_scaled(&mut sum.0, &pair.separation, weight);
+    }
+
+    #[inline(always)]
+    fn pair_at_walls<L: Lane>(
+        &self,
+        own: &Side<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut Self::Sum<L>,
+    ) {
+        sum.1 += self.weight.pair(*own, self.there(j)) * pair.value;
+    }
+}
+
+impl<const D: usize, P: PairPressure> Bound<'_, D, P> {
+    #[inline(always)]
+    fn there<L: Lane>(&self, j: usize) -> Side<L> {
         let density = if P::DENSITY { self.density[j] } else { 0.0 };
-        let there = Side {
+        Side {
             pressure: L::splat(self.pressure[j]),
             volume: L::splat(self.volume[j]),
             density: L::splat(density),
-        };
-        let weight = self.weight.pair(*own, there) * pair.factor;
-        add_scaled(sum, &pair.separation, weight);
+        }
     }
 }
 
 impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
     #[inline(always)]
-    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+    fn finish(
+        &self,
+        (sum, of_values): ([f64; D], f64),
+        at: &Neighbourhood<'_, D>,
+        rates: &mut Rates<D>,
+    ) {
         let own = self.own::<f64>(Particles::one(at.particle));
         let mut sum = Vect::from(sum);
+        if let Some(scale) = at.scale {
+            sum += scale.slope * (of_values + self.weight.pair(own, own) * scale.own_value());
+        }
         // A wall has no density of its own: it is that of the particle.
         for (v, pair) in at.wall.pairs() {
             let there = Side {

@@ -54,6 +54,9 @@ impl<const D: usize> Formulation<D> for Grenier {
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         Box::new(FilledDivergence)
     }
+    fn is_scaled(&self) -> bool {
+        false
+    }
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut volume = world.free.take(fields::VOLUME)?;
         let mass = world.free.get(fields::MASS)?;

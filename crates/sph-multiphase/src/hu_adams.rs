@@ -54,7 +54,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
         kernel_sums(world, &mut constant)?;
         let mass = world.free.get(fields::MASS)?;
         let density = world.free.get(fields::DENSITY)?;
-        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        let gamma = world.sum_renormalisation();
         for (i, k) in constant.iter_mut().enumerate() {
             *k = gamma.map_or(1.0, |g| g[i]) * density[i] - mass[i] * *k;
         }
@@ -86,7 +86,7 @@ impl<const D: usize> Stage<World<D>> for DensitySum {
         kernel_sums(world, &mut density)?;
         let mass = world.free.get(fields::MASS)?;
         let constant = world.free.get(fields::DENSITY_CONSTANT)?;
-        let gamma = world.free.get(fields::RENORMALISATION).ok();
+        let gamma = world.sum_renormalisation();
         density
             .par_iter_mut()
             .zip(volume.par_iter_mut())

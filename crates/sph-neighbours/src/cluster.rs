@@ -8,6 +8,7 @@ use sph_lanes::{Lane, MOST, Width, dispatch_at};
 
 use crate::lane_pair::LanePair;
 use crate::members::Members;
+use crate::scaling::{ScaledPairs, Scaling};
 use crate::separation::{Distances, grow};
 use crate::{Blocked, ContactRow, Contacts, Domain, Neighbourhood, Row, Scratch};
 
@@ -20,6 +21,10 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) inverse_renormalisation: [f64; MOST],
     /// Square of the support radius, m².
     pub(crate) limit: f64,
+    /// Where walls scale the kernel.
+    pub(crate) scaling: Option<Scaling<'a, D>>,
+    /// Whether some of its pairs are scaled.
+    pub(crate) scaled: bool,
     /// Whether any member sees a wall.
     pub(crate) beside: bool,
     /// Whether images across periodic faces may be nearer.
@@ -37,6 +42,8 @@ pub(crate) struct Buffers<const D: usize> {
     pub factor: Vec<f64>,
     /// w in the same order, where somebody asked for it.
     pub value: Vec<f64>,
+    /// s_a s_b F and s_a s_b w in the same order, where walls scale some pair.
+    pub scaled: [Vec<f64>; 2],
     /// Rows of wall points, one per member.
     pub walls: [Scratch<D>; MOST],
     /// Rows of free neighbours, one per member, where somebody asked for rows.
@@ -54,6 +61,7 @@ impl<const D: usize> Default for Buffers<D> {
             separation: Vec::new(),
             factor: Vec::new(),
             value: Vec::new(),
+            scaled: Default::default(),
             walls: std::array::from_fn(|_| Scratch::new()),
             free: std::array::from_fn(|_| Scratch::new()),
             sums: Vec::new(),
@@ -88,6 +96,31 @@ impl<const D: usize> Buffers<D> {
         grow(&mut self.factor, needed);
         kernel.gradient_factor(&self.distance2[..needed], &mut self.factor[..needed]);
         self.rows = false;
+    }
+
+    /// The numbers of pairs that walls scale.
+    pub fn scale<const N: usize>(
+        &mut self,
+        width: Width,
+        members: Members<'_>,
+        scaling: &Scaling<'_, N>,
+    ) {
+        let needed = members.candidates.len() * width.lanes();
+        let [factors, values] = &mut self.scaled;
+        for numbers in [&mut *factors, &mut *values] {
+            grow(numbers, needed);
+        }
+        let (factors, values) = (&mut factors[..needed], &mut values[..needed]);
+        factors.copy_from_slice(&self.factor[..needed]);
+        scaling.kernel.value(&self.distance2[..needed], values);
+        for numbers in [factors, values] {
+            let body = ScaledPairs {
+                members,
+                scale: scaling.scale,
+                numbers,
+            };
+            dispatch_at(width, body);
+        }
     }
 }
 
@@ -145,6 +178,7 @@ impl<const D: usize> Cluster<'_, D> {
                 wall: self.buffers.walls[k].row(),
                 contacts: self.contacts.of(particle),
                 inverse_renormalisation: self.inverse_renormalisation[k],
+                scale: self.scaling.map(|scaling| scaling.at(particle)),
             };
             visit(k, &neighbourhood);
         }
@@ -189,6 +223,7 @@ impl<const D: usize> Cluster<'_, D> {
             wall,
             contacts,
             inverse_renormalisation: self.inverse_renormalisation[member],
+            scale: self.scaling.map(|scaling| scaling.at(particle)),
         }
     }
 

@@ -27,6 +27,8 @@ const INTERVALS: usize = 64;
 /// exact for linear pressures between parallel faces. Walls with a common corner bound the fluid as one, and have none of it.
 /// Ours.
 ///
+/// Walls that scale the kernel have no such part: their forces are the reactions to those on particles.
+///
 /// # Errors
 /// If the ranks cannot add.
 pub fn facing_forces<const D: usize>(
@@ -34,6 +36,9 @@ pub fn facing_forces<const D: usize>(
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let mut forces = vec![WallForce::zero(); wanted.len()];
+    if world.scales() {
+        return Ok(forces);
+    }
     let pairs = pairs(world, wanted);
     if pairs.is_empty() {
         return Ok(forces);

@@ -11,11 +11,12 @@ use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
 use crate::pair_sum::PairSum;
 use crate::particles::{Particles, Rows, make_room as room_for};
+use crate::scaling::{ScaledPairs, Scaling};
 use crate::separation::Distances;
 use crate::sweep::wrapping;
 use crate::{Blocked, Clusters, Domain, World};
 
-/// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d.
+/// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
 ///
 /// Since it looks at all distances, it also leaves the list without its skin in
 /// [`Lists::pruned`](crate::Lists::pruned) for the sweeps that follow at the same positions.
@@ -31,6 +32,7 @@ pub fn kernel_sums<const D: usize>(
     let points = &world.walls.points;
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
+    let scaling = Scaling::of(world);
     let (blocked, unseen) = (&world.lists.hidden.particles, &world.lists.hidden.points);
     let limit = kernel.support_radius().powi(2);
     let width = width();
@@ -59,6 +61,15 @@ pub fn kernel_sums<const D: usize>(
             let distance2 = &values.distance2[..needed];
             let value = &mut values.value[..needed];
             kernel.value(distance2, value);
+            if let Some(scaling) = scaling.filter(|s| s.acts(members)) {
+                let body = ScaledPairs {
+                    members,
+                    scale: scaling.scale,
+                    numbers: value,
+                };
+                dispatch_at(width, body);
+            }
+            let value = &values.value[..needed];
             let sums = &mut sums[first..first + members.count];
             dispatch_at(
                 width,
@@ -72,7 +83,7 @@ pub fn kernel_sums<const D: usize>(
             );
         }
         for (k, sum) in sums.iter_mut().enumerate() {
-            *sum += own;
+            *sum += scaling.map_or(own, |s| s.at(all.from + k).own_value());
             if points.in_density() {
                 let i = all.from + k;
                 let row = world.lists.wall.row(i);

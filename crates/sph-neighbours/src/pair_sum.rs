@@ -12,6 +12,8 @@ use crate::particles::{Particles, Rows, make_room};
 pub trait PairSum<const D: usize>: Sync {
     /// Whether pairs carry kernel values.
     const VALUES: bool = false;
+    /// Whether walls that scale the kernel do so in this sum: w is s_a s_b w there, γ is 1, and no elements are seen.
+    const SCALED: bool = false;
     /// Own values of `L::N` particles.
     type Own<L: Lane>: Copy;
     /// What is summed, from zero.
@@ -26,6 +28,17 @@ pub trait PairSum<const D: usize>: Sync {
         pair: &LanePair<D, L>,
         sum: &mut Self::Sum<L>,
     );
+    /// Adds what the slope of s makes of a pair, which carries s_a s_b w; called beside [`pair`](Self::pair) where walls
+    /// scale some pair of a cluster.
+    #[inline(always)]
+    fn pair_at_walls<L: Lane>(
+        &self,
+        _own: &Self::Own<L>,
+        _neighbour: usize,
+        _pair: &LanePair<D, L>,
+        _sum: &mut Self::Sum<L>,
+    ) {
+    }
 }
 
 /// Sums over all candidates of a cluster into rows.
@@ -49,19 +62,30 @@ impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
 
     #[inline(always)]
     fn call<L: Lane>(self) {
+        match S::SCALED && self.cluster.scaled {
+            true => self.add_up::<L, true>(),
+            false => self.add_up::<L, false>(),
+        }
+    }
+}
+
+impl<const D: usize, S: PairSum<D>> OfCluster<'_, '_, D, S> {
+    #[inline(always)]
+    fn add_up<L: Lane, const SCALED: bool>(self) {
         let members = self.cluster.members;
         let own = self.sum.own::<L>(members.into());
         let mut sums = S::Sum::<L>::zero();
         let buffers = &*self.cluster.buffers;
         let n = members.candidates.len() * L::N;
-        let values = match S::VALUES {
-            true => &buffers.value[..n],
-            false => &buffers.factor[..n],
+        let (factors, values) = match (SCALED, S::VALUES) {
+            (true, _) => (&buffers.scaled[0][..n], &buffers.scaled[1][..n]),
+            (false, true) => (&buffers.factor[..n], &buffers.value[..n]),
+            (false, false) => (&buffers.factor[..n], &buffers.factor[..n]),
         };
         // Chunks of a length that the compiler knows are read without a check.
         let measures = buffers.distance2[..n]
             .chunks_exact(L::N)
-            .zip(buffers.factor[..n].chunks_exact(L::N))
+            .zip(factors.chunks_exact(L::N))
             .zip(values.chunks_exact(L::N));
         let separations = buffers.separation[..D * n].chunks_exact(D * L::N);
         let all = members.candidates.iter().zip(separations).zip(measures);
@@ -74,12 +98,15 @@ impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
                 separation,
                 distance2: L::load(distance2),
                 factor: L::load(factor),
-                value: match S::VALUES {
+                value: match S::VALUES || SCALED {
                     true => L::load(value),
                     false => L::splat(0.0),
                 },
             };
             self.sum.pair(&own, j as usize, &pair, &mut sums);
+            if SCALED {
+                self.sum.pair_at_walls(&own, j as usize, &pair, &mut sums);
+            }
         }
         sums.store(self.rows);
     }

@@ -49,8 +49,10 @@ pub fn reactions<const D: usize>(
     let sees = |i: usize| {
         let mut elements = walls.contacts.of(i).elements().iter();
         let points = if lists.is_empty() { &[] } else { lists.row(i) };
+        let mut slopes = walls.slopes.of(i).iter();
         elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
+            || slopes.any(|s| wanted[s.wall as usize])
     };
     let owned = world.owned();
     let sees = |i: usize| owned.has(i) && sees(i);

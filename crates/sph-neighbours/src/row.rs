@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{Blocked, ContactRow, Domain};
+use crate::{Blocked, ContactRow, Domain, WallScale};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +44,8 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub contacts: ContactRow<'a, D>,
     /// 1/γ, 1 away from walls.
     pub inverse_renormalisation: f64,
+    /// Where walls scale the kernel: s and its slope.
+    pub scale: Option<WallScale<'a, D>>,
 }
 
 /// No index of any source.

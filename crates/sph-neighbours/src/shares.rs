@@ -2,7 +2,9 @@
 
 use sph_core::{StepError, Vect};
 
-use crate::{ContactRow, Interaction, Neighbourhood, Rates, Rows, Scratch, Surroundings, World};
+use crate::{
+    ContactRow, Interaction, Neighbourhood, Rates, Rows, Scratch, Surroundings, WallScale, World,
+};
 
 /// What one term does to a particle.
 #[derive(Clone, Debug)]
@@ -32,6 +34,7 @@ pub fn shares_at<const D: usize>(
         wall: none.row(),
         contacts: ContactRow::NONE,
         inverse_renormalisation: 1.0,
+        scale: whole.scale.map(WallScale::without_slope),
         ..whole
     };
     let mut shares = Vec::new();

@@ -11,6 +11,7 @@ use crate::cluster::{Buffers, Cluster};
 use crate::half::is_wanted;
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
+use crate::scaling::Scaling;
 use crate::term::{Interaction, RowTerm, WithTerm};
 use crate::{Clusters, Domain, NOBODY, Neighbourhood, Rates, TRANSPORTED, World};
 
@@ -245,6 +246,7 @@ pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
     positions: &'a [Vect<D>],
     points: &'a [Vect<D>],
     renormalisation: Option<&'a [f64]>,
+    scaling: Option<Scaling<'a, D>>,
     lists: &'a Clusters,
     width: Width,
 }
@@ -260,6 +262,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
                 false => &[],
             },
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
+            scaling: Scaling::of(world),
             lists: world.lists.nearest(),
             width: width(),
         })
@@ -343,12 +346,18 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         }
         let (positions, blocked) = (self.positions, &hidden.particles);
         buffers.measure(self.width, members, positions, domain, blocked, self.kernel);
+        let scaled = self.scaling.filter(|scaling| scaling.acts(members));
+        if let Some(scaling) = &scaled {
+            buffers.scale(self.width, members, scaling);
+        }
         Cluster {
             width: self.width,
             members,
             contacts,
             inverse_renormalisation,
             limit: self.kernel.support_radius().powi(2),
+            scaling: self.scaling,
+            scaled: scaled.is_some(),
             beside,
             wraps: domain.is_some(),
             buffers,

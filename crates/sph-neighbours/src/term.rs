@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, contract};
 use sph_lanes::InLanes;
 
-use crate::lane_pair::Pair;
+use crate::lane_pair::{LanePair, Pair};
 use crate::pair_sum::{PairSum, sum_cluster};
 use crate::particles::Particles;
 use crate::{Cluster, Neighbourhood, Rates, Row, World};
@@ -103,17 +103,31 @@ impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for ByPairs<B> {
     fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.0.own::<f64>(Particles::one(at.particle));
         let mut sum = B::Sum::<f64>::zero();
+        let Some(scale) = at.scale.filter(|_| B::SCALED) else {
+            for (j, pair) in at.free.pairs() {
+                self.0.pair(&own, j, &(&pair).into(), &mut sum);
+            }
+            return self.0.finish(sum, at, rates);
+        };
         for (j, pair) in at.free.pairs() {
-            self.0.pair(&own, j, &(&pair).into(), &mut sum);
+            let mut pair = LanePair::from(&pair);
+            pair.factor *= scale.with(j);
+            pair.value = scale.value(j, pair.distance2);
+            self.0.pair(&own, j, &pair, &mut sum);
+            self.0.pair_at_walls(&own, j, &pair, &mut sum);
         }
-        self.0.finish(sum, at, rates);
+        self.0.finish(sum, &at.scaled(), rates);
     }
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         let mut rows = std::mem::take(&mut cluster.buffers.sums);
         sum_cluster(&self.0, cluster, &mut rows);
         for (k, rates) in rates.iter_mut().enumerate() {
             let sum = B::Sum::<f64>::one(&rows, k);
-            self.0.finish(sum, &cluster.walls(k), rates);
+            let at = cluster.walls(k);
+            match B::SCALED {
+                true => self.0.finish(sum, &at.scaled(), rates),
+                false => self.0.finish(sum, &at, rates),
+            }
         }
         cluster.buffers.sums = rows;
     }

@@ -3,6 +3,7 @@
 use sph_core::{StepError, Vect, fields};
 
 use crate::blocks::each_block;
+use crate::scaling::Scaling;
 use crate::{CHUNK, Clusters, NOBODY, Neighbourhood, Rows, World};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.
@@ -10,6 +11,7 @@ pub struct Surroundings<'w, const D: usize> {
     world: &'w World<D>,
     position: &'w [Vect<D>],
     renormalisation: Option<&'w [f64]>,
+    scaling: Option<Scaling<'w, D>>,
     lists: &'w Clusters,
 }
 
@@ -23,6 +25,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             world,
             position: world.free.get(fields::POSITION)?,
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
+            scaling: Scaling::of(world),
             lists: world.lists.nearest(),
         })
     }
@@ -60,6 +63,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             wall: rows.wall.row(),
             contacts: world.walls.contacts.of(particle),
             inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
+            scale: self.scaling.map(|scaling| scaling.at(particle)),
         }
     }
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_lanes::MOST;
 
+use crate::scaling::Scaling;
 use crate::sweep::{Sweep, with_all};
 use crate::{
     CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, Rates, RowTerm,
@@ -33,6 +34,8 @@ pub struct WallPart<const D: usize> {
 /// with its sign: about the wall's own 1 − γ, which add up. W_k/γ in the place of W_k would leave B (1/γ − 1) to be
 /// shared, where the large gradients of two walls before each other nearly cancel.
 ///
+/// Where walls scale the kernel, a sum has B ∇ ln s in their place, and each wall has B ∇ ln s_k, exactly.
+///
 /// # Errors
 /// If a term misses a column.
 pub fn wall_parts<const D: usize>(
@@ -52,6 +55,8 @@ pub fn wall_parts<const D: usize>(
             .for_each(&mut ask),
         false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
     }
+    let slopes = world.walls.slopes.all().iter();
+    slopes.for_each(|slope| ask(slope.particle as usize));
     let none = Contacts::default();
     let mut parts = Vec::new();
     let declared: Vec<_> = terms.iter().map(|term| term.access()).collect();
@@ -103,6 +108,8 @@ struct Piece<const D: usize> {
     wall: u32,
     points: Scratch<D>,
     contacts: ContactBlock<D>,
+    /// ∇ ln s of the wall, 1/m.
+    slope: Vect<D>,
     /// About its own 1 − γ, in any unit.
     deficit: f64,
     /// What all terms make of the member with this wall alone and γ = 1, m/s².
@@ -148,7 +155,8 @@ impl<const D: usize> Apart<D> {
             let of_contacts = own.contacts.elements().iter();
             let of_contacts = of_contacts.map(|s| set.elements.wall[*s as usize]);
             self.walls.clear();
-            for wall in of_points.chain(of_contacts) {
+            let of_slopes = set.slopes.of(particle).iter().map(|s| s.wall);
+            for wall in of_points.chain(of_contacts).chain(of_slopes) {
                 if !self.walls.contains(&wall) {
                     self.walls.push(wall);
                 }
@@ -194,6 +202,7 @@ impl<const D: usize> Apart<D> {
         let mut without = Cluster {
             contacts: none,
             inverse_renormalisation: [1.0; MOST],
+            scaling: cluster.scaling.map(|s| Scaling { slope: None, ..s }),
             buffers: &mut *cluster.buffers,
             ..*cluster
         };
@@ -248,6 +257,9 @@ impl<const D: usize> Piece<D> {
             points: Scratch::of(&own.wall, |v| set.points.wall[v as usize] == wall),
             deficit: deficit.sum::<f64>().max(0.0),
             contacts,
+            slope: (set.slopes.of(own.particle).iter())
+                .filter(|s| s.wall == wall)
+                .fold(Vect::zeros(), |sum, s| sum + s.slope),
             acceleration: Vect::zeros(),
         }
     }
@@ -258,6 +270,7 @@ impl<const D: usize> Piece<D> {
             wall: self.points.row(),
             contacts: all(&self.contacts),
             inverse_renormalisation: 1.0,
+            scale: own.scale.map(|scale| scale.with_slope(self.slope)),
             ..*own
         };
         let mut rates = Rates::of(Vect::zeros());

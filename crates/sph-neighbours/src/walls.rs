@@ -4,7 +4,7 @@
 
 use sph_core::Vect;
 
-use crate::{Contacts, Domain, FreeBody, WallForce};
+use crate::{Contacts, Domain, FreeBody, Slopes, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -159,6 +159,8 @@ pub struct WallSet<const D: usize> {
     pub elements: Elements<D>,
     /// Who touches which element.
     pub contacts: Contacts<D>,
+    /// ∇ ln s of every particle by wall, where walls scale the kernel.
+    pub slopes: Slopes<D>,
     /// Where every wall is, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
     /// The walls that forces move; empty where there is none.

@@ -94,6 +94,19 @@ impl<const D: usize> World<D> {
         found.ok_or(FieldError::Missing(rate.name))
     }
 
+    /// Whether the walls scale the kernel.
+    pub fn scales(&self) -> bool {
+        self.free.has(fields::SCALE.name)
+    }
+
+    /// γ as density sums and what belongs to them know it; none where it is 1.
+    pub fn sum_renormalisation(&self) -> Option<&[f64]> {
+        match self.scales() {
+            true => None,
+            false => self.free.get(fields::RENORMALISATION).ok(),
+        }
+    }
+
     /// Support radius plus skin, m.
     pub fn reach(&self) -> f64 {
         self.kernel.support_radius() * (1.0 + self.skin)

@@ -1,7 +1,7 @@
 //! A wall treatment with open faces in it.
 
 use sph_boundary::{BoundaryError, ThinWall, Wall, WallMotion, WallSetup, WallShape, WallStates};
-use sph_core::{StepError, Vect};
+use sph_core::{AnyField, StepError, Vect};
 use sph_neighbours::{Sight, WallSet, World};
 
 use crate::faces::{SharedFaces, lock};
@@ -24,8 +24,8 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         Ok(walls)
     }
 
-    fn renormalises(&self) -> bool {
-        self.walls.renormalises()
+    fn columns(&self) -> Vec<AnyField> {
+        self.walls.columns()
     }
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {

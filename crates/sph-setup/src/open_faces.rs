@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use sph_boundary::{Condition, Wall};
 use sph_contribution::Part;
+use sph_core::fields::RENORMALISATION;
 use sph_core::{SceneProblem, Shape};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_scene::Scene;
@@ -33,7 +34,9 @@ pub(crate) fn settle<const D: usize>(
         return Ok(None);
     };
     let walls = choices.walls.take();
-    let Some(walls) = walls.filter(|w| w.renormalises() && w.lattice_offset() > 0.0) else {
+    let Some(walls) =
+        walls.filter(|w| w.columns() == [RENORMALISATION.any()] && w.lattice_offset() > 0.0)
+    else {
         let write = defaults::OPEN_WALLS;
         let other = format!(
             "open faces are known of semi-analytical walls without vertices: write {write}"

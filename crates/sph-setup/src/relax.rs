@@ -71,7 +71,8 @@ fn near_surface<const D: usize>(
 }
 
 /// Moves particles down the gradient of their own concentration,
-/// δr_a = −β h² [Σ θ V ∇w − ∇γ]/γ, until the largest error is below `tolerance`.
+/// δr_a = −β h² [Σ θ V ∇w − ∇γ]/γ, until the largest error is below `tolerance`. Walls that scale the kernel have s_a s_b w
+/// in the place of w, and ∇ ln s Σ V s_a s_b w in that of −∇γ.
 ///
 /// `surface` tells whether a particle is within a support of a free surface.
 ///
@@ -173,14 +174,17 @@ fn advance<const D: usize>(
 
 fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<D>>, StepError> {
     let position = world.free.get(fields::POSITION)?;
-    let gamma = world.free.get(fields::RENORMALISATION).ok();
+    let gamma = world.sum_renormalisation();
+    let scale = world.free.get(fields::SCALE).ok();
+    let slope = world.free.get(fields::SCALE_SLOPE).ok();
     let points = &world.walls.points;
     let whole = world.spacing.powi(D as i32);
     let kernel = &*world.kernel;
     let domain = world.domain.any_periodic().then_some(&world.domain);
     let of = |(row, values): &mut (Scratch<D>, Vec<f64>), i: usize| {
         let x = &position[i];
-        let mut sum = kernel.value_at_zero();
+        let own = scale.map_or(1.0, |s| s[i]);
+        let mut sum = own * own * kernel.value_at_zero();
         let mut gradient = Vect::<D>::zeros();
         let mut add = |row: Row<'_, D>, values: &mut Vec<f64>, share: &dyn Fn(u32) -> f64| {
             values.resize(row.index.len(), 0.0);
@@ -193,14 +197,20 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
         };
         let candidates = world.lists.free.candidates(i);
         row.fill(x, position, candidates, i as u32, domain, kernel);
-        add(row.row(), values, &|_| 1.0);
+        add(row.row(), values, &|j| {
+            scale.map_or(1.0, |s| own * s[j as usize])
+        });
         if points.in_sums() {
             let candidates = world.lists.wall.row(i);
             row.fill(x, &points.position, candidates, NOBODY, domain, kernel);
             add(row.row(), values, &|v| points.share[v as usize]);
         }
         let contacts = world.walls.contacts.of(i).iter();
-        let wall = contacts.fold(Vect::zeros(), |sum: Vect<D>, c| sum + c.gradient);
+        // What the walls add to the gradient: −∇γ, or ∇ ln s times the sum.
+        let wall = match slope {
+            Some(slope) => slope[i] * -(whole * sum),
+            None => contacts.fold(Vect::zeros(), |sum: Vect<D>, c| sum + c.gradient),
+        };
         let inverse = gamma.map_or(1.0, |g| 1.0 / g[i]);
         Concentration {
             value: whole * sum * inverse,

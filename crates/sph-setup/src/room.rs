@@ -14,7 +14,7 @@ use crate::leaks::{Leak, leaks};
 use crate::placement::{Placed, place};
 use crate::shapes::Drawn;
 use crate::share::{Share, Standing};
-use crate::walls::{build_walls, thin_walls, wall_problem};
+use crate::walls::{build_walls, check_scaling, thin_walls, wall_problem};
 
 /// The room in which particles will move, and where they begin.
 pub(crate) struct Room<const D: usize> {
@@ -60,6 +60,7 @@ impl<const D: usize> Room<D> {
         let h = world.kernel.smoothing_length();
         let mut warnings = scene.remarks.clone();
         if let Some(walls) = &mut choices.walls {
+            check_scaling(scene, &**walls, &*choices.formulation)?;
             let shape = &*choices.kernel;
             let domain = &world.domain;
             world.walls = build_walls(scene, &drawn.walls, &mut **walls, shape, domain, h)?;

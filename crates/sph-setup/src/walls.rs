@@ -1,10 +1,36 @@
 //! From the drawn walls to those of the wall plugin.
 
 use sph_boundary::{BoundaryError, ThinWall, Wall, WallSetup, WallSpec};
+use sph_core::fields::SCALE;
 use sph_kernels::Kernel;
+use sph_multiphase::Formulation;
 use sph_neighbours::{Domain, WallSet};
 use sph_scene::Scene;
 use sph_solver::SolverError;
+
+/// Refuses what does not follow walls that scale the kernel.
+///
+/// # Errors
+/// The key of the scene that does not.
+pub fn check_scaling<const D: usize>(
+    scene: &Scene,
+    walls: &dyn Wall<D>,
+    formulation: &dyn Formulation<D>,
+) -> Result<(), SolverError> {
+    if !walls.columns().contains(&SCALE.any()) {
+        return Ok(());
+    }
+    let refused = match formulation.is_scaled() {
+        true => scene.choice("pressure"),
+        false => scene.choice("formulation"),
+    };
+    let Some(refused) = refused else {
+        return Ok(());
+    };
+    let treatment = scene.choice("walls").map_or(String::new(), |c| c.path);
+    let why = format!("its sums do not follow the scale of `{treatment}`: take `walls.usaw`");
+    Err(SolverError::at(refused.path, why))
+}
 
 /// Hands every drawn wall to the plugin; refusals point at the wall.
 pub fn build_walls<const D: usize>(

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_core::{StepError, Vect, Work, contract};
+use sph_core::{AnyField, StepError, Vect, Work, contract};
 use sph_kernels::Kernel;
 use sph_neighbours::{Coulomb, Domain, Sight, WallSet, World};
 
@@ -206,8 +206,10 @@ pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
     /// If a wall is refused; the message names it.
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError>;
 
-    /// Whether γ differs from 1 near walls, so that a column for it is needed.
-    fn renormalises(&self) -> bool;
+    /// Columns of particles that [`geometry`](Self::geometry) writes: γ, or s with its slope; none if the kernel is full.
+    fn columns(&self) -> Vec<AnyField> {
+        Vec::new()
+    }
 
     /// Contacts and γ at the present positions; called after the lists are fresh.
     ///

@@ -3,11 +3,12 @@
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_lanes::{Lane, dot};
 use sph_neighbours::{
-    Contacts, Frame, LanePair, PairSum, Particles, WallPoints, WallSet, World, add_scaled, shepard,
-    splat,
+    Contacts, Frame, LanePair, PairSum, Particles, Slopes, WallPoints, WallSet, World, add_scaled,
+    shepard, splat,
 };
 
 use crate::geometry::wall_mesh::WallMesh;
+use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, shaped_by_outline};
 use crate::treatment::shepard::Felt;
@@ -119,10 +120,6 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         0.5
     }
 
-    fn renormalises(&self) -> bool {
-        false
-    }
-
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
         let set_up = SetUp::<D, M>::new(setup)?;
         let mut points = WallPoints::default();
@@ -151,6 +148,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             points,
             elements: Default::default(),
             contacts: Contacts::default(),
+            slopes: Slopes::default(),
             frames,
             bodies,
             passed: Vec::new(),
@@ -170,7 +168,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         if let Some(set_up) = &mut self.set_up {
             let (near, outline) = (&set_up.near, &set_up.outline);
             // Nobody measured the heights here: all near particles are looked at.
-            set_up.outline.struck = near.constrain(outline, world, dt, |_| f64::NAN)?;
+            set_up.outline.struck =
+                near.constrain((outline, LEAST_CLEARANCE), (world, dt), |_| f64::NAN)?;
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use crate::treatment::outline::Outline;
 ///
 /// The pressure keeps particles of a filled fluid at about half a spacing or more, so that the
 /// constraint acts on lone particles only.
-const LEAST_CLEARANCE: f64 = 0.25;
+pub(crate) const LEAST_CLEARANCE: f64 = 0.25;
 
 /// Rounds over the elements near a particle before a corner simply stops it.
 const TURNS: usize = 4;
@@ -22,7 +22,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     /// Takes from the velocities what would carry a particle into a wall within `dt`.
     ///
     /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
-    /// d + Δt (u − u_w)·e falls below a quarter of a spacing, the velocity along e is raised to
+    /// d + Δt (u − u_w)·e falls below the `least` share of a spacing, the velocity along e is raised to
     /// what ends there, at most to that of the wall. A plastic impact: the pressure of a lone
     /// particle, whose density sum is far below ρ₀, would not stop it. What several elements
     /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
@@ -33,9 +33,8 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     /// Returns the mean forces on the walls over `dt`, by their numbers; none where nobody asks for forces.
     pub fn constrain<M: WallMesh<D, Near = N>>(
         &self,
-        outline: &Outline<D, M>,
-        world: &mut World<D>,
-        dt: f64,
+        (outline, least): (&Outline<D, M>, f64),
+        (world, dt): (&mut World<D>, f64),
         height: impl Fn(usize) -> f64 + Sync,
     ) -> Result<Vec<WallForce<D>>, StepError> {
         let mut velocity = world.free.take(fields::VELOCITY)?;
@@ -46,6 +45,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
         let impact = Impact {
             outline,
             spacing: world.spacing,
+            least: least * world.spacing,
             dt,
         };
         let mut changed: Vec<(usize, Corrected<D>)> = self
@@ -55,7 +55,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             .with_min_len(256)
             .filter_map(|(place, &p)| {
                 let (p, u) = (p as usize, velocity[p as usize]);
-                let danger = LEAST_CLEARANCE * world.spacing + dt * (u.norm() + fastest);
+                let danger = impact.least + dt * (u.norm() + fastest);
                 // Not ">=": a height that is not a number is no safety.
                 if height(place) > 1.000_001 * danger {
                     return None;
@@ -180,6 +180,8 @@ struct Corrected<const D: usize> {
 struct Impact<'a, const D: usize, M: WallMesh<D>> {
     outline: &'a Outline<D, M>,
     spacing: f64,
+    /// Distance from a wall to which a particle may come, m.
+    least: f64,
     dt: f64,
 }
 
@@ -236,7 +238,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
 
     /// The change of velocity that a hindrance asks for.
     fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
-        let least = LEAST_CLEARANCE * self.spacing;
+        let least = self.least;
         // What is missing of the velocity along e to end at the least clearance.
         let missing = |e: &Vect<D>, distance: f64| {
             let allowed = ((least - distance) / self.dt).min(0.0);

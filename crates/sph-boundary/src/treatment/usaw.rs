@@ -1,12 +1,13 @@
 //! Unified semi-analytical walls.
 
 use rayon::prelude::*;
-use sph_core::{StepError, Vect, fields, plugin};
-use sph_neighbours::{ContactBlock, Contacts, WallSet, World};
+use sph_core::{AnyField, StepError, Vect, fields, plugin};
+use sph_neighbours::{ContactBlock, Contacts, Slopes, WallSet, World};
 
 use crate::error::stage_error;
 use crate::geometry::shells::Gammas;
 use crate::geometry::wall_mesh::WallMesh;
+use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, shaped_by_outline};
 use crate::treatment::shepard::{WallMean, wall_means};
@@ -47,11 +48,10 @@ pub struct Usaw<const D: usize, M: WallMesh<D>> {
     set_up: Option<SetUp<D, M>>,
 }
 
-/// As in the source.
-
+/// Walls of elements as both treatments have them: mesh, integrals, contacts.
 #[derive(Debug)]
-struct SetUp<const D: usize, M: WallMesh<D>> {
-    outline: Outline<D, M>,
+pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
+    pub outline: Outline<D, M>,
     integrals: M::Integrals,
     spacing: f64,
     near: NearLists<D, M::Near>,
@@ -96,20 +96,29 @@ impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
         walls: &mut WallSet<D>,
         way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
     ) -> Result<(), BoundaryError> {
-        let Some(set_up) = self.set_up.as_mut().filter(|s| s.outline.moves()) else {
-            return Ok(());
-        };
-        set_up.moves += u64::from(way(&mut set_up.outline)?);
-        set_up.place(walls);
-        Ok(())
+        let set_up = self.set_up.as_mut();
+        set_up.map_or(Ok(()), |set_up| set_up.moved(walls, way))
     }
 }
 
-fn not_built() -> StepError {
+pub(crate) fn not_built() -> StepError {
     stage_error("the walls were not built")
 }
 
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
+    /// Lets the outline move, and places points and elements where it is then.
+    pub fn moved(
+        &mut self,
+        walls: &mut WallSet<D>,
+        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
+    ) -> Result<(), BoundaryError> {
+        if self.outline.moves() {
+            self.moves += u64::from(way(&mut self.outline)?);
+            self.place(walls);
+        }
+        Ok(())
+    }
+
     /// Positions, normals and movements of points and elements.
     fn place(&mut self, walls: &mut WallSet<D>) {
         let nodes: Vec<_> = self.outline.mesh.points().collect();
@@ -227,18 +236,12 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     }
 }
 
-shaped_by_outline!(Usaw);
-
-impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
-    fn lattice_offset(&self) -> f64 {
-        if self.vertices { 0.0 } else { 0.5 }
-    }
-
-    fn renormalises(&self) -> bool {
-        true
-    }
-
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
+    /// Meshes the walls at time 0.
+    pub fn build(
+        setup: &WallSetup<'_, D>,
+        vertices: bool,
+    ) -> Result<(Self, WallSet<D>), BoundaryError> {
         let shape = setup
             .kernel
             .polynomial()
@@ -256,13 +259,14 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             points: outline.points(setup.spacing),
             elements: outline.elements(setup.spacing),
             contacts: Contacts::default(),
+            slopes: Slopes::default(),
             frames: Vec::new(),
             bodies: Vec::new(),
             passed: Vec::new(),
             pulls: Vec::new(),
             forces: Vec::new(),
         };
-        if !self.vertices {
+        if !vertices {
             walls.points.corners = walls.points.position.len();
             walls.points.share.fill(0.0);
         }
@@ -279,14 +283,13 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             around: Vec::new(),
         };
         set_up.place(&mut walls);
-        self.set_up = Some(set_up);
-        Ok(walls)
+        Ok((set_up, walls))
     }
 
-    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.near.refresh(&mut set_up.outline, world)?;
-        if set_up.is_fresh(world.free.get(fields::POSITION)?) {
+    /// Contacts and γ at the present positions.
+    pub fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.near.refresh(&mut self.outline, world)?;
+        if self.is_fresh(world.free.get(fields::POSITION)?) {
             return Ok(());
         }
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
@@ -300,9 +303,9 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         };
         let contacts = &mut world.walls.contacts;
         let mut blocks = contacts.take_blocks(positions.len());
-        set_up.find(positions, idle.as_deref(), &mut blocks);
+        self.find(positions, idle.as_deref(), &mut blocks);
         contacts.put_blocks(blocks);
-        let batches = set_up.near.particles.chunks(BATCH).zip(&set_up.found);
+        let batches = self.near.particles.chunks(BATCH).zip(&self.found);
         for (b, (batch, found)) in batches.enumerate() {
             let mut start = 0;
             for (&particle, &(gamma, end)) in batch.iter().zip(&found.gammas.all) {
@@ -314,27 +317,32 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             }
         }
         world.free.put(fields::RENORMALISATION, renormalisation)?;
-        let (near, positions) = (&set_up.near, world.free.get(fields::POSITION)?);
-        let mesh = &set_up.outline.mesh;
+        let (near, positions) = (&self.near, world.free.get(fields::POSITION)?);
+        let mesh = &self.outline.mesh;
         world.lists.hidden = near.hidden(mesh, world, &near.behind, |k| positions[k]);
         Ok(())
     }
 
-    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
+    /// Keeps particles off the walls, by a share of the spacing at least.
+    pub fn constrain(
+        &mut self,
+        world: &mut World<D>,
+        dt: f64,
+        least: f64,
+    ) -> Result<(), StepError> {
         // Heights over the planes of all elements in reach bound the distances from below.
-        let clearance = |place: usize| set_up.clearance.get(place).copied().unwrap_or(0.0);
-        let (near, outline) = (&set_up.near, &set_up.outline);
-        let struck = near.constrain(outline, world, dt, clearance)?;
-        near.unveil(outline, &set_up.integrals, world, dt)?;
-        set_up.outline.struck = struck;
+        let clearance = |place: usize| self.clearance.get(place).copied().unwrap_or(0.0);
+        let (near, outline) = (&self.near, &self.outline);
+        let struck = near.constrain((outline, least), (world, dt), clearance)?;
+        near.unveil(outline, &self.integrals, world, dt)?;
+        self.outline.struck = struck;
         Ok(())
     }
 
-    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        let [at_points, at_elements] = &mut set_up.means;
-        let whole = set_up.spacing.powi(D as i32);
+    /// Pressures and volumes at points and elements.
+    pub fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let [at_points, at_elements] = &mut self.means;
+        let whole = self.spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let lists = &world.lists;
         if points.in_density() {
@@ -365,9 +373,42 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
             walls.elements.volume[s] = mean.volume;
         }
         if walls.points.corners > 0 {
-            pressure_at_corners(walls, &mut set_up.around);
+            pressure_at_corners(walls, &mut self.around);
         }
         Ok(())
+    }
+}
+
+shaped_by_outline!(Usaw);
+
+impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
+    fn lattice_offset(&self) -> f64 {
+        if self.vertices { 0.0 } else { 0.5 }
+    }
+
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+        let (set_up, walls) = SetUp::build(setup, self.vertices)?;
+        self.set_up = Some(set_up);
+        Ok(walls)
+    }
+
+    fn columns(&self) -> Vec<AnyField> {
+        vec![fields::RENORMALISATION.any()]
+    }
+
+    fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
+        set_up.geometry(world)
+    }
+
+    fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
+        set_up.constrain(world, dt, LEAST_CLEARANCE)
+    }
+
+    fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
+        set_up.state(world)
     }
 }
 

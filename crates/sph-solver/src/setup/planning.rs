@@ -63,8 +63,8 @@ impl<const D: usize> Planning<'_, D> {
         let mut offers = self.offers(parts)?;
         let mut stages: Vec<Work<D>> = Vec::new();
         if let Some(walls) = self.walls {
-            let renormalises = walls.renormalises();
-            stages.extend([Work::WallGeometry { renormalises }, Work::WallState]);
+            let columns = walls.columns();
+            stages.extend([Work::WallGeometry { columns }, Work::WallState]);
         }
         stages.extend(offered(&mut offers));
         let derived = sph_probes::derived_stages(self.shown).into_iter();

@@ -240,7 +240,7 @@ impl<const D: usize> Books<D> {
         let scalar = world.free.get(self.diffused.evolved.value)?;
         if scalar != self.scalar {
             let volume = world.free.get(fields::VOLUME)?;
-            let gamma = world.free.get(fields::RENORMALISATION).ok();
+            let gamma = world.sum_renormalisation();
             let change = each(scalar.len(), |i| {
                 let gamma = gamma.map_or(1.0, |g| g[i]);
                 let slope = (self.diffused.per_density)(self.density[i], volume[i], gamma);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use sph_boundary::Wall;
-use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
+use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
 use sph_neighbours::{Interaction, Sums, TRANSPORTED, World, all_sums, declared, is_wanted};
 
@@ -17,10 +17,10 @@ pub const WALL_STATE: Field<Scalar> = Field::new(
 
 /// A piece of work of an evaluation: of the walls, which the flow has, or a stage.
 pub enum Work<const D: usize> {
-    /// Contacts and γ.
+    /// Contacts, and what walls make of the kernel.
     WallGeometry {
-        /// Whether γ differs from 1 near walls.
-        renormalises: bool,
+        /// The columns of that.
+        columns: Vec<AnyField>,
     },
     /// Pressures and volumes at the walls.
     WallState,
@@ -70,12 +70,10 @@ impl<const D: usize> Declares for Work<D> {
     }
     fn access(&self) -> Access {
         match self {
-            Work::WallGeometry { renormalises } => {
-                let access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
-                match renormalises {
-                    true => access.writes(fields::RENORMALISATION),
-                    false => access,
-                }
+            Work::WallGeometry { columns } => {
+                let mut access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
+                access.writes.extend(columns);
+                access
             }
             Work::WallState => Access::none()
                 .neighbours(fields::POSITION)
@@ -185,7 +183,7 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 let free = &world.free;
                 let density = free.get(fields::DENSITY)?;
                 let volume = free.get(fields::VOLUME)?;
-                let gamma = free.get(fields::RENORMALISATION).ok();
+                let gamma = world.sum_renormalisation();
                 let half = world.lists.sweep_half.as_ref();
                 let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();
                 rates.with_min_len(2048).for_each(|(i, ((rate, rho), v))| {

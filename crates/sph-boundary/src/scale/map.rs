@@ -1,0 +1,309 @@
+//! s of walls of any shape, on a grid.
+
+use rayon::prelude::*;
+use sph_core::Vect;
+use sph_kernels::Sampler;
+
+use crate::BoundaryError;
+use crate::geometry::wall_mesh::WallMesh;
+use crate::scale::plane::{REACH, fade};
+use crate::scale::spline::{Grid, interpolate, value};
+
+/// Nodes of the grid per smoothing length.
+const NODES: f64 = 4.0;
+/// Layers of nodes behind the wall that are solved for.
+const BEHIND: f64 = 6.0;
+/// Lumps of a cell that the wall cuts, and samples of each lump, along every axis.
+const LUMPS: usize = 2;
+const SAMPLES: usize = 4;
+/// Sweeps at most; each halves the error at least.
+const SWEEPS: usize = 40;
+/// Largest change of ln s after which no further sweep is made.
+const TOLERANCE: f64 = 1e-6;
+/// Nodes at most.
+const MOST_NODES: usize = 20_000_000;
+
+/// ln s of walls less that of their flat faces, as a cubic spline.
+#[derive(Debug)]
+pub(crate) struct ScaleMap<const D: usize> {
+    grid: Grid<D>,
+    coefficients: Vec<f64>,
+    /// Whether a cell, by its first node, has anything.
+    known: Vec<bool>,
+}
+
+/// What a map is made from.
+pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
+    /// The walls, where they were drawn.
+    pub mesh: &'a M,
+    /// Which elements are on no flat face.
+    pub curved: &'a [bool],
+    /// ln s of the flat faces at a place.
+    pub flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
+    pub kernel: &'a dyn Sampler,
+    /// Name of the walls, for messages.
+    pub wall: &'a str,
+}
+
+/// A part of a cell that a wall cuts.
+#[derive(Clone, Copy)]
+struct Lump<const D: usize> {
+    place: Vect<D>,
+    volume: f64,
+}
+
+/// Nodes and cells of a map that is being made.
+struct Cells<const D: usize> {
+    /// ln s of the flat faces.
+    flat: Vec<f64>,
+    /// Whether the cell around a node is all fluid.
+    whole: Vec<bool>,
+    /// Where the lumps of a cell are.
+    lumps_of: Vec<std::ops::Range<u32>>,
+    lumps: Vec<Lump<D>>,
+    /// ln s of the flat faces at the lumps.
+    flat_at_lumps: Vec<f64>,
+    /// Nodes that are solved for, with the share of their value that counts.
+    active: Vec<(usize, f64)>,
+}
+
+impl<const D: usize> ScaleMap<D> {
+    /// Solves s(x) ∫ s w = 1 by s ← √(s/∫ s w) on the nodes near the curved elements; cells that the wall cuts are sampled.
+    ///
+    /// # Errors
+    /// If the grid would have too many nodes.
+    pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self, BoundaryError> {
+        let h = of.kernel.smoothing_length();
+        let step = h / NODES;
+        let corners: Vec<Vect<D>> = of.mesh.points().map(|p| p.position).collect();
+        let elements = of.mesh.elements().zip(of.curved);
+        let own = elements.filter(|(_, curved)| **curved);
+        let own: Vec<Vect<D>> = own
+            .flat_map(|(e, _)| e.corners.map(|c| corners[c as usize]))
+            .collect();
+        let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
+        let [low, high] = own
+            .iter()
+            .fold(none, |[low, high], x| [low.inf(x), high.sup(x)]);
+        // All that an active node sees is on the grid.
+        let margin = REACH * h + of.kernel.support_radius() + 4.0 * step;
+        let grid = Grid::around(low.add_scalar(-margin), high.add_scalar(margin), step);
+        let nodes: f64 = grid.nodes.iter().map(|n| *n as f64).product();
+        if nodes > MOST_NODES as f64 {
+            return Err(BoundaryError::LargeMap {
+                wall: of.wall.into(),
+                nodes: nodes as usize,
+                most: MOST_NODES,
+            });
+        }
+        let cells = Cells::of(&grid, of);
+        let mut correction = vec![0.0; grid.len()];
+        for sweep in 0..=SWEEPS {
+            let sums = cells.sums(&grid, of.kernel, &correction);
+            let all = cells.active.iter().zip(sums);
+            let mut largest = 0.0_f64;
+            let mut next = vec![0.0; grid.len()];
+            for ((node, _), sum) in all {
+                let whole = cells.flat[*node] + correction[*node];
+                let scale = 0.5 * (whole - sum.max(f64::MIN_POSITIVE).ln());
+                largest = largest.max((scale - whole).abs());
+                next[*node] = scale - cells.flat[*node];
+            }
+            correction = next;
+            if largest < TOLERANCE || sweep == SWEEPS {
+                break;
+            }
+        }
+        let mut counts = vec![0.0; grid.len()];
+        for (node, share) in &cells.active {
+            counts[*node] = share * correction[*node];
+        }
+        let strides = grid.strides();
+        let has = |node: usize| counts[node] != 0.0;
+        let corners = |node: usize, n: usize| {
+            let steps = (0..D).map(|k| (n >> k & 1) * strides[k]);
+            node + steps.sum::<usize>()
+        };
+        let known = (0..grid.len()).map(|node| {
+            (0..1 << D).any(|n| {
+                counts
+                    .get(corners(node, n))
+                    .is_some_and(|_| has(corners(node, n)))
+            })
+        });
+        let known = known.collect();
+        let mut coefficients = counts;
+        interpolate(&grid, &mut coefficients);
+        Ok(ScaleMap {
+            grid,
+            coefficients,
+            known,
+        })
+    }
+
+    /// ln s less that of the flat faces, and its gradient, 1/m; none where there is nothing.
+    pub fn at(&self, x: &Vect<D>) -> Option<(f64, Vect<D>)> {
+        let node = self.grid.node_before(x)?;
+        match self.known[node] {
+            true => value(&self.grid, &self.coefficients, x),
+            false => None,
+        }
+    }
+
+    /// The middle of its grid, m.
+    pub fn middle(&self) -> Vect<D> {
+        let half = |k: usize| 0.5 * (self.grid.nodes[k] - 1) as f64 * self.grid.step;
+        self.grid.low + Vect::from_fn(|k, _| half(k))
+    }
+}
+
+/// What is known of a node.
+struct NodeKind<const D: usize> {
+    /// Distance from the walls, m, negative behind them.
+    height: f64,
+    /// Distance from the nearest curved element, m.
+    from_curved: f64,
+    lumps: Vec<Lump<D>>,
+}
+
+impl<const D: usize> Cells<D> {
+    fn of<M: WallMesh<D>>(grid: &Grid<D>, of: &Mapping<'_, D, M>) -> Self {
+        let h = of.kernel.smoothing_length();
+        let nodes = (0..grid.len()).into_par_iter().with_min_len(256);
+        let kinds: Vec<NodeKind<D>> = nodes
+            .map(|n| node_kind(&grid.place(n), grid.step, of))
+            .collect();
+        let place = |n: usize| grid.place(n);
+        let flat = (0..grid.len()).into_par_iter().with_min_len(1024);
+        let mut cells = Cells {
+            flat: flat.map(|n| (of.flat)(&place(n))).collect(),
+            whole: Vec::with_capacity(kinds.len()),
+            lumps_of: Vec::with_capacity(kinds.len()),
+            lumps: Vec::new(),
+            flat_at_lumps: Vec::new(),
+            active: Vec::new(),
+        };
+        let cut = 0.5 * (D as f64).sqrt() * grid.step;
+        for (n, kind) in kinds.into_iter().enumerate() {
+            cells.whole.push(kind.height > cut);
+            let from = cells.lumps.len() as u32;
+            cells.lumps.extend(kind.lumps);
+            cells.lumps_of.push(from..cells.lumps.len() as u32);
+            if kind.from_curved < REACH * h && kind.height > -BEHIND * grid.step {
+                let [share, _] = fade((kind.from_curved / h - REACH + 0.5) / 0.5);
+                cells.active.push((n, share));
+            }
+        }
+        cells.flat_at_lumps = cells.lumps.iter().map(|l| (of.flat)(&l.place)).collect();
+        cells
+    }
+
+    /// ∫ s w at every active node.
+    fn sums(&self, grid: &Grid<D>, kernel: &dyn Sampler, correction: &[f64]) -> Vec<f64> {
+        let mut coefficients = correction.to_vec();
+        interpolate(grid, &mut coefficients);
+        let cell = grid.step.powi(D as i32);
+        let nodes = self.flat.par_iter().zip(correction).zip(&self.whole);
+        let in_cells: Vec<f64> = nodes
+            .map(|((flat, more), whole)| {
+                if *whole {
+                    cell * (flat + more).exp()
+                } else {
+                    0.0
+                }
+            })
+            .collect();
+        let lumps = self.lumps.par_iter().zip(&self.flat_at_lumps);
+        let in_lumps: Vec<f64> = lumps
+            .map(|(lump, flat)| {
+                let more = value(grid, &coefficients, &lump.place).map_or(0.0, |(v, _)| v);
+                lump.volume * (flat + more).exp()
+            })
+            .collect();
+        let offsets = offsets(grid, kernel);
+        let one = |(distances, values): &mut (Vec<f64>, Vec<f64>), (node, _): &(usize, f64)| {
+            let x = grid.place(*node);
+            distances.clear();
+            let (mut sum, mut parts) = (0.0, Vec::new());
+            for (offset, w) in &offsets {
+                let other = node.wrapping_add_signed(*offset);
+                sum += in_cells[other] * w;
+                for k in self.lumps_of[other].clone() {
+                    distances.push((self.lumps[k as usize].place - x).norm_squared());
+                    parts.push(in_lumps[k as usize]);
+                }
+            }
+            values.resize(distances.len(), 0.0);
+            kernel.value(distances, values);
+            sum + values
+                .iter()
+                .zip(parts)
+                .map(|(w, part)| w * part)
+                .sum::<f64>()
+        };
+        let active = self.active.par_iter().with_min_len(64);
+        active.map_init(Default::default, one).collect()
+    }
+}
+
+/// Nodes within a support and a cell of a node, with their kernel values.
+fn offsets<const D: usize>(grid: &Grid<D>, kernel: &dyn Sampler) -> Vec<(isize, f64)> {
+    let reach = (kernel.support_radius() / grid.step).ceil() as isize + 1;
+    let (side, strides) = (2 * reach + 1, grid.strides());
+    let one = |n: isize| {
+        let number = |k: usize| n / side.pow(k as u32) % side - reach;
+        let distance2: f64 = (0..D).map(|k| (number(k) as f64 * grid.step).powi(2)).sum();
+        let within = distance2.sqrt() < kernel.support_radius() + grid.step;
+        let offset: isize = (0..D).map(|k| number(k) * strides[k] as isize).sum();
+        within.then(|| (offset, kernel.at(distance2.sqrt()).0))
+    };
+    (0..side.pow(D as u32)).filter_map(one).collect()
+}
+
+/// Distances of a node, and the lumps of its cell if a wall cuts it.
+fn node_kind<const D: usize, M: WallMesh<D>>(
+    x: &Vect<D>,
+    step: f64,
+    of: &Mapping<'_, D, M>,
+) -> NodeKind<D> {
+    let reach = (REACH + 0.5) * of.kernel.smoothing_length();
+    let near = of.mesh.near(x, reach);
+    let curved = near.iter().filter(|n| of.curved[of.mesh.element(**n)]);
+    let curved: Vec<_> = curved.map(|n| of.mesh.seen(x, *n)).collect();
+    let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(x, *n)).collect();
+    let height = M::signed_distance(&seen, &Vect::zeros(), reach);
+    let from_curved = M::signed_distance(&curved, &Vect::zeros(), reach);
+    let height = height.unwrap_or_else(|| match of.mesh.contains(x) {
+        true => f64::INFINITY,
+        false => f64::NEG_INFINITY,
+    });
+    let mut lumps = Vec::new();
+    if height.abs() <= 0.5 * (D as f64).sqrt() * step {
+        let samples = LUMPS * SAMPLES;
+        let size = step / samples as f64;
+        let place = |n: usize, base: usize, k: usize| n / base.pow(k as u32) % base;
+        for l in 0..LUMPS.pow(D as u32) {
+            let (mut volume, mut moment) = (0.0, Vect::<D>::zeros());
+            for s in 0..SAMPLES.pow(D as u32) {
+                let at = Vect::<D>::from_fn(|k, _| {
+                    let number = place(l, LUMPS, k) * SAMPLES + place(s, SAMPLES, k);
+                    (number as f64 + 0.5) * size - 0.5 * step
+                });
+                let distance = M::signed_distance(&seen, &at, reach).unwrap_or(0.0);
+                // The share of a sample that is fluid, to first order in its distance.
+                let part = (distance / size + 0.5).clamp(0.0, 1.0) * size.powi(D as i32);
+                volume += part;
+                moment += at * part;
+            }
+            if volume > 0.0 {
+                let place = x + moment / volume;
+                lumps.push(Lump { place, volume });
+            }
+        }
+    }
+    NodeKind {
+        height,
+        from_curved: from_curved.map_or(f64::INFINITY, f64::abs),
+        lumps,
+    }
+}

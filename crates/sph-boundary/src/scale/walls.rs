@@ -1,0 +1,205 @@
+//! s of all walls of a scene, each group of walls that moves as one in its own frame.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use sph_core::Vect;
+use sph_neighbours::{CHUNK, Domain, Frame, Slope};
+
+use crate::geometry::wall_mesh::WallMesh;
+use crate::scale::flat::{FlatFace, flat_faces};
+use crate::scale::map::{Mapping, ScaleMap};
+use crate::scale::plane::{PlaneScale, REACH};
+use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
+
+/// The scale of all walls.
+#[derive(Debug)]
+pub(crate) struct WallScales<const D: usize, M> {
+    plane: Arc<PlaneScale>,
+    groups: Vec<Group<D, M>>,
+    h: f64,
+    domain: Domain<D>,
+}
+
+/// Walls that move as one.
+#[derive(Debug)]
+struct Group<const D: usize, M> {
+    /// Its first wall.
+    wall: u32,
+    /// Numbers of its walls.
+    walls: Vec<u32>,
+    /// Where it was drawn.
+    mesh: M,
+    faces: Vec<FlatFace<D>>,
+    map: Option<ScaleMap<D>>,
+}
+
+/// s and ∇ ln s at a particle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ScaleAt<const D: usize> {
+    pub scale: f64,
+    pub slope: Vect<D>,
+}
+
+impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
+    /// Of the walls of a scene; `groups` says for each with which it moves.
+    ///
+    /// # Errors
+    /// If a wall cannot have a scale.
+    pub fn new(setup: &WallSetup<'_, D>, groups: &[usize]) -> Result<Self, BoundaryError> {
+        let plane = Arc::new(PlaneScale::new(setup.kernel, D));
+        let h = setup.smoothing_length;
+        let kernel = setup.kernel.sampler(D, h);
+        let mut all = Vec::new();
+        for first in 0..setup.walls.len() {
+            let own: Vec<usize> = (0..groups.len()).filter(|k| groups[*k] == first).collect();
+            if own.is_empty() {
+                continue;
+            }
+            let specs: Vec<WallSpec<D>> = own.iter().map(|k| setup.walls[*k].clone()).collect();
+            // The nodes of the map look as far as it reaches.
+            let reach = (REACH + 1.0) * h + kernel.support_radius();
+            let domain = PeriodicBox::of(setup.domain);
+            let mesh = M::build(&specs, setup.spacing, reach, &domain)?;
+            let (faces, curved) = flat_faces(&mesh, setup.domain, setup.spacing);
+            let mut group = Group {
+                wall: first as u32,
+                walls: own.iter().map(|k| *k as u32).collect(),
+                mesh,
+                faces,
+                map: None,
+            };
+            if curved.contains(&true) {
+                let flat = |x: &Vect<D>| group.flat(x, &plane, h, setup.domain).0;
+                group.map = Some(ScaleMap::new(&Mapping {
+                    mesh: &group.mesh,
+                    curved: &curved,
+                    flat: &flat,
+                    kernel: &*kernel,
+                    wall: specs[0].drawing.name(),
+                })?);
+            }
+            all.push(group);
+        }
+        Ok(WallScales {
+            plane,
+            groups: all,
+            h,
+            domain: setup.domain.clone(),
+        })
+    }
+
+    /// At all places, and which wall has which part; `frames` are those of moving walls, by wall.
+    pub fn at(
+        &self,
+        places: &[Vect<D>],
+        frames: &[Frame<D>],
+        found: &mut Vec<ScaleAt<D>>,
+        slopes: &mut Vec<Vec<Slope<D>>>,
+    ) {
+        let none = ScaleAt {
+            scale: 1.0,
+            slope: Vect::zeros(),
+        };
+        found.clear();
+        found.resize(places.len(), none);
+        slopes.resize_with(places.len().div_ceil(CHUNK), Vec::new);
+        let chunks = found.par_chunks_mut(CHUNK).zip(places.par_chunks(CHUNK));
+        let all = chunks.zip(slopes).enumerate();
+        all.for_each(|(chunk, ((found, places), slopes))| {
+            slopes.clear();
+            for (k, (found, x)) in found.iter_mut().zip(places).enumerate() {
+                let particle = (chunk * CHUNK + k) as u32;
+                let from = slopes.len();
+                let mut logarithm = 0.0;
+                for group in &self.groups {
+                    let frame = frames.get(group.wall as usize);
+                    logarithm += group.add(self, x, frame, particle, slopes);
+                }
+                if slopes.len() > from {
+                    let own = slopes[from..].iter();
+                    *found = ScaleAt {
+                        scale: logarithm.exp(),
+                        slope: own.fold(Vect::zeros(), |sum, s| sum + s.slope),
+                    };
+                }
+            }
+        });
+    }
+}
+
+impl<const D: usize, M: WallMesh<D>> Group<D, M> {
+    /// ln s of the flat faces and its gradient at a place where the group was drawn.
+    fn flat(&self, x: &Vect<D>, plane: &PlaneScale, h: f64, domain: &Domain<D>) -> (f64, Vect<D>) {
+        let mut sum = (0.0, Vect::zeros());
+        for face in &self.faces {
+            if let Some((value, gradient)) = face.at(&domain.nearest(x - face.place), plane, h) {
+                sum = (sum.0 + value, sum.1 + gradient);
+            }
+        }
+        sum
+    }
+
+    /// ln s of the group at a place; its slopes are left wall by wall.
+    fn add(
+        &self,
+        all: &WallScales<D, M>,
+        x: &Vect<D>,
+        frame: Option<&Frame<D>>,
+        particle: u32,
+        slopes: &mut Vec<Slope<D>>,
+    ) -> f64 {
+        // From a place that was drawn to the particle, where it was drawn.
+        let apart = |place: &Vect<D>| match frame {
+            None => all.domain.nearest(x - place),
+            Some(frame) => {
+                let apart = all.domain.nearest(x + frame.round - frame.present(place));
+                Vect::from_fn(|k, _| (0..D).map(|i| frame.rotation[i][k] * apart[i]).sum())
+            }
+        };
+        let turned = |v: Vect<D>| match frame {
+            None => v,
+            Some(frame) => {
+                let row = |k: usize| (0..D).map(|i| frame.rotation[k][i] * v[i]).sum::<f64>();
+                Vect::from_fn(|k, _| row(k))
+            }
+        };
+        let mut sum = 0.0;
+        let mut leave = |wall: u32, slope: Vect<D>| {
+            let slope = turned(slope);
+            slopes.push(Slope {
+                particle,
+                wall,
+                slope,
+            });
+        };
+        let nearest = |x: &Vect<D>| {
+            let nearest = self.mesh.nearest(x, (REACH + 1.0) * all.h);
+            nearest.map_or(self.wall, |(_, wall)| self.walls[wall])
+        };
+        for face in &self.faces {
+            let apart = apart(&face.place);
+            if let Some((value, gradient)) = face.at(&apart, &all.plane, all.h) {
+                let wall = match &face.walls[..] {
+                    [only] => self.walls[*only as usize],
+                    _ => nearest(&(face.place + apart)),
+                };
+                sum += value;
+                leave(wall, gradient);
+            }
+        }
+        if let Some(map) = &self.map {
+            let middle = map.middle();
+            let place = middle + apart(&middle);
+            if let Some((value, gradient)) = map.at(&place) {
+                let wall = match &self.walls[..] {
+                    [only] => *only,
+                    _ => nearest(&place),
+                };
+                sum += value;
+                leave(wall, gradient);
+            }
+        }
+        sum
+    }
+}
