@@ -1,5 +1,7 @@
 //! s of walls of any shape, on a grid.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 use sph_core::Vect;
 use sph_kernels::Sampler;
@@ -16,10 +18,13 @@ const BEHIND: f64 = 6.0;
 /// Lumps of a cell that the wall cuts, and samples of each lump, along every axis.
 const LUMPS: usize = 2;
 const SAMPLES: usize = 4;
-/// Sweeps at most; each halves the error at least.
+/// Share of ln s + ln ∫ s w that a sweep takes off. Its error falls by 1 − ω (1 + λ), λ from 0 (rough) to 1 (smooth): to a
+/// third at most.
+const RELAXATION: f64 = 2.0 / 3.0;
+/// Sweeps at most.
 const SWEEPS: usize = 40;
 /// Largest change of ln s after which no further sweep is made.
-const TOLERANCE: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-5;
 /// Nodes at most.
 const MOST_NODES: usize = 20_000_000;
 
@@ -30,6 +35,10 @@ pub(crate) struct ScaleMap<const D: usize> {
     coefficients: Vec<f64>,
     /// Whether a cell, by its first node, has anything.
     known: Vec<bool>,
+    /// The curved wall that is nearest to every node; empty if there is one.
+    nearest: Vec<u32>,
+    /// The walls with curved elements, ascending.
+    walls: Vec<u32>,
 }
 
 /// What a map is made from.
@@ -63,12 +72,14 @@ struct Cells<const D: usize> {
     lumps: Vec<Lump<D>>,
     /// ln s of the flat faces at the lumps.
     flat_at_lumps: Vec<f64>,
+    /// The curved wall that is nearest to every node, where that was asked.
+    nearest: Vec<u32>,
     /// Nodes that are solved for, with the share of their value that counts.
     active: Vec<(usize, f64)>,
 }
 
 impl<const D: usize> ScaleMap<D> {
-    /// Solves s(x) ∫ s w = 1 by s ← √(s/∫ s w) on the nodes near the curved elements; cells that the wall cuts are sampled.
+    /// Solves s(x) ∫ s w = 1 by ln s ← ln s − ω ln (s ∫ s w) on the nodes near the curved elements; cells that the wall cuts are sampled.
     ///
     /// # Errors
     /// If the grid would have too many nodes.
@@ -96,7 +107,11 @@ impl<const D: usize> ScaleMap<D> {
                 most: MOST_NODES,
             });
         }
-        let cells = Cells::of(&grid, of);
+        let elements = of.mesh.elements().zip(of.curved);
+        let curved = elements.filter(|(_, curved)| **curved);
+        let walls: BTreeSet<u32> = curved.map(|(e, _)| e.wall as u32).collect();
+        let walls: Vec<u32> = walls.into_iter().collect();
+        let mut cells = Cells::of(&grid, of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
         for sweep in 0..=SWEEPS {
             let sums = cells.sums(&grid, of.kernel, &correction);
@@ -105,9 +120,9 @@ impl<const D: usize> ScaleMap<D> {
             let mut next = vec![0.0; grid.len()];
             for ((node, _), sum) in all {
                 let whole = cells.flat[*node] + correction[*node];
-                let scale = 0.5 * (whole - sum.max(f64::MIN_POSITIVE).ln());
-                largest = largest.max((scale - whole).abs());
-                next[*node] = scale - cells.flat[*node];
+                let change = -RELAXATION * (whole + sum.max(f64::MIN_POSITIVE).ln());
+                largest = largest.max(change.abs());
+                next[*node] = correction[*node] + change;
             }
             correction = next;
             if largest < TOLERANCE || sweep == SWEEPS {
@@ -138,16 +153,18 @@ impl<const D: usize> ScaleMap<D> {
             grid,
             coefficients,
             known,
+            nearest: std::mem::take(&mut cells.nearest),
+            walls,
         })
     }
 
-    /// ln s less that of the flat faces, and its gradient, 1/m; none where there is nothing.
-    pub fn at(&self, x: &Vect<D>) -> Option<(f64, Vect<D>)> {
-        let node = self.grid.node_before(x)?;
-        match self.known[node] {
-            true => value(&self.grid, &self.coefficients, x),
-            false => None,
-        }
+    /// ln s less that of the flat faces, its gradient, 1/m, and the wall with curved elements that has it; none where there
+    /// is nothing.
+    pub fn at(&self, x: &Vect<D>) -> Option<(f64, Vect<D>, u32)> {
+        let node = self.grid.node_before(x).filter(|node| self.known[*node])?;
+        let (value, gradient) = value(&self.grid, &self.coefficients, x)?;
+        let wall = self.nearest.get(node).copied().unwrap_or(self.walls[0]);
+        Some((value, gradient, wall))
     }
 
     /// The middle of its grid, m.
@@ -164,14 +181,16 @@ struct NodeKind<const D: usize> {
     /// Distance from the nearest curved element, m.
     from_curved: f64,
     lumps: Vec<Lump<D>>,
+    /// The wall of that element, where that was asked.
+    nearest: u32,
 }
 
 impl<const D: usize> Cells<D> {
-    fn of<M: WallMesh<D>>(grid: &Grid<D>, of: &Mapping<'_, D, M>) -> Self {
+    fn of<M: WallMesh<D>>(grid: &Grid<D>, of: &Mapping<'_, D, M>, several: bool) -> Self {
         let h = of.kernel.smoothing_length();
         let nodes = (0..grid.len()).into_par_iter().with_min_len(256);
         let kinds: Vec<NodeKind<D>> = nodes
-            .map(|n| node_kind(&grid.place(n), grid.step, of))
+            .map(|n| node_kind(&grid.place(n), grid.step, of, several))
             .collect();
         let place = |n: usize| grid.place(n);
         let flat = (0..grid.len()).into_par_iter().with_min_len(1024);
@@ -181,11 +200,15 @@ impl<const D: usize> Cells<D> {
             lumps_of: Vec::with_capacity(kinds.len()),
             lumps: Vec::new(),
             flat_at_lumps: Vec::new(),
+            nearest: Vec::new(),
             active: Vec::new(),
         };
         let cut = 0.5 * (D as f64).sqrt() * grid.step;
         for (n, kind) in kinds.into_iter().enumerate() {
             cells.whole.push(kind.height > cut);
+            if several {
+                cells.nearest.push(kind.nearest);
+            }
             let from = cells.lumps.len() as u32;
             cells.lumps.extend(kind.lumps);
             cells.lumps_of.push(from..cells.lumps.len() as u32);
@@ -221,10 +244,11 @@ impl<const D: usize> Cells<D> {
             })
             .collect();
         let offsets = offsets(grid, kernel);
-        let one = |(distances, values): &mut (Vec<f64>, Vec<f64>), (node, _): &(usize, f64)| {
+        let one = |[distances, parts, values]: &mut [Vec<f64>; 3], (node, _): &(usize, f64)| {
             let x = grid.place(*node);
             distances.clear();
-            let (mut sum, mut parts) = (0.0, Vec::new());
+            parts.clear();
+            let mut sum = 0.0;
             for (offset, w) in &offsets {
                 let other = node.wrapping_add_signed(*offset);
                 sum += in_cells[other] * w;
@@ -238,7 +262,7 @@ impl<const D: usize> Cells<D> {
             sum + values
                 .iter()
                 .zip(parts)
-                .map(|(w, part)| w * part)
+                .map(|(w, part)| *w * *part)
                 .sum::<f64>()
         };
         let active = self.active.par_iter().with_min_len(64);
@@ -265,11 +289,21 @@ fn node_kind<const D: usize, M: WallMesh<D>>(
     x: &Vect<D>,
     step: f64,
     of: &Mapping<'_, D, M>,
+    several: bool,
 ) -> NodeKind<D> {
     let reach = (REACH + 0.5) * of.kernel.smoothing_length();
     let near = of.mesh.near(x, reach);
     let curved = near.iter().filter(|n| of.curved[of.mesh.element(**n)]);
+    let walls: Vec<usize> = match several {
+        true => curved.clone().map(|n| of.mesh.wall_of(*n)).collect(),
+        false => Vec::new(),
+    };
     let curved: Vec<_> = curved.map(|n| of.mesh.seen(x, *n)).collect();
+    let distance = |k: usize| {
+        let only = std::slice::from_ref(&curved[k]);
+        M::signed_distance(only, &Vect::zeros(), reach).map_or(f64::INFINITY, f64::abs)
+    };
+    let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
     let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(x, *n)).collect();
     let height = M::signed_distance(&seen, &Vect::zeros(), reach);
     let from_curved = M::signed_distance(&curved, &Vect::zeros(), reach);
@@ -305,5 +339,6 @@ fn node_kind<const D: usize, M: WallMesh<D>>(
         height,
         from_curved: from_curved.map_or(f64::INFINITY, f64::abs),
         lumps,
+        nearest: nearest.map_or(0, |k| walls[k] as u32),
     }
 }

@@ -10,7 +10,10 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
-use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
+use crate::{BoundaryError, Drawing, PeriodicBox, WallSetup, WallSpec};
+
+/// Size of the elements of faces, over h: the scale knows faces, whatever pieces they have.
+const ELEMENT: f64 = 4.0;
 
 /// The scale of all walls.
 #[derive(Debug)]
@@ -32,6 +35,24 @@ struct Group<const D: usize, M> {
     mesh: M,
     faces: Vec<FlatFace<D>>,
     map: Option<ScaleMap<D>>,
+}
+
+/// Size of elements, m: `most`, a quarter of the smallest piece of a wall if that is less, the spacing at least.
+pub(crate) fn element_size<const D: usize>(walls: &[WallSpec<D>], spacing: f64, most: f64) -> f64 {
+    let extent = |points: &mut dyn Iterator<Item = [f64; 3]>| {
+        let none = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let (low, high) = points.fold(none, |(low, high), x| {
+            let both = |f: fn(f64, f64) -> f64, a: [f64; 3]| [0, 1, 2].map(|k| f(a[k], x[k]));
+            (both(f64::min, low), both(f64::max, high))
+        });
+        (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max)
+    };
+    let of_wall = |wall: &WallSpec<D>| match &wall.drawing {
+        Drawing::Line(line) => extent(&mut line.points.iter().map(|[x, y]| [*x, *y, 0.0])),
+        Drawing::Surface(surface) => extent(&mut surface.points.iter().copied()),
+    };
+    let least = walls.iter().map(of_wall).fold(f64::INFINITY, f64::min);
+    (0.25 * least).min(most).max(spacing)
 }
 
 /// s and ∇ ln s at a particle.
@@ -60,7 +81,8 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
             // The nodes of the map look as far as it reaches.
             let reach = (REACH + 1.0) * h + kernel.support_radius();
             let domain = PeriodicBox::of(setup.domain);
-            let mesh = M::build(&specs, setup.spacing, reach, &domain)?;
+            let size = element_size(&specs, setup.spacing, ELEMENT * h);
+            let mesh = M::build(&specs, size, reach, &domain)?;
             let (faces, curved) = flat_faces(&mesh, setup.domain, setup.spacing);
             let mut group = Group {
                 wall: first as u32,
@@ -191,13 +213,9 @@ impl<const D: usize, M: WallMesh<D>> Group<D, M> {
         if let Some(map) = &self.map {
             let middle = map.middle();
             let place = middle + apart(&middle);
-            if let Some((value, gradient)) = map.at(&place) {
-                let wall = match &self.walls[..] {
-                    [only] => *only,
-                    _ => nearest(&place),
-                };
+            if let Some((value, gradient, wall)) = map.at(&place) {
                 sum += value;
-                leave(wall, gradient);
+                leave(self.walls[wall as usize], gradient);
             }
         }
         sum

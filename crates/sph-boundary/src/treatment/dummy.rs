@@ -59,7 +59,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
                 wall: wall.drawing.name().into(),
             });
         }
-        let outline = Outline::<D, M>::new(setup, support)?;
+        let outline = Outline::<D, M>::new(setup, support, setup.spacing)?;
         // The mesh stands where it is at time 0; the layers move from there.
         let drawn = outline.mesh.layers(setup.spacing, support);
         let slip = |(wall, place): &(usize, Vect<D>)| {

@@ -42,7 +42,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
-    pub fn new(setup: &WallSetup<'_, D>, support: f64) -> Result<Self, BoundaryError> {
+    /// Meshes the walls by elements of a size, m.
+    pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self, BoundaryError> {
         let whole = |k: &usize| !is_piece(setup.walls, *k);
         for spec in (0..setup.walls.len())
             .filter(whole)
@@ -61,7 +62,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let reach = FARTHEST * support;
         let domain = PeriodicBox::of(setup.domain);
         check_reach(setup.walls, &domain)?;
-        let mesh = M::build(setup.walls, setup.spacing, reach, &domain)?;
+        let mesh = M::build(setup.walls, size, reach, &domain)?;
         let mut outline = Outline {
             mesh,
             support,

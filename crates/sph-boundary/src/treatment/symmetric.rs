@@ -4,7 +4,7 @@ use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{Slope, WallSet, World};
 
 use crate::geometry::wall_mesh::WallMesh;
-use crate::scale::walls::{ScaleAt, WallScales};
+use crate::scale::walls::{ScaleAt, WallScales, element_size};
 use crate::treatment::outline::{Outline, shaped_by_outline};
 use crate::treatment::usaw::{SetUp, not_built};
 use crate::{
@@ -13,6 +13,9 @@ use crate::{
 
 /// Least distance of particles from walls over the spacing: that of films, which the density sum lets sink.
 const LEAST_CLEARANCE: f64 = 0.1;
+
+/// Size of elements over the spacing: γ and ∇γ do not depend on it, and no mean over elements enters a pressure.
+const ELEMENT: f64 = 4.0;
 
 /// Walls that scale the kernel: w̃_ab = s_a s_b w_ab in density, divergence, pressure, smoothers and damper, with
 /// s(x) ∫ s(y) w(x − y) dy = 1 over the fluid's side of the walls.
@@ -141,7 +144,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
                 reason,
             });
         }
-        let (set_up, walls) = SetUp::build(setup, false)?;
+        let size = element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing);
+        let (set_up, walls) = SetUp::build(setup, false, size)?;
         self.scales = Some(Scales {
             walls: WallScales::new(setup, &set_up.outline.groups)?,
             found: Vec::new(),

@@ -237,10 +237,11 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
 }
 
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
-    /// Meshes the walls at time 0.
+    /// Meshes the walls at time 0 by elements of a size, m.
     pub fn build(
         setup: &WallSetup<'_, D>,
         vertices: bool,
+        size: f64,
     ) -> Result<(Self, WallSet<D>), BoundaryError> {
         let shape = setup
             .kernel
@@ -253,7 +254,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             })?;
         let integrals = M::integrals(shape, setup.smoothing_length)?;
         let support = setup.kernel.support() * setup.smoothing_length;
-        let outline = Outline::<D, M>::new(setup, support)?;
+        let outline = Outline::<D, M>::new(setup, support, size)?;
         let mut walls = WallSet {
             names: outline.mesh.names().to_vec(),
             points: outline.points(setup.spacing),
@@ -387,7 +388,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
-        let (set_up, walls) = SetUp::build(setup, self.vertices)?;
+        let (set_up, walls) = SetUp::build(setup, self.vertices, setup.spacing)?;
         self.set_up = Some(set_up);
         Ok(walls)
     }
