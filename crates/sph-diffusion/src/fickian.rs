@@ -7,6 +7,7 @@ use sph_neighbours::World;
 use crate::ShiftingEntry;
 use crate::evenness::{Evenness, Held, evenness, held_normals};
 use crate::shift_transport::ShiftTransport;
+use crate::shifted_sum::ShiftedSum;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// Particles move, besides their velocity, down the gradient of their concentration,
@@ -103,8 +104,11 @@ impl<const D: usize> Contribution<D> for Fickian {
             offer.term(ShiftTransport {
                 velocity: self.transport == Transport::All,
                 relaxation: self.relaxation,
-                summed: setting.summed,
+                summed: setting.summed && !setting.world.scales(),
             });
+            if setting.summed && setting.world.scales() {
+                offer.term(ShiftedSum);
+            }
         }
         offer.remedy = Some(format!("weaken {}", offer.path));
         Ok(())

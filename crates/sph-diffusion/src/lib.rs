@@ -16,6 +16,7 @@ mod linear_exact;
 mod per_phase;
 mod rhie_chow;
 mod shift_transport;
+mod shifted_sum;
 
 pub use balance::{Accelerated, MeanAcceleration, PRESSURE_SLOPE};
 pub use brezzi_pitkaranta::{BrezziPitkaranta, PressureDiffusion};
@@ -25,3 +26,4 @@ pub use delta_sph::{DENSITY_GRADIENT, DeltaForm, DeltaSph};
 pub use fickian::{Fickian, Transport};
 pub use rhie_chow::RhieChow;
 pub use shift_transport::ShiftTransport;
+pub use shifted_sum::ShiftedSum;

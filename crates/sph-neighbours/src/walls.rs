@@ -159,6 +159,8 @@ pub struct WallSet<const D: usize> {
     pub elements: Elements<D>,
     /// Who touches which element.
     pub contacts: Contacts<D>,
+    /// Whether the walls scale the kernel.
+    pub scales: bool,
     /// ∇ ln s of every particle by wall, where walls scale the kernel.
     pub slopes: Slopes<D>,
     /// Where every wall is, in the order of the names; empty where no wall ever moves.

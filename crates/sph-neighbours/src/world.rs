@@ -96,7 +96,7 @@ impl<const D: usize> World<D> {
 
     /// Whether the walls scale the kernel.
     pub fn scales(&self) -> bool {
-        self.free.has(fields::SCALE.name)
+        self.walls.scales
     }
 
     /// γ as density sums and what belongs to them know it; none where it is 1.

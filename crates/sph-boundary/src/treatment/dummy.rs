@@ -148,6 +148,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             points,
             elements: Default::default(),
             contacts: Contacts::default(),
+            scales: false,
             slopes: Slopes::default(),
             frames,
             bodies,

@@ -145,13 +145,14 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             });
         }
         let size = element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing);
-        let (set_up, walls) = SetUp::build(setup, false, size)?;
+        let (set_up, mut walls) = SetUp::build(setup, false, size)?;
         self.scales = Some(Scales {
             walls: WallScales::new(setup, &set_up.outline.groups)?,
             found: Vec::new(),
             slopes: Vec::new(),
         });
         self.set_up = Some(set_up);
+        walls.scales = true;
         Ok(walls)
     }
 

@@ -260,6 +260,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             points: outline.points(setup.spacing),
             elements: outline.elements(setup.spacing),
             contacts: Contacts::default(),
+            scales: false,
             slopes: Slopes::default(),
             frames: Vec::new(),
             bodies: Vec::new(),

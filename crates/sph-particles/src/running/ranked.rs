@@ -51,6 +51,7 @@ pub(crate) fn columns_of_all<const D: usize>(
             names: set.names.clone(),
             points: set.points.clone(),
             elements: set.elements.clone(),
+            scales: set.scales,
             ..WallSet::default()
         };
         Box::new((walls, set))

@@ -7,3 +7,4 @@ mod forces;
 mod probe;
 mod relaxation;
 mod slip;
+mod symmetric;
