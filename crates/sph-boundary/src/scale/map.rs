@@ -49,6 +49,8 @@ pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     pub curved: &'a [bool],
     /// ln s of the flat faces at a place.
     pub flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
+    /// Least height over the flat faces, m.
+    pub over_flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
     pub kernel: &'a dyn Sampler,
     /// Name of the walls, for messages.
     pub wall: &'a str,
@@ -67,8 +69,8 @@ struct Cells<const D: usize> {
     flat: Vec<f64>,
     /// Whether the cell around a node is all fluid.
     whole: Vec<bool>,
-    /// Where the lumps of a cell are.
-    lumps_of: Vec<std::ops::Range<u32>>,
+    /// Where the lumps of the cell around a node begin, and the end.
+    first_lump: Vec<u32>,
     lumps: Vec<Lump<D>>,
     /// ln s of the flat faces at the lumps.
     flat_at_lumps: Vec<f64>,
@@ -111,7 +113,7 @@ impl<const D: usize> ScaleMap<D> {
         let curved = elements.filter(|(_, curved)| **curved);
         let walls: BTreeSet<u32> = curved.map(|(e, _)| e.wall as u32).collect();
         let walls: Vec<u32> = walls.into_iter().collect();
-        let mut cells = Cells::of(&grid, of, walls.len() > 1);
+        let mut cells = Cells::of((&grid, [low, high]), of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
         for sweep in 0..=SWEEPS {
             let sums = cells.sums(&grid, of.kernel, &correction);
@@ -186,32 +188,42 @@ struct NodeKind<const D: usize> {
 }
 
 impl<const D: usize> Cells<D> {
-    fn of<M: WallMesh<D>>(grid: &Grid<D>, of: &Mapping<'_, D, M>, several: bool) -> Self {
+    /// Of a grid around the box of the curved elements.
+    fn of<M: WallMesh<D>>(
+        (grid, [low, high]): (&Grid<D>, [Vect<D>; 2]),
+        of: &Mapping<'_, D, M>,
+        several: bool,
+    ) -> Self {
         let h = of.kernel.smoothing_length();
         let nodes = (0..grid.len()).into_par_iter().with_min_len(256);
-        let kinds: Vec<NodeKind<D>> = nodes
-            .map(|n| node_kind(&grid.place(n), grid.step, of, several))
-            .collect();
+        let kind = |n: usize| {
+            let x = grid.place(n);
+            let outside = (low - x).sup(&(x - high)).sup(&Vect::zeros());
+            match outside.norm() < REACH * h {
+                true => near_node(&x, grid.step, of, several),
+                false => far_node(&x, grid.step, of),
+            }
+        };
+        let kinds: Vec<NodeKind<D>> = nodes.map(kind).collect();
         let place = |n: usize| grid.place(n);
         let flat = (0..grid.len()).into_par_iter().with_min_len(1024);
         let mut cells = Cells {
             flat: flat.map(|n| (of.flat)(&place(n))).collect(),
             whole: Vec::with_capacity(kinds.len()),
-            lumps_of: Vec::with_capacity(kinds.len()),
+            first_lump: vec![0],
             lumps: Vec::new(),
             flat_at_lumps: Vec::new(),
             nearest: Vec::new(),
             active: Vec::new(),
         };
-        let cut = 0.5 * (D as f64).sqrt() * grid.step;
+        let cut = half_diagonal::<D>(grid.step);
         for (n, kind) in kinds.into_iter().enumerate() {
             cells.whole.push(kind.height > cut);
             if several {
                 cells.nearest.push(kind.nearest);
             }
-            let from = cells.lumps.len() as u32;
             cells.lumps.extend(kind.lumps);
-            cells.lumps_of.push(from..cells.lumps.len() as u32);
+            cells.first_lump.push(cells.lumps.len() as u32);
             if kind.from_curved < REACH * h && kind.height > -BEHIND * grid.step {
                 let [share, _] = fade((kind.from_curved / h - REACH + 0.5) / 0.5);
                 cells.active.push((n, share));
@@ -243,49 +255,70 @@ impl<const D: usize> Cells<D> {
                 lump.volume * (flat + more).exp()
             })
             .collect();
-        let offsets = offsets(grid, kernel);
-        let one = |[distances, parts, values]: &mut [Vec<f64>; 3], (node, _): &(usize, f64)| {
+        let rows = rows(grid, kernel);
+        let one = |[distances, values]: &mut [Vec<f64>; 2], (node, _): &(usize, f64)| {
             let x = grid.place(*node);
-            distances.clear();
-            parts.clear();
             let mut sum = 0.0;
-            for (offset, w) in &offsets {
-                let other = node.wrapping_add_signed(*offset);
-                sum += in_cells[other] * w;
-                for k in self.lumps_of[other].clone() {
-                    distances.push((self.lumps[k as usize].place - x).norm_squared());
-                    parts.push(in_lumps[k as usize]);
+            for (offset, weights) in &rows {
+                let from = node.wrapping_add_signed(*offset);
+                let to = from + weights.len();
+                let own = in_cells[from..to].iter().zip(weights);
+                sum += own.map(|(v, w)| v * w).sum::<f64>();
+                let lumps = self.first_lump[from] as usize..self.first_lump[to] as usize;
+                if !lumps.is_empty() {
+                    distances.clear();
+                    let own = self.lumps[lumps.clone()].iter();
+                    distances.extend(own.map(|lump| (lump.place - x).norm_squared()));
+                    values.resize(distances.len(), 0.0);
+                    kernel.value(distances, values);
+                    let own = values.iter().zip(&in_lumps[lumps]);
+                    sum += own.map(|(w, part)| w * part).sum::<f64>();
                 }
             }
-            values.resize(distances.len(), 0.0);
-            kernel.value(distances, values);
-            sum + values
-                .iter()
-                .zip(parts)
-                .map(|(w, part)| *w * *part)
-                .sum::<f64>()
+            sum
         };
         let active = self.active.par_iter().with_min_len(64);
         active.map_init(Default::default, one).collect()
     }
 }
 
-/// Nodes within a support and a cell of a node, with their kernel values.
-fn offsets<const D: usize>(grid: &Grid<D>, kernel: &dyn Sampler) -> Vec<(isize, f64)> {
-    let reach = (kernel.support_radius() / grid.step).ceil() as isize + 1;
+/// Rows of nodes within a support and a cell of a node: where each begins, and the kernel values of its nodes.
+fn rows<const D: usize>(grid: &Grid<D>, kernel: &dyn Sampler) -> Vec<(isize, Vec<f64>)> {
+    let far = kernel.support_radius() + grid.step;
+    let reach = (far / grid.step).floor() as isize;
     let (side, strides) = (2 * reach + 1, grid.strides());
     let one = |n: isize| {
-        let number = |k: usize| n / side.pow(k as u32) % side - reach;
-        let distance2: f64 = (0..D).map(|k| (number(k) as f64 * grid.step).powi(2)).sum();
-        let within = distance2.sqrt() < kernel.support_radius() + grid.step;
-        let offset: isize = (0..D).map(|k| number(k) * strides[k] as isize).sum();
-        within.then(|| (offset, kernel.at(distance2.sqrt()).0))
+        let number = |k: usize| n / side.pow(k as u32 - 1) % side - reach;
+        let across: f64 = (1..D).map(|k| (number(k) as f64 * grid.step).powi(2)).sum();
+        let half = ((far * far - across).sqrt() / grid.step).floor() as isize;
+        if half < 0 || across > far * far {
+            return None;
+        }
+        let offset: isize = (1..D).map(|k| number(k) * strides[k] as isize).sum();
+        let distance = |i: isize| (across + (i as f64 * grid.step).powi(2)).sqrt();
+        let weights = (-half..=half).map(|i| kernel.at(distance(i)).0);
+        Some((offset - half, weights.collect()))
     };
-    (0..side.pow(D as u32)).filter_map(one).collect()
+    (0..side.pow(D as u32 - 1)).filter_map(one).collect()
 }
 
-/// Distances of a node, and the lumps of its cell if a wall cuts it.
-fn node_kind<const D: usize, M: WallMesh<D>>(
+/// A node too far from curved elements to have a value: of the flat faces alone.
+fn far_node<const D: usize, M: WallMesh<D>>(
+    x: &Vect<D>,
+    step: f64,
+    of: &Mapping<'_, D, M>,
+) -> NodeKind<D> {
+    let height = (of.over_flat)(x);
+    NodeKind {
+        height,
+        from_curved: f64::INFINITY,
+        lumps: lumps(x, step, height, |at| (of.over_flat)(&(x + at))),
+        nearest: 0,
+    }
+}
+
+/// A node near curved elements.
+fn near_node<const D: usize, M: WallMesh<D>>(
     x: &Vect<D>,
     step: f64,
     of: &Mapping<'_, D, M>,
@@ -305,40 +338,57 @@ fn node_kind<const D: usize, M: WallMesh<D>>(
     };
     let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
     let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(x, *n)).collect();
-    let height = M::signed_distance(&seen, &Vect::zeros(), reach);
     let from_curved = M::signed_distance(&curved, &Vect::zeros(), reach);
+    let height = M::signed_distance(&seen, &Vect::zeros(), reach);
     let height = height.unwrap_or_else(|| match of.mesh.contains(x) {
         true => f64::INFINITY,
         false => f64::NEG_INFINITY,
     });
-    let mut lumps = Vec::new();
-    if height.abs() <= 0.5 * (D as f64).sqrt() * step {
-        let samples = LUMPS * SAMPLES;
-        let size = step / samples as f64;
-        let place = |n: usize, base: usize, k: usize| n / base.pow(k as u32) % base;
-        for l in 0..LUMPS.pow(D as u32) {
-            let (mut volume, mut moment) = (0.0, Vect::<D>::zeros());
-            for s in 0..SAMPLES.pow(D as u32) {
-                let at = Vect::<D>::from_fn(|k, _| {
-                    let number = place(l, LUMPS, k) * SAMPLES + place(s, SAMPLES, k);
-                    (number as f64 + 0.5) * size - 0.5 * step
-                });
-                let distance = M::signed_distance(&seen, &at, reach).unwrap_or(0.0);
-                // The share of a sample that is fluid, to first order in its distance.
-                let part = (distance / size + 0.5).clamp(0.0, 1.0) * size.powi(D as i32);
-                volume += part;
-                moment += at * part;
-            }
-            if volume > 0.0 {
-                let place = x + moment / volume;
-                lumps.push(Lump { place, volume });
-            }
-        }
-    }
     NodeKind {
         height,
         from_curved: from_curved.map_or(f64::INFINITY, f64::abs),
-        lumps,
+        lumps: lumps(x, step, height, |at| {
+            M::signed_distance(&seen, at, reach).unwrap_or(0.0)
+        }),
         nearest: nearest.map_or(0, |k| walls[k] as u32),
     }
+}
+
+/// The lumps of the cell around a node at a height over the walls, if they cut it; `height_at` is that of a place relative to
+/// the node, m.
+fn lumps<const D: usize>(
+    x: &Vect<D>,
+    step: f64,
+    height: f64,
+    height_at: impl Fn(&Vect<D>) -> f64,
+) -> Vec<Lump<D>> {
+    let mut lumps = Vec::new();
+    if height.abs() > half_diagonal::<D>(step) {
+        return lumps;
+    }
+    let size = step / (LUMPS * SAMPLES) as f64;
+    let place = |n: usize, base: usize, k: usize| n / base.pow(k as u32) % base;
+    for l in 0..LUMPS.pow(D as u32) {
+        let (mut volume, mut moment) = (0.0, Vect::<D>::zeros());
+        for s in 0..SAMPLES.pow(D as u32) {
+            let at = Vect::<D>::from_fn(|k, _| {
+                let number = place(l, LUMPS, k) * SAMPLES + place(s, SAMPLES, k);
+                (number as f64 + 0.5) * size - 0.5 * step
+            });
+            // The share of a sample that is fluid, to first order in its distance.
+            let part = (height_at(&at) / size + 0.5).clamp(0.0, 1.0) * size.powi(D as i32);
+            volume += part;
+            moment += at * part;
+        }
+        if volume > 0.0 {
+            let place = x + moment / volume;
+            lumps.push(Lump { place, volume });
+        }
+    }
+    lumps
+}
+
+/// Half of the diagonal of a cell, m.
+fn half_diagonal<const D: usize>(step: f64) -> f64 {
+    0.5 * (D as f64).sqrt() * step
 }

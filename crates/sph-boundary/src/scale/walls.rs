@@ -24,7 +24,7 @@ pub(crate) struct WallScales<const D: usize, M> {
     domain: Domain<D>,
 }
 
-/// Walls that move as one.
+/// Walls that move as one and have nodes in common.
 #[derive(Debug)]
 struct Group<const D: usize, M> {
     /// Its first wall.
@@ -35,6 +35,32 @@ struct Group<const D: usize, M> {
     mesh: M,
     faces: Vec<FlatFace<D>>,
     map: Option<ScaleMap<D>>,
+}
+
+/// Walls of a mesh that have nodes in common, by their numbers: sets of walls without a common node.
+fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usize>> {
+    let mut wall_at: Vec<Option<usize>> = mesh.points().map(|_| None).collect();
+    let mut set: Vec<usize> = (0..walls).collect();
+    fn first(set: &[usize], mut wall: usize) -> usize {
+        while set[wall] != wall {
+            wall = set[wall];
+        }
+        wall
+    }
+    for element in mesh.elements() {
+        for corner in element.corners {
+            let other = *wall_at[corner as usize].get_or_insert(element.wall);
+            let [a, b] = [other, element.wall].map(|wall| first(&set, wall));
+            set[a.max(b)] = a.min(b);
+        }
+    }
+    let firsts = (0..walls).filter(|wall| set[*wall] == *wall);
+    let of = |head: usize| {
+        (0..walls)
+            .filter(|wall| first(&set, *wall) == head)
+            .collect()
+    };
+    firsts.map(of).collect()
 }
 
 /// Size of elements, m: `most`, a quarter of the smallest piece of a wall if that is less, the spacing at least.
@@ -72,20 +98,36 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
         let h = setup.smoothing_length;
         let kernel = setup.kernel.sampler(D, h);
         let mut all = Vec::new();
+        // The nodes of a map look as far as it reaches.
+        let reach = (REACH + 1.0) * h + kernel.support_radius();
+        let domain = PeriodicBox::of(setup.domain);
+        let build = |own: &[usize]| {
+            let specs: Vec<WallSpec<D>> = own.iter().map(|k| setup.walls[*k].clone()).collect();
+            let size = element_size(&specs, setup.spacing, ELEMENT * h);
+            M::build(&specs, size, reach, &domain)
+        };
+        let mut pieces: Vec<(Vec<usize>, M)> = Vec::new();
         for first in 0..setup.walls.len() {
             let own: Vec<usize> = (0..groups.len()).filter(|k| groups[*k] == first).collect();
             if own.is_empty() {
                 continue;
             }
-            let specs: Vec<WallSpec<D>> = own.iter().map(|k| setup.walls[*k].clone()).collect();
-            // The nodes of the map look as far as it reaches.
-            let reach = (REACH + 1.0) * h + kernel.support_radius();
-            let domain = PeriodicBox::of(setup.domain);
-            let size = element_size(&specs, setup.spacing, ELEMENT * h);
-            let mesh = M::build(&specs, size, reach, &domain)?;
+            let mesh = build(&own)?;
+            match &joined(&mesh, own.len())[..] {
+                [_] => pieces.push((own, mesh)),
+                several => {
+                    for piece in several {
+                        let own: Vec<usize> = piece.iter().map(|k| own[*k]).collect();
+                        let mesh = build(&own)?;
+                        pieces.push((own, mesh));
+                    }
+                }
+            }
+        }
+        for (own, mesh) in pieces {
             let (faces, curved) = flat_faces(&mesh, setup.domain, setup.spacing);
             let mut group = Group {
-                wall: first as u32,
+                wall: own[0] as u32,
                 walls: own.iter().map(|k| *k as u32).collect(),
                 mesh,
                 faces,
@@ -93,12 +135,17 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
             };
             if curved.contains(&true) {
                 let flat = |x: &Vect<D>| group.flat(x, &plane, h, setup.domain).0;
+                let over_flat = |x: &Vect<D>| {
+                    let height = |f: &FlatFace<D>| f.normal.dot(&setup.domain.nearest(x - f.place));
+                    group.faces.iter().map(height).fold(f64::INFINITY, f64::min)
+                };
                 group.map = Some(ScaleMap::new(&Mapping {
                     mesh: &group.mesh,
                     curved: &curved,
                     flat: &flat,
+                    over_flat: &over_flat,
                     kernel: &*kernel,
-                    wall: specs[0].drawing.name(),
+                    wall: setup.walls[own[0]].drawing.name(),
                 })?);
             }
             all.push(group);
