@@ -73,6 +73,15 @@ impl<const D: usize> BoxTree<D> {
         self.descend(0, &self.order, query, found)
     }
 
+    /// Calls `found` with the number of every box that overlaps or touches `query`.
+    pub fn each(&self, query: Corners<D>, mut found: impl FnMut(usize)) {
+        let mut all = |number| {
+            found(number);
+            ControlFlow::<()>::Continue(())
+        };
+        let _ = self.overlapping(query, &mut all);
+    }
+
     fn descend<B>(
         &self,
         node: usize,

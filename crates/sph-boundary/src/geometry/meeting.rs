@@ -1,12 +1,10 @@
 //! Corners of the plane where more than two lines meet.
 
-use std::ops::ControlFlow;
-
 use sph_core::BoxTree;
 
 use crate::error::WallWarning;
-use crate::geometry::checks::widened;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::vector::widened;
 use crate::geometry::wedges::{Beside, Parts, wedges};
 
 /// A line with the number of its wall.
@@ -157,13 +155,8 @@ impl Ends {
     /// Ends of a group at a place, ascending.
     fn at(&self, place: [f64; 2], group: usize) -> Vec<usize> {
         let mut found = Vec::new();
-        let whole = self
-            .tree
-            .overlapping(widened([place; 2], self.tolerance), &mut |end| {
-                found.push(end);
-                ControlFlow::<()>::Continue(())
-            });
-        debug_assert!(whole.is_continue(), "nothing breaks it off");
+        let around = widened([place; 2], self.tolerance);
+        self.tree.each(around, |end| found.push(end));
         found.retain(|end| self.groups[*end] == group);
         found.sort_unstable();
         found

@@ -14,13 +14,7 @@ pub(crate) fn normalisation(
     smoothing_length: f64,
     dimension: usize,
 ) -> Result<f64, BoundaryError> {
-    if !(smoothing_length > 0.0 && smoothing_length.is_finite()) {
-        let name = "smoothing length";
-        return Err(BoundaryError::NotPositive {
-            name,
-            value: smoothing_length,
-        });
-    }
+    BoundaryError::check_positive("smoothing length", smoothing_length)?;
     shape
         .check()
         .map_err(|reason| BoundaryError::Kernel { reason })?;

@@ -37,7 +37,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub struck: Vec<WallForce<D>>,
     /// The walls that forces move.
     pub bodies: Vec<FreeBody<D>>,
-    cover: Cover<M::Near>,
+    cover: Cover<D>,
     pub specs: Vec<WallSpec<D>>,
 }
 

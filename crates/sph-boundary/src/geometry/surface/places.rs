@@ -2,12 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::vector::{Point, add, dot, sub};
 use crate::geometry::periodic::PeriodicBox;
-
-/// Points closer than this part of the spacing are the same place, and so much may a point lie off
-/// an edge or a plane and still be on it.
-pub(super) const SAME_PLACE: f64 = 1e-6;
+use crate::geometry::vector::{Point, add, dot, sub};
 
 /// Something numbered, moved by whole periods: a point of a wall as drawn, or a node of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -97,7 +93,8 @@ impl Places {
     fn known(&self, point: Point, group: usize) -> Option<Site> {
         let wrapped = self.wrapped(point);
         let [x, y, z] = [0, 1, 2].map(|k| self.cells_about(k, wrapped[k]));
-        for cell in product(&x, &y, &z) {
+        let cells = x.iter().flat_map(|i| y.iter().map(move |j| (i, j)));
+        for cell in cells.flat_map(|(i, j)| z.iter().map(move |k| [*i, *j, *k])) {
             let mut next = self.cells.get(&cell).copied();
             while let Some(id) = next {
                 let apart = sub(point, self.positions[id as usize]);
@@ -145,17 +142,6 @@ impl Places {
         cells.dedup();
         cells
     }
-}
-
-fn product<'a>(
-    x: &'a [i64],
-    y: &'a [i64],
-    z: &'a [i64],
-) -> impl Iterator<Item = [i64; 3]> + use<'a> {
-    x.iter().flat_map(move |&i| {
-        y.iter()
-            .flat_map(move |&j| z.iter().map(move |&k| [i, j, k]))
-    })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use super::edges::Cuts;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, edge_key};
-use super::vector::{cross, dot, norm, sub};
+use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::geometry::wedges::{Beside, Parts, wedges};
 
 /// Where walls touched face to face.

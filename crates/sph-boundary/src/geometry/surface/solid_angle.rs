@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use rayon::prelude::*;
 
 use super::places::{EdgeKey, Site, edge_key};
-use super::triangle_mesh::{FreeEdge, TriangleMesh};
-use super::vector::{Point, cross, dot, norm, sub};
+use crate::geometry::mesh::{FreeEdge, Mesh};
+use crate::geometry::vector::{Point, cross, dot, norm, sub};
 
 /// Two triangles folded onto each other within this angle leave the fluid all around their edge.
 const FOLD: f64 = 1e-9;
@@ -18,7 +18,7 @@ struct Half {
     forward: bool,
 }
 
-impl TriangleMesh {
+impl Mesh<3> {
     /// Sets θ and the size of all nodes; returns the edges that no other triangle continues.
     ///
     /// The fluid at a node is a spherical polygon whose angles are those between triangles that
@@ -28,7 +28,7 @@ impl TriangleMesh {
     /// twice.
     pub(super) fn weigh(&mut self) -> Vec<FreeEdge> {
         let halves = self.halves();
-        let mut fans = Fans::new(3 * self.triangles.len());
+        let mut fans = Fans::new(3 * self.elements.len());
         let mut folds = vec![0.0; self.nodes.len()];
         let mut open = vec![false; self.nodes.len()];
         let mut free = Vec::new();
@@ -44,7 +44,7 @@ impl TriangleMesh {
                 with.sort_by(|a, b| narrowest(a).total_cmp(&narrowest(b)));
             }
             let met = |half: &Half| {
-                let wall = |h: &Half| self.triangles[h.triangle as usize].wall;
+                let wall = |h: &Half| self.elements[h.triangle as usize].wall;
                 run.iter().map(wall).find(|w| *w != wall(half))
             };
             for half in with {
@@ -61,7 +61,7 @@ impl TriangleMesh {
                 for end in 0..2 {
                     let corner = (half.edge as usize + end) % 3;
                     let opposite = (other.edge as usize + 1 - end) % 3;
-                    folds[self.triangles[half.triangle as usize].nodes[corner]] += fold;
+                    folds[self.elements[half.triangle as usize].nodes[corner]] += fold;
                     let corners = [(half.triangle, corner), (other.triangle, opposite)];
                     fans.join(corners.map(|(t, corner)| 3 * t as usize + corner));
                 }
@@ -75,11 +75,11 @@ impl TriangleMesh {
         }
         let mut count = vec![0u32; self.nodes.len()];
         let mut area = vec![0.0; self.nodes.len()];
-        for (t, triangle) in self.triangles.iter().enumerate() {
+        for (t, triangle) in self.elements.iter().enumerate() {
             let parts = parts(self.corners(t));
             for (corner, node) in triangle.nodes.iter().enumerate() {
                 count[*node] += u32::from(fans.first(3 * t + corner) == 3 * t + corner);
-                area[*node] += triangle.area * parts[corner];
+                area[*node] += triangle.measure * parts[corner];
             }
         }
         for (n, node) in self.nodes.iter_mut().enumerate() {
@@ -97,13 +97,13 @@ impl TriangleMesh {
 
     fn halves(&self) -> Vec<Half> {
         let site = |t: usize, corner: usize| {
-            let triangle = &self.triangles[t];
+            let triangle = &self.elements[t];
             Site {
                 id: triangle.nodes[corner] as u32,
                 image: triangle.images[corner],
             }
         };
-        let mut halves: Vec<Half> = (0..self.triangles.len())
+        let mut halves: Vec<Half> = (0..self.elements.len())
             .flat_map(|t| (0..3).map(move |edge| (t, edge)))
             .map(|(t, edge)| {
                 let (key, forward, _) = edge_key(site(t, edge), site(t, (edge + 1) % 3));
@@ -122,7 +122,7 @@ impl TriangleMesh {
     /// δ = β − π between two triangles along an edge of the first, positive where the fluid has
     /// more than half the space; exactly 0 within one plane.
     fn fold(&self, half: &Half, other: &Half) -> f64 {
-        let [a, b] = [half, other].map(|h| &self.triangles[h.triangle as usize]);
+        let [a, b] = [half, other].map(|h| &self.elements[h.triangle as usize]);
         if a.face == b.face {
             return 0.0;
         }
@@ -138,7 +138,7 @@ impl TriangleMesh {
     }
 
     fn free_edge(&self, half: &Half, met: Option<usize>) -> FreeEdge {
-        let triangle = &self.triangles[half.triangle as usize];
+        let triangle = &self.elements[half.triangle as usize];
         let ends = [half.edge as usize, (half.edge as usize + 1) % 3];
         FreeEdge {
             nodes: ends.map(|k| triangle.nodes[k]),

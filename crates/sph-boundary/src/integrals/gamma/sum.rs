@@ -2,8 +2,7 @@
 
 use super::renormalisation::Renormalisation2d;
 use super::segment::{Contact, SegmentIntegral};
-use crate::geometry::grid::SegmentGrid;
-use crate::geometry::mesh::{Segment, SegmentMesh};
+use crate::geometry::mesh::{Grid, Mesh};
 
 /// A γ below this is taken for its other representative, 1 + γ.
 const SURELY_FLUID: f64 = 1e-9;
@@ -26,7 +25,7 @@ const SURELY_FLUID: f64 = 1e-9;
 /// same holds at corners, on plates of any thickness, zero included (1/2 + 1/2 = 1), and where
 /// several walls touch. At the ambiguous end γ = 0 or 1, the point is taken to be in the fluid: a
 /// point outside and out of reach of every wall has γ = 1, as has one in the fluid. Use
-/// [`SegmentMesh::contains`] to find particles that left. Equally, a fluid wedge narrower than
+/// [`Mesh::contains`] to find particles that left. Equally, a fluid wedge narrower than
 /// 10⁻⁹ · 2π is not seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GammaSum {
@@ -39,16 +38,17 @@ pub struct GammaSum {
 }
 
 impl GammaSum {
-    /// Adds what one segment contributes.
+    /// Adds what one segment of a mesh contributes.
     #[inline]
-    pub fn add(&mut self, integral: &SegmentIntegral, segment: &Segment) {
+    pub fn add(&mut self, integral: &SegmentIntegral, segment: usize, mesh: &Mesh<2>) {
+        let segment = &mesh.elements[segment];
         self.signed_sum += integral.gamma;
         self.gradient[0] += integral.kernel * segment.normal[0];
         self.gradient[1] += integral.kernel * segment.normal[1];
         self.contact_fraction += match integral.contact {
             Contact::None => 0.0,
-            Contact::Start => segment.theta_shares[0],
-            Contact::End => segment.theta_shares[1],
+            Contact::Start => mesh.theta_share(segment.nodes[0]),
+            Contact::End => mesh.theta_share(segment.nodes[1]),
             Contact::Inside => 0.5,
         };
     }
@@ -78,12 +78,12 @@ impl Renormalisation2d {
     ///
     /// `grid` must have been built for at least this kernel radius and for the present position of
     /// the walls. With periodic directions the point belongs in the box.
-    pub fn at(&self, point: [f64; 2], mesh: &SegmentMesh, grid: &SegmentGrid) -> GammaSum {
+    pub fn at(&self, point: [f64; 2], mesh: &Mesh<2>, grid: &Grid<2>) -> GammaSum {
         let mut sum = GammaSum::default();
         for near in grid.near(mesh, point, self.kernel_radius()) {
-            let segment = &mesh.segments()[near.segment];
-            let [start, end] = mesh.seen_from(point, near);
-            sum.add(&self.segment(start, end, segment.normal), segment);
+            let normal = mesh.elements[near.index()].normal;
+            let [start, end] = mesh.corners_from(point, near);
+            sum.add(&self.segment(start, end, normal), near.index(), mesh);
         }
         sum
     }

@@ -1,7 +1,7 @@
 //! γ of a point from the facets around it, and the decision between inside and outside.
 
 use super::{FacetIntegral, Renormalisation3d};
-use crate::geometry::surface::{TriangleGrid, TriangleMesh};
+use crate::geometry::mesh::{Grid, Mesh};
 
 /// A γ below this is taken for its other representative, 1 + γ.
 const SURELY_FLUID: f64 = 1e-9;
@@ -61,10 +61,10 @@ impl Renormalisation3d {
     ///
     /// `grid` must have been built for at least this kernel radius and for the present position of
     /// the walls. With periodic directions the point belongs in the box.
-    pub fn at(&self, point: [f64; 3], mesh: &TriangleMesh, grid: &TriangleGrid) -> GammaSum3d {
+    pub fn at(&self, point: [f64; 3], mesh: &Mesh<3>, grid: &Grid<3>) -> GammaSum3d {
         let mut sum = GammaSum3d::default();
         for near in grid.near(mesh, point, self.kernel_radius()) {
-            let normal = mesh.triangles()[near.triangle as usize].normal;
+            let normal = mesh.elements[near.index()].normal;
             sum.add(
                 &self.triangle(mesh.corners_from(point, near), normal),
                 normal,
