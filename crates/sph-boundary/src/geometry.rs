@@ -15,6 +15,7 @@ pub(crate) mod periodic;
 pub(crate) mod planar;
 pub(crate) mod plate;
 pub(crate) mod polyline;
+pub(crate) mod sets;
 pub(crate) mod shells;
 pub(crate) mod spatial_walls;
 pub(crate) mod surface;

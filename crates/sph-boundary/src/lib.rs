@@ -86,16 +86,17 @@ pub use geometry::surface::Surface;
 pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
 pub use geometry::walls::{PlanarWalls, SpatialWalls, Walls};
-pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentBatch, SegmentIntegral};
-pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d, Weights};
+pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
+pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
+pub use integrals::sum::GammaSum;
 pub use rigid::bend::Bend;
-pub use rigid::course::{Course, SinePart, Stage};
 pub use rigid::load::{Load, MoverRefusal, MoverSetting, Touch};
-pub use rigid::motion::{RigidMotion, Rotation, Translation};
+pub use rigid::motion::RigidMotion;
 pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
 pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
+pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 pub use treatment::contract::{
     Condition, ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
 };

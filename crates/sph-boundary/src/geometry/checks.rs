@@ -34,10 +34,7 @@ pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
             point,
         });
     }
-    let repeated = line
-        .edges()
-        .position(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]) == 0.0);
-    if let Some(edge) = repeated {
+    if let Some(edge) = line.lengths().position(|length| length == 0.0) {
         let next = (edge + 1) % line.points.len();
         return Err(BoundaryError::ZeroLengthEdge {
             wall: line.name.clone(),
@@ -51,10 +48,7 @@ pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
 
 /// A closed wall that encloses nothing and is not a plate of zero thickness.
 pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), BoundaryError> {
-    let perimeter: f64 = line
-        .edges()
-        .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
-        .sum();
+    let perimeter: f64 = line.lengths().sum();
     if line.closed
         && line.signed_area().abs() <= NO_AREA * perimeter * perimeter
         && let Some(edge) = unretraced_edge(line, tolerance)
@@ -69,10 +63,7 @@ pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), Boundary
 
 /// Edges far shorter than the spacing.
 pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item = WallWarning> {
-    let lengths = line
-        .edges()
-        .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
-        .enumerate();
+    let lengths = line.lengths().enumerate();
     lengths
         .filter(move |(_, length)| *length < SHORT * spacing)
         .map(move |(edge, length)| WallWarning::ShortEdge {

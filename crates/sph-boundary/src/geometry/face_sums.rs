@@ -6,7 +6,7 @@ use sph_neighbours::ContactBlock;
 use crate::geometry::faces::Corner;
 use crate::geometry::shells::ShellSums;
 use crate::integrals::spatial::{Foot, Weights};
-use crate::{GammaSum3d, NearElement, Renormalisation3d, Walls};
+use crate::{GammaSum, NearElement, Renormalisation3d, Walls};
 
 impl Walls<3> {
     /// The triangles of a row, sorted by image and triangle, by face and image.
@@ -44,9 +44,9 @@ impl Walls<3> {
         weights: &mut Weights,
         contacts: &mut ContactBlock<3>,
         (sides, hidden): (&mut ShellSums, &[u32]),
-    ) -> GammaSum3d {
+    ) -> GammaSum<3> {
         let radius = integrals.kernel_radius();
-        let mut sum = GammaSum3d::default();
+        let mut sum = GammaSum::<3>::default();
         for part in self.faces(row) {
             let image = part[0].image;
             let first = &self.mesh.elements[part[0].index()];

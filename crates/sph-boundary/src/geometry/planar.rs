@@ -172,7 +172,7 @@ impl WallMesh<2> for Walls<2> {
         let mut from = 0;
         let mut sides = std::mem::take(&mut found.sides);
         for &end in &batch.ends {
-            let mut sum = GammaSum::default();
+            let mut sum = GammaSum::<2>::default();
             let planes = contacts.planes();
             sides.clear();
             for k in from..end {

@@ -1,8 +1,11 @@
 //! Vectors of D numbers.
 
+pub(crate) use sph_core::bounds;
+
 /// A place in space.
 pub(crate) type Point = [f64; 3];
 
+#[inline(always)]
 pub(crate) fn add<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
     std::array::from_fn(|k| a[k] + b[k])
 }
@@ -13,6 +16,7 @@ pub(crate) fn sub<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
 }
 
 /// a + t b.
+#[inline(always)]
 pub(crate) fn along<const D: usize>(a: [f64; D], t: f64, b: [f64; D]) -> [f64; D] {
     std::array::from_fn(|k| a[k] + t * b[k])
 }
@@ -22,6 +26,7 @@ pub(crate) fn dot<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
     (1..D).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
 }
 
+#[inline(always)]
 pub(crate) fn cross(a: Point, b: Point) -> Point {
     [
         a[1] * b[2] - a[2] * b[1],
@@ -47,17 +52,6 @@ pub(crate) fn unit<const D: usize>(a: [f64; D]) -> [f64; D] {
 /// Twice the area of a triangle times its normal.
 pub(crate) fn double_area([a, b, c]: [Point; 3]) -> Point {
     cross(sub(b, a), sub(c, a))
-}
-
-/// Lower and upper corner of the box around some points.
-pub(crate) fn bounds<const D: usize>(points: impl IntoIterator<Item = [f64; D]>) -> [[f64; D]; 2] {
-    let nothing = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-    points.into_iter().fold(nothing, |[low, high], p| {
-        [
-            std::array::from_fn(|k| low[k].min(p[k])),
-            std::array::from_fn(|k| high[k].max(p[k])),
-        ]
-    })
 }
 
 /// A box with so much room around it.

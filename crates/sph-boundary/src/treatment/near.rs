@@ -23,7 +23,7 @@ const BATCH: usize = 256;
 /// Each particle has a row of its own, found for the place where it was then: after every build of the lists only those
 /// that moved farther than the skin since are looked up anew. What a row holds beyond the support depends on this history,
 /// and nothing that is made of it does.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct NearLists<const D: usize> {
     built_for: u64,
     /// Builds so far.
@@ -48,7 +48,7 @@ pub(crate) struct NearLists<const D: usize> {
 }
 
 /// What a search needs besides.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Room<const D: usize> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
@@ -56,7 +56,7 @@ struct Room<const D: usize> {
 }
 
 /// What one task has found.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Found<const D: usize> {
     places: Vec<Vect<D>>,
     counts: Vec<u32>,
@@ -88,38 +88,6 @@ impl<const D: usize> Row<D> {
     fn is_stale(&self, place: &Vect<D>, travelled: f64, skin: f64) -> bool {
         let moved = (place - self.place).norm() + (travelled - self.travelled);
         moved.is_nan() || moved > skin
-    }
-}
-
-impl<const D: usize> Default for NearLists<D> {
-    fn default() -> Self {
-        NearLists {
-            built_for: 0,
-            version: 0,
-            particles: Vec::new(),
-            rims: Vec::new(),
-            behind: Vec::new(),
-            rows: Vec::new(),
-            identities: Vec::new(),
-            elements: Vec::new(),
-            travelled: 0.0,
-            nodes: Vec::new(),
-            room: Room {
-                sorted: Vec::new(),
-                stale: Vec::new(),
-                found: Vec::new(),
-            },
-        }
-    }
-}
-
-impl<const D: usize> Default for Found<D> {
-    fn default() -> Self {
-        Found {
-            places: Vec::new(),
-            counts: Vec::new(),
-            elements: Vec::new(),
-        }
     }
 }
 
@@ -201,7 +169,7 @@ impl<const D: usize> NearLists<D> {
     /// Looks up what is missing.
     fn search<M: WallMesh<D>>(&mut self, mesh: &M, positions: &[Vect<D>], radius: f64, skin: f64) {
         let travelled = self.travelled;
-        let mut room = std::mem::replace(&mut self.room, Self::default().room);
+        let mut room = std::mem::take(&mut self.room);
         room.stale.clear();
         for (i, (row, x)) in self.rows.iter_mut().zip(positions).enumerate() {
             if row.is_stale(x, travelled, skin) {

@@ -280,7 +280,7 @@ fn walls_move_from_their_reference() {
         at_rest.nodes()[16].position[1] + 0.7
     );
     assert_eq!(mesh.elements()[16].normal, at_rest.elements()[16].normal);
-    let turn = Pose::rotated(std::f64::consts::PI, [1.0, 0.75]);
+    let turn = Pose::turned_about([0.0, 0.0, 1.0], std::f64::consts::PI, [1.0, 0.75]);
     mesh.move_walls(&[Pose::default(), turn]).unwrap();
     let opposite = mesh.elements()[16].normal;
     assert!((opposite[0] + at_rest.elements()[16].normal[0]).abs() < 1e-14);
@@ -306,7 +306,7 @@ fn joined_and_periodic_walls_cannot_be_torn() {
     );
     mesh.move_walls(&[up; 2]).unwrap();
     let turned = mesh
-        .move_walls(&[Pose::rotated(0.1, [0.0; 2]); 2])
+        .move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 2]); 2])
         .unwrap_err();
     assert!(turned.to_string().contains("cannot rotate"));
 }

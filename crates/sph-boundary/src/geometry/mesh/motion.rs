@@ -56,11 +56,6 @@ where
         &self.poses
     }
 
-    /// Position of a node before any motion, m.
-    pub fn reference_position(&self, node: usize) -> [f64; D] {
-        self.reference[node]
-    }
-
     fn check_poses(&self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::places::{EdgeKey, Places, Site, edge_key};
+use super::places::{HalfEdge, Places, Site, half_edges};
 use crate::error::BoundaryError;
 use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
 
@@ -178,14 +178,6 @@ pub(super) fn weld(
 /// The triangle beyond each edge of each triangle of a wall, with the edge at the very same place.
 pub(super) type Neighbours = Vec<[Option<u32>; 3]>;
 
-struct HalfEdge {
-    key: EdgeKey,
-    triangle: u32,
-    edge: u8,
-    forward: bool,
-    at: [i32; 3],
-}
-
 /// Refuses triangles given twice, edges of more than two triangles and flipped neighbours.
 pub(super) fn neighbours(
     name: &str,
@@ -193,20 +185,7 @@ pub(super) fn neighbours(
     places: &Places,
 ) -> Result<Neighbours, BoundaryError> {
     check_repeated(name, drawn)?;
-    let mut halves: Vec<HalfEdge> = Vec::with_capacity(3 * drawn.len());
-    for (triangle, d) in drawn.iter().enumerate() {
-        for edge in 0..3 {
-            let (key, forward, at) = edge_key(d.corners[edge], d.corners[(edge + 1) % 3]);
-            halves.push(HalfEdge {
-                key,
-                triangle: triangle as u32,
-                edge: edge as u8,
-                forward,
-                at,
-            });
-        }
-    }
-    halves.par_sort_by_key(|h| (h.key, h.triangle, h.edge));
+    let halves = half_edges(drawn.iter().map(|d| d.corners));
     let mut neighbours = vec![[None; 3]; drawn.len()];
     for run in halves.chunk_by(|a, b| a.key == b.key) {
         let index = |h: &HalfEdge| drawn[h.triangle as usize].index;

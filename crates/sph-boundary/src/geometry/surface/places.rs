@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use rayon::prelude::*;
+
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, dot, sub};
 
@@ -42,6 +44,37 @@ pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
         second: second.moved_back(first.image),
     };
     (key, forward, first.image)
+}
+
+/// An edge of a triangle.
+pub(super) struct HalfEdge {
+    pub key: EdgeKey,
+    pub triangle: u32,
+    /// Its first corner.
+    pub edge: u8,
+    /// Whether it is travelled like the key.
+    pub forward: bool,
+    /// Where the key's first end is drawn.
+    pub at: [i32; 3],
+}
+
+/// The edges of triangles with these corners, those alike behind each other.
+pub(super) fn half_edges(triangles: impl Iterator<Item = [Site; 3]>) -> Vec<HalfEdge> {
+    let of = |(triangle, corners): (usize, [Site; 3])| {
+        [0, 1, 2].map(|edge| {
+            let (key, forward, at) = edge_key(corners[edge], corners[(edge + 1) % 3]);
+            HalfEdge {
+                key,
+                triangle: triangle as u32,
+                edge: edge as u8,
+                forward,
+                at,
+            }
+        })
+    };
+    let mut halves: Vec<HalfEdge> = triangles.enumerate().flat_map(of).collect();
+    halves.par_sort_unstable_by_key(|h| (h.key, h.triangle, h.edge));
+    halves
 }
 
 /// The distinct places among points, by group of walls and up to whole periods.

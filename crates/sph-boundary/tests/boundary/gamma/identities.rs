@@ -108,7 +108,7 @@ fn mirrored_rotated_and_moved_walls_give_the_same() {
     let mirror = Scene::new(vec![mirrored], 0.3);
     let pose = Pose {
         translation: [-3.0, 1.5],
-        ..Pose::rotated(1.1, [2.0, 1.0])
+        ..Pose::turned_about([0.0, 0.0, 1.0], 1.1, [2.0, 1.0])
     };
     let map = pose.map();
     let line = Polyline::closed("wall", TANK.to_vec());

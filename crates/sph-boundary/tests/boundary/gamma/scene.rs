@@ -51,7 +51,7 @@ impl Scene {
         }
     }
 
-    pub fn sums(&self, point: [f64; 2]) -> Vec<GammaSum> {
+    pub fn sums(&self, point: [f64; 2]) -> Vec<GammaSum<2>> {
         self.renormalisations
             .iter()
             .map(|r| r.at(point, &self.mesh, &self.grid))

@@ -148,7 +148,7 @@ fn two_blocks_side_by_side_are_one() {
 #[test]
 fn turned_bodies_touch_as_well() {
     // The same, turned out of all axes: planes and corners agree to rounding only.
-    let pose = sph_boundary::Pose::about_axis([1.0, 2.0, -0.5], 0.7, [0.3, 0.1, 0.9]);
+    let pose = sph_boundary::Pose::turned_about([0.48, 0.64, -0.6], 0.7, [0.3, 0.1, 0.9]);
     let turn = |mut s: Surface| {
         for p in &mut s.points {
             *p = pose.map()(*p);
@@ -245,7 +245,7 @@ fn a_block_turned_on_another_one() {
     let mut smallest = f64::INFINITY;
     for step in 0..90 {
         let angle = 0.07 * f64::from(step);
-        let turn = sph_boundary::Pose::about_axis([0.0, 0.0, 1.0], angle, [0.1, 0.2, 0.0]);
+        let turn = sph_boundary::Pose::turned_about([0.0, 0.0, 1.0], angle, [0.1, 0.2, 0.0]);
         let mut upper = block("upper", [-1.0, -0.7, 1.0], [1.0, 0.8, 2.0]);
         for p in &mut upper.points {
             *p = turn.map()(*p);

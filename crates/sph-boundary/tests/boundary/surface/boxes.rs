@@ -125,7 +125,7 @@ fn a_pipe_closes_through_periodicity() {
     let mut mesh = mesh;
     mesh.move_walls(&[Pose::translated([0.0, 0.0, 0.3])])
         .unwrap();
-    let turned = mesh.move_walls(&[Pose::about_axis([0.0, 0.0, 1.0], 0.1, [0.0; 3])]);
+    let turned = mesh.move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 3])]);
     assert_eq!(
         turned.unwrap_err().to_string(),
         "wall `pipe` is closed through periodicity and cannot rotate"
@@ -165,7 +165,7 @@ fn walls_of_a_group_move_together() {
     let before = mesh.clone();
     let turn = Pose {
         translation: [0.25, 0.0, 0.5],
-        ..Pose::about_axis([0.0, 0.0, 1.0], 0.5, [1.5, 1.5, 1.5])
+        ..Pose::turned_about([0.0, 0.0, 1.0], 0.5, [1.5, 1.5, 1.5])
     };
     let rest = Pose::default();
     assert_eq!(

@@ -38,7 +38,7 @@ fn a_ball_of_eighty_thousand_triangles() {
             .sum();
         let listed = start.elapsed();
         let start = Instant::now();
-        mesh.move_walls(&[Pose::about_axis([0.0, 0.0, 1.0], 0.1, [0.0; 3])])
+        mesh.move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 3])])
             .unwrap();
         let moved = start.elapsed();
         println!(
