@@ -3,16 +3,16 @@
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
 //! * `closest`, `signed`, `grid`, `rows`: what is near a place;
-//! * `columns`, `inside`: on which side of the walls a place is.
+//! * `rays`, `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
 
 mod closest;
-mod columns;
 mod elements;
 mod grid;
 mod inside;
 mod motion;
+mod rays;
 mod rows;
 mod signed;
 

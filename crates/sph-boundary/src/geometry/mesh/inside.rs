@@ -3,9 +3,9 @@
 use surface_file::Winding;
 
 use super::closest::{Feature, angle, nearest_to_origin};
-use super::columns::Columns;
 use super::elements::Mesh;
 use super::grid::Grid;
+use super::rays::Rays;
 use crate::geometry::vector::{dot, norm};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
@@ -23,9 +23,9 @@ const ENCLOSED: f64 = 0.5;
 /// What the question on which side a point is needs of a mesh, for the present position.
 #[derive(Clone, Debug)]
 pub struct Sides<const D: usize> {
-    /// One set of columns; if all axes are periodic, one along each, and the last one's axis goes
+    /// Along one axis; if all are periodic, along each, and the last one goes
     /// through an element.
-    columns: Vec<Columns<D>>,
+    rays: Vec<Rays<D>>,
     /// The centre of that element, m.
     target: [f64; D],
     /// Whether the fluid lies beyond all walls.
@@ -60,17 +60,15 @@ where
     ///
     /// A ray goes from the point along an axis that is not periodic (the last one if it may choose). Among the
     /// crossings at one height opposite ones cancel, as do the faces of a plate of zero thickness or
-    /// of two blocks that touch; the
-    /// first height where one is left decides by the side that faces the point. A ray that meets
+    /// of two blocks that touch; the first height where one is left decides by the side that faces the point. A ray that meets
     /// nothing asks the wall that reaches furthest along it; if all axes are periodic, it goes on
     /// along the next axis until it meets a wall. Without walls every point is in the fluid.
     ///
     /// Walls with free edges in space have a front: if there are any, the element nearest to the point decides
-    /// where one is within four spacings. Farther away, and at walls with free ends, their winding number decides where it is more than ½: the walls
-    /// enclose the point but for their openings. A point on a wall within rounding may be given either answer.
+    /// where one is within four spacings. Farther away, and at walls with free ends, their winding number decides where it
+    /// is more than ½: the walls enclose the point but for their openings. A point on a wall within rounding may be given either answer.
     ///
-    /// The first call after a motion sorts the elements into columns; then the cost is that of those
-    /// in one column.
+    /// The first call after a motion sorts the elements; then the cost is that of those that the ray may meet.
     pub fn contains(&self, point: [f64; D]) -> bool {
         let sides = self.sides();
         if let Some(grid) = &sides.front
@@ -82,12 +80,12 @@ where
         if let Some(enclosed) = self.wound(sides, from).filter(|w| w.abs() > ENCLOSED) {
             return enclosed > 0.0;
         }
-        for columns in &sides.columns {
-            if let Some(fluid) = self.faced(columns, from) {
+        for rays in &sides.rays {
+            if let Some(fluid) = self.faced(rays, from) {
                 return fluid;
             }
             // A line that meets nothing is all on one side.
-            from[columns.along] = sides.target[columns.along];
+            from[rays.along] = sides.target[rays.along];
         }
         sides.beyond
     }
@@ -99,7 +97,7 @@ where
         self.wound(self.sides(), point)
     }
 
-    /// Columns along the axes that a ray may take, and what decides where there are none.
+    /// The axes that a ray may take, and what decides where there are none.
     fn sides(&self) -> &Sides<D> {
         self.sides.get_or_init(|| {
             let open = (0..D).rev().find(|k| !self.domain.periodic[*k]);
@@ -117,7 +115,7 @@ where
             let has_front = !self.free_edges.is_empty();
             let mut sides = Sides {
                 target: first.map_or([0.0; D], |element| element.centre),
-                columns: axes.iter().map(|k| Columns::new(self, *k)).collect(),
+                rays: axes.iter().map(|k| Rays::new(self, *k)).collect(),
                 beyond: open.is_none_or(|k| self.is_fluid_beyond(k)),
                 front: has_front.then(|| Grid::build(self, FRONT * self.spacing)),
                 lines: Vec::new(),
@@ -129,11 +127,11 @@ where
     }
 
     /// Whether the first wall that a ray meets faces the point; none if it meets nothing.
-    fn faced(&self, columns: &Columns<D>, point: [f64; D]) -> Option<bool> {
-        let mut crossings = self.crossings(columns, point);
+    fn faced(&self, rays: &Rays<D>, point: [f64; D]) -> Option<bool> {
+        let mut crossings = self.crossings(rays, point);
         crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (furthest, _) = crossings.last()?;
-        let scale = furthest.abs() + point[columns.along].abs();
+        let scale = furthest.abs() + point[rays.along].abs();
         let mut rest = crossings.as_slice();
         while let Some(&(height, _)) = rest.first() {
             let count = rest.partition_point(|(h, _)| *h <= height + SAME_HEIGHT * scale);
@@ -146,19 +144,24 @@ where
         None
     }
 
-    fn crossings(&self, columns: &Columns<D>, point: [f64; D]) -> Vec<(f64, i32)> {
-        let along = columns.along;
-        let crossing = |near: &_| {
-            let near: super::NearElement<D> = *near;
-            let normal = self.elements[near.index()].normal;
-            let (mut height, facing) =
-                Self::crossing(self.corners_from(point, near), normal, along)?;
+    fn crossings(&self, rays: &Rays<D>, point: [f64; D]) -> Vec<(f64, i32)> {
+        let (along, mut crossings) = (rays.along, Vec::new());
+        rays.each(point, |near| {
+            let (corners, normal) = (
+                self.corners_from(point, near),
+                self.elements[near.index()].normal,
+            );
+            let Some((mut height, facing)) = Self::crossing(corners, normal, along) else {
+                return;
+            };
             if self.domain.periodic[along] {
                 height = height.rem_euclid(self.domain.periods()[along]);
             }
-            (height > 0.0).then_some((height, facing))
-        };
-        columns.column(point).iter().filter_map(crossing).collect()
+            if height > 0.0 {
+                crossings.push((height, facing));
+            }
+        });
+        crossings
     }
 
     /// Whether the nearest element has the point in front of it; none if all are far.
