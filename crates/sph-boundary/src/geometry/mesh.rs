@@ -2,8 +2,8 @@
 //!
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
-//! * `closest`, `signed`, `grid`, `rows`: what is near a place;
-//! * `rays`, `inside`: on which side of the walls a place is.
+//! * `closest`, `signed`, `grid`, `near`, `rows`: what is near a place;
+//! * `rays`, `sides`, `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
 
@@ -12,16 +12,21 @@ mod elements;
 mod grid;
 mod inside;
 mod motion;
+mod near;
+mod near_element;
 mod rays;
 mod rows;
+mod sides;
 mod signed;
 
 pub(crate) use closest::angle;
 pub use closest::{Closest, Feature};
-pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, NearElement, Node, Opening};
+pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
 pub use grid::Grid;
-pub(crate) use inside::{Outside, SAME_DISTANCE, SAME_HEIGHT, Sides};
+pub(crate) use inside::{Outside, SAME_DISTANCE, SAME_HEIGHT};
 pub(crate) use motion::Measured;
+pub use near_element::NearElement;
+pub(crate) use sides::Sides;
 pub use signed::SeenElement;
 
 /// Points closer than this part of the spacing are the same place, and so much may a point lie off

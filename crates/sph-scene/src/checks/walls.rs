@@ -8,7 +8,7 @@ use crate::checks::motion::{self, TABLES};
 use crate::checks::problems::Problems;
 use crate::checks::shapes::keys_of_shape;
 use crate::geometry::wall_geometry::has_ending;
-use crate::tables::body::given;
+use crate::tables::given::given;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{Condition, Side, Wall};
 

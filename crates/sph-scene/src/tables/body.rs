@@ -6,6 +6,7 @@ use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
+use crate::tables::given::given;
 use crate::tables::wall_shapes::Axis;
 use crate::{LevelSurface, Shape, Wall, Wave};
 
@@ -124,12 +125,6 @@ pub(crate) struct ShapeKeys<'a> {
     /// Base, apex and radius.
     pub cone: Option<([&'a [f64]; 2], f64)>,
     pub extrusion: Option<DrawnOut<'a>>,
-}
-
-/// The names of keys that are given.
-pub(crate) fn given<const N: usize>(keys: [(&'static str, bool); N]) -> Vec<&'static str> {
-    let given = keys.into_iter().filter(|(_, given)| *given);
-    given.map(|(name, _)| name).collect()
 }
 
 impl ShapeKeys<'_> {

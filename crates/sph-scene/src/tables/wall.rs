@@ -6,7 +6,7 @@ use sph_core::parameters;
 
 use crate::Motion;
 use crate::reading::plugins::{AnyPlugins, Plugins};
-use crate::tables::body::given;
+use crate::tables::given::given;
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };

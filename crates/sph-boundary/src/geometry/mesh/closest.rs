@@ -1,6 +1,7 @@
 //! The place of an element nearest to a point.
 
-use super::elements::{Mesh, NearElement};
+use super::elements::Mesh;
+use super::near_element::NearElement;
 use crate::geometry::vector::{along, dot, norm, sub};
 
 /// Which part of an element is nearest.

@@ -1,12 +1,12 @@
 //! On which side of the walls a point is.
 
-use surface_file::Winding;
-
 use super::closest::{Feature, angle, nearest_to_origin};
 use super::elements::Mesh;
 use super::grid::Grid;
-use super::rays::Rays;
-use crate::geometry::vector::{dot, norm};
+use super::near_element::NearElement;
+use super::rays::{Rays, flattened};
+use super::sides::Sides;
+use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 pub(crate) const SAME_HEIGHT: f64 = 1e-12;
@@ -17,27 +17,11 @@ pub(crate) const SAME_DISTANCE: f64 = 1e-9;
 /// Spacings within which the nearest wall decides if there are free edges.
 const FRONT: f64 = 4.0;
 
+/// Part of the spacing that rounding may move the rim of an element.
+const RIM: f64 = 1e-9;
+
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
-
-/// What the question on which side a point is needs of a mesh, for the present position.
-#[derive(Clone, Debug)]
-pub struct Sides<const D: usize> {
-    /// Along one axis; if all are periodic, along each, and the last one goes
-    /// through an element.
-    rays: Vec<Rays<D>>,
-    /// The centre of that element, m.
-    target: [f64; D],
-    /// Whether the fluid lies beyond all walls.
-    beyond: bool,
-    /// Where there are free edges, what finds the nearest wall.
-    front: Option<Grid<D>>,
-    /// Of the plane, where walls end freely: first and last node of every straight edge.
-    pub(crate) lines: Vec<[usize; 2]>,
-    /// Of space, where walls end freely: how they wind around a place; of the other sign, since normals point into the
-    /// fluid.
-    pub(crate) winding: Option<Winding>,
-}
 
 /// What a ray and the eye see of a mesh of one dimension.
 pub trait Outside<const D: usize> {
@@ -115,7 +99,7 @@ where
             let has_front = !self.free_edges.is_empty();
             let mut sides = Sides {
                 target: first.map_or([0.0; D], |element| element.centre),
-                rays: axes.iter().map(|k| Rays::new(self, *k)).collect(),
+                rays: axes.iter().map(|k| self.rays(*k)).collect(),
                 beyond: open.is_none_or(|k| self.is_fluid_beyond(k)),
                 front: has_front.then(|| Grid::build(self, FRONT * self.spacing)),
                 lines: Vec::new(),
@@ -124,6 +108,23 @@ where
             self.wind(&mut sides);
             sides
         })
+    }
+
+    /// The elements and their images over the box, seen along an axis.
+    fn rays(&self, along: usize) -> Rays<D> {
+        let flat = |x: [f64; D]| flattened(x, along);
+        let rim = RIM * self.spacing;
+        let around = widened([self.domain.lower, self.domain.upper], rim).map(flat);
+        let mut images = Vec::new();
+        for e in 0..self.elements.len() {
+            let own = bounds(self.corners(e).map(flat));
+            for image in self.domain.images_within(around, own) {
+                let shift = self.domain.shift(image);
+                let moved = own.map(|x| std::array::from_fn(|k| x[k] + shift[k]));
+                images.extend(NearElement::of(e, image).map(|near| (near, moved)));
+            }
+        }
+        Rays::of(along, images, rim)
     }
 
     /// Whether the first wall that a ray meets faces the point; none if it meets nothing.

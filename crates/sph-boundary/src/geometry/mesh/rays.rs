@@ -1,12 +1,9 @@
 //! Elements that rays along an axis may meet.
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, Corners};
 
-use super::elements::{Mesh, NearElement};
-use crate::geometry::vector::{bounds, widened};
-
-/// Part of the spacing that rounding may move the rim of an element.
-const RIM: f64 = 1e-9;
+use super::near_element::NearElement;
+use crate::geometry::vector::widened;
 
 /// Elements and their images over the box, seen along an axis.
 #[derive(Clone, Debug)]
@@ -20,21 +17,9 @@ pub(crate) struct Rays<const D: usize> {
 }
 
 impl<const D: usize> Rays<D> {
-    pub fn new(mesh: &Mesh<D>, along: usize) -> Self {
-        let flat = |x: [f64; D]| flattened(x, along);
-        let (domain, rim) = (mesh.domain(), RIM * mesh.spacing());
-        let around = widened([domain.lower, domain.upper], rim).map(flat);
-        let (mut entries, mut boxes) = (Vec::new(), Vec::new());
-        for e in 0..mesh.elements().len() {
-            let own = bounds(mesh.corners(e).map(flat));
-            for image in domain.images_within(around, own) {
-                if let Some(near) = NearElement::of(e, image) {
-                    let shift = domain.shift(image);
-                    entries.push(near);
-                    boxes.push(own.map(|x| std::array::from_fn(|k| x[k] + shift[k])));
-                }
-            }
-        }
+    /// Of elements with their boxes flat across the axis, and what rounding may move their rims by, m.
+    pub fn of(along: usize, images: Vec<(NearElement<D>, Corners<D>)>, rim: f64) -> Self {
+        let (entries, boxes): (Vec<_>, Vec<_>) = images.into_iter().unzip();
         Rays {
             along,
             entries,
@@ -51,7 +36,8 @@ impl<const D: usize> Rays<D> {
     }
 }
 
-fn flattened<const D: usize>(mut x: [f64; D], along: usize) -> [f64; D] {
+/// A place without its coordinate along an axis.
+pub(super) fn flattened<const D: usize>(mut x: [f64; D], along: usize) -> [f64; D] {
     x[along] = 0.0;
     x
 }

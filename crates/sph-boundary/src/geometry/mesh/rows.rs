@@ -1,7 +1,7 @@
 //! Elements near many points that lie close together.
 
-use super::elements::NearElement;
 use super::grid::{Grid, ROUNDING, Sphere};
+use super::near_element::NearElement;
 use crate::geometry::vector::{bounds, dot, norm, sub};
 
 /// Diagonal of the box around points that are served together, over the radius.

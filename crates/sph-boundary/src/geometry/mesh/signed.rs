@@ -1,7 +1,8 @@
 //! Distance and side of a place from a few elements.
 
 use super::closest::nearest_to_origin;
-use super::elements::{Mesh, NearElement};
+use super::elements::Mesh;
+use super::near_element::NearElement;
 use crate::geometry::vector::{dot, norm, sub};
 
 /// Two lengths that differ by less than this part are equal.
