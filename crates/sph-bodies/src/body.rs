@@ -244,10 +244,7 @@ fn beside_fluid<const D: usize>(setting: &MoverSetting<'_, D>) -> bool {
 }
 
 fn corners(drawing: &Drawing) -> Vec<Vector3<f64>> {
-    match drawing {
-        Drawing::Line(line) => line.points.iter().map(|p| padded(p)).collect(),
-        Drawing::Surface(surface) => surface.points.iter().map(|p| padded(p)).collect(),
-    }
+    drawing.points().into_iter().map(Vector3::from).collect()
 }
 
 /// Refuses a body that holds a corner of another wall, or has one in it.

@@ -42,6 +42,22 @@ struct Moments {
     second: Matrix3<f64>,
 }
 
+impl Moments {
+    /// Adds the triangle or tetrahedron between the origin and these corners.
+    fn add(&mut self, corners: &[Vector3<f64>], volume: f64) {
+        let n = corners.len() as f64;
+        self.volume += volume;
+        self.size += volume.abs();
+        let whole = corners[1..].iter().fold(corners[0], |sum, c| sum + c);
+        self.first += whole * (volume / (n + 1.0));
+        let square = |c: &Vector3<f64>| c * c.transpose();
+        let own = corners[1..]
+            .iter()
+            .fold(square(&corners[0]), |sum, c| sum + square(c));
+        self.second += (own + square(&whole)) * (volume / ((n + 1.0) * (n + 2.0)));
+    }
+}
+
 impl Solid {
     /// Of the pieces of one wall; the fluid is outside of it.
     ///
@@ -113,13 +129,7 @@ fn add_line(sum: &mut Moments, line: &Polyline) -> Result<(), NoSolid> {
     for [a, b] in line.edges() {
         // The fluid is on the left of travel, so the body is gone round clockwise.
         let [a, b] = [b, a].map(|p| Vector3::new(p[0], p[1], 0.0));
-        let area = 0.5 * (a.x * b.y - a.y * b.x);
-        sum.volume += area;
-        sum.size += area.abs();
-        sum.first += (a + b) * (area / 3.0);
-        let whole = a + b;
-        let products = a * a.transpose() + b * b.transpose() + whole * whole.transpose();
-        sum.second += products * (area / 12.0);
+        sum.add(&[a, b], 0.5 * (a.x * b.y - a.y * b.x));
     }
     Ok(())
 }
@@ -139,13 +149,7 @@ fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
     for triangle in &surface.triangles {
         // Anticlockwise seen from the fluid: outwards.
         let [a, b, c] = triangle.map(|k| Vector3::from(surface.points[k as usize]));
-        let volume = a.dot(&b.cross(&c)) / 6.0;
-        sum.volume += volume;
-        sum.size += volume.abs();
-        let whole = a + b + c;
-        sum.first += whole * (volume / 4.0);
-        let own = a * a.transpose() + b * b.transpose() + c * c.transpose();
-        sum.second += (own + whole * whole.transpose()) * (volume / 20.0);
+        sum.add(&[a, b, c], a.dot(&b.cross(&c)) / 6.0);
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Cost of γ and ∇γ per pair of a point and a segment.
 
 use divan::{Bencher, black_box, counter::ItemsCount};
-use sph_boundary::{PeriodicBox, Polyline, Renormalisation2d, SegmentGrid, SegmentMesh};
+use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Renormalisation2d};
 use sph_kernels::PolynomialKernel;
 
 fn main() {
@@ -41,12 +41,12 @@ fn segment(bencher: Bencher, kernel: usize) {
     });
 }
 
-fn tank() -> (SegmentMesh, Renormalisation2d, SegmentGrid) {
+fn tank() -> (Mesh<2>, Renormalisation2d, Grid<2>) {
     let square = vec![[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]];
     let line = Polyline::closed("tank", square);
-    let mesh = SegmentMesh::build(&[line], 0.5, &PeriodicBox::none()).unwrap();
+    let mesh = Mesh::<2>::build(&[line], 0.5, &PeriodicBox::none()).unwrap();
     let renormalisation = Renormalisation2d::new(sph_kernels::wendland_c2().shape(), 1.0).unwrap();
-    let grid = SegmentGrid::build(&mesh, renormalisation.kernel_radius());
+    let grid = Grid::build(&mesh, renormalisation.kernel_radius());
     (mesh, renormalisation, grid)
 }
 
@@ -66,5 +66,5 @@ fn points(bencher: Bencher, height: f64) {
 #[divan::bench]
 fn grid(bencher: Bencher) {
     let (mesh, ..) = tank();
-    bencher.bench(|| SegmentGrid::build(black_box(&mesh), 2.0));
+    bencher.bench(|| Grid::build(black_box(&mesh), 2.0));
 }

@@ -1,344 +1,389 @@
 //! What can be wrong with a wall or with the kernel that looks at it.
 
-mod surface;
-
-pub use surface::SurfaceError;
+use sph_core::number;
 
 use crate::geometry::wall_end::WallEnd;
 use crate::limits::{MOST_PAIRS, MOST_PERIODS};
 
-/// A refused wall, motion or kernel. Lengths are in metres, edges and points count from 0.
+/// A refused wall, motion or kernel.
+///
+/// `wall` and `other` are names; points, edges and triangles count from 0 as in what was given, edge k of a triangle going
+/// from its corner k to the next. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[non_exhaustive]
 pub enum BoundaryError {
     /// A wall that goes so far within a step that it would leap over particles and walls.
     #[error(
         "wall `{wall}` moves by {way:.3e} m in one step, and {most:.3e} m, half a spacing, is the most"
     )]
-    Leap {
-        /// Name of the wall.
-        wall: String,
-        /// Way of one of its points, m.
-        way: f64,
-        /// The longest way, m.
-        most: f64,
-    },
+    Leap { wall: String, way: f64, most: f64 },
     /// Fluid at a body that is too light for it.
     #[error(
         "fluid acts on the body `{wall}`, which has less than a fiftieth of its density: one particle of it would throw the \
          body; give it more `density`"
     )]
-    Light {
-        /// Name of the wall.
-        wall: String,
-    },
+    Light { wall: String },
     /// Walls that meet too fast, or under too heavy a load.
     #[error(
         "wall `{wall}` goes through wall `{other}`: it is too fast or too heavy for a contact as stiff as the speed of \
          sound allows; raise `speed_of_sound`"
     )]
-    Through {
-        /// Name of the wall.
-        wall: String,
-        /// Name of the other.
-        other: String,
-    },
+    Through { wall: String, other: String },
     /// A polyline without an edge.
     #[error("wall `{wall}` has {count} point(s), at least two are needed")]
-    TooFewPoints {
-        /// Name of the wall.
-        wall: String,
-        /// Points given.
-        count: usize,
-    },
+    TooFewPoints { wall: String, count: usize },
     /// A coordinate that is infinite or not a number.
     #[error("wall `{wall}`: point {point} has a coordinate that is not finite")]
-    NotFinite {
-        /// Name of the wall.
-        wall: String,
-        /// Index of the point.
-        point: usize,
-    },
+    NotFinite { wall: String, point: usize },
     /// Two consecutive points at the same place.
     #[error(
         "wall `{wall}`: edge {edge} has zero length, points {edge} and {next} are both at \
-         ({x}, {y})"
+         {at}"
     )]
     ZeroLengthEdge {
-        /// Name of the wall.
         wall: String,
-        /// Index of the edge.
         edge: usize,
-        /// Index of the point at its end.
         next: usize,
-        /// Abscissa of both points.
-        x: f64,
-        /// Ordinate of both points.
-        y: f64,
+        at: Place,
     },
     /// A closed wall that encloses nothing and is not a plate drawn forth and back.
     #[error(
         "wall `{wall}` is closed but encloses no area, and edge {edge} is not retraced in the \
          opposite direction as it would be on a plate of zero thickness"
     )]
-    ZeroArea {
-        /// Name of the wall.
-        wall: String,
-        /// First edge without an opposite face.
-        edge: usize,
-    },
-    /// Two edges that cross.
+    ZeroArea { wall: String, edge: usize },
+    /// Two edges or triangles that cross.
     #[error(
-        "edge {edge} of wall `{wall}` crosses edge {other_edge} of wall `{other}` near ({x}, {y})"
+        "{what} {number} of wall `{wall}` crosses {what} {other_number} of wall `{other}` near {at}"
     )]
     Crossing {
-        /// Name of the first wall.
+        what: &'static str,
         wall: String,
-        /// Edge of the first wall.
-        edge: usize,
-        /// Name of the second wall, which may be the first.
+        number: usize,
         other: String,
-        /// Edge of the second wall.
-        other_edge: usize,
-        /// Abscissa of the crossing.
-        x: f64,
-        /// Ordinate of the crossing.
-        y: f64,
+        other_number: usize,
+        at: Place,
     },
-    /// Edges that lie across each other's boxes by the million.
+    /// Edges or triangles that lie across each other's boxes by the million.
     #[error(
-        "from wall `{wall}` on, more than {MOST_PAIRS} pairs of edges are so near each other that they must be \
-         compared: draw it with fewer long slanted lines side by side"
+        "from wall `{wall}` on, more than {MOST_PAIRS} pairs of {what} are so near each other that they must be \
+         compared: draw it with fewer long slanted {what} side by side"
     )]
-    Tangled {
-        /// Name of the wall.
-        wall: String,
-    },
+    Tangled { what: &'static str, wall: String },
     /// Walls far larger than a period, or far away from the box.
     #[error(
         "wall `{wall}` reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one \
          period of it"
     )]
-    ManyPeriods {
-        /// Name of the wall.
-        wall: String,
-        /// Periods that it reaches.
-        periods: f64,
-    },
+    ManyPeriods { wall: String, periods: f64 },
     /// Two ends meet whose directions of travel disagree about where the fluid is.
     #[error(
-        "the {end} end of wall `{wall}` meets the {other_end} end of wall `{other}` at ({x}, {y}): \
+        "the {end} end of wall `{wall}` meets the {other_end} end of wall `{other}` at {at}: \
          their directions of travel put the fluid on opposite sides, reverse one of them"
     )]
     OpposedWalls {
-        /// Name of the first wall.
         wall: String,
-        /// Its end.
         end: WallEnd,
-        /// Name of the second wall.
         other: String,
-        /// Its end.
         other_end: WallEnd,
-        /// Abscissa of the joint.
-        x: f64,
-        /// Ordinate of the joint.
-        y: f64,
+        at: Place,
     },
     /// More than two ends at one place.
     #[error(
-        "{count} ends of walls meet at ({x}, {y}), the first of wall `{wall}`: only two can be \
+        "{count} ends of walls meet at {at}, the first of wall `{wall}`: only two can be \
          joined"
     )]
     AmbiguousJoint {
-        /// Name of one of the walls.
         wall: String,
-        /// Number of ends.
         count: usize,
-        /// Abscissa of the joint.
-        x: f64,
-        /// Ordinate of the joint.
-        y: f64,
+        at: Place,
     },
     /// A particle whose support reaches past the end of an open wall.
     #[error(
-        "the {end} end of wall `{wall}` at ({x}, {y}) is free and particle {particle} is {distance} \
+        "the {end} end of wall `{wall}` at {at} is free and particle {particle} is {distance} \
          m away, within the kernel radius {radius} m: close the wall or extend it"
     )]
     FreeEndInReach {
-        /// Name of the wall.
         wall: String,
-        /// Which end.
         end: WallEnd,
-        /// Abscissa of the end.
-        x: f64,
-        /// Ordinate of the end.
-        y: f64,
-        /// Index of the nearest particle.
+        at: Place,
         particle: usize,
-        /// Its distance, m.
         distance: f64,
-        /// The kernel radius, m.
         radius: f64,
     },
     /// A plate folded back onto itself.
     #[error("plate `{wall}` turns too sharply at point {point} to be given a thickness")]
-    SharpPlate {
-        /// Name of the plate.
-        wall: String,
-        /// Index of the point.
-        point: usize,
-    },
-    /// The number of poses is not the number of walls.
-    #[error("{given} pose(s) given for {walls} wall(s)")]
-    PoseCount {
-        /// Poses given.
+    SharpPlate { wall: String, point: usize },
+    /// The number of poses or groups is not the number of walls.
+    #[error("{given} {what}(s) given for {walls} wall(s)")]
+    Count {
+        what: &'static str,
         given: usize,
-        /// Walls of the mesh.
         walls: usize,
     },
     /// Two joined walls given different motions.
-    #[error("walls `{wall}` and `{other}` are joined at ({x}, {y}) and cannot move differently")]
+    #[error("walls `{wall}` and `{other}` are joined at {at} and cannot move differently")]
     JointTornApart {
-        /// Name of the wall that ends at the joint.
         wall: String,
-        /// Name of the wall that starts there.
         other: String,
-        /// Abscissa of the joint in the reference position.
-        x: f64,
-        /// Ordinate of the joint in the reference position.
-        y: f64,
+        at: Place,
     },
     /// Coulomb's friction where there are no elements to press on.
     #[error("wall `{wall}` has Coulomb's friction, which needs the wall elements of `walls.usaw`")]
-    NoElements {
-        /// Name of the wall.
-        wall: String,
-    },
+    NoElements { wall: String },
     /// A wall that a treatment does not have.
     #[error("wall `{wall}` {reason}; take `walls.usaw`")]
-    NotScaled {
-        /// Name of the wall.
-        wall: String,
-        /// What it is.
-        reason: &'static str,
-    },
+    NotScaled { wall: String, reason: &'static str },
     /// A wall whose map would be too large.
     #[error(
         "wall `{wall}` needs a map of {nodes} nodes, and {most} are the most: take `walls.usaw`, or larger particles"
     )]
     LargeMap {
-        /// Name of the wall.
         wall: String,
-        /// Nodes that its map would have.
         nodes: usize,
-        /// Nodes at most.
         most: usize,
     },
     /// A wall closed through periodicity given a rotation.
     #[error("wall `{wall}` is closed through periodicity and cannot rotate")]
-    PeriodicWallRotated {
-        /// Name of the wall.
-        wall: String,
-    },
+    PeriodicWallRotated { wall: String },
     /// A line in space or a surface in the plane.
     #[error(
         "wall `{wall}` is not drawn for {dimension} dimensions: a polyline is a wall of two, a surface one of three"
     )]
-    Dimension {
-        /// Name of the wall.
-        wall: String,
-        /// Dimensions of the scene.
-        dimension: usize,
-    },
+    Dimension { wall: String, dimension: usize },
     /// A motion with a number that is not finite or a table that does not ascend.
     #[error(
         "the motion of wall `{wall}` is not sound: all numbers must be finite, periods positive, an axis longer than zero, and the times of a table ascending"
     )]
-    Motion {
-        /// Name of the wall.
+    Motion { wall: String },
+    /// A surface without a triangle.
+    #[error("wall `{wall}` has no triangle")]
+    NoTriangles { wall: String },
+    /// A corner that does not exist.
+    #[error("wall `{wall}`: triangle {triangle} has the corner {point}, there are {count} points")]
+    MissingPoint {
         wall: String,
+        triangle: usize,
+        point: u32,
+        count: usize,
     },
-    /// A wall drawn as triangles.
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
-    /// A number that must be positive and finite.
-    #[error("{name} must be positive and finite, got {value}")]
-    NotPositive {
-        /// What it is.
-        name: &'static str,
-        /// What was given.
-        value: f64,
+    /// A triangle without area, or with two corners at one place.
+    #[error("wall `{wall}`: triangle {triangle} at {at} has no area")]
+    NoArea {
+        wall: String,
+        triangle: usize,
+        at: Place,
     },
-    /// Breaks or pieces of the kernel that do not fit.
-    #[error("kernel is not a piecewise polynomial with a positive integral: {reason}")]
-    Kernel {
-        /// What is wrong.
+    /// A triangle so thin that its normal is rounding.
+    #[error(
+        "wall `{wall}`: triangle {triangle} at {at} is a needle: {altitude} m high on an edge of \
+         {edge} m"
+    )]
+    Needle {
+        wall: String,
+        triangle: usize,
+        at: Place,
+        altitude: f64,
+        edge: f64,
+    },
+    /// A surface of the size of a particle.
+    #[error(
+        "wall `{wall}` is {extent} m across, less than two spacings of {spacing} m: the flow \
+         cannot see it"
+    )]
+    TooSmall {
+        wall: String,
+        extent: f64,
+        spacing: f64,
+    },
+    /// More elements than can be meant.
+    #[error(
+        "the walls would be cut into about {estimate} triangles, {limit} at most: `{wall}` alone \
+         needs {own}; check the unit of length or use a coarser spacing"
+    )]
+    TooManyElements {
+        wall: String,
+        own: u64,
+        estimate: u64,
+        limit: u64,
+    },
+    /// One triangle given twice.
+    #[error("wall `{wall}`: triangles {triangle} and {other} at {at} have the same corners")]
+    Repeated {
+        wall: String,
+        triangle: usize,
+        other: usize,
+        at: Place,
+    },
+    /// Two faces of a wall on each other, with opposite normals.
+    #[error(
+        "wall `{wall}`: triangles {triangle} and {other} lie on each other near {at} with opposite \
+         normals: give the plate a thickness, or draw bodies that touch as walls of their own"
+    )]
+    NoThickness {
+        wall: String,
+        triangle: usize,
+        other: usize,
+        at: Place,
+    },
+    /// Two triangles that travel their common edge in the same direction.
+    #[error(
+        "wall `{wall}`: triangles {triangle} and {other} meet in an edge at {at} but put the fluid \
+         on opposite sides: one of them is flipped"
+    )]
+    Flipped {
+        wall: String,
+        triangle: usize,
+        other: usize,
+        at: Place,
+    },
+    /// An edge of more than two triangles.
+    #[error(
+        "wall `{wall}`: {count} triangles meet in one edge at {at}, the first is {triangle}: the \
+         surface is not a manifold there, draw the bodies as walls of their own"
+    )]
+    NotManifold {
+        wall: String,
+        triangle: usize,
+        count: usize,
+        at: Place,
+    },
+    /// Two triangles in one plane that cover each other and face the same way.
+    #[error(
+        "triangle {triangle} of wall `{wall}` and triangle {other_triangle} of wall `{other}` \
+         cover each other near {at}: that piece is drawn twice"
+    )]
+    DrawnTwice {
+        wall: String,
+        triangle: usize,
+        other: String,
+        other_triangle: usize,
+        at: Place,
+    },
+    /// A wall that other walls cover altogether, or that bounds no fluid.
+    #[error(
+        "nothing is left of wall `{wall}`: other walls cover all of it, or turn their backs on its edges; does one of \
+         them face the other way? leave it out, or give a plate of two sides a thickness"
+    )]
+    Covered { wall: String },
+    /// Walls that meet in an edge with the fluid on different sides.
+    #[error(
+        "walls `{wall}` and `{other}` meet in an edge at {at} but put the fluid on opposite sides: \
+         reverse the triangles of one of them"
+    )]
+    Opposed {
+        wall: String,
+        other: String,
+        at: Place,
+    },
+    /// A planar piece that could not be cut into triangles.
+    #[error("the planar piece of wall `{wall}` at {at} cannot be cut into triangles: {reason}")]
+    NotMeshed {
+        wall: String,
+        at: Place,
         reason: String,
     },
+    /// Two walls of one group given different motions.
+    #[error("walls `{wall}` and `{other}` move together and cannot be given different motions")]
+    TornApart { wall: String, other: String },
+    /// A particle whose support reaches past an edge that no other triangle continues.
+    #[error(
+        "wall `{wall}` is open: {edges} edge(s) without a neighbour surround an opening of \
+         {} m around {centre}, and at {at} one of them is {} m from particle {particle}, within the \
+         kernel radius {} m: {}", number::plain(*.extent), number::plain(*.distance), number::plain(*.radius),
+         remedy(.met)
+    )]
+    FreeEdgeInReach {
+        wall: String,
+        edges: usize,
+        extent: f64,
+        centre: Place,
+        met: Option<Box<str>>,
+        at: Place,
+        particle: usize,
+        distance: f64,
+        radius: f64,
+    },
+    /// A number that must be positive and finite.
+    #[error("{name} must be positive and finite, got {value}")]
+    NotPositive { name: &'static str, value: f64 },
+    /// Breaks or pieces of the kernel that do not fit.
+    #[error("kernel is not a piecewise polynomial with a positive integral: {reason}")]
+    Kernel { reason: String },
+}
+
+impl BoundaryError {
+    pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Self> {
+        match value > 0.0 && value.is_finite() {
+            true => Ok(()),
+            false => Err(Self::NotPositive { name, value }),
+        }
+    }
+}
+
+fn remedy(met: &Option<Box<str>>) -> String {
+    match met {
+        Some(other) => format!(
+            "wall `{other}` meets it there and does not continue it: does one of the two face the other way?"
+        ),
+        None => "close the wall or extend it".to_string(),
+    }
+}
+
+/// Where something is, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place(pub Box<[f64]>);
+
+impl<const D: usize> From<[f64; D]> for Place {
+    fn from(at: [f64; D]) -> Self {
+        Place(at.into())
+    }
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        // Rounding of computed places is not shown.
+        let size = self.0.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let unit = 10f64.powi(6 - size.max(f64::MIN_POSITIVE).log10().ceil() as i32);
+        let rounded = |x: &f64| match (x * unit).round() / unit {
+            rounded if rounded.is_finite() => rounded + 0.0,
+            _ => *x,
+        };
+        let all: Vec<String> = self.0.iter().map(|x| rounded(x).to_string()).collect();
+        write!(f, "({})", all.join(", "))
+    }
 }
 
 /// Something to look at that does not stop the run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum WallWarning {
     /// An edge shorter than a quarter of the spacing: it becomes one short segment.
+    #[error(
+        "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing {spacing} m"
+    )]
     ShortEdge {
-        /// Name of the wall.
         wall: String,
-        /// Index of the edge.
         edge: usize,
-        /// Its length, m.
         length: f64,
-        /// The spacing asked for, m.
         spacing: f64,
     },
     /// A surface drawn with most of its triangles far smaller than the spacing: they stay so.
+    #[error(
+        "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing {spacing} m: draw it coarser"
+    )]
     FineSurface {
-        /// Name of the wall.
         wall: String,
-        /// Triangles with sides below a quarter of the spacing.
         fine: usize,
-        /// All triangles of the wall.
         all: usize,
-        /// The spacing asked for, m.
         spacing: f64,
     },
     /// Faces that end on the back of another wall: no fluid is before them, and they are left out.
-    Unseen {
-        /// Name of the wall.
-        wall: String,
-        /// How many.
-        faces: usize,
-    },
-}
-
-impl std::fmt::Display for WallWarning {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::ShortEdge {
-                wall,
-                edge,
-                length,
-                spacing,
-            } => write!(
-                f,
-                "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing \
-                 {spacing} m"
-            ),
-            Self::FineSurface {
-                wall,
-                fine,
-                all,
-                spacing,
-            } => write!(
-                f,
-                "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing \
-                 {spacing} m: draw it coarser"
-            ),
-            Self::Unseen { wall, faces } => write!(
-                f,
-                "{faces} faces of wall `{wall}` end on the back of another wall: they bound no fluid and are left out"
-            ),
-        }
-    }
+    #[error(
+        "{faces} faces of wall `{wall}` end on the back of another wall: they bound no fluid and are left out"
+    )]
+    Unseen { wall: String, faces: usize },
 }
 
 /// A failure of the wall stages.

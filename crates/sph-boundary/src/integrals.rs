@@ -3,3 +3,4 @@
 pub(crate) mod gamma;
 mod normalisation;
 pub(crate) mod spatial;
+pub(crate) mod sum;

@@ -5,11 +5,11 @@
 //! | | in two dimensions | in three |
 //! |---|---|---|
 //! | how a wall is drawn | [`Polyline`]; [`thin_plate`] outlines a plate | [`Surface`]: points and triangles |
-//! | cut at the particle spacing, checked, joined, [moved](Pose), with an inside | [`SegmentMesh`] | [`TriangleMesh`] |
-//! | finds what is near a point | [`SegmentGrid`] | [`TriangleGrid`] |
+//! | cut at the particle spacing, checked, joined, [moved](Pose), with an inside | [`Mesh<2>`] | [`Mesh<3>`] |
+//! | finds what is near a point | [`Grid<2>`] | [`Grid<3>`] |
 //! | γ and ∇γ in closed form for any piecewise polynomial kernel | [`Renormalisation2d`] | [`Renormalisation3d`] |
 //!
-//! [`WallMesh`] is what the two have in common ([`PlanarWalls`], [`SpatialWalls`]); wall plugins
+//! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins
 //! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
 //! fulfil it. [`Mover`] is the contract of what moves a wall, whose [`RigidState`] is kept, rolled back and saved;
 //! [`RigidMotion`] moves one along [`Course`]s,
@@ -17,18 +17,18 @@
 //!
 //! # In the plane
 //! ```
-//! use sph_boundary::{PeriodicBox, Polyline, Renormalisation2d, SegmentGrid, SegmentMesh};
+//! use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Renormalisation2d};
 //! use sph_kernels::PiecewisePolynomial;
 //!
 //! let square = Polyline::closed("tank", vec![[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]]);
-//! let mesh = SegmentMesh::build(&[square], 0.5, &PeriodicBox::none())?;
+//! let mesh = Mesh::<2>::build(&[square], 0.5, &PeriodicBox::none())?;
 //! // Wendland C2: (1 - q/2)⁴ (1 + 2q) on 0 ≤ q < 2.
 //! let wendland = PiecewisePolynomial {
 //!     breaks: vec![0.0, 2.0],
 //!     pieces: vec![vec![1.0, 0.0, -2.5, 2.5, -0.9375, 0.125]],
 //! };
 //! let renormalisation = Renormalisation2d::new(&wendland, 1.0)?;
-//! let grid = SegmentGrid::build(&mesh, renormalisation.kernel_radius());
+//! let grid = Grid::build(&mesh, renormalisation.kernel_radius());
 //! let at = renormalisation.at([4.0, 0.5], &mesh, &grid);
 //! assert!((at.gamma() - 0.823496914).abs() < 1e-9);
 //! # Ok::<(), sph_boundary::BoundaryError>(())
@@ -37,7 +37,7 @@
 //! # In space
 //! The fluid is on the side from which the corners of a triangle run anticlockwise.
 //! ```
-//! use sph_boundary::{PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh};
+//! use sph_boundary::{Grid, Mesh, PeriodicBox, Renormalisation3d, Surface};
 //! # use sph_kernels::PiecewisePolynomial;
 //! # let wendland = PiecewisePolynomial {
 //! #     breaks: vec![0.0, 2.0],
@@ -50,9 +50,9 @@
 //!     points: vec![[0.0; 3], [24.0, 0.0, 0.0], [0.0, 24.0, 0.0], [0.0, 0.0, 24.0]],
 //!     triangles: vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
 //! };
-//! let mesh = TriangleMesh::build(&[tank], &[0], 0.5, &PeriodicBox::none())?;
+//! let mesh = Mesh::<3>::build(&[tank], &[0], 0.5, &PeriodicBox::none())?;
 //! let renormalisation = Renormalisation3d::new(&wendland, 1.0)?;
-//! let grid = TriangleGrid::build(&mesh, renormalisation.kernel_radius());
+//! let grid = Grid::build(&mesh, renormalisation.kernel_radius());
 //! let gamma = |x| renormalisation.at(x, &mesh, &grid).gamma();
 //! assert!((gamma([4.0, 4.0, 0.5]) - 0.827583313).abs() < 1e-9); // half a length from the floor
 //! assert!((gamma([0.0; 3]) - 0.125).abs() < 1e-9); // in the corner, touching three walls
@@ -73,32 +73,31 @@ mod rigid;
 mod scale;
 mod treatment;
 
-pub use error::{BoundaryError, SurfaceError, WallWarning};
+pub use error::{BoundaryError, Place, WallWarning};
 pub use geometry::drawing::Drawing;
-pub use geometry::grid::SegmentGrid;
-pub use geometry::mesh::{NearSegment, SeenSegment, Segment, SegmentMesh, Vertex};
+pub use geometry::mesh::{
+    Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, Node, Opening,
+    SeenElement,
+};
 pub use geometry::periodic::PeriodicBox;
-pub use geometry::planar::PlanarWalls;
 pub use geometry::plate::thin_plate;
 pub use geometry::polyline::Polyline;
 pub use geometry::shells::{Gammas, Shells};
-pub use geometry::spatial_walls::SpatialWalls;
-pub use geometry::surface::{
-    Closest, Face, FaceEdge, Feature, FreeEdge, NearTriangle, Node, Opening, SeenTriangle, Surface,
-    Triangle, TriangleGrid, TriangleMesh,
-};
+pub use geometry::surface::Surface;
 pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
-pub use integrals::gamma::{Contact, GammaSum, Renormalisation2d, SegmentBatch, SegmentIntegral};
-pub use integrals::spatial::{FacetIntegral, GammaSum3d, Renormalisation3d, Weights};
+pub use geometry::walls::{PlanarWalls, SpatialWalls, Walls};
+pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
+pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
+pub use integrals::sum::GammaSum;
 pub use rigid::bend::Bend;
-pub use rigid::course::{Course, SinePart, Stage};
 pub use rigid::load::{Load, MoverRefusal, MoverSetting, Touch};
-pub use rigid::motion::{RigidMotion, Rotation, Translation};
+pub use rigid::motion::RigidMotion;
 pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
 pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
+pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 pub use treatment::contract::{
     Condition, ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
 };

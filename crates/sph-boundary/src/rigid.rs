@@ -1,7 +1,6 @@
 //! How walls move: courses over time, movers, and the state of a rigid wall.
 
 pub(crate) mod bend;
-pub(crate) mod course;
 pub(crate) mod load;
 pub(crate) mod motion;
 pub(crate) mod mover;

@@ -8,6 +8,17 @@ const LEAF: usize = 4;
 /// Lower and upper corner of a box along the axes.
 pub type Corners<const D: usize> = [[f64; D]; 2];
 
+/// The box around some points.
+pub fn bounds<const D: usize>(points: impl IntoIterator<Item = [f64; D]>) -> Corners<D> {
+    let nothing = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    points.into_iter().fold(nothing, |[low, high], p| {
+        [
+            std::array::from_fn(|k| low[k].min(p[k])),
+            std::array::from_fn(|k| high[k].max(p[k])),
+        ]
+    })
+}
+
 /// Binary tree of boxes along the axes, halved along the longest side.
 ///
 /// Setting it up costs n log n, a question log n and the number of answers.
@@ -22,46 +33,55 @@ pub struct BoxTree<const D: usize> {
 impl<const D: usize> BoxTree<D> {
     /// The tree of at most 2³² boxes.
     pub fn new(boxes: Vec<Corners<D>>) -> Self {
+        Self::by_middles(boxes, |[low, high], _, axis| low[axis] + high[axis])
+    }
+
+    /// The tree of boxes that are halved by what is said of a box, its number and an axis.
+    pub fn by_middles(
+        boxes: Vec<Corners<D>>,
+        middle: impl Fn(&Corners<D>, usize, usize) -> f64,
+    ) -> Self {
         let mut tree = Self {
             nodes: Vec::new(),
             order: Vec::new(),
             boxes,
         };
         let mut order: Vec<u32> = (0..tree.boxes.len() as u32).collect();
-        tree.split(0, &mut order);
+        tree.split(0, &mut order, &middle);
         tree.order = order;
         tree
     }
 
-    fn split(&mut self, node: usize, order: &mut [u32]) {
-        let nothing = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        let [low, high] = order.iter().fold(nothing, |all, b| {
-            let one = self.boxes[*b as usize];
-            [
-                std::array::from_fn(|k| all[0][k].min(one[0][k])),
-                std::array::from_fn(|k| all[1][k].max(one[1][k])),
-            ]
-        });
+    fn split(
+        &mut self,
+        node: usize,
+        order: &mut [u32],
+        middle: &impl Fn(&Corners<D>, usize, usize) -> f64,
+    ) {
+        let [low, high] = bounds(order.iter().flat_map(|b| self.boxes[*b as usize]));
         if self.nodes.len() <= node {
-            self.nodes.resize(node + 1, nothing);
+            self.nodes.resize(node + 1, bounds([]));
         }
         self.nodes[node] = [low, high];
         if order.len() <= LEAF {
             return;
         }
         let side = |k: usize| high[k] - low[k];
-        let axis = (0..D)
-            .max_by(|a, b| side(*a).total_cmp(&side(*b)))
-            .unwrap_or(0);
-        let boxes = &self.boxes;
-        let middle = |b: u32| boxes[b as usize][0][axis] + boxes[b as usize][1][axis];
+        let axes = 0..D;
+        let axis = axes.rev().max_by(|a, b| side(*a).total_cmp(&side(*b)));
+        let axis = axis.unwrap_or(0);
+        let at = |b: &u32| middle(&self.boxes[*b as usize], *b as usize, axis);
+        let ascending = |a: &u32, b: &u32| at(a).total_cmp(&at(b)).then(a.cmp(b));
         let half = order.len() / 2;
-        order.select_nth_unstable_by(half, |a, b| {
-            middle(*a).total_cmp(&middle(*b)).then(a.cmp(b))
-        });
+        order.select_nth_unstable_by(half, ascending);
         let (left, right) = order.split_at_mut(half);
-        self.split(2 * node + 1, left);
-        self.split(2 * node + 2, right);
+        for leaf in [&mut *left, &mut *right] {
+            if leaf.len() <= LEAF {
+                leaf.sort_unstable_by(ascending);
+            }
+        }
+        self.split(2 * node + 1, left, middle);
+        self.split(2 * node + 2, right, middle);
     }
 
     /// Calls `found` with the number of every box that overlaps or touches `query`, until it breaks off.
@@ -71,6 +91,15 @@ impl<const D: usize> BoxTree<D> {
         found: &mut impl FnMut(usize) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         self.descend(0, &self.order, query, found)
+    }
+
+    /// Calls `found` with the number of every box that overlaps or touches `query`.
+    pub fn each(&self, query: Corners<D>, mut found: impl FnMut(usize)) {
+        let mut all = |number| {
+            found(number);
+            ControlFlow::<()>::Continue(())
+        };
+        let _ = self.overlapping(query, &mut all);
     }
 
     fn descend<B>(
@@ -96,6 +125,50 @@ impl<const D: usize> BoxTree<D> {
         self.descend(2 * node + 2, right, query, found)
     }
 
+    /// Of what the boxes are around, the nearest to a point: its squared distance, as is said of a number, and its number;
+    /// none if all are as far as `within2`.
+    pub fn nearest(
+        &self,
+        point: [f64; D],
+        within2: f64,
+        distance2: impl Fn(usize) -> f64,
+    ) -> Option<(f64, usize)> {
+        let mut best = (within2, None);
+        self.approach(0, &self.order, &point, &distance2, &mut best);
+        Some((best.0, best.1?))
+    }
+
+    fn approach(
+        &self,
+        node: usize,
+        order: &[u32],
+        point: &[f64; D],
+        distance2: &impl Fn(usize) -> f64,
+        best: &mut (f64, Option<usize>),
+    ) {
+        if order.is_empty() || outside(point, &self.nodes[node]) >= best.0 {
+            return;
+        }
+        if order.len() <= LEAF {
+            for number in order.iter().map(|b| *b as usize) {
+                let found = distance2(number);
+                if found < best.0 {
+                    *best = (found, Some(number));
+                }
+            }
+            return;
+        }
+        let (left, right) = order.split_at(order.len() / 2);
+        let mut children = [(2 * node + 1, left), (2 * node + 2, right)];
+        let apart = children.map(|(child, _)| outside(point, &self.nodes[child]));
+        if apart[1] < apart[0] {
+            children.reverse();
+        }
+        for (child, order) in children {
+            self.approach(child, order, point, distance2, best);
+        }
+    }
+
     /// Bounds of all boxes.
     pub fn bounds(&self) -> Corners<D> {
         self.nodes[0]
@@ -105,6 +178,12 @@ impl<const D: usize> BoxTree<D> {
     pub fn of(&self, number: usize) -> Corners<D> {
         self.boxes[number]
     }
+}
+
+/// Squared distance of a point from a box.
+fn outside<const D: usize>(x: &[f64; D], [low, high]: &Corners<D>) -> f64 {
+    let beyond = |k: usize| (low[k] - x[k]).max(x[k] - high[k]).max(0.0);
+    (0..D).map(|k| beyond(k).powi(2)).sum()
 }
 
 fn overlap<const D: usize>(a: Corners<D>, b: Corners<D>) -> bool {

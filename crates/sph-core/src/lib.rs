@@ -22,6 +22,7 @@
 mod axis;
 mod births;
 mod boxes;
+pub mod course;
 mod duct;
 mod error;
 mod evolve;
@@ -45,7 +46,7 @@ mod turnover;
 mod watch;
 
 pub use axis::Axis;
-pub use boxes::{BoxTree, Corners};
+pub use boxes::{BoxTree, Corners, bounds};
 pub use duct::rectangular_duct;
 pub use error::{FieldError, PlanError, RegistryError, StepError};
 pub use evolve::{Evolved, Recall, System};

@@ -58,7 +58,7 @@ pub use filling::disorder::{SplitMix, disturb, noise};
 pub use filling::estimate::estimate;
 pub use filling::fill::{Filled, fill};
 pub use filling::nodes::Offset;
-pub use geometry::course::{Course, Courses, Turning};
+pub use geometry::course::Courses;
 pub use geometry::level::LevelSurface;
 pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;

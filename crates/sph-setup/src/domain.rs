@@ -1,12 +1,11 @@
 //! The box of a scene: from the scene, or around its walls and bodies.
 
-use sph_core::Vect;
+use sph_core::{Vect, bounds};
 use sph_neighbours::Domain;
 use sph_scene::{Region, Scene};
 use sph_solver::SolverError;
 
 use crate::shapes::Drawn;
-use crate::wall_speeds::corners;
 
 /// Extent of all bodies along gravity, m.
 pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
@@ -67,11 +66,7 @@ const SAMPLES: usize = 1000;
 /// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
 fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &mut Domain<D>) {
     for wall in drawn.walls.iter().filter(|w| w.motion.moves()) {
-        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-        corners(wall, &mut |x| {
-            low = std::array::from_fn(|k| low[k].min(x[k]));
-            high = std::array::from_fn(|k| high[k].max(x[k]));
-        });
+        let [low, high] = bounds(wall.drawing.points::<D>());
         for n in 0..=SAMPLES {
             let map = wall
                 .motion

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use sph_boundary::{
-    Bend, BoundaryError, Condition, Course, Drawing, Polyline, RigidMotion, Rotation, Surface,
-    Translation, WallSpec, thin_plate,
+    Bend, BoundaryError, Condition, Course, Drawing, Polyline, RigidMotion, Surface, WallSpec,
+    thin_plate,
 };
 use sph_core::plausible::Quantity;
 use sph_core::{Vect, suggestion, unit_factor};
@@ -135,9 +135,7 @@ impl<const D: usize> Drawn<D> {
                     closed,
                 },
             };
-            let edges = line.edges();
-            let lengths = edges.map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]));
-            self.measure += lengths.sum::<f64>();
+            self.measure += line.lengths().sum::<f64>();
             Ok(Drawing::Line(line))
         };
         lines.into_iter().map(line).collect()
@@ -205,39 +203,17 @@ pub(crate) fn rigid_motion<const D: usize>(
     end: f64,
 ) -> Result<RigidMotion<D>, SolverError> {
     let courses = motion.courses(place);
-    let courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;
-    let course = |course: sph_scene::Course| match course {
-        sph_scene::Course::Speed(speed) => Course::Steady { speed },
-        sph_scene::Course::Ramp { speed, over } => Course::Ramp { speed, over },
-        sph_scene::Course::Sine {
-            amplitude,
-            period,
-            phase,
-            ramp,
-        } => Course::Sine {
-            amplitude,
-            period,
-            phase,
-            ramp,
-        },
-        sph_scene::Course::Table(rows) => Course::Table {
-            rows: going_on(rows, end - courses.start).into(),
-        },
-    };
-    let vector = |v: &[f64]| std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
-    let shifts = courses.translations.into_iter();
+    let mut courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;
+    let shifts = courses.translations.iter_mut().map(|t| &mut t.course);
+    let turns = courses.rotation.iter_mut().map(|r| &mut r.course);
+    for course in shifts.chain(turns) {
+        if let Course::Table { rows } = course {
+            *rows = going_on(rows.to_vec(), end - courses.start).into();
+        }
+    }
     Ok(RigidMotion {
-        translations: shifts
-            .map(|(along, c)| Translation {
-                along: vector(&along),
-                course: course(c),
-            })
-            .collect(),
-        rotation: courses.rotation.map(|turning| Rotation {
-            centre: vector(&turning.centre),
-            axis: turning.axis,
-            course: course(turning.course),
-        }),
+        translations: courses.translations,
+        rotation: courses.rotation,
         bend: None,
         start: courses.start,
         stop: courses.stop,

@@ -1,6 +1,6 @@
 //! Walls that move faster than sound, or vessels that press their fluid together.
 
-use sph_boundary::{Drawing, WallSpec};
+use sph_boundary::WallSpec;
 use sph_core::{SceneProblem, number};
 use sph_scene::Scene;
 
@@ -181,20 +181,11 @@ fn moving<const D: usize>(wall: &WallSpec<D>, time: f64, since: f64) -> Moving {
     }
     let before = (time - since).max(0.0);
     let [now, then] = [time, before].map(|t| (wall.motion.pose(t).map(), t));
-    corners(wall, &mut |corner| {
+    for corner in wall.drawing.points() {
         let [now, then] =
             [&now, &then].map(|(map, t)| wall.motion.movement(map(corner), *t).velocity);
         most.speed = most.speed.max(known(now.norm()));
         most.change = most.change.max(known((now - then).norm()));
-    });
-    most
-}
-
-/// Visits the corners of a wall where it is drawn.
-pub(crate) fn corners<const D: usize>(wall: &WallSpec<D>, visit: &mut dyn FnMut([f64; D])) {
-    let mut point = |p: &[f64]| visit(std::array::from_fn(|k| p[k]));
-    match &wall.drawing {
-        Drawing::Line(line) => line.points.iter().for_each(|p| point(p)),
-        Drawing::Surface(surface) => surface.points.iter().for_each(|p| point(p)),
     }
+    most
 }

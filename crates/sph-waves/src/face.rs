@@ -33,13 +33,8 @@ impl<const D: usize> Face<D> {
         level: f64,
         reach: f64,
     ) -> Option<Self> {
-        let mut points: Vec<Vect<D>> = Vec::new();
-        for piece in setting.pieces() {
-            match piece {
-                Drawing::Line(line) => points.extend(line.points.iter().map(|p| vect(p))),
-                Drawing::Surface(surface) => points.extend(surface.points.iter().map(|p| vect(p))),
-            }
-        }
+        let points = setting.pieces().flat_map(Drawing::points);
+        let points: Vec<Vect<D>> = points.map(Vect::from).collect();
         let most = |of: &dyn Fn(&Vect<D>) -> f64| {
             let largest = points.iter().map(of).reduce(f64::max);
             largest.unwrap_or(0.0)
@@ -124,10 +119,6 @@ impl<const D: usize> Face<D> {
         }
         state
     }
-}
-
-fn vect<const D: usize>(point: &[f64]) -> Vect<D> {
-    Vect::from_fn(|k, _| point[k])
 }
 
 #[cfg(test)]

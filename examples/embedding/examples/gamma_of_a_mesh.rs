@@ -1,8 +1,6 @@
 //! γ, the share of a kernel inside a closed mesh of triangles, with `sph-boundary` and `sph-kernels` alone.
 
-use sph_boundary::{
-    BoundaryError, PeriodicBox, Renormalisation3d, Surface, TriangleGrid, TriangleMesh,
-};
+use sph_boundary::{BoundaryError, Grid, Mesh, PeriodicBox, Renormalisation3d, Surface};
 
 /// A box of 1 m, its triangles anticlockwise seen from the inside, where the fluid is.
 fn tank() -> Surface {
@@ -27,10 +25,10 @@ fn tank() -> Surface {
 
 /// γ at each of some points, for the Wendland C2 kernel of smoothing length 0.1 m.
 pub fn gammas(points: &[[f64; 3]]) -> Result<Vec<f64>, BoundaryError> {
-    let mesh = TriangleMesh::build(&[tank()], &[0], 0.1, &PeriodicBox::none())?;
+    let mesh = Mesh::<3>::build(&[tank()], &[0], 0.1, &PeriodicBox::none())?;
     let kernel = sph_kernels::wendland_c2();
     let gamma = Renormalisation3d::new(kernel.shape(), 0.1)?;
-    let grid = TriangleGrid::build(&mesh, gamma.kernel_radius());
+    let grid = Grid::build(&mesh, gamma.kernel_radius());
     let at = |x: &[f64; 3]| gamma.at(*x, &mesh, &grid).gamma();
     Ok(points.iter().map(at).collect())
 }

@@ -6,11 +6,11 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-pub(crate) use crossing::{around, check_crossings, widened};
+pub(crate) use crossing::check_crossings;
 
 use crate::error::{BoundaryError, WallWarning};
 use crate::geometry::polyline::Polyline;
-use crate::geometry::segment_distance::distance_squared;
+use crate::geometry::vector::{bounds, distance_to_segment, dot, sub, widened};
 
 /// Edges shorter than this part of the spacing are remarked upon.
 const SHORT: f64 = 0.25;
@@ -34,18 +34,13 @@ pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
             point,
         });
     }
-    let repeated = line
-        .edges()
-        .position(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]) == 0.0);
-    if let Some(edge) = repeated {
-        let [x, y] = line.points[edge];
+    if let Some(edge) = line.lengths().position(|length| length == 0.0) {
         let next = (edge + 1) % line.points.len();
         return Err(BoundaryError::ZeroLengthEdge {
             wall: line.name.clone(),
             edge,
             next,
-            x,
-            y,
+            at: line.points[edge].into(),
         });
     }
     Ok(())
@@ -53,10 +48,7 @@ pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
 
 /// A closed wall that encloses nothing and is not a plate of zero thickness.
 pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), BoundaryError> {
-    let perimeter: f64 = line
-        .edges()
-        .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
-        .sum();
+    let perimeter: f64 = line.lengths().sum();
     if line.closed
         && line.signed_area().abs() <= NO_AREA * perimeter * perimeter
         && let Some(edge) = unretraced_edge(line, tolerance)
@@ -71,10 +63,7 @@ pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), Boundary
 
 /// Edges far shorter than the spacing.
 pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item = WallWarning> {
-    let lengths = line
-        .edges()
-        .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
-        .enumerate();
+    let lengths = line.lengths().enumerate();
     lengths
         .filter(move |(_, length)| *length < SHORT * spacing)
         .map(move |(edge, length)| WallWarning::ShortEdge {
@@ -87,14 +76,13 @@ pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item =
 
 /// An edge whose middle is not on another edge in the opposite direction.
 fn unretraced_edge(line: &Polyline, tolerance: f64) -> Option<usize> {
-    let tree = BoxTree::new(line.edges().map(around).collect());
+    let tree = BoxTree::new(line.edges().map(bounds).collect());
     line.edges().position(|[a, b]| {
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         let retraces = |k: usize| {
             let [c, d] = line.edge(k);
-            let opposite = (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) < 0.0;
-            let seen = [c, d].map(|p| [p[0] - middle[0], p[1] - middle[1]]);
-            opposite && distance_squared(seen[0], seen[1]) <= tolerance * tolerance
+            let opposite = dot(sub(b, a), sub(d, c)) < 0.0;
+            opposite && distance_to_segment(middle, [c, d]) <= tolerance
         };
         let near = widened([middle; 2], tolerance);
         let found = tree.overlapping(near, &mut |k| match retraces(k) {

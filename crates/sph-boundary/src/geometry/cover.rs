@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use sph_core::Vect;
 
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+use crate::{NearElement, SeenElement};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
@@ -20,35 +21,26 @@ const FAR: f64 = 2.8;
 /// stood for by the nodes of both. The visible share is the mean over samples of the ball of
 /// H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances and
 /// H a ramp as wide as the samples are apart.
-#[derive(Debug)]
-pub(crate) struct Cover<N> {
+#[derive(Debug, Default)]
+pub(crate) struct Cover<const D: usize> {
     /// Nodes within reach of other walls at the last search.
-    near: Vec<Surrounded<N>>,
+    near: Vec<Surrounded<D>>,
     /// Positions of all nodes at the last search, m.
-    searched_at: Vec<[f64; 3]>,
+    searched_at: Vec<Vect<D>>,
 }
 
 /// A node and what may be near it until the next search.
 #[derive(Debug)]
-struct Surrounded<N> {
+struct Surrounded<const D: usize> {
     node: usize,
     /// Elements of walls that move with it, and of others.
-    own: Vec<N>,
-    others: Vec<N>,
+    own: Vec<NearElement<D>>,
+    others: Vec<NearElement<D>>,
 }
 
-impl<N> Default for Cover<N> {
-    fn default() -> Self {
-        Cover {
-            near: Vec::new(),
-            searched_at: Vec::new(),
-        }
-    }
-}
-
-impl<N: Copy + Send + Sync> Cover<N> {
+impl<const D: usize> Cover<D> {
     /// The nodes whose visible share may differ from 1, with that share.
-    pub fn shares<const D: usize, M: WallMesh<D, Near = N>>(
+    pub fn shares<M: WallMesh<D>>(
         &mut self,
         mesh: &M,
         points: &[MeshPoint<D>],
@@ -60,16 +52,16 @@ impl<N: Copy + Send + Sync> Cover<N> {
         if self.outdated(&nodes, spacing) {
             let near = |(node, (x, group)): (usize, &(Vect<D>, usize))| {
                 let all = mesh.near(x, FAR * spacing).into_iter();
-                let own = |n: &N| groups[mesh.wall_of(*n)] == *group;
+                let own = |n: &NearElement<D>| groups[mesh.wall_of(*n)] == *group;
                 let (own, others): (Vec<_>, Vec<_>) = all.partition(own);
                 let seen = seen(mesh, x, &others);
-                let found = M::signed_distance(&seen, &Vect::zeros(), 2.0 * spacing);
+                let found = SeenElement::signed_distance(&seen, [0.0; D], 2.0 * spacing);
                 found.map(|_| Surrounded { node, own, others })
             };
             self.near = nodes.par_iter().enumerate().filter_map(near).collect();
-            self.searched_at = nodes.iter().map(|(x, _)| padded(x)).collect();
+            self.searched_at = nodes.iter().map(|(x, _)| *x).collect();
         }
-        let share = |near: &Surrounded<N>| {
+        let share = |near: &Surrounded<D>| {
             let (x, _) = &nodes[near.node];
             (near.node, visible(mesh, near, x, spacing))
         };
@@ -78,36 +70,34 @@ impl<N: Copy + Send + Sync> Cover<N> {
 
     /// Whether a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may each
     /// come nearer by 0.4.
-    fn outdated<const D: usize>(&self, nodes: &[(Vect<D>, usize)], spacing: f64) -> bool {
+    fn outdated(&self, nodes: &[(Vect<D>, usize)], spacing: f64) -> bool {
         if self.searched_at.len() != nodes.len() {
             return true;
         }
-        let moved = nodes.iter().zip(&self.searched_at).map(|((x, _), old)| {
-            let now = padded(x);
-            (0..3).map(|k| (now[k] - old[k]).powi(2)).sum::<f64>()
-        });
+        let both = nodes.iter().zip(&self.searched_at);
+        let moved = both.map(|((x, _), old)| (x - old).norm_squared());
         moved.fold(0.0, f64::max) > (0.4 * spacing).powi(2)
     }
 }
 
-fn padded<const D: usize>(x: &Vect<D>) -> [f64; 3] {
-    std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))
-}
-
 /// Elements as seen from a point.
-fn seen<const D: usize, M: WallMesh<D>>(mesh: &M, x: &Vect<D>, near: &[M::Near]) -> Vec<M::Seen> {
+fn seen<const D: usize, M: WallMesh<D>>(
+    mesh: &M,
+    x: &Vect<D>,
+    near: &[NearElement<D>],
+) -> Vec<SeenElement<D>> {
     near.iter().map(|n| mesh.seen(x, *n)).collect()
 }
 
 fn visible<const D: usize, M: WallMesh<D>>(
     mesh: &M,
-    around: &Surrounded<M::Near>,
+    around: &Surrounded<D>,
     x: &Vect<D>,
     spacing: f64,
 ) -> f64 {
     let apart = 0.5 * spacing / f64::from(SAMPLES);
     let mut others = seen(mesh, x, &around.others);
-    let Some(distance) = M::signed_distance(&others, &Vect::zeros(), 2.0 * spacing) else {
+    let Some(distance) = SeenElement::signed_distance(&others, [0.0; D], 2.0 * spacing) else {
         return 1.0;
     };
     if distance >= spacing + apart {
@@ -123,7 +113,7 @@ fn visible<const D: usize, M: WallMesh<D>>(
     let mut own = seen(mesh, x, &around.own);
     for (elements, reach) in [&mut own, &mut others].into_iter().zip(reach) {
         let (alone, far) = (std::slice::from_ref, reach + 0.5 * spacing);
-        elements.retain(|e| M::signed_distance(alone(e), &Vect::zeros(), far).is_some());
+        elements.retain(|e| SeenElement::signed_distance(alone(e), [0.0; D], far).is_some());
     }
     let (mut all, mut both) = (0.0, 0.0);
     // No sample is in a plane through the node, where a side would be undecided.
@@ -135,9 +125,9 @@ fn visible<const D: usize, M: WallMesh<D>>(
         if offset.norm() > 0.5 * spacing {
             continue;
         }
-        let mine = M::signed_distance(&own, &offset, reach[0]).map_or(1.0, ramp);
+        let mine = SeenElement::signed_distance(&own, offset.into(), reach[0]).map_or(1.0, ramp);
         if mine > 0.0 {
-            let other = M::signed_distance(&others, &offset, reach[1]);
+            let other = SeenElement::signed_distance(&others, offset.into(), reach[1]);
             all += mine;
             both += mine * other.map_or(1.0, left);
         }

@@ -19,4 +19,16 @@ impl Drawing {
             Self::Surface(surface) => &surface.name,
         }
     }
+
+    /// Its points, with as many coordinates as are asked for, m.
+    pub fn points<const D: usize>(&self) -> Vec<[f64; D]> {
+        match self {
+            Self::Line(line) => line.points.iter().map(cut).collect(),
+            Self::Surface(surface) => surface.points.iter().map(cut).collect(),
+        }
+    }
+}
+
+fn cut<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
+    std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
 }

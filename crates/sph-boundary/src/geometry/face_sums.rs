@@ -5,20 +5,19 @@ use sph_neighbours::ContactBlock;
 
 use crate::geometry::faces::Corner;
 use crate::geometry::shells::ShellSums;
-use crate::geometry::spatial_walls::SpatialWalls;
 use crate::integrals::spatial::{Foot, Weights};
-use crate::{GammaSum3d, NearTriangle, Renormalisation3d};
+use crate::{GammaSum, NearElement, Renormalisation3d, Walls};
 
-impl SpatialWalls {
+impl Walls<3> {
     /// The triangles of a row, sorted by image and triangle, by face and image.
     pub(crate) fn faces<'a>(
         &'a self,
-        mut row: &'a [NearTriangle],
-    ) -> impl Iterator<Item = &'a [NearTriangle]> + 'a {
+        mut row: &'a [NearElement<3>],
+    ) -> impl Iterator<Item = &'a [NearElement<3>]> + 'a {
         std::iter::from_fn(move || {
             let first = row.first()?;
-            let end = self.planes.ends[self.planes.faces[first.triangle as usize] as usize];
-            let same = |n: &NearTriangle| n.image == first.image && n.triangle < end;
+            let end = self.planes.ends[self.planes.faces[first.index()] as usize];
+            let same = |n: &NearElement<3>| n.image == first.image && n.element < end;
             let (part, rest) = row.split_at(first_other(row, same));
             row = rest;
             Some(part)
@@ -26,7 +25,7 @@ impl SpatialWalls {
     }
 
     /// A corner of an image of a face relative to a point, m: bitwise what
-    /// [`TriangleMesh::corners_from`] gives.
+    /// [`Mesh::corners_from`](crate::Mesh::corners_from) gives.
     #[inline(always)]
     pub(crate) fn seen(&self, corner: &Corner, image: [i8; 3], point: &Vect<3>) -> Vect<3> {
         let from = corner.position - point;
@@ -34,23 +33,23 @@ impl SpatialWalls {
             return from;
         }
         let shift = |k: usize| corner.image[k] + i32::from(image[k]);
-        from + Vect::from(self.domain.shift([shift(0), shift(1), shift(2)]))
+        from + Vect::from(self.mesh.domain.shift([shift(0), shift(1), shift(2)]))
     }
 
     /// Adds what the faces of a row do to γ of a point, and pushes their contacts but for those of `hidden` shells.
     pub(crate) fn see(
         &self,
         integrals: &Renormalisation3d,
-        (point, row): (&Vect<3>, &[NearTriangle]),
+        (point, row): (&Vect<3>, &[NearElement<3>]),
         weights: &mut Weights,
         contacts: &mut ContactBlock<3>,
         (sides, hidden): (&mut ShellSums, &[u32]),
-    ) -> GammaSum3d {
+    ) -> GammaSum<3> {
         let radius = integrals.kernel_radius();
-        let mut sum = GammaSum3d::default();
+        let mut sum = GammaSum::<3>::default();
         for part in self.faces(row) {
             let image = part[0].image;
-            let first = &self.mesh.triangles()[part[0].triangle as usize];
+            let first = &self.mesh.elements[part[0].index()];
             let normal = Vect::from(first.normal);
             let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
             let height = -self.seen(&corner, image, point).dot(&normal);
@@ -59,14 +58,14 @@ impl SpatialWalls {
             }
             let unshifted = match image {
                 [0, 0, 0] => *point,
-                _ => point - Vect::from(self.domain.shift(image.map(i32::from))),
+                _ => point - Vect::from(self.mesh.domain.shift(image.map(i32::from))),
             };
             let foot = Foot {
                 place: self.planes.planes[first.face].foot(unshifted.into()),
                 height,
                 reach: (radius * radius - height * height).sqrt(),
             };
-            let triangles = part.iter().map(|near| near.triangle);
+            let triangles = part.iter().map(|near| near.element);
             if !weights.find(triangles, &self.planes.circles, &foot) {
                 continue;
             }
@@ -76,7 +75,7 @@ impl SpatialWalls {
             });
             let whole = integrals.polygon(height, first.normal, edges);
             sum.add(&whole, first.normal);
-            let shell = self.shells.of(part[0].triangle as usize);
+            let shell = self.shells.of(part[0].index());
             sides.add(shell, whole.gamma);
             if whole.kernel == 0.0 || hidden.contains(&shell) {
                 continue;

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 
 use crate::integrals::spatial::{Circle, Patch, Plane};
-use crate::{FaceEdge, TriangleMesh};
+use crate::{FaceEdge, Mesh};
 
 /// The faces as planes, and the triangles in them.
 #[derive(Debug, Default)]
@@ -31,7 +31,7 @@ pub(crate) struct Corner {
 }
 
 impl Corner {
-    pub fn new(mesh: &TriangleMesh, node: usize, image: [i32; 3]) -> Self {
+    pub fn new(mesh: &Mesh<3>, node: usize, image: [i32; 3]) -> Self {
         let position = mesh.nodes()[node].position.into();
         Corner { position, image }
     }
@@ -39,7 +39,7 @@ impl Corner {
 
 impl Planes {
     /// For the present position of the walls.
-    pub fn new(mesh: &TriangleMesh) -> Self {
+    pub fn new(mesh: &Mesh<3>) -> Self {
         let mut all = Self::default();
         for face in mesh.faces() {
             let corner = |e: &FaceEdge, k: usize| Corner::new(mesh, e.nodes[k], e.images[k]);
@@ -47,7 +47,7 @@ impl Planes {
             all.edges.push(edges.collect());
         }
         // Triangles are stored face by face.
-        for (t, triangle) in mesh.triangles().iter().enumerate() {
+        for (t, triangle) in mesh.elements().iter().enumerate() {
             let corners = mesh.corners(t);
             if all.planes.len() <= triangle.face {
                 let plane = Plane::new(corners[0], triangle.normal);
@@ -56,7 +56,7 @@ impl Planes {
             }
             all.ends[triangle.face] = t as u32 + 1;
             let plane = &all.planes[triangle.face];
-            let (patch, circle) = Patch::new(plane, corners, triangle.area);
+            let (patch, circle) = Patch::new(plane, corners, triangle.measure);
             all.patches.push(patch);
             all.circles.push(circle);
             all.faces.push(triangle.face as u32);

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::SegmentMesh;
+use crate::Mesh;
 use crate::geometry::wall_mesh::WallMesh;
 
 /// Two particles nearer than this share of the spacing are one.
@@ -13,11 +13,10 @@ const TOO_CLOSE: f64 = 0.7;
 /// A place is kept if it is outside the fluid, not nearer to any wall than its own row, and not
 /// on top of a place already kept; so right angles are tiled exactly and others nearly so.
 ///
-/// `mesh` is that of the walls, `wall_of` the wall of every polyline of the mesh.
+/// `mesh` is that of the walls.
 pub(crate) fn layers(
     walls: &impl WallMesh<2>,
-    mesh: &SegmentMesh,
-    wall_of: &[usize],
+    mesh: &Mesh<2>,
     [spacing, support]: [f64; 2],
 ) -> Vec<(usize, Vect<2>)> {
     let rows = (support / spacing - 1e-9).ceil() as usize;
@@ -37,14 +36,14 @@ pub(crate) fn layers(
     };
     for row in 0..rows {
         let depth = (row as f64 + 0.5) * spacing;
-        for (s, segment) in mesh.segments().iter().enumerate() {
-            let [start, _] = mesh.ends(s);
+        for (s, segment) in mesh.elements().iter().enumerate() {
+            let [start, _] = mesh.corners(s);
             let tangent = segment.tangent();
             // A segment is about one spacing long: its own place is in its middle, and both
             // ends reach on so that outer corners are filled.
             let reach = rows as i64;
             for k in -reach..=reach {
-                let along = segment.length * 0.5 + k as f64 * spacing;
+                let along = segment.measure * 0.5 + k as f64 * spacing;
                 let p = [0, 1].map(|a| start[a] + tangent[a] * along - segment.normal[a] * depth);
                 let beyond = k != 0;
                 if walls.contains(&p.into()) {
@@ -77,7 +76,7 @@ pub(crate) fn layers(
                 if !taken {
                     cells.entry((cx, cy)).or_default().push(kept.len());
                     places.push(seen);
-                    kept.push((wall_of[segment.wall], p.into()));
+                    kept.push((segment.wall, p.into()));
                 }
             }
         }

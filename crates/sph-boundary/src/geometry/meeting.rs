@@ -1,13 +1,12 @@
 //! Corners of the plane where more than two lines meet.
 
-use std::ops::ControlFlow;
-
 use sph_core::BoxTree;
 
 use crate::error::WallWarning;
-use crate::geometry::checks::widened;
 use crate::geometry::polyline::Polyline;
-use crate::geometry::wedges::{Beside, Parts, wedges};
+use crate::geometry::sets::Sets;
+use crate::geometry::vector::widened;
+use crate::geometry::wedges::{Beside, bound_fluid, wedges};
 
 /// A line with the number of its wall.
 type Piece = (usize, Polyline);
@@ -40,7 +39,7 @@ pub(crate) fn bounding(
     };
     let all: Vec<Piece> = pieces.iter().flat_map(cut).collect();
     let ends = Ends::of(&all, groups, tolerance);
-    let mut parts = Parts::new(all.len());
+    let mut parts = Sets::new(all.len());
     let mut severed: Vec<(usize, Vec<usize>)> = Vec::new();
     for (n, end) in ends.all.iter().enumerate() {
         let meet = ends.at(end.place, groups[all[end.piece].0]);
@@ -67,7 +66,7 @@ pub(crate) fn bounding(
     if severed.is_empty() {
         return (pieces, Vec::new());
     }
-    let bounds = parts.bound_fluid(&severed);
+    let bounds = bound_fluid(parts, all.len(), &severed);
     let mut remarks = Vec::new();
     for (wall, name) in pieces.iter().map(|(wall, line)| (*wall, &line.name)) {
         let left_out = all.iter().zip(&bounds);
@@ -157,13 +156,8 @@ impl Ends {
     /// Ends of a group at a place, ascending.
     fn at(&self, place: [f64; 2], group: usize) -> Vec<usize> {
         let mut found = Vec::new();
-        let whole = self
-            .tree
-            .overlapping(widened([place; 2], self.tolerance), &mut |end| {
-                found.push(end);
-                ControlFlow::<()>::Continue(())
-            });
-        debug_assert!(whole.is_continue(), "nothing breaks it off");
+        let around = widened([place; 2], self.tolerance);
+        self.tree.each(around, |end| found.push(end));
         found.retain(|end| self.groups[*end] == group);
         found.sort_unstable();
         found

@@ -1,12 +1,34 @@
-//! The wall cut into segments.
+//! Walls cut into simplices: segments in the plane, triangles in space.
+//!
+//! * `elements`: nodes and elements;
+//! * `motion`: walls that move as rigid bodies;
+//! * `closest`, `signed`, `grid`, `near`, `rows`: what is near a place;
+//! * `rays`, `sides`, `inside`: on which side of the walls a place is.
+//!
+//! The meshes come from polylines (`lines`) and from surfaces (`surface`).
 
-mod build;
-mod ends;
-mod joints;
+mod closest;
+mod elements;
+mod grid;
+mod inside;
 mod motion;
-mod segment_mesh;
+mod near;
+mod near_element;
+mod rays;
+mod rows;
+mod sides;
 mod signed;
 
-pub(crate) use joints::SAME_PLACE;
-pub use segment_mesh::{NearSegment, Segment, SegmentMesh, Vertex};
-pub use signed::SeenSegment;
+pub(crate) use closest::angle;
+pub use closest::{Closest, Feature};
+pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
+pub use grid::Grid;
+pub(crate) use inside::{Outside, SAME_DISTANCE, SAME_HEIGHT};
+pub(crate) use motion::Measured;
+pub use near_element::NearElement;
+pub(crate) use sides::Sides;
+pub use signed::SeenElement;
+
+/// Points closer than this part of the spacing are the same place, and so much may a point lie off
+/// an edge or a plane and still be on it.
+pub(crate) const SAME_PLACE: f64 = 1e-6;

@@ -1,6 +1,7 @@
 //! A box whose opposite sides may be the same place.
 
 use crate::error::BoundaryError;
+use crate::geometry::cells::product;
 
 /// An axis-aligned box, each axis periodic or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,12 +47,8 @@ impl<const D: usize> PeriodicBox<D> {
     /// Refuses a periodic axis without extent.
     pub(crate) fn check(&self) -> Result<(), BoundaryError> {
         for k in 0..D {
-            let period = self.upper[k] - self.lower[k];
-            if self.periodic[k] && !(period > 0.0 && period.is_finite()) {
-                return Err(BoundaryError::NotPositive {
-                    name: "period",
-                    value: period,
-                });
+            if self.periodic[k] {
+                BoundaryError::check_positive("period", self.upper[k] - self.lower[k])?;
             }
         }
         Ok(())
@@ -97,21 +94,25 @@ impl<const D: usize> PeriodicBox<D> {
         std::array::from_fn(|k| f64::from(image[k]) * periods[k])
     }
 
-    /// Images of the interval [`low`, `high`] along `axis` that come within `margin` of the box.
-    pub(crate) fn images(
+    /// Images that a box must be moved by to come within other bounds, m, ascending; wholly unmoved along axes that are not
+    /// periodic.
+    pub(crate) fn images_within(
         &self,
-        axis: usize,
-        low: f64,
-        high: f64,
-        margin: f64,
-    ) -> std::ops::RangeInclusive<i32> {
-        if !self.periodic[axis] {
-            return 0..=0;
-        }
-        let period = self.periods()[axis];
-        let first = ((self.lower[axis] - margin - high) / period).ceil() as i32;
-        let last = ((self.upper[axis] + margin - low) / period).floor() as i32;
-        first..=last
+        [low, high]: [[f64; D]; 2],
+        own: [[f64; D]; 2],
+    ) -> impl Iterator<Item = [i32; D]> + use<D> {
+        let periods = self.periods();
+        let range = |k: usize| match self.periodic[k] {
+            false => [0; 2],
+            true => {
+                let first = ((low[k] - own[1][k]) / periods[k]).ceil();
+                [
+                    first as i64,
+                    ((high[k] - own[0][k]) / periods[k]).floor() as i64,
+                ]
+            }
+        };
+        product(std::array::from_fn(range)).map(|image| image.map(|n| n as i32))
     }
 }
 
@@ -126,9 +127,13 @@ mod tests {
             upper: [10.0, 1.0],
             periodic: [true, false],
         };
-        assert_eq!(channel.images(0, 9.5, 10.0, 1.0), -1..=0);
-        assert_eq!(channel.images(0, 4.0, 5.0, 1.0), 0..=0);
-        assert_eq!(channel.images(1, 4.0, 5.0, 1.0), 0..=0);
+        let images = |x: [f64; 2]| {
+            let around = [[-1.0, -1.0], [11.0, 2.0]];
+            let all = channel.images_within(around, x.map(|x| [x, 0.5]));
+            all.map(|[n, _]| n).collect::<Vec<_>>()
+        };
+        assert_eq!(images([9.5, 10.0]), [-1, 0]);
+        assert_eq!(images([4.0, 5.0]), [0]);
         assert_eq!(channel.nearest_image([-9.9, 3.0]), [-1, 0]);
         assert_eq!(channel.shift([-1, 0]), [-10.0, 0.0]);
     }

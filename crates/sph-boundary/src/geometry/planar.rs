@@ -1,7 +1,5 @@
 //! Walls in the plane: segments for the wall treatments.
 
-use std::sync::OnceLock;
-
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
@@ -10,56 +8,26 @@ use crate::geometry::checks::check_points;
 use crate::geometry::layers::layers;
 use crate::geometry::meeting::bounding;
 use crate::geometry::mesh::SAME_PLACE;
-use crate::geometry::segment_distance::distance_squared;
-use crate::geometry::shells::{Gammas, ShellSums, Shells};
+use crate::geometry::shells::{Gammas, ShellSums};
 use crate::geometry::touching::without_shared;
-use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
+use crate::geometry::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::groups::groups;
 use crate::{
-    BoundaryError, Drawing, GammaSum, NearSegment, PeriodicBox, Polyline, Pose, Renormalisation2d,
-    SeenSegment, Segment, SegmentBatch, SegmentGrid, SegmentMesh, Vertex, WallSpec,
+    BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,
+    Renormalisation2d, SeenElement, SegmentBatch, WallSpec, Walls,
 };
 
-/// Polylines cut into segments, with the grid that finds them.
-#[derive(Debug)]
-pub struct PlanarWalls {
-    pub(crate) mesh: SegmentMesh,
-    /// Of the present position, made when somebody asks.
-    grid: OnceLock<SegmentGrid>,
-    reach: f64,
-    spacing: f64,
-    names: Vec<String>,
-    shells: Shells,
-    /// The wall of every polyline of the mesh.
-    pub(crate) wall_of: Vec<usize>,
-}
-
-impl PlanarWalls {
-    fn grid(&self) -> &SegmentGrid {
-        let make = || SegmentGrid::build(&self.mesh, self.reach);
-        self.grid.get_or_init(make)
-    }
-
-    fn normal(&self, vertex: &Vertex) -> Vect<2> {
-        let of = |s: Option<usize>| s.map_or(Vect::zeros(), |s| self.segment(s).normal.into());
-        let sum: Vect<2> = of(vertex.previous) + of(vertex.next);
-        sum.try_normalize(1e-9).unwrap_or_else(Vect::zeros)
-    }
-
-    fn segment(&self, index: usize) -> &Segment {
-        &self.mesh.segments()[index]
-    }
-
+impl Walls<2> {
     /// Where a segment keeps a particle off.
     fn hindrance(
         &self,
         (x, behind): (&Vect<2>, &[(u32, u32)]),
-        near: NearSegment,
+        near: NearElement<2>,
         reach: f64,
     ) -> Option<Hindrance<2>> {
-        let segment = self.segment(near.segment);
-        let [start, end] = self.mesh.seen_from([x[0], x[1]], near).map(Vect::from);
-        let shell = self.shells.of(near.segment);
+        let segment = &self.mesh.elements[near.index()];
+        let [start, end] = self.mesh.corners_from([x[0], x[1]], near).map(Vect::from);
+        let shell = self.shells.of(near.index());
         let turned = behind.iter().any(|(_, s)| *s == shell);
         let normal = Vect::from(segment.normal) * if turned { -1.0 } else { 1.0 };
         // Only from the fluid's side: the far face of a plate is none of its business.
@@ -74,35 +42,30 @@ impl PlanarWalls {
             away: normal,
             distance: height,
             only_if: None,
-            wall: self.wall_of[segment.wall],
+            wall: segment.wall,
             place: x + nearest,
-            image: self.mesh.domain().shift(near.image).into(),
+            image: self.mesh.domain.shift(near.image.map(i32::from)).into(),
         };
         if (0.0..=1.0).contains(&share) {
             return Some(plane);
         }
         let distance = nearest.norm();
         let round = -nearest / distance;
-        // Where the next segment at the vertex is nearer, it holds the particle back; the
-        // vertex is no bump on a straight wall. In a corner this one's plane counts as well.
-        let vertex = &self.mesh.vertices()[segment.vertices[usize::from(share > 1.0)]];
-        let next = match share > 1.0 {
-            true => vertex.next,
-            false => vertex.previous,
-        };
+        // Where the next segment at the node is nearer, it holds the particle back; the
+        // node is no bump on a straight wall. In a corner this one's plane counts as well.
+        let ahead = usize::from(share > 1.0);
+        let node = segment.nodes[ahead];
+        let next = self.mesh.beside[node][ahead];
         let over_next = next.is_some_and(|s| {
-            let ahead = -nearest.dot(&Vect::from(self.segment(s).tangent()));
+            let ahead = -nearest.dot(&Vect::from(self.mesh.elements[s].tangent()));
             if share > 1.0 {
                 ahead > 0.0
             } else {
                 ahead < 0.0
             }
         });
-        let theta = if turned {
-            1.0 - vertex.theta
-        } else {
-            vertex.theta
-        };
+        let theta = self.mesh.nodes[node].theta;
+        let theta = if turned { 1.0 - theta } else { theta };
         match over_next {
             false => Some(Hindrance {
                 away: round,
@@ -118,9 +81,7 @@ impl PlanarWalls {
     }
 }
 
-impl WallMesh<2> for PlanarWalls {
-    type Near = NearSegment;
-    type Seen = SeenSegment;
+impl WallMesh<2> for Walls<2> {
     type Integrals = Renormalisation2d;
     type Room = SegmentBatch;
 
@@ -130,84 +91,38 @@ impl WallMesh<2> for PlanarWalls {
         reach: f64,
         domain: &PeriodicBox<2>,
     ) -> Result<Self, BoundaryError> {
-        let mut lines: Vec<Polyline> = Vec::new();
-        for spec in walls {
-            match &spec.drawing {
-                Drawing::Line(line) => lines.push(line.clone()),
-                Drawing::Surface(surface) => {
-                    let wall = surface.name.clone();
-                    return Err(BoundaryError::Dimension { wall, dimension: 2 });
-                }
+        let line = |spec: &WallSpec<2>| match &spec.drawing {
+            Drawing::Line(line) => check_points(line).map(|()| line.clone()),
+            Drawing::Surface(surface) => {
+                let wall = surface.name.clone();
+                Err(BoundaryError::Dimension { wall, dimension: 2 })
             }
-        }
-        for line in &lines {
-            check_points(line)?;
-        }
+        };
+        let lines: Vec<Polyline> = walls.iter().map(line).collect::<Result<_, _>>()?;
         let pieces = without_shared(&lines, &groups(walls), spacing)?;
         let (pieces, unseen) = bounding(pieces, &groups(walls), SAME_PLACE * spacing);
         let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
-        let mut mesh = SegmentMesh::build(&lines, spacing, domain)?;
-        mesh.remark(unseen);
-        mesh.bend_by(wall_of.iter().map(|w| walls[*w].motion.clone()).collect());
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
-        let lines = mesh.segments().iter();
-        let lines = lines.map(|s| (s.vertices, walls[wall_of[s.wall]].open));
-        let free = mesh.free_ends().iter().map(|end| end.vertex);
-        Ok(PlanarWalls {
-            shells: Shells::new(lines, mesh.vertices().len(), free),
-            grid: OnceLock::new(),
-            mesh,
-            reach,
-            spacing,
-            names,
-            wall_of,
-        })
+        let mut mesh = Mesh::of_pieces((&lines, &wall_of), names, spacing, domain)?;
+        mesh.warnings.extend(unseen);
+        mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
+        Ok(Walls::new(mesh, walls, reach))
     }
 
     fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d, BoundaryError> {
         Renormalisation2d::new(shape, h)
     }
 
-    fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    fn points(&self) -> impl Iterator<Item = MeshPoint<2>> + '_ {
-        self.mesh.vertices().iter().map(|vertex| {
-            let half = |s: Option<usize>| s.map_or(0.0, |s| 0.5 * self.segment(s).length);
-            // A free end answers for the half that is missing, too.
-            let (before, after) = (half(vertex.previous), half(vertex.next));
-            let length = match (vertex.previous, vertex.next) {
-                (Some(_), Some(_)) => before + after,
-                _ => 2.0 * (before + after),
-            };
-            MeshPoint {
-                position: vertex.position.into(),
-                normal: self.normal(vertex),
-                theta: vertex.theta,
-                size: length / self.spacing,
-                wall: self.wall_of[vertex.wall],
-            }
-        })
-    }
-
-    fn elements(&self) -> impl Iterator<Item = MeshElement<2>> + '_ {
-        self.mesh.segments().iter().map(|segment| MeshElement {
-            centre: segment.centre.into(),
-            normal: segment.normal.into(),
-            measure: segment.length,
-            wall: self.wall_of[segment.wall],
-            corners: segment.vertices.map(|v| v as u32),
-        })
+    fn walls(&self) -> &Walls<2> {
+        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
-        let poses: Vec<_> = self.wall_of.iter().map(|w| poses[*w]).collect();
         if poses == self.mesh.poses() {
             return Ok(());
         }
-        self.mesh.move_walls(&poses)?;
-        self.grid = OnceLock::new();
+        self.mesh.move_walls(poses)?;
+        self.forget_places();
         Ok(())
     }
 
@@ -216,20 +131,20 @@ impl WallMesh<2> for PlanarWalls {
         points: &[Vect<2>],
         radius: f64,
         counts: &mut Vec<u32>,
-        rows: &mut Vec<NearSegment>,
+        rows: &mut Vec<NearElement<2>>,
     ) {
         let (radius, grid) = (radius.min(self.reach), self.grid());
         for point in points {
             let from = rows.len();
-            rows.extend(grid.near(&self.mesh, [point[0], point[1]], radius));
+            rows.extend(grid.near(&self.mesh, (*point).into(), radius));
             counts.push((rows.len() - from) as u32);
         }
     }
 
-    fn clearance(&self, point: &Vect<2>, near: &[NearSegment]) -> f64 {
+    fn clearance(&self, point: &Vect<2>, near: &[NearElement<2>]) -> f64 {
         let heights = near.iter().map(|near| {
-            let [start, _] = self.mesh.seen_from([point[0], point[1]], *near);
-            let normal: Vect<2> = self.segment(near.segment).normal.into();
+            let [start, _] = self.mesh.corners_from((*point).into(), *near);
+            let normal: Vect<2> = self.mesh.elements[near.index()].normal.into();
             -Vect::<2>::from(start).dot(&normal)
         });
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
@@ -239,7 +154,7 @@ impl WallMesh<2> for PlanarWalls {
     fn gammas<'a>(
         &self,
         integrals: &Renormalisation2d,
-        points: impl Iterator<Item = (&'a Vect<2>, &'a [NearSegment])>,
+        points: impl Iterator<Item = (&'a Vect<2>, &'a [NearElement<2>])>,
         batch: &mut SegmentBatch,
         contacts: &mut ContactBlock<2>,
         found: &mut Gammas,
@@ -247,9 +162,9 @@ impl WallMesh<2> for PlanarWalls {
         batch.clear();
         for (point, row) in points {
             for &near in row {
-                let ends = self.mesh.seen_from([point[0], point[1]], near);
-                let normal = self.segment(near.segment).normal;
-                integrals.see(batch, near.segment as u32, ends, normal);
+                let ends = self.mesh.corners_from((*point).into(), near);
+                let normal = self.mesh.elements[near.index()].normal;
+                integrals.see(batch, near.element, ends, normal);
             }
             batch.end();
         }
@@ -257,18 +172,18 @@ impl WallMesh<2> for PlanarWalls {
         let mut from = 0;
         let mut sides = std::mem::take(&mut found.sides);
         for &end in &batch.ends {
-            let mut sum = GammaSum::default();
+            let mut sum = GammaSum::<2>::default();
             let planes = contacts.planes();
             sides.clear();
             for k in from..end {
                 let (element, distance) = batch.seen[k];
-                let segment = self.segment(element as usize);
+                let normal = self.mesh.elements[element as usize].normal;
                 let integral = integrals.weighed(batch, k);
-                sum.add(&integral, segment);
+                sum.add(&integral, element as usize, &self.mesh);
                 sides.add(self.shells.of(element as usize), integral.gamma);
                 if integral.kernel != 0.0 {
                     let share = std::iter::once((element, integral.kernel));
-                    contacts.push(segment.normal.into(), distance, share);
+                    contacts.push(normal.into(), distance, share);
                 }
             }
             let touches = sum.contact_fraction > 0.0;
@@ -281,7 +196,7 @@ impl WallMesh<2> for PlanarWalls {
                         let shell = self.shells.of(element as usize);
                         let kernel = integrals.weighed(batch, k).kernel;
                         if kernel != 0.0 && sides.behind().all(|(s, _)| s != shell) {
-                            let normal = self.segment(element as usize).normal;
+                            let normal = self.mesh.elements[element as usize].normal;
                             contacts.push(
                                 normal.into(),
                                 distance,
@@ -297,16 +212,11 @@ impl WallMesh<2> for PlanarWalls {
         found.sides = sides;
     }
 
-    fn shells(&self) -> &Shells {
-        &self.shells
-    }
-
-    fn element(&self, near: NearSegment) -> usize {
-        near.segment
-    }
-
-    fn is_crossed(&self, near: NearSegment, point: &Vect<2>, by: &Vect<2>) -> bool {
-        let [a, b] = self.mesh.seen_from((*point).into(), near).map(Vect::from);
+    fn is_crossed(&self, near: NearElement<2>, point: &Vect<2>, by: &Vect<2>) -> bool {
+        let [a, b] = self
+            .mesh
+            .corners_from((*point).into(), near)
+            .map(Vect::from);
         let along: Vect<2> = b - a;
         by.perp(&a) * by.perp(&b) <= 0.0 && along.perp(&-a) * along.perp(&(by - a)) <= 0.0
     }
@@ -314,7 +224,7 @@ impl WallMesh<2> for PlanarWalls {
     fn hindrances(
         &self,
         of: (&Vect<2>, &[(u32, u32)]),
-        near: &[NearSegment],
+        near: &[NearElement<2>],
         reach: f64,
         hindrances: &mut Vec<Hindrance<2>>,
     ) {
@@ -324,64 +234,27 @@ impl WallMesh<2> for PlanarWalls {
         );
     }
 
-    /// The side of the nearest segment if a wall is near, else of all walls together. Open walls
-    /// have no inside, but they have a front.
     fn enclosed(&self, point: &Vect<2>) -> Option<f64> {
-        self.mesh.enclosed([point[0], point[1]])
+        self.mesh.enclosed((*point).into())
     }
 
+    /// The side of the nearest segment if a wall is near, else of all walls together. Open walls
+    /// have no inside, but they have a front.
     fn contains(&self, point: &Vect<2>) -> bool {
         let near = self.near(point, self.reach);
         let seen: Vec<_> = near.into_iter().map(|n| self.seen(point, n)).collect();
-        match Self::signed_distance(&seen, &Vect::zeros(), self.reach) {
+        match SeenElement::signed_distance(&seen, [0.0; 2], self.reach) {
             Some(distance) => distance >= 0.0,
-            None => self.mesh.contains([point[0], point[1]]),
+            None => self.mesh.contains((*point).into()),
         }
-    }
-
-    fn wall_of(&self, near: NearSegment) -> usize {
-        self.wall_of[self.segment(near.segment).wall]
-    }
-
-    fn seen(&self, point: &Vect<2>, near: NearSegment) -> SeenSegment {
-        self.mesh.seen((*point).into(), near)
-    }
-
-    fn signed_distance(seen: &[SeenSegment], place: &Vect<2>, within: f64) -> Option<f64> {
-        SeenSegment::signed_distance(seen, (*place).into(), within)
-    }
-
-    fn nearest(&self, point: &Vect<2>, within: f64) -> Option<(f64, usize)> {
-        let point = [point[0], point[1]];
-        let near = self.grid().near(&self.mesh, point, within.min(self.reach));
-        near.map(|near| {
-            let [start, end] = self.mesh.seen_from(point, near);
-            (distance_squared(start, end), near.segment)
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(d2, segment)| (d2.sqrt(), self.wall_of[self.segment(segment).wall]))
-    }
-
-    fn bounds(&self) -> Option<(Vect<2>, Vect<2>)> {
-        let places = || self.mesh.vertices().iter().map(|v| Vect::from(v.position));
-        let low = places().reduce(|a, b| a.inf(&b))?;
-        Some((low, places().reduce(|a, b| a.sup(&b))?))
     }
 
     fn check_free_ends(&self, points: &[Vect<2>], radius: f64) -> Result<(), BoundaryError> {
-        if self.mesh.free_ends().is_empty() {
-            return Ok(());
-        }
-        let points: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1]]).collect();
+        let points: Vec<[f64; 2]> = points.iter().map(|p| (*p).into()).collect();
         self.mesh.check_free_ends(&points, radius)
     }
 
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<2>)> {
-        layers(self, &self.mesh, &self.wall_of, [spacing, support])
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        let all = self.mesh.warnings().iter();
-        all.map(ToString::to_string).collect()
+        layers(self, &self.mesh, [spacing, support])
     }
 }

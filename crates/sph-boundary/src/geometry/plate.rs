@@ -26,10 +26,8 @@ pub fn thin_plate(
     let middle = Polyline::open(name, points.to_vec());
     check_points(&middle)?;
     if !(thickness >= 0.0 && thickness.is_finite()) {
-        return Err(BoundaryError::NotPositive {
-            name: "plate thickness",
-            value: thickness,
-        });
+        let (name, value) = ("plate thickness", thickness);
+        return Err(BoundaryError::NotPositive { name, value });
     }
     let last = points.len() - 1;
     if thickness == 0.0 {

@@ -62,6 +62,11 @@ impl Polyline {
         (0..self.edge_count()).map(|edge| self.edge(edge))
     }
 
+    /// Lengths of all edges, m.
+    pub fn lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        self.edges().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
+    }
+
     /// The same wall with the fluid on the other side.
     pub fn reversed(&self) -> Self {
         let points = self.points.iter().rev().copied().collect();

@@ -1,5 +1,7 @@
 //! Pieces of wall that end freely, and on which side of them a point is.
 
+use crate::geometry::sets::Sets;
+
 /// A sum of Γ below this puts a point behind a shell; rounding does not reach it.
 const BEHIND: f64 = 1e-9;
 /// Least γ: that of a point in a corner behind several shells.
@@ -23,25 +25,17 @@ impl Shells {
         nodes: usize,
         free: impl Iterator<Item = usize>,
     ) -> Self {
-        let mut parent: Vec<usize> = (0..nodes).collect();
-        let root = |parent: &mut [usize], mut k: usize| {
-            while parent[k] != k {
-                parent[k] = parent[parent[k]];
-                k = parent[k];
-            }
-            k
-        };
+        let mut sets = Sets::new(nodes);
         for (element, _) in elements.clone().filter(|(_, open)| !open) {
             for pair in element.windows(2) {
-                let [a, b] = [pair[0], pair[1]].map(|k| root(&mut parent, k));
-                parent[a.max(b)] = a.min(b);
+                sets.join([pair[0], pair[1]]);
             }
         }
         let (mut number, mut ends) = (vec![0; nodes], vec![false; nodes]);
         let mut shells = 0;
         for node in free {
             ends[node] = true;
-            let of = &mut number[root(&mut parent, node)];
+            let of = &mut number[sets.of(node)];
             if *of == 0 {
                 shells += 1;
                 *of = shells;
@@ -54,13 +48,7 @@ impl Shells {
         Shells {
             rim: rim.collect(),
             of: elements
-                .map(|(e, open)| {
-                    if open {
-                        0
-                    } else {
-                        number[root(&mut parent, e[0])]
-                    }
-                })
+                .map(|(e, open)| if open { 0 } else { number[sets.of(e[0])] })
                 .collect(),
         }
     }

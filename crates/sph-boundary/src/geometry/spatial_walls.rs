@@ -1,32 +1,18 @@
 //! Walls in space: triangles for the wall treatments.
 
-use std::sync::OnceLock;
-
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
 use crate::geometry::faces::{Corner, Planes};
-use crate::geometry::shells::{Gammas, ShellSums, Shells};
-use crate::geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
+use crate::geometry::shells::{Gammas, ShellSums};
+use crate::geometry::wall_mesh::{Hindrance, WallMesh};
 use crate::integrals::spatial::Weights;
 use crate::treatment::groups::groups;
 use crate::{
-    BoundaryError, Closest, Drawing, Feature, NearTriangle, PeriodicBox, Pose, Renormalisation3d,
-    SeenTriangle, Surface, TriangleGrid, TriangleMesh, WallSpec,
+    BoundaryError, Closest, Drawing, Feature, Mesh, NearElement, PeriodicBox, Pose,
+    Renormalisation3d, Surface, WallSpec, Walls,
 };
-
-/// Surfaces remeshed at the particle spacing, with the grid that finds their triangles.
-#[derive(Debug)]
-pub struct SpatialWalls {
-    pub(crate) mesh: TriangleMesh,
-    /// Of the present position, made when somebody asks.
-    grid: OnceLock<TriangleGrid>,
-    pub(crate) planes: Planes,
-    pub(crate) shells: Shells,
-    reach: f64,
-    pub(crate) domain: PeriodicBox<3>,
-}
 
 /// Two places nearer than this, relatively, are equally near.
 const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
@@ -34,18 +20,9 @@ const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
 const SAME_PLANE: f64 = 1e-6;
 
 /// A triangle with its closest place, the vector there and its length.
-type Seen<'a> = (&'a NearTriangle, Closest, Vect<3>, f64);
+type Seen<'a> = (&'a NearElement<3>, Closest<3>, Vect<3>, f64);
 
-impl SpatialWalls {
-    fn grid(&self) -> &TriangleGrid {
-        let make = || TriangleGrid::build(&self.mesh, self.reach);
-        self.grid.get_or_init(make)
-    }
-}
-
-impl WallMesh<3> for SpatialWalls {
-    type Near = NearTriangle;
-    type Seen = SeenTriangle;
+impl WallMesh<3> for Walls<3> {
     type Integrals = Renormalisation3d;
     type Room = Weights;
 
@@ -55,68 +32,31 @@ impl WallMesh<3> for SpatialWalls {
         reach: f64,
         domain: &PeriodicBox<3>,
     ) -> Result<Self, BoundaryError> {
-        let mut surfaces: Vec<Surface> = Vec::new();
-        for spec in walls {
-            match &spec.drawing {
-                Drawing::Surface(surface) => surfaces.push(surface.clone()),
-                Drawing::Line(line) => {
-                    let wall = line.name.clone();
-                    return Err(BoundaryError::Dimension { wall, dimension: 3 });
-                }
+        let surface = |spec: &WallSpec<3>| match &spec.drawing {
+            Drawing::Surface(surface) => Ok(surface.clone()),
+            Drawing::Line(line) => {
+                let wall = line.name.clone();
+                Err(BoundaryError::Dimension { wall, dimension: 3 })
             }
-        }
-        let mesh = TriangleMesh::build(&surfaces, &groups(walls), spacing, domain)?;
-        let triangles = mesh.triangles().iter();
-        let triangles = triangles.map(|t| (t.nodes, walls[t.wall].open));
-        let free = mesh.free_edges().iter().flat_map(|edge| edge.nodes);
-        Ok(SpatialWalls {
-            shells: Shells::new(triangles, mesh.nodes().len(), free),
-            grid: OnceLock::new(),
-            planes: Planes::new(&mesh),
-            mesh,
-            reach,
-            domain: *domain,
-        })
+        };
+        let surfaces: Vec<Surface> = walls.iter().map(surface).collect::<Result<_, _>>()?;
+        let mesh = Mesh::<3>::build(&surfaces, &groups(walls), spacing, domain)?;
+        let mut walls = Walls::new(mesh, walls, reach);
+        walls.planes = Planes::new(&walls.mesh);
+        Ok(walls)
     }
 
     fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d, BoundaryError> {
         Renormalisation3d::new(shape, h)
     }
 
-    fn names(&self) -> &[String] {
-        self.mesh.walls()
-    }
-
-    fn points(&self) -> impl Iterator<Item = MeshPoint<3>> + '_ {
-        let mut normals = vec![Vect::<3>::zeros(); self.mesh.nodes().len()];
-        for triangle in self.mesh.triangles() {
-            for node in triangle.nodes {
-                normals[node] += Vect::from(triangle.normal) * triangle.area;
-            }
-        }
-        let nodes = self.mesh.nodes().iter();
-        nodes.zip(normals).map(|(node, normal)| MeshPoint {
-            position: node.position.into(),
-            normal: normal.try_normalize(0.0).unwrap_or_else(Vect::zeros),
-            theta: node.theta,
-            size: node.size,
-            wall: node.wall,
-        })
-    }
-
-    fn elements(&self) -> impl Iterator<Item = MeshElement<3>> + '_ {
-        self.mesh.triangles().iter().map(|triangle| MeshElement {
-            centre: triangle.centre.into(),
-            normal: triangle.normal.into(),
-            measure: triangle.area,
-            wall: triangle.wall,
-            corners: triangle.nodes.map(|n| n as u32),
-        })
+    fn walls(&self) -> &Walls<3> {
+        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
         self.mesh.move_walls(poses)?;
-        self.grid = OnceLock::new();
+        self.forget_places();
         self.planes = Planes::new(&self.mesh);
         Ok(())
     }
@@ -128,7 +68,7 @@ impl WallMesh<3> for SpatialWalls {
         points: &[Vect<3>],
         radius: f64,
         counts: &mut Vec<u32>,
-        rows: &mut Vec<NearTriangle>,
+        rows: &mut Vec<NearElement<3>>,
     ) {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
         self.grid()
@@ -138,9 +78,9 @@ impl WallMesh<3> for SpatialWalls {
     /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the face's
     /// triangles by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
     /// whatever else stands in the row.
-    fn clearance(&self, point: &Vect<3>, near: &[NearTriangle]) -> f64 {
+    fn clearance(&self, point: &Vect<3>, near: &[NearElement<3>]) -> f64 {
         let heights = self.faces(near).map(|part| {
-            let first = &self.mesh.triangles()[part[0].triangle as usize];
+            let first = &self.mesh.elements[part[0].index()];
             let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
             -self
                 .seen(&corner, part[0].image, point)
@@ -152,7 +92,7 @@ impl WallMesh<3> for SpatialWalls {
     fn gammas<'a>(
         &self,
         integrals: &Renormalisation3d,
-        points: impl Iterator<Item = (&'a Vect<3>, &'a [NearTriangle])>,
+        points: impl Iterator<Item = (&'a Vect<3>, &'a [NearElement<3>])>,
         room: &mut Weights,
         contacts: &mut ContactBlock<3>,
         found: &mut Gammas,
@@ -174,20 +114,12 @@ impl WallMesh<3> for SpatialWalls {
         found.sides = sides;
     }
 
-    fn shells(&self) -> &Shells {
-        &self.shells
-    }
-
-    fn element(&self, near: NearTriangle) -> usize {
-        near.triangle as usize
-    }
-
-    fn is_crossed(&self, near: NearTriangle, point: &Vect<3>, by: &Vect<3>) -> bool {
+    fn is_crossed(&self, near: NearElement<3>, point: &Vect<3>, by: &Vect<3>) -> bool {
         let [a, b, c] = self
             .mesh
             .corners_from((*point).into(), near)
             .map(Vect::from);
-        let normal = Vect::from(self.mesh.triangles()[near.triangle as usize].normal);
+        let normal = Vect::from(self.mesh.elements[near.index()].normal);
         let here = a.dot(&normal);
         if here * (here - by.dot(&normal)) > 0.0 {
             return false;
@@ -199,7 +131,7 @@ impl WallMesh<3> for SpatialWalls {
     fn hindrances(
         &self,
         (point, behind): (&Vect<3>, &[(u32, u32)]),
-        row: &[NearTriangle],
+        row: &[NearElement<3>],
         reach: f64,
         hindrances: &mut Vec<Hindrance<3>>,
     ) {
@@ -212,7 +144,7 @@ impl WallMesh<3> for SpatialWalls {
                 (near, closest, offset, offset.norm())
             })
             .filter(|(near, closest, _, distance)| {
-                let shell = self.shells.of(near.triangle as usize);
+                let shell = self.shells.of(near.index());
                 let turned = behind.iter().any(|(_, s)| *s == shell);
                 let before = if turned {
                     closest.height < 0.0
@@ -226,7 +158,7 @@ impl WallMesh<3> for SpatialWalls {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:
             // on an edge that stands out, not where the plane beyond the rim is nearer.
             let beyond = |other: &Seen| {
-                let normal = Vect::from(self.mesh.triangles()[other.0.triangle as usize].normal);
+                let normal = Vect::from(self.mesh.elements[other.0.index()].normal);
                 let apart = offset - other.2;
                 other.3 * EQUALLY_NEAR < *distance
                     && apart.dot(&normal).abs() < SAME_PLANE * distance
@@ -239,9 +171,9 @@ impl WallMesh<3> for SpatialWalls {
                 away: -offset / *distance,
                 distance: *distance,
                 only_if: None,
-                wall: self.mesh.triangles()[near.triangle as usize].wall,
+                wall: self.mesh.elements[near.index()].wall,
                 place: point + offset,
-                image: self.domain.shift(near.image.map(i32::from)).into(),
+                image: self.mesh.domain.shift(near.image.map(i32::from)).into(),
             });
         }
     }
@@ -254,49 +186,12 @@ impl WallMesh<3> for SpatialWalls {
         self.mesh.contains((*point).into())
     }
 
-    fn nearest(&self, point: &Vect<3>, within: f64) -> Option<(f64, usize)> {
-        let x: [f64; 3] = (*point).into();
-        let near = self.grid().near(&self.mesh, x, within.min(self.reach));
-        near.map(|near| {
-            let offset = Vect::from(self.mesh.closest(x, near).offset);
-            (offset.norm(), near.triangle)
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(d, triangle)| (d, self.mesh.triangles()[triangle as usize].wall))
-    }
-
-    fn wall_of(&self, near: NearTriangle) -> usize {
-        self.mesh.triangles()[near.triangle as usize].wall
-    }
-
-    fn seen(&self, point: &Vect<3>, near: NearTriangle) -> SeenTriangle {
-        self.mesh.seen((*point).into(), near)
-    }
-
-    fn signed_distance(seen: &[SeenTriangle], place: &Vect<3>, within: f64) -> Option<f64> {
-        SeenTriangle::signed_distance(seen, (*place).into(), within)
-    }
-
-    fn bounds(&self) -> Option<(Vect<3>, Vect<3>)> {
-        let places = || self.mesh.nodes().iter().map(|n| Vect::from(n.position));
-        let low = places().reduce(|a, b| a.inf(&b))?;
-        Some((low, places().reduce(|a, b| a.sup(&b))?))
-    }
-
     fn check_free_ends(&self, points: &[Vect<3>], radius: f64) -> Result<(), BoundaryError> {
-        if self.mesh.free_edges().is_empty() {
-            return Ok(());
-        }
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
         self.mesh.check_free_edges(&points, radius)
     }
 
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
-        crate::geometry::lattice_layers::layers(self, &self.domain, spacing, support)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        let all = self.mesh.warnings().iter();
-        all.map(ToString::to_string).collect()
+        crate::geometry::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
     }
 }

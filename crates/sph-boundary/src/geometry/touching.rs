@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use crate::geometry::checks::{around, widened};
+use crate::geometry::vector::{bounds, widened};
 use crate::limits::MOST_PAIRS;
 use crate::{BoundaryError, Polyline};
 
@@ -31,12 +31,12 @@ pub(crate) fn without_shared(
     let tolerance = SAME_LINE * spacing;
     let of = |(k, line): (usize, &Polyline)| line.edges().map(|e| (k, e)).collect::<Vec<_>>();
     let edges: Vec<(usize, [[f64; 2]; 2])> = lines.iter().enumerate().flat_map(of).collect();
-    let tree = BoxTree::new(edges.iter().map(|(_, e)| around(*e)).collect());
+    let tree = BoxTree::new(edges.iter().map(|(_, e)| bounds(*e)).collect());
     let mut pairs = 0;
     let mut near = Vec::new();
     let mut cuts_of = |k: usize, edge: [[f64; 2]; 2]| {
         near.clear();
-        let whole = tree.overlapping(widened(around(edge), tolerance), &mut |n| {
+        let whole = tree.overlapping(widened(bounds(edge), tolerance), &mut |n| {
             let other = edges[n].0;
             pairs += 1;
             if other != k && groups[other] == groups[k] {
@@ -49,7 +49,8 @@ pub(crate) fn without_shared(
         });
         if whole.is_break() {
             let wall = lines[k].name.clone();
-            return Err(BoundaryError::Tangled { wall });
+            let what = "edges";
+            return Err(BoundaryError::Tangled { what, wall });
         }
         near.sort_unstable();
         let faces = near.iter().map(|n| edges[*n].1);

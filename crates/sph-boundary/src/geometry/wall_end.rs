@@ -25,8 +25,8 @@ pub struct FreeEnd {
     pub wall: usize,
     /// Which end of it.
     pub end: WallEnd,
-    /// Index of the vertex.
-    pub vertex: usize,
+    /// Index of the node.
+    pub node: usize,
     /// Present position, m.
     pub position: [f64; 2],
 }

@@ -4,7 +4,10 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::{BoundaryError, Gammas, PeriodicBox, Pose, Shells, WallSpec};
+use crate::geometry::vector::{bounds, dot};
+use crate::{
+    BoundaryError, Gammas, NearElement, PeriodicBox, Pose, SeenElement, Shells, WallSpec, Walls,
+};
 
 /// A node of the mesh.
 #[derive(Clone, Copy, Debug)]
@@ -53,12 +56,9 @@ pub struct Hindrance<const D: usize> {
     pub image: Vect<D>,
 }
 
-/// The walls of a scene as a mesh of elements of about the particle spacing.
+/// The walls of a scene as a mesh of elements of about the particle spacing: what the two dimensions have in common, and what
+/// each answers in its own way.
 pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'static {
-    /// An element, or one of its periodic images, near a point.
-    type Near: Copy + Send + Sync + std::fmt::Debug;
-    /// An element relative to a point.
-    type Seen: Send + Sync;
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
     /// Buffers of a task that finds γ.
@@ -84,12 +84,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         smoothing_length: f64,
     ) -> Result<Self::Integrals, BoundaryError>;
 
-    /// Names of the walls.
-    fn names(&self) -> &[String];
-    /// All nodes at the present position of the walls.
-    fn points(&self) -> impl Iterator<Item = MeshPoint<D>> + '_;
-    /// All elements at the present position of the walls.
-    fn elements(&self) -> impl Iterator<Item = MeshElement<D>> + '_;
+    /// The mesh and what finds its elements.
+    fn walls(&self) -> &Walls<D>;
 
     /// Moves every wall to its pose.
     ///
@@ -104,11 +100,99 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         points: &[Vect<D>],
         radius: f64,
         counts: &mut Vec<u32>,
-        rows: &mut Vec<Self::Near>,
+        rows: &mut Vec<NearElement<D>>,
     );
 
+    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. What is
+    /// hidden behind such a shell is no contact.
+    fn gammas<'a>(
+        &self,
+        integrals: &Self::Integrals,
+        points: impl Iterator<Item = (&'a Vect<D>, &'a [NearElement<D>])>,
+        room: &mut Self::Room,
+        contacts: &mut ContactBlock<D>,
+        found: &mut Gammas,
+    );
+
+    /// Whether the way `by` from a point leads through an element.
+    fn is_crossed(&self, near: NearElement<D>, point: &Vect<D>, by: &Vect<D>) -> bool;
+
+    /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
+    /// is none. No element is nearer.
+    fn clearance(&self, point: &Vect<D>, near: &[NearElement<D>]) -> f64;
+
+    /// Where the walls keep a particle off that is behind some shells, among the places nearer than `reach` metres.
+    fn hindrances(
+        &self,
+        of: (&Vect<D>, &[(u32, u32)]),
+        near: &[NearElement<D>],
+        reach: f64,
+        hindrances: &mut Vec<Hindrance<D>>,
+    );
+
+    /// Whether a point is on the fluid's side of all walls.
+    fn contains(&self, point: &Vect<D>) -> bool;
+
+    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
+    /// walls.
+    fn enclosed(&self, point: &Vect<D>) -> Option<f64>;
+
+    /// Refuses points within a radius of the free end of an open wall.
+    ///
+    /// # Errors
+    /// Names the wall and the place.
+    fn check_free_ends(&self, points: &[Vect<D>], radius: f64) -> Result<(), BoundaryError>;
+
+    /// Places of dummy particles behind the walls with the index of their wall, m.
+    fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<D>)>;
+
+    /// Names of the walls.
+    fn names(&self) -> &[String] {
+        self.walls().mesh.walls()
+    }
+
+    /// All nodes at the present position of the walls.
+    fn points(&self) -> impl Iterator<Item = MeshPoint<D>> + '_ {
+        let mesh = &self.walls().mesh;
+        let mut normals = vec![Vect::<D>::zeros(); mesh.nodes.len()];
+        for element in &mesh.elements {
+            // At a corner of the plane both segments count alike.
+            let weight = if D == 2 { 1.0 } else { element.measure };
+            for node in element.nodes {
+                normals[node] += Vect::from(element.normal) * weight;
+            }
+        }
+        // The two faces of a plate of no thickness have none where they meet.
+        let least = if D == 2 { 1e-9 } else { 0.0 };
+        mesh.nodes
+            .iter()
+            .zip(normals)
+            .map(move |(node, normal)| MeshPoint {
+                position: node.position.into(),
+                normal: normal.try_normalize(least).unwrap_or_else(Vect::zeros),
+                theta: node.theta,
+                size: node.size,
+                wall: node.wall,
+            })
+    }
+
+    /// All elements at the present position of the walls.
+    fn elements(&self) -> impl Iterator<Item = MeshElement<D>> + '_ {
+        self.walls()
+            .mesh
+            .elements
+            .iter()
+            .map(|element| MeshElement {
+                centre: element.centre.into(),
+                normal: element.normal.into(),
+                measure: element.measure,
+                wall: element.wall,
+                corners: element.nodes.map(|n| n as u32),
+            })
+    }
+
     /// Elements within a radius of a point, or a few more, ascending.
-    fn near(&self, point: &Vect<D>, radius: f64) -> Vec<Self::Near> {
+    fn near(&self, point: &Vect<D>, radius: f64) -> Vec<NearElement<D>> {
         let mut row = Vec::new();
         self.near_all(
             std::slice::from_ref(point),
@@ -125,7 +209,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         &self,
         integrals: &Self::Integrals,
         point: &Vect<D>,
-        near: &[Self::Near],
+        near: &[NearElement<D>],
         room: &mut Self::Room,
         contacts: &mut ContactBlock<D>,
     ) -> f64 {
@@ -135,71 +219,43 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         found.all[0].0
     }
 
-    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. What is
-    /// hidden behind such a shell is no contact.
-    fn gammas<'a>(
-        &self,
-        integrals: &Self::Integrals,
-        points: impl Iterator<Item = (&'a Vect<D>, &'a [Self::Near])>,
-        room: &mut Self::Room,
-        contacts: &mut ContactBlock<D>,
-        found: &mut Gammas,
-    );
-
     /// Pieces that end freely.
-    fn shells(&self) -> &Shells;
-
-    /// Index of an element.
-    fn element(&self, near: Self::Near) -> usize;
-
-    /// Whether the way `by` from a point leads through an element.
-    fn is_crossed(&self, near: Self::Near, point: &Vect<D>, by: &Vect<D>) -> bool;
-
-    /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
-    /// is none. No element is nearer.
-    fn clearance(&self, point: &Vect<D>, near: &[Self::Near]) -> f64;
-
-    /// Where the walls keep a particle off that is behind some shells, among the places nearer than `reach` metres.
-    fn hindrances(
-        &self,
-        of: (&Vect<D>, &[(u32, u32)]),
-        near: &[Self::Near],
-        reach: f64,
-        hindrances: &mut Vec<Hindrance<D>>,
-    );
-
-    /// Whether a point is on the fluid's side of all walls.
-    fn contains(&self, point: &Vect<D>) -> bool;
-
-    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
-    /// walls.
-    fn enclosed(&self, point: &Vect<D>) -> Option<f64>;
-
-    /// Distance of the nearest wall, m, and its index, if nearer than `within`.
-    fn nearest(&self, point: &Vect<D>, within: f64) -> Option<(f64, usize)>;
+    fn shells(&self) -> &Shells {
+        &self.walls().shells
+    }
 
     /// Index of the wall of an element.
-    fn wall_of(&self, near: Self::Near) -> usize;
+    fn wall_of(&self, near: NearElement<D>) -> usize {
+        self.walls().mesh.elements[near.index()].wall
+    }
 
     /// An element as seen from a point.
-    fn seen(&self, point: &Vect<D>, near: Self::Near) -> Self::Seen;
+    fn seen(&self, point: &Vect<D>, near: NearElement<D>) -> SeenElement<D> {
+        self.walls().mesh.seen((*point).into(), near)
+    }
 
-    /// Distance of the nearest of some elements from a place relative to the point they are seen from, m, positive on its
-    /// fluid's side; `None` if none of them is nearer than `within`.
-    fn signed_distance(seen: &[Self::Seen], place: &Vect<D>, within: f64) -> Option<f64>;
+    /// Distance of the nearest wall, m, and its index, if nearer than `within`.
+    fn nearest(&self, point: &Vect<D>, within: f64) -> Option<(f64, usize)> {
+        let (walls, x) = (self.walls(), (*point).into());
+        let near = walls.grid().near(&walls.mesh, x, within.min(walls.reach));
+        let distance2 = |near| {
+            let offset = walls.mesh.closest(x, near).offset;
+            (dot(offset, offset), near)
+        };
+        let nearest = near.map(distance2).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map(|(d2, near)| (d2.sqrt(), self.wall_of(near)))
+    }
 
     /// Lower and upper corner of the box around all walls, m.
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
-
-    /// Refuses points within a radius of the free end of an open wall.
-    ///
-    /// # Errors
-    /// Names the wall and the place.
-    fn check_free_ends(&self, points: &[Vect<D>], radius: f64) -> Result<(), BoundaryError>;
-
-    /// Places of dummy particles behind the walls with the index of their wall, m.
-    fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<D>)>;
+    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
+        let nodes = &self.walls().mesh.nodes;
+        let [low, high] = bounds(nodes.iter().map(|n| n.position));
+        (!nodes.is_empty()).then(|| (low.into(), high.into()))
+    }
 
     /// Remarks on the walls.
-    fn warnings(&self) -> Vec<String>;
+    fn warnings(&self) -> Vec<String> {
+        let all = self.walls().mesh.warnings().iter();
+        all.map(ToString::to_string).collect()
+    }
 }

@@ -5,10 +5,8 @@ mod primitives;
 mod renormalisation;
 mod ring;
 mod segment;
-mod sum;
 mod taylor;
 
 pub use batch::SegmentBatch;
 pub use renormalisation::Renormalisation2d;
 pub use segment::{Contact, SegmentIntegral};
-pub use sum::GammaSum;

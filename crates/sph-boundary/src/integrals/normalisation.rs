@@ -14,13 +14,7 @@ pub(crate) fn normalisation(
     smoothing_length: f64,
     dimension: usize,
 ) -> Result<f64, BoundaryError> {
-    if !(smoothing_length > 0.0 && smoothing_length.is_finite()) {
-        let name = "smoothing length";
-        return Err(BoundaryError::NotPositive {
-            name,
-            value: smoothing_length,
-        });
-    }
+    BoundaryError::check_positive("smoothing length", smoothing_length)?;
     shape
         .check()
         .map_err(|reason| BoundaryError::Kernel { reason })?;
@@ -31,4 +25,20 @@ pub(crate) fn normalisation(
             reason: format!("its integral in {dimension} dimensions is not positive"),
         }),
     }
+}
+
+/// Knots where the polynomial changes and by how much, from the outermost inwards.
+pub(crate) fn steps(shape: &PiecewisePolynomial) -> Vec<(f64, Vec<f64>)> {
+    let mut steps = Vec::with_capacity(shape.pieces.len());
+    let mut outside: &[f64] = &[];
+    for (piece, bounds) in shape.pieces.iter().zip(shape.breaks.windows(2)).rev() {
+        let degree = piece.len().max(outside.len());
+        let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
+        let step: Vec<f64> = (0..degree).map(|n| at(piece, n) - at(outside, n)).collect();
+        outside = piece;
+        if step.iter().any(|c| *c != 0.0) {
+            steps.push((bounds[1], step));
+        }
+    }
+    steps
 }

@@ -1,6 +1,6 @@
 //! Walls that change their shape: places along x that are lifted.
 
-use crate::rigid::course::{Course, Stage};
+use sph_core::course::{Course, Stage};
 
 /// A lift along y, linear between places along x and constant beyond the first and the last: a floor that follows the
 /// level of a bed. In the plane only.

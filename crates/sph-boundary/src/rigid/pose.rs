@@ -88,40 +88,6 @@ impl<const D: usize> Pose<D> {
     }
 }
 
-impl Pose<2> {
-    /// A rotation by `angle` rad about `centre`, counter-clockwise.
-    pub fn rotated(angle: f64, centre: [f64; 2]) -> Self {
-        let (sine, cosine) = angle.sin_cos();
-        Self {
-            rotation: [[cosine, -sine], [sine, cosine]],
-            centre,
-            ..Self::default()
-        }
-    }
-}
-
-impl Pose<3> {
-    /// A rotation by `angle` rad about an axis through `centre`, by the right-hand rule.
-    ///
-    /// R = cos φ I + sin φ E + (1 − cos φ) e eᵀ, E v = e × v, (Rodrigues); an axis without length turns nothing.
-    pub fn about_axis(axis: [f64; 3], angle: f64, centre: [f64; 3]) -> Self {
-        let Some(e) = Vect::from(axis).try_normalize(0.0) else {
-            return Self::default();
-        };
-        let (sine, cosine) = angle.sin_cos();
-        let cross = [[0.0, -e[2], e[1]], [e[2], 0.0, -e[0]], [-e[1], e[0], 0.0]];
-        let identity = identity::<3>();
-        let entry = |i: usize, k: usize| {
-            cosine * identity[i][k] + sine * cross[i][k] + (1.0 - cosine) * e[i] * e[k]
-        };
-        Self {
-            rotation: std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k))),
-            centre,
-            ..Self::default()
-        }
-    }
-}
-
 /// e × v.
 pub(crate) fn swept<const D: usize>(e: [f64; 3], v: &Vect<D>) -> Vect<D> {
     let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
@@ -141,7 +107,7 @@ mod tests {
     fn quarter_turn_about_a_centre() {
         let pose = Pose {
             translation: [1.0, 0.0],
-            ..Pose::rotated(0.5 * std::f64::consts::PI, [2.0, 0.0])
+            ..Pose::turned_about([0.0, 0.0, 1.0], 0.5 * std::f64::consts::PI, [2.0, 0.0])
         };
         let [x, y] = pose.map()([3.0, 0.0]);
         assert!((x - 3.0).abs() < 1e-15 && (y - 1.0).abs() < 1e-15);
@@ -152,9 +118,9 @@ mod tests {
     fn turn_about_an_axis() {
         // A third of a turn about the diagonal carries x to y to z.
         let third = std::f64::consts::TAU / 3.0;
-        let pose = Pose::about_axis([2.0, 2.0, 2.0], third, [0.0; 3]);
+        let diagonal = [1.0 / 3.0_f64.sqrt(); 3];
+        let pose = Pose::turned_about(diagonal, third, [0.0; 3]);
         let y = pose.map()([1.0, 0.0, 0.0]);
         assert!((Vect::from(y) - Vect::from([0.0, 1.0, 0.0])).norm() < 1e-15);
-        assert!(!Pose::about_axis([0.0; 3], 1.0, [1.0; 3]).turns());
     }
 }

@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn numbers_give_the_state_back_and_nonsense_none() {
         let state = RigidState::<3> {
-            pose: Pose::about_axis([1.0, 2.0, -0.5], 0.3, [0.1, 0.2, 0.3]),
+            pose: Pose::turned_about([0.0, 0.6, -0.8], 0.3, [0.1, 0.2, 0.3]),
             centre: [0.1, 0.2, 0.3],
             velocity: Vect::<3>::new(1.0, -2.0, 3.0),
             acceleration: Vect::<3>::new(0.5, 0.25, 0.125),
@@ -171,7 +171,7 @@ mod tests {
             ..RigidState::default()
         };
         let twice = start.turned_by([0.0, 0.0, 0.4]).turned_by([0.0, 0.0, 0.7]);
-        let once = Pose::rotated(1.1, [0.3, -0.2]);
+        let once = Pose::turned_about([0.0, 0.0, 1.0], 1.1, [0.3, -0.2]);
         let [a, b] = [twice.pose.map(), once.map()].map(|map| map([1.0, 2.0]));
         assert!((a[0] - b[0]).abs() < 1e-15 && (a[1] - b[1]).abs() < 1e-15);
     }

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::BoundaryError;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::scale::plane::{REACH, fade};
 use crate::scale::spline::{Grid, interpolate, value};
+use crate::{BoundaryError, SeenElement};
 
 /// Nodes of the grid per smoothing length.
 const NODES: f64 = 4.0;
@@ -326,7 +326,7 @@ fn near_node<const D: usize, M: WallMesh<D>>(
 ) -> NodeKind<D> {
     let reach = (REACH + 0.5) * of.kernel.smoothing_length();
     let near = of.mesh.near(x, reach);
-    let curved = near.iter().filter(|n| of.curved[of.mesh.element(**n)]);
+    let curved = near.iter().filter(|n| of.curved[n.index()]);
     let walls: Vec<usize> = match several {
         true => curved.clone().map(|n| of.mesh.wall_of(*n)).collect(),
         false => Vec::new(),
@@ -334,12 +334,12 @@ fn near_node<const D: usize, M: WallMesh<D>>(
     let curved: Vec<_> = curved.map(|n| of.mesh.seen(x, *n)).collect();
     let distance = |k: usize| {
         let only = std::slice::from_ref(&curved[k]);
-        M::signed_distance(only, &Vect::zeros(), reach).map_or(f64::INFINITY, f64::abs)
+        SeenElement::signed_distance(only, [0.0; D], reach).map_or(f64::INFINITY, f64::abs)
     };
     let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
     let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(x, *n)).collect();
-    let from_curved = M::signed_distance(&curved, &Vect::zeros(), reach);
-    let height = M::signed_distance(&seen, &Vect::zeros(), reach);
+    let from_curved = SeenElement::signed_distance(&curved, [0.0; D], reach);
+    let height = SeenElement::signed_distance(&seen, [0.0; D], reach);
     let height = height.unwrap_or_else(|| match of.mesh.contains(x) {
         true => f64::INFINITY,
         false => f64::NEG_INFINITY,
@@ -348,7 +348,7 @@ fn near_node<const D: usize, M: WallMesh<D>>(
         height,
         from_curved: from_curved.map_or(f64::INFINITY, f64::abs),
         lumps: lumps(x, step, height, |at| {
-            M::signed_distance(&seen, at, reach).unwrap_or(0.0)
+            SeenElement::signed_distance(&seen, (*at).into(), reach).unwrap_or(0.0)
         }),
         nearest: nearest.map_or(0, |k| walls[k] as u32),
     }

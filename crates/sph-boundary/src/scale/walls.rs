@@ -1,11 +1,13 @@
 //! s of all walls of a scene, each group of walls that moves as one in its own frame.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use sph_core::Vect;
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
+use crate::geometry::sets::Sets;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
@@ -40,27 +42,16 @@ struct Group<const D: usize, M> {
 /// Walls of a mesh that have nodes in common, by their numbers: sets of walls without a common node.
 fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usize>> {
     let mut wall_at: Vec<Option<usize>> = mesh.points().map(|_| None).collect();
-    let mut set: Vec<usize> = (0..walls).collect();
-    fn first(set: &[usize], mut wall: usize) -> usize {
-        while set[wall] != wall {
-            wall = set[wall];
-        }
-        wall
-    }
+    let mut sets = Sets::new(walls);
     for element in mesh.elements() {
         for corner in element.corners {
             let other = *wall_at[corner as usize].get_or_insert(element.wall);
-            let [a, b] = [other, element.wall].map(|wall| first(&set, wall));
-            set[a.max(b)] = a.min(b);
+            sets.join([other, element.wall]);
         }
     }
-    let firsts = (0..walls).filter(|wall| set[*wall] == *wall);
-    let of = |head: usize| {
-        (0..walls)
-            .filter(|wall| first(&set, *wall) == head)
-            .collect()
-    };
-    firsts.map(of).collect()
+    let mut all = BTreeMap::<usize, Vec<usize>>::new();
+    (0..walls).for_each(|wall| all.entry(sets.of(wall)).or_default().push(wall));
+    all.into_values().collect()
 }
 
 /// Size of elements, m: `most`, a quarter of the smallest piece of a wall if that is less, the spacing at least.

@@ -45,7 +45,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
     drawn: Vec<(usize, Vect<D>)>,
     /// λ/(λ + δ), empty unless a wall slips partly.
     slip: Vec<f64>,
-    near: NearLists<D, M::Near>,
+    near: NearLists<D>,
     /// Pressures and velocities of the particles, kept for their memory.
     means: Vec<(f64, Vect<D>)>,
 }

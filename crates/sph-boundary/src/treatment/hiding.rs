@@ -6,10 +6,10 @@ use sph_neighbours::{Blocked, Hidden, World};
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 
-impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
+impl<const D: usize> NearLists<D> {
     /// Pairs with a shell between them, where particles are `at`: those that are `behind` it and all that the way to them leads
     /// through it, its elements and its points.
-    pub fn hidden<M: WallMesh<D, Near = N>>(
+    pub fn hidden<M: WallMesh<D>>(
         &self,
         mesh: &M,
         world: &World<D>,
@@ -22,7 +22,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             let particle = self.particles[place as usize];
             let x = &at(particle as usize);
             let row = self.row(place as usize).iter();
-            let own = row.filter(|near| mesh.shells().of(mesh.element(**near)) == shell);
+            let own = row.filter(|near| mesh.shells().of(near.index()) == shell);
             for other in self.around(world, particle) {
                 let way: Vect<D> = world.domain.nearest_image(at(other as usize) - x);
                 let near = other != particle && way.norm_squared() < support2;
@@ -31,7 +31,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 }
             }
             for near in own {
-                let element = mesh.element(*near);
+                let element = near.index();
                 at_elements.push([element as u32, particle]);
                 if world.walls.points.in_density() {
                     for corner in world.walls.elements.corners[element] {

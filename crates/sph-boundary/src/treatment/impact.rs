@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{FreeBody, WallForce, World, cross};
 
+use crate::NearElement;
 use crate::geometry::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
@@ -18,7 +19,7 @@ pub(crate) const LEAST_CLEARANCE: f64 = 0.25;
 /// Rounds over the elements near a particle before a corner simply stops it.
 const TURNS: usize = 4;
 
-impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
+impl<const D: usize> NearLists<D> {
     /// Takes from the velocities what would carry a particle into a wall within `dt`.
     ///
     /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
@@ -31,7 +32,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     /// from any element in front of it, m; those out of danger are not looked at.
     ///
     /// Returns the mean forces on the walls over `dt`, by their numbers; none where nobody asks for forces.
-    pub fn constrain<M: WallMesh<D, Near = N>>(
+    pub fn constrain<M: WallMesh<D>>(
         &self,
         (outline, least): (&Outline<D, M>, f64),
         (world, dt): (&mut World<D>, f64),
@@ -191,7 +192,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         &self,
         here: (&Vect<D>, &[(u32, u32)]),
         u: Vect<D>,
-        row: &[M::Near],
+        row: &[NearElement<D>],
     ) -> Option<Corrected<D>> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::World;
 
+use crate::NearElement;
 use crate::error::stage_error;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
@@ -22,8 +23,8 @@ const BATCH: usize = 256;
 /// Each particle has a row of its own, found for the place where it was then: after every build of the lists only those
 /// that moved farther than the skin since are looked up anew. What a row holds beyond the support depends on this history,
 /// and nothing that is made of it does.
-#[derive(Debug)]
-pub(crate) struct NearLists<const D: usize, N> {
+#[derive(Debug, Default)]
+pub(crate) struct NearLists<const D: usize> {
     built_for: u64,
     /// Builds so far.
     pub version: u64,
@@ -37,29 +38,29 @@ pub(crate) struct NearLists<const D: usize, N> {
     rows: Vec<Row<D>>,
     /// Whose rows these are.
     identities: Vec<u32>,
-    elements: Vec<N>,
+    elements: Vec<NearElement<D>>,
     /// How far walls have moved at most, m: the sum over all builds.
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
     /// Kept for its memory.
-    room: Room<D, N>,
+    room: Room<D>,
 }
 
 /// What a search needs besides.
-#[derive(Debug)]
-struct Room<const D: usize, N> {
+#[derive(Debug, Default)]
+struct Room<const D: usize> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
-    found: Vec<Found<D, N>>,
+    found: Vec<Found<D>>,
 }
 
 /// What one task has found.
-#[derive(Debug)]
-struct Found<const D: usize, N> {
+#[derive(Debug, Default)]
+struct Found<const D: usize> {
     places: Vec<Vect<D>>,
     counts: Vec<u32>,
-    elements: Vec<N>,
+    elements: Vec<NearElement<D>>,
 }
 
 /// Where a particle's elements are, and where it was when they were found.
@@ -90,42 +91,10 @@ impl<const D: usize> Row<D> {
     }
 }
 
-impl<const D: usize, N> Default for NearLists<D, N> {
-    fn default() -> Self {
-        NearLists {
-            built_for: 0,
-            version: 0,
-            particles: Vec::new(),
-            rims: Vec::new(),
-            behind: Vec::new(),
-            rows: Vec::new(),
-            identities: Vec::new(),
-            elements: Vec::new(),
-            travelled: 0.0,
-            nodes: Vec::new(),
-            room: Room {
-                sorted: Vec::new(),
-                stale: Vec::new(),
-                found: Vec::new(),
-            },
-        }
-    }
-}
-
-impl<const D: usize, N> Default for Found<D, N> {
-    fn default() -> Self {
-        Found {
-            places: Vec::new(),
-            counts: Vec::new(),
-            elements: Vec::new(),
-        }
-    }
-}
-
-impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
+impl<const D: usize> NearLists<D> {
     /// Finds what the lists that were built since lack, for particles and walls where the neighbour lists found them: rows
     /// stand as long as these, wherever the walls move meanwhile.
-    pub fn refresh<M: WallMesh<D, Near = N>>(
+    pub fn refresh<M: WallMesh<D>>(
         &mut self,
         outline: &mut Outline<D, M>,
         world: &World<D>,
@@ -156,11 +125,11 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 
     /// Finds those with an element at a free end near.
-    fn find_rims<M: WallMesh<D, Near = N>>(&mut self, mesh: &M) {
+    fn find_rims<M: WallMesh<D>>(&mut self, mesh: &M) {
         let mut rims = std::mem::take(&mut self.rims);
         rims.clear();
         if mesh.shells().any() {
-            let at_rim = |near: &N| mesh.shells().is_rim(mesh.element(*near));
+            let at_rim = |near: &NearElement<D>| mesh.shells().is_rim(near.index());
             let sees = |place: &u32| self.row(*place as usize).iter().any(at_rim);
             rims.extend((0..self.particles.len() as u32).filter(sees));
         }
@@ -198,15 +167,9 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 
     /// Looks up what is missing.
-    fn search<M: WallMesh<D, Near = N>>(
-        &mut self,
-        mesh: &M,
-        positions: &[Vect<D>],
-        radius: f64,
-        skin: f64,
-    ) {
+    fn search<M: WallMesh<D>>(&mut self, mesh: &M, positions: &[Vect<D>], radius: f64, skin: f64) {
         let travelled = self.travelled;
-        let mut room = std::mem::replace(&mut self.room, Self::default().room);
+        let mut room = std::mem::take(&mut self.room);
         room.stale.clear();
         for (i, (row, x)) in self.rows.iter_mut().zip(positions).enumerate() {
             if row.is_stale(x, travelled, skin) {
@@ -283,7 +246,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 
     /// The elements near the particle at a place of `particles`.
-    pub fn row(&self, place: usize) -> &[N] {
+    pub fn row(&self, place: usize) -> &[NearElement<D>] {
         let row = &self.rows[self.particles[place] as usize];
         &self.elements[row.from as usize..(row.from + row.count) as usize]
     }

@@ -10,7 +10,7 @@ use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
 use crate::treatment::far_sight::far_sight;
 use crate::treatment::groups::{groups, is_piece};
-use crate::{BoundaryError, Drawing, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// How far queries look, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
@@ -37,7 +37,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub struck: Vec<WallForce<D>>,
     /// The walls that forces move.
     pub bodies: Vec<FreeBody<D>>,
-    cover: Cover<M::Near>,
+    cover: Cover<D>,
     pub specs: Vec<WallSpec<D>>,
 }
 
@@ -273,21 +273,13 @@ fn check_reach<const D: usize>(
 ) -> Result<(), BoundaryError> {
     domain.check()?;
     for spec in walls {
-        let periods = match &spec.drawing {
-            Drawing::Line(line) => domain.periods_to(line.points.iter().map(of)),
-            Drawing::Surface(surface) => domain.periods_to(surface.points.iter().map(of)),
-        };
+        let periods = domain.periods_to(spec.drawing.points().into_iter());
         if periods > MOST_PERIODS {
             let wall = spec.drawing.name().to_string();
             return Err(BoundaryError::ManyPeriods { wall, periods });
         }
     }
     Ok(())
-}
-
-/// A place of as many dimensions as are asked for.
-fn of<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
-    std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
 }
 
 /// Shape and motion of walls by their outline; the treatment

@@ -79,7 +79,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let (centre, way) = (&element.centre, element.normal * -most);
         let near = self.mesh.near(centre, most);
         let behind = near.into_iter().filter_map(|near| {
-            let other = &all[self.mesh.element(near)];
+            let other = &all[near.index()];
             let faces = other.normal.dot(&element.normal) < OPPOSITE;
             (faces && self.mesh.is_crossed(near, centre, &way)).then(|| {
                 let apart = self.domain.nearest_image(centre - other.centre);

@@ -4,6 +4,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_neighbours::{Blocked, ContactBlock, World};
 
+use crate::SeenElement;
 use crate::geometry::shells::Gammas;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
@@ -18,7 +19,7 @@ struct Later<const D: usize> {
     way: Vect<D>,
 }
 
-impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
+impl<const D: usize> NearLists<D> {
     /// Changes the constants K of ρ = (K + m Σ w)/γ by what a drift changes of γ and of the sums in that walls hide less or
     /// more: what comes into sight behind a free end may be water or nothing, and neither is a change of density.
     ///
@@ -28,7 +29,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     ///
     /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and nobody near a free end or behind a
     /// wall nothing is asked.
-    pub fn unveil<M: WallMesh<D, Near = N>>(
+    pub fn unveil<M: WallMesh<D>>(
         &self,
         outline: &Outline<D, M>,
         integrals: &M::Integrals,
@@ -86,7 +87,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
     }
 
     /// Those near a rim and those behind a wall, in the order of the particles.
-    fn later<M: WallMesh<D, Near = N>>(
+    fn later<M: WallMesh<D>>(
         &self,
         outline: &Outline<D, M>,
         world: &World<D>,
@@ -103,9 +104,9 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
                 &positions[self.particles[*place as usize] as usize],
             );
             let row = self.row(*place as usize).iter();
-            let rims = row.filter(|near| mesh.shells().is_rim(mesh.element(**near)));
+            let rims = row.filter(|near| mesh.shells().is_rim(near.index()));
             let seen: Vec<_> = rims.map(|near| mesh.seen(x, *near)).collect();
-            M::signed_distance(&seen, &Vect::zeros(), outline.support).is_some()
+            SeenElement::signed_distance(&seen, [0.0; D], outline.support).is_some()
         };
         let rims = self.rims.iter().copied().filter(near_rim);
         let mut places: Vec<u32> = rims.chain(behind).collect();
@@ -116,7 +117,7 @@ impl<const D: usize, N: Copy + Send + Sync> NearLists<D, N> {
             let x = &positions[particle];
             let wall = self.row(place as usize).iter().find_map(|near| {
                 let mesh = &outline.mesh;
-                let shell = mesh.shells().of(mesh.element(*near));
+                let shell = mesh.shells().of(near.index());
                 (shell > 0).then(|| mesh.wall_of(*near))
             });
             let mut u = velocity[particle];

@@ -54,7 +54,7 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     pub outline: Outline<D, M>,
     integrals: M::Integrals,
     spacing: f64,
-    near: NearLists<D, M::Near>,
+    near: NearLists<D>,
     /// Moves of walls so far.
     moves: u64,
     /// Version of the near lists, moves and positions for which the contacts were found.

@@ -1,8 +1,6 @@
 //! Geometry of walls: what is accepted, what is refused and with which words.
 
-use sph_boundary::{
-    BoundaryError, PeriodicBox, Polyline, Pose, SegmentGrid, SegmentMesh, WallEnd, thin_plate,
-};
+use sph_boundary::{BoundaryError, Grid, Mesh, PeriodicBox, Polyline, Pose, WallEnd, thin_plate};
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
 
@@ -14,8 +12,8 @@ fn channel() -> PeriodicBox {
     }
 }
 
-fn build(lines: &[Polyline]) -> Result<SegmentMesh, BoundaryError> {
-    SegmentMesh::build(lines, 0.5, &PeriodicBox::none())
+fn build(lines: &[Polyline]) -> Result<Mesh<2>, BoundaryError> {
+    Mesh::<2>::build(lines, 0.5, &PeriodicBox::none())
 }
 
 fn message(lines: &[Polyline]) -> String {
@@ -25,46 +23,43 @@ fn message(lines: &[Polyline]) -> String {
 #[test]
 fn a_square_is_cut_into_equal_segments() {
     let mesh = build(&[Polyline::closed("tank", SQUARE.to_vec())]).unwrap();
-    assert_eq!((mesh.segments().len(), mesh.vertices().len()), (16, 16));
-    for (s, segment) in mesh.segments().iter().enumerate() {
+    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (16, 16));
+    for (s, segment) in mesh.elements().iter().enumerate() {
         assert_eq!(
-            (segment.length, segment.edge, segment.wall),
+            (segment.measure, segment.face, segment.wall),
             (0.5, s / 4, 0)
         );
-        assert_eq!(segment.vertices, [s, (s + 1) % 16]);
+        assert_eq!(segment.nodes, [s, (s + 1) % 16]);
     }
-    assert_eq!(mesh.segments()[5].normal, [-1.0, 0.0], "into the square");
-    for (v, vertex) in mesh.vertices().iter().enumerate() {
+    assert_eq!(mesh.elements()[5].normal, [-1.0, 0.0], "into the square");
+    for (v, vertex) in mesh.nodes().iter().enumerate() {
         assert_eq!(vertex.theta, if v % 4 == 0 { 0.25 } else { 0.5 });
-        assert_eq!(
-            (vertex.previous, vertex.next),
-            (Some((v + 15) % 16), Some(v))
-        );
+        assert_eq!(mesh.beside(v), [Some((v + 15) % 16), Some(v)]);
     }
     let outside = build(&[Polyline::closed("block", SQUARE.to_vec()).reversed()]).unwrap();
-    assert_eq!(outside.vertices()[0].theta, 0.75, "re-entrant");
+    assert_eq!(outside.nodes()[0].theta, 0.75, "re-entrant");
 }
 
 #[test]
 fn a_wall_along_a_period_closes_onto_itself() {
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [4.0, 0.0]]);
-    let mesh = SegmentMesh::build(&[floor], 0.5, &channel()).unwrap();
-    assert_eq!((mesh.segments().len(), mesh.vertices().len()), (8, 8));
+    let mesh = Mesh::<2>::build(&[floor], 0.5, &channel()).unwrap();
+    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (8, 8));
     assert!(mesh.free_ends().is_empty());
-    let last = mesh.segments()[7];
+    let last = mesh.elements()[7];
     assert_eq!(
-        (last.vertices, last.end_image, last.centre),
-        ([7, 0], [1, 0], [3.75, 0.0])
+        (last.nodes, last.images, last.centre),
+        ([7, 0], [[0, 0], [1, 0]], [3.75, 0.0])
     );
-    assert!(mesh.vertices().iter().all(|v| v.theta == 0.5));
+    assert!(mesh.nodes().iter().all(|v| v.theta == 0.5));
 }
 
 #[test]
 fn a_slope_across_the_seam_gets_its_angle_from_the_other_side() {
     let roof = Polyline::open("roof", vec![[0.0, 0.0], [2.0, 2.0], [4.0, 0.0]]);
-    let mesh = SegmentMesh::build(&[roof], 0.5, &channel()).unwrap();
+    let mesh = Mesh::<2>::build(&[roof], 0.5, &channel()).unwrap();
     assert!(
-        (mesh.vertices()[0].theta - 0.25).abs() < 1e-15,
+        (mesh.nodes()[0].theta - 0.25).abs() < 1e-15,
         "a valley at the seam"
     );
 }
@@ -74,9 +69,9 @@ fn open_walls_are_joined_end_to_end() {
     let floor = Polyline::open("floor", vec![[0.0, 2.0], [0.0, 0.0], [2.0, 0.0]]);
     let rest = Polyline::open("rest", vec![[2.0, 0.0], [2.0, 2.0], [0.0, 2.0 + 1e-9]]);
     let mesh = build(&[floor.clone(), rest.clone()]).unwrap();
-    assert_eq!((mesh.segments().len(), mesh.vertices().len()), (16, 16));
+    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (16, 16));
     assert!(mesh.free_ends().is_empty());
-    assert_eq!(mesh.segments()[15].vertices, [15, 0]);
+    assert_eq!(mesh.elements()[15].nodes, [15, 0]);
     let opposed = message(&[floor.clone(), rest.reversed()]);
     assert!(
         opposed.starts_with("the first end of wall `floor` meets the first end of wall `rest`")
@@ -90,7 +85,7 @@ fn free_ends_are_refused_near_particles_only() {
     let mesh = build(&[Polyline::open("floor", vec![[0.0, 0.0], [9.0, 0.0]])]).unwrap();
     let ends: Vec<WallEnd> = mesh.free_ends().iter().map(|free| free.end).collect();
     assert_eq!(ends, [WallEnd::First, WallEnd::Last]);
-    assert_eq!(mesh.vertices()[0].theta, 0.5);
+    assert_eq!(mesh.nodes()[0].theta, 0.5);
     mesh.check_free_ends(&[[4.0, 0.5], [2.1, 0.5]], 2.0)
         .unwrap();
     let refused = mesh.check_free_ends(&[[4.0, 0.5], [8.5, 1.0], [8.5, 0.0]], 2.0);
@@ -118,8 +113,8 @@ fn degenerate_walls_are_named() {
     );
     let repeated = Polyline::closed("gate", vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
     assert!(message(&[repeated]).contains("points 3 and 0"));
-    assert!(SegmentMesh::build(&[], 0.0, &PeriodicBox::none()).is_err());
-    assert!(build(&[]).unwrap().segments().is_empty());
+    assert!(Mesh::<2>::build(&[], 0.0, &PeriodicBox::none()).is_err());
+    assert!(build(&[]).unwrap().elements().is_empty());
 }
 
 #[test]
@@ -149,7 +144,7 @@ fn crossings_are_named_and_touching_is_allowed() {
         vec![[0.2, 0.7], [0.2, 1.5], [0.8, 1.5], [0.8, 0.7]],
     );
     build(&[post.clone(), other.clone()]).unwrap();
-    let across = SegmentMesh::build(&[post, other], 0.5, &channel());
+    let across = Mesh::<2>::build(&[post, other], 0.5, &channel());
     assert!(
         matches!(across, Err(BoundaryError::Crossing { .. })),
         "{across:?}"
@@ -160,7 +155,7 @@ fn crossings_are_named_and_touching_is_allowed() {
 fn a_closed_wall_without_area_must_be_a_plate() {
     let plate = Polyline::closed("plate", vec![[0.0, 0.0], [1.0, 2.0]]);
     let mesh = build(&[plate]).unwrap();
-    assert_eq!(mesh.vertices()[0].theta, 1.0);
+    assert_eq!(mesh.nodes()[0].theta, 1.0);
     // Two triangles of opposite orientation that meet in a point.
     let bow = [
         [-2.0, -1.0],
@@ -180,7 +175,7 @@ fn a_closed_wall_without_area_must_be_a_plate() {
 fn short_edges_are_remarked_upon() {
     let plate = thin_plate("plate", &[[0.0, 0.0], [2.0, 0.0]], 0.01).unwrap();
     let mesh = build(&[plate]).unwrap();
-    assert_eq!(mesh.segments().len(), 10, "caps are one segment");
+    assert_eq!(mesh.elements().len(), 10, "caps are one segment");
     let warnings: Vec<String> = mesh.warnings().iter().map(ToString::to_string).collect();
     assert_eq!(
         warnings[0],
@@ -194,8 +189,8 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
     let domain = channel();
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [2.0, 0.3], [4.0, 0.0]]);
     let post = Polyline::closed("post", vec![[3.8, 0.8], [3.8, 1.2], [4.3, 1.2], [4.3, 0.8]]);
-    let mesh = SegmentMesh::build(&[floor, post], 0.2, &domain).unwrap();
-    let grid = SegmentGrid::build(&mesh, 0.6);
+    let mesh = Mesh::<2>::build(&[floor, post], 0.2, &domain).unwrap();
+    let grid = Grid::build(&mesh, 0.6);
     let distance = |p: [f64; 2], [a, b]: [[f64; 2]; 2]| {
         let t = [b[0] - a[0], b[1] - a[1]];
         let part = ((p[0] - a[0]) * t[0] + (p[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
@@ -204,14 +199,16 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
     };
     for i in 0..400 {
         let point = [0.01 * f64::from(i), 0.05 + 0.0371 * f64::from(i % 50)];
-        let found: Vec<(usize, i32)> = grid
+        let found: Vec<(usize, i8)> = grid
             .near(&mesh, point, 0.5)
-            .map(|near| (near.segment, near.image[0]))
+            .map(|near| (near.index(), near.image[0]))
             .collect();
         let mut expected = Vec::new();
-        for s in 0..mesh.segments().len() {
+        for s in 0..mesh.elements().len() {
             for image in -2..=2 {
-                let ends = mesh.ends(s).map(|[x, y]| [x + 4.0 * f64::from(image), y]);
+                let ends = mesh
+                    .corners(s)
+                    .map(|[x, y]| [x + 4.0 * f64::from(image), y]);
                 if distance(point, ends) < 0.5 {
                     expected.push((s, image));
                 }
@@ -256,8 +253,8 @@ fn inside_of_tanks_blocks_plates_and_channels() {
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [4.0, 0.0]]);
     let lid = Polyline::open("lid", vec![[4.0, 2.0], [0.0, 2.0]]);
     let ball = Polyline::closed("ball", vec![[3.5, 0.5], [3.5, 1.0], [4.5, 1.0], [4.5, 0.5]]);
-    let open = SegmentMesh::build(&[floor.clone(), ball.clone()], 0.5, &channel()).unwrap();
-    let closed = SegmentMesh::build(&[floor, lid, ball], 0.5, &channel()).unwrap();
+    let open = Mesh::<2>::build(&[floor.clone(), ball.clone()], 0.5, &channel()).unwrap();
+    let closed = Mesh::<2>::build(&[floor, lid, ball], 0.5, &channel()).unwrap();
     for mesh in [&open, &closed] {
         assert!(
             mesh.contains([2.0, 1.0]) && mesh.contains([0.0, 0.2]) && mesh.contains([3.9, 1.2])
@@ -277,21 +274,22 @@ fn walls_move_from_their_reference() {
     let at_rest = mesh.clone();
     let lifted = Pose::translated([0.0, 0.7]);
     mesh.move_walls(&[Pose::default(), lifted]).unwrap();
-    assert_eq!(mesh.vertices()[..16], at_rest.vertices()[..16]);
+    assert_eq!(mesh.nodes()[..16], at_rest.nodes()[..16]);
     assert_eq!(
-        mesh.vertices()[16].position[1],
-        at_rest.vertices()[16].position[1] + 0.7
+        mesh.nodes()[16].position[1],
+        at_rest.nodes()[16].position[1] + 0.7
     );
-    assert_eq!(mesh.segments()[16].normal, at_rest.segments()[16].normal);
-    let turn = Pose::rotated(std::f64::consts::PI, [1.0, 0.75]);
+    assert_eq!(mesh.elements()[16].normal, at_rest.elements()[16].normal);
+    let turn = Pose::turned_about([0.0, 0.0, 1.0], std::f64::consts::PI, [1.0, 0.75]);
     mesh.move_walls(&[Pose::default(), turn]).unwrap();
-    let opposite = mesh.segments()[16].normal;
-    assert!((opposite[0] + at_rest.segments()[16].normal[0]).abs() < 1e-14);
+    let opposite = mesh.elements()[16].normal;
+    assert!((opposite[0] + at_rest.elements()[16].normal[0]).abs() < 1e-14);
     mesh.move_walls(&[Pose::default(); 2]).unwrap();
-    assert_eq!(mesh, at_rest, "exactly back");
+    assert_eq!(mesh.nodes(), at_rest.nodes(), "exactly back");
+    assert_eq!(mesh.elements(), at_rest.elements(), "exactly back");
     assert!(matches!(
         mesh.move_walls(&[]),
-        Err(BoundaryError::PoseCount { .. })
+        Err(BoundaryError::Count { what: "pose", .. })
     ));
 }
 
@@ -299,7 +297,7 @@ fn walls_move_from_their_reference() {
 fn joined_and_periodic_walls_cannot_be_torn() {
     let left = Polyline::open("left", vec![[0.0, 0.0], [2.0, 0.0]]);
     let right = Polyline::open("right", vec![[2.0, 0.0], [4.0, 0.0]]);
-    let mut mesh = SegmentMesh::build(&[left, right], 0.5, &channel()).unwrap();
+    let mut mesh = Mesh::<2>::build(&[left, right], 0.5, &channel()).unwrap();
     let up = Pose::translated([0.0, 0.1]);
     let torn = mesh.move_walls(&[Pose::default(), up]).unwrap_err();
     assert_eq!(
@@ -308,7 +306,7 @@ fn joined_and_periodic_walls_cannot_be_torn() {
     );
     mesh.move_walls(&[up; 2]).unwrap();
     let turned = mesh
-        .move_walls(&[Pose::rotated(0.1, [0.0; 2]); 2])
+        .move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 2]); 2])
         .unwrap_err();
     assert!(turned.to_string().contains("cannot rotate"));
 }

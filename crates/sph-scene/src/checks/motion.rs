@@ -90,17 +90,8 @@ fn check_levels(levels: &Levels, rest: &Motion, of: Dimension, path: &str, found
 
 /// There is exactly one course, and the times of a table rise.
 fn course(given: &[&str], table: &Option<Vec<[f64; 2]>>, path: &str, found: &mut Problems) {
-    match given {
-        [] => found.add(
-            path,
-            "a course is missing: `speed`, `ramp`, `sine`, `table` or `file`",
-        ),
-        [_] => {}
-        [_, .., last] => {
-            let message = format!("only one course can stand here, found {}", given.join(", "));
-            found.add(format!("{path}.{last}"), message);
-        }
-    }
+    let all = "`speed`, `ramp`, `sine`, `table` or `file`";
+    found.one_of(given, path, "course", [all, ""]);
     let Some(rows) = table else { return };
     let place = format!("{path}.table");
     if rows.len() < 2 {

@@ -9,4 +9,27 @@ impl Problems {
     pub fn add(&mut self, path: impl Into<String>, message: impl Into<String>) {
         self.0.push(SceneProblem::new(path, message));
     }
+
+    /// Whether exactly one of the keys that give `what` is there; `all` are those that may be, and there is `advice` where
+    /// there are several.
+    pub fn one_of(
+        &mut self,
+        given: &[&str],
+        path: &str,
+        what: &str,
+        [all, advice]: [&str; 2],
+    ) -> bool {
+        match given {
+            [] => self.add(path, format!("a {what} is missing: {all}")),
+            [_] => return true,
+            [_, .., last] => {
+                let message = format!(
+                    "only one {what} can stand here, found {}{advice}",
+                    given.join(", ")
+                );
+                self.add(format!("{path}.{last}"), message);
+            }
+        }
+        false
+    }
 }

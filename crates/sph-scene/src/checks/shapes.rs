@@ -95,22 +95,17 @@ fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
 }
 
 fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
-    let given = keys.given();
-    match given.as_slice() {
-        [] => {
-            let all = if of.0 == 2 {
-                "`box`, `polygon`, `disc` or `ellipse`"
-            } else {
-                "`box`, `sphere`, `cylinder`, `cone` or `extrusion`"
-            };
-            return found.add(path, format!("a shape is missing: {all}"));
-        }
-        [_] => {}
-        [_, .., last] => {
-            let message = format!("only one shape can stand here, found {}", given.join(", "));
-            return found.add(format!("{path}.{last}"), message);
-        }
+    let all = match of.0 {
+        2 => "`box`, `polygon`, `disc` or `ellipse`",
+        _ => "`box`, `sphere`, `cylinder`, `cone` or `extrusion`",
+    };
+    if found.one_of(&keys.given(), path, "shape", [all, ""]) {
+        keys_of_shape(keys, of, path, found);
     }
+}
+
+/// Checks the keys of a shape.
+pub(crate) fn keys_of_shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
     let at = |key: &str| format!("{path}.{key}");
     if let Some(corners) = keys.bounds {
         of.corners(corners, &at("box"), found);
@@ -119,9 +114,9 @@ fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
         (keys.disc, "disc", "a disc", 2),
         (keys.sphere, "sphere", "a sphere", 3),
     ] {
-        let Some(round) = round else { continue };
+        let Some((centre, _)) = round else { continue };
         if of.is(dimension, what, &at(key), found) {
-            of.vector(&round.centre, &at(&format!("{key}.centre")), found);
+            of.vector(centre, &at(&format!("{key}.centre")), found);
         }
     }
     if let Some(ellipse) = keys.ellipse
@@ -138,28 +133,23 @@ fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
     {
         polygon(points, &at("polygon"), found);
     }
-    if let Some(c) = keys.cylinder
-        && of.is(3, "a cylinder", &at("cylinder"), found)
-    {
-        of.apart(("from", &c.from), ("to", &c.to), &at("cylinder"), found);
+    for (drawn_out, key, what, names) in [
+        (keys.cylinder, "cylinder", "a cylinder", ["from", "to"]),
+        (keys.cone, "cone", "a cone", ["base", "apex"]),
+    ] {
+        let Some((ends, _)) = drawn_out else { continue };
+        if of.is(3, what, &at(key), found) {
+            let [first, second] = [0, 1].map(|k| (names[k], ends[k]));
+            of.apart(first, second, &at(key), found);
+        }
     }
-    if let Some(c) = keys.cone
-        && of.is(3, "a cone", &at("cone"), found)
-    {
-        of.apart(("base", &c.base), ("apex", &c.apex), &at("cone"), found);
-    }
-    if let Some(e) = keys.extrusion
+    if let Some((points, _, [from, to])) = keys.extrusion
         && of.is(3, "an extrusion", &at("extrusion"), found)
     {
-        extrusion(&e.polygon, [e.from, e.to], &at("extrusion"), found);
-    }
-}
-
-/// A polygon that is drawn out has an area and a length.
-pub(crate) fn extrusion(points: &[Vec<f64>], ends: [f64; 2], path: &str, found: &mut Problems) {
-    polygon(points, &format!("{path}.polygon"), found);
-    if ends[0] == ends[1] {
-        let message = format!("`from` and `to` must differ, found {} twice", ends[0]);
-        found.add(format!("{path}.to"), message);
+        polygon(points, &at("extrusion.polygon"), found);
+        if from == to {
+            let message = format!("`from` and `to` must differ, found {from} twice");
+            found.add(at("extrusion.to"), message);
+        }
     }
 }

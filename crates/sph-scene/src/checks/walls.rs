@@ -2,37 +2,27 @@
 
 use sph_core::unit_factor;
 
-use crate::checks::corners::{chain, crossed, polygon};
+use crate::checks::corners::{chain, crossed};
 use crate::checks::dimension::Dimension;
 use crate::checks::motion::{self, TABLES};
 use crate::checks::problems::Problems;
-use crate::checks::shapes::extrusion;
+use crate::checks::shapes::keys_of_shape;
 use crate::geometry::wall_geometry::has_ending;
+use crate::tables::given::given;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{Condition, Side, Wall};
 
 /// Checks everything of a wall that has a place in space.
 pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
-    match wall.geometries().as_slice() {
-        [] => {
-            let all = match of.0 {
-                2 => "`polyline`, `polygon`, `disc`, `box`, `wedge` or `file`",
-                _ => "`box`, `sphere`, `cylinder`, `cone`, `wedge`, `extrusion` or `file`",
-            };
-            found.add(path, format!("a geometry is missing: {all}"));
-        }
-        [_] => {
-            plane(wall, of, path, found);
-            space(wall, of, path, found);
-            companions(wall, path, found);
-        }
-        given @ [_, .., last] => {
-            let message = format!(
-                "only one geometry can stand here, found {}; a wall of several parts is several walls",
-                given.join(", ")
-            );
-            found.add(format!("{path}.{last}"), message);
-        }
+    let all = match of.0 {
+        2 => "`polyline`, `polygon`, `disc`, `box`, `wedge` or `file`",
+        _ => "`box`, `sphere`, `cylinder`, `cone`, `wedge`, `extrusion` or `file`",
+    };
+    let advice = "; a wall of several parts is several walls";
+    if found.one_of(&wall.geometries(), path, "geometry", [all, advice]) {
+        keys_of_shape(wall.keys(), of, path, found);
+        drawn(wall, of, path, found);
+        companions(wall, path, found);
     }
     of.optional(&wall.translate, &format!("{path}.translate"), found);
     if let Some(rotate) = &wall.rotate {
@@ -71,10 +61,10 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
         ),
         _ => {}
     }
-    let of_friction = [
+    let of_friction = given([
         ("friction_coefficient", wall.friction_coefficient.is_some()),
         ("friction_form", wall.friction_form.is_some()),
-    ];
+    ]);
     match wall.condition {
         Condition::Coulomb if wall.friction_coefficient.is_none() => found.add(
             format!("{path}.condition"),
@@ -82,7 +72,7 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
         ),
         Condition::Coulomb => {}
         _ => {
-            for (key, _) in of_friction.iter().filter(|k| k.1) {
+            for key in of_friction {
                 let message = format!("`{key}` belongs to `condition = \"coulomb\"`");
                 found.add(format!("{path}.{key}"), message);
             }
@@ -90,8 +80,8 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
     }
 }
 
-/// Geometries of the plane, and those of both.
-fn plane(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
+/// Geometries that only walls have.
+fn drawn(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
     let at = |key: &str| format!("{path}.{key}");
     if let Some(points) = &wall.polyline {
         match of.0 {
@@ -102,18 +92,7 @@ fn plane(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
             ),
         }
     }
-    if let Some(points) = &wall.polygon
-        && of.is(2, "a polygon", &at("polygon"), found)
-    {
-        polygon(points, &at("polygon"), found);
-    }
-    if let Some(disc) = &wall.disc
-        && of.is(2, "a disc", &at("disc"), found)
-    {
-        of.vector(&disc.centre, &at("disc.centre"), found);
-    }
-    if let Some(corners) = &wall.bounds {
-        of.corners(corners, &at("box"), found);
+    if wall.bounds.is_some() {
         open_faces(&wall.open, of, &at("open"), found);
     }
     if let Some(wedge) = &wall.wedge {
@@ -121,31 +100,6 @@ fn plane(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
     }
     if let Some(file) = &wall.file {
         geometry_file(file, of, &at("file"), found);
-    }
-}
-
-/// Geometries of space.
-fn space(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
-    let at = |key: &str| format!("{path}.{key}");
-    if let Some(sphere) = &wall.sphere
-        && of.is(3, "a sphere", &at("sphere"), found)
-    {
-        of.vector(&sphere.centre, &at("sphere.centre"), found);
-    }
-    if let Some(c) = &wall.cylinder
-        && of.is(3, "a cylinder", &at("cylinder"), found)
-    {
-        of.apart(("from", &c.from), ("to", &c.to), &at("cylinder"), found);
-    }
-    if let Some(c) = &wall.cone
-        && of.is(3, "a cone", &at("cone"), found)
-    {
-        of.apart(("base", &c.base), ("apex", &c.apex), &at("cone"), found);
-    }
-    if let Some(e) = &wall.extrusion
-        && of.is(3, "an extrusion", &at("extrusion"), found)
-    {
-        extrusion(&e.polygon, [e.from, e.to], &at("extrusion"), found);
     }
 }
 

@@ -2,63 +2,27 @@
 
 use std::path::Path;
 
+use sph_core::course::{self, Course, Translation};
 use sph_core::{SceneProblem, unit_factor};
 
 use crate::drawings::heading::Form;
 use crate::drawings::rows::{self, Row};
-use crate::geometry::vector::unit;
+use crate::geometry::vector::{array, unit};
 use crate::reading::limits::TIMES;
+use crate::tables::given::given;
 use crate::tables::motion::{Motion, Rotation, Translate};
-
-/// A displacement, m, or an angle, rad, over time from the start of the motion.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Course {
-    /// Constant speed, m/s or rad/s.
-    Speed(f64),
-    /// From rest to a speed with constant acceleration.
-    Ramp {
-        /// Speed that is reached, m/s or rad/s.
-        speed: f64,
-        /// Time in which it is reached, s.
-        over: f64,
-    },
-    /// a·r(t)·sin(2πt/T + φ) less its value at t = 0, with r rising smoothly from 0 to 1.
-    Sine {
-        /// Amplitude a, m or rad.
-        amplitude: f64,
-        /// Period T, s.
-        period: f64,
-        /// Phase φ, rad.
-        phase: f64,
-        /// Time over which r rises, s; 0 for r = 1.
-        ramp: f64,
-    },
-    /// Time, s, and displacement, m, or angle, rad; at least two rows, times rise.
-    Table(Vec<[f64; 2]>),
-}
 
 /// All courses of a motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Courses {
-    /// Unit vectors of directions with the displacements along them, which add up.
-    pub translations: Vec<(Vec<f64>, Course)>,
-    /// The rotation.
-    pub rotation: Option<Turning>,
+pub struct Courses<const D: usize> {
+    /// Along unit vectors; they add up.
+    pub translations: Vec<Translation<D>>,
+    /// About a unit vector; (0, 0, 1) in 2D.
+    pub rotation: Option<course::Rotation<D>>,
     /// Time from which the courses count, s.
     pub start: f64,
     /// Time from which the wall stays where it is, s.
     pub stop: f64,
-}
-
-/// A rotation about a centre that the translations carry.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Turning {
-    /// Centre at the start, m.
-    pub centre: Vec<f64>,
-    /// Unit vector of the axis, right-handed; (0, 0, 1) in 2D.
-    pub axis: [f64; 3],
-    /// The angle.
-    pub course: Course,
 }
 
 impl Motion {
@@ -68,35 +32,37 @@ impl Motion {
     ///
     /// # Errors
     /// If a file cannot be read or is no course.
-    pub fn courses(&self, place: &str) -> Result<Courses, SceneProblem> {
+    pub fn courses<const D: usize>(&self, place: &str) -> Result<Courses<D>, SceneProblem> {
         let mut translations = Vec::new();
         if let Some(velocity) = &self.velocity {
             let speed = velocity.iter().map(|c| c * c).sum::<f64>().sqrt();
             if let Some(along) = unit(velocity) {
-                translations.push((along, Course::Speed(speed)));
+                let (along, course) = (array(&along), Course::Steady { speed });
+                translations.push(Translation { along, course });
             }
         }
         for (k, translate) in self.translate.iter().enumerate() {
-            let along = unit(&translate.along).unwrap_or_default();
+            let along = array(&unit(&translate.along).unwrap_or_default());
             let course = translate.course(&self.translate_path(place, k))?;
-            translations.push((along, course));
+            translations.push(Translation { along, course });
         }
-        let turning = |centre: &Option<Vec<f64>>, axis: &Option<Vec<f64>>, course| Turning {
-            centre: centre.clone().unwrap_or_default(),
+        let turning = |centre: Option<&[f64]>, axis: &Option<Vec<f64>>, course| course::Rotation {
+            centre: array(centre.unwrap_or_default()),
             axis: axis
                 .as_deref()
                 .and_then(unit)
-                .map_or([0.0, 0.0, 1.0], |a| crate::geometry::vector::array(&a)),
+                .map_or([0.0, 0.0, 1.0], |a| array(&a)),
             course,
         };
         let rotation = match &self.rotate {
             Some(given) => {
                 let course = given.course(&format!("{place}.rotate"))?;
-                Some(turning(&Some(given.centre.clone()), &given.axis, course))
+                Some(turning(Some(&given.centre), &given.axis, course))
             }
             None if self.angular_velocity != 0.0 => {
-                let course = Course::Speed(self.angular_velocity);
-                Some(turning(&self.centre, &self.axis, course))
+                let speed = self.angular_velocity;
+                let course = Course::Steady { speed };
+                Some(turning(self.centre.as_deref(), &self.axis, course))
             }
             None => None,
         };
@@ -116,24 +82,22 @@ macro_rules! with_course {
             /// The keys of courses that are given.
             pub(crate) fn given(&self) -> Vec<&'static str> {
                 given([
-                    self.speed.is_some(),
-                    self.ramp.is_some(),
-                    self.sine.is_some(),
-                    self.table.is_some(),
-                    self.file.is_some(),
+                    ("speed", self.speed.is_some()),
+                    ("ramp", self.ramp.is_some()),
+                    ("sine", self.sine.is_some()),
+                    ("table", self.table.is_some()),
+                    ("file", self.file.is_some()),
                 ])
             }
 
             /// The keys that say how the file is read, of those that are given.
             pub(crate) fn in_force(&self) -> Vec<&'static str> {
-                let all = [
+                given([
                     ("unit", self.unit.is_some()),
                     ("scale", self.scale.is_some()),
                     ("time_unit", self.time_unit.is_some()),
                     ("columns", self.columns.is_some()),
-                ];
-                let given = all.into_iter().filter(|(_, given)| *given);
-                given.map(|(key, _)| key).collect()
+                ])
             }
 
             fn course(&self, place: &str) -> Result<Course, SceneProblem> {
@@ -147,7 +111,8 @@ macro_rules! with_course {
                     phase: s.phase,
                     ramp: s.ramp,
                 });
-                let plain = self.speed.map(Course::Speed).or(ramp).or(sine);
+                let steady = self.speed.map(|speed| Course::Steady { speed });
+                let plain = steady.or(ramp).or(sine);
                 chosen(plain, &self.table, || self.rows(), place)
             }
 
@@ -183,14 +148,6 @@ macro_rules! with_course {
 with_course!(Translate, "m");
 with_course!(Rotation, "rad");
 
-fn given(keys: [bool; 5]) -> Vec<&'static str> {
-    let names = ["speed", "ramp", "sine", "table", "file"];
-    let all = names.into_iter().zip(keys);
-    all.filter(|(_, given)| *given)
-        .map(|(name, _)| name)
-        .collect()
-}
-
 fn chosen(
     plain: Option<Course>,
     table: &Option<Vec<[f64; 2]>>,
@@ -201,10 +158,12 @@ fn chosen(
         return Ok(course);
     }
     if let Some(table) = table {
-        return Ok(Course::Table(table.clone()));
+        let rows = table.as_slice().into();
+        return Ok(Course::Table { rows });
     }
     let rows = rows().map_err(|why| SceneProblem::new(format!("{place}.file"), why))?;
-    Ok(Course::Table(rows.iter().map(|r| r.values).collect()))
+    let rows = rows.iter().map(|r| r.values).collect();
+    Ok(Course::Table { rows })
 }
 
 /// The rows of a file that is a course.

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, bounds};
 
 use crate::geometry::polygon::crosses_ray;
 use crate::tables::wall_shapes::Face;
@@ -97,7 +97,7 @@ pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, Unside
         edges.collect::<Vec<_>>()
     };
     let edges: Vec<_> = polygons.iter().enumerate().flat_map(of).collect();
-    let boxes = edges.iter().map(|(_, a, b)| bounds(&[*a, *b])).collect();
+    let boxes = edges.iter().map(|(_, a, b)| bounds([*a, *b])).collect();
     let tree = BoxTree::new(boxes);
     let mut passed = 0;
     let mut turned = Vec::with_capacity(lines.len());
@@ -125,18 +125,6 @@ pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, Unside
         });
     }
     Ok(turned)
-}
-
-/// Lower and upper corner of the box around points.
-pub(crate) fn bounds<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
-    let mut found = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-    for x in points {
-        for k in 0..D {
-            found[0][k] = found[0][k].min(x[k]);
-            found[1][k] = found[1][k].max(x[k]);
-        }
-    }
-    found
 }
 
 #[cfg(test)]

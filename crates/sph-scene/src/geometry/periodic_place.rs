@@ -143,7 +143,7 @@ impl<const D: usize> Periodic<'_, D> {
         shifts: &[[f64; D]],
         periods: &[Option<[f64; 2]>; D],
     ) -> f64 {
-        let [lo, hi] = crate::geometry::outlines::bounds(polygon.points());
+        let [lo, hi] = sph_core::bounds(polygon.points().iter().copied());
         let sealed = |a: [f64; 2], b: [f64; 2]| {
             (0..2).any(|k| {
                 let near = ROUNDING * (hi[k] - lo[k]);

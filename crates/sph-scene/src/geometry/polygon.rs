@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, bounds};
 
 /// A closed polygon in the plane of the first two axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,13 +90,7 @@ type Met = (usize, usize, [f64; 2]);
 /// The same with the number of pairs that were held against each other.
 fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<Met>, usize) {
     let n = edges.len();
-    let around = |(a, b): &([f64; 2], [f64; 2])| {
-        [
-            [a[0].min(b[0]), a[1].min(b[1])],
-            [a[0].max(b[0]), a[1].max(b[1])],
-        ]
-    };
-    let tree = BoxTree::new(edges.iter().map(around).collect());
+    let tree = BoxTree::new(edges.iter().map(|(a, b)| bounds([*a, *b])).collect());
     let mut pairs = 0;
     for first in 0..n {
         // The lowest of those that it meets.

@@ -175,7 +175,7 @@ impl<const D: usize> Shape<D> {
                 axis,
                 ends,
             } => {
-                let [low, high] = crate::geometry::outlines::bounds(polygon.points());
+                let [low, high] = sph_core::bounds(polygon.points().iter().copied());
                 let of = |flat: [f64; 2], end: f64| {
                     let side = |k: usize| flat[k - usize::from(k > *axis)];
                     std::array::from_fn(|k| if k == *axis { end } else { side(k) })

@@ -1,13 +1,13 @@
 //! The geometry of a wall as lines or facets.
 
-use sph_core::{SceneProblem, unit_factor};
+use sph_core::{SceneProblem, bounds, unit_factor};
 use surface_file::Facets;
 
 use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
 use crate::geometry::divide;
-use crate::geometry::outlines::{Line, Unsided, bounds, oriented, rectangle};
+use crate::geometry::outlines::{Line, Unsided, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
@@ -77,8 +77,8 @@ impl Wall {
         let lines: Vec<Line> = placed.collect();
         if self.polyline.is_none() {
             let length = lines.iter().map(length).sum::<f64>();
-            let corners: Vec<_> = lines.iter().flat_map(|l| l.points.clone()).collect();
-            self.fits(&bounds(&corners), length / spacing, spacing)
+            let corners = lines.iter().flat_map(|l| l.points.iter().copied());
+            self.fits(&bounds(corners), length / spacing, spacing)
                 .map_err(problem)?;
         }
         Ok(lines)
@@ -121,7 +121,7 @@ impl Wall {
         let placing = Placing::new(self, factor);
         facets.points.iter_mut().for_each(|x| *x = placing.apply(x));
         let elements = facets.area() / (spacing * spacing);
-        self.fits(&bounds(&facets.points), elements, spacing)
+        self.fits(&bounds(facets.points.iter().copied()), elements, spacing)
             .map_err(problem)?;
         Ok(facets)
     }

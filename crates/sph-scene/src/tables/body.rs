@@ -6,7 +6,9 @@ use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
-use crate::{LevelSurface, Shape, Wave};
+use crate::tables::given::given;
+use crate::tables::wall_shapes::Axis;
+use crate::{LevelSurface, Shape, Wall, Wave};
 
 /// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
 #[parameters]
@@ -105,23 +107,30 @@ pub enum Pressure {
     Hydrostatic,
 }
 
+/// A polygon, the axis along which it is drawn out, and both ends.
+pub(crate) type DrawnOut<'a> = (&'a [Vec<f64>], Axis, [f64; 2]);
+
 /// The keys that may give a shape, wherever they stand.
 #[derive(Clone, Copy)]
 pub(crate) struct ShapeKeys<'a> {
     pub bounds: Option<&'a [Vec<f64>; 2]>,
     pub polygon: Option<&'a [Vec<f64>]>,
-    pub disc: Option<&'a Round>,
+    /// Centre and radius.
+    pub disc: Option<(&'a [f64], f64)>,
     pub ellipse: Option<&'a Ellipse>,
-    pub sphere: Option<&'a Round>,
-    pub cylinder: Option<&'a Cylinder>,
-    pub cone: Option<&'a Cone>,
-    pub extrusion: Option<&'a Extrusion>,
+    /// Centre and radius.
+    pub sphere: Option<(&'a [f64], f64)>,
+    /// Both ends and radius.
+    pub cylinder: Option<([&'a [f64]; 2], f64)>,
+    /// Base, apex and radius.
+    pub cone: Option<([&'a [f64]; 2], f64)>,
+    pub extrusion: Option<DrawnOut<'a>>,
 }
 
 impl ShapeKeys<'_> {
     /// The keys that are given.
     pub fn given(&self) -> Vec<&'static str> {
-        let all = [
+        given([
             ("box", self.bounds.is_some()),
             ("polygon", self.polygon.is_some()),
             ("disc", self.disc.is_some()),
@@ -130,11 +139,7 @@ impl ShapeKeys<'_> {
             ("cylinder", self.cylinder.is_some()),
             ("cone", self.cone.is_some()),
             ("extrusion", self.extrusion.is_some()),
-        ];
-        all.iter()
-            .filter(|(_, given)| *given)
-            .map(|(name, _)| *name)
-            .collect()
+        ])
     }
 
     /// The shape in D dimensions, if one is given.
@@ -155,55 +160,52 @@ impl ShapeKeys<'_> {
                 semi_axes: e.semi_axes,
             });
         }
-        if let Some(c) = self.cylinder {
-            return Some(Shape::Cylinder {
-                from: array(&c.from),
-                to: array(&c.to),
-                radius: c.radius,
-            });
+        if let Some((ends, radius)) = self.cylinder {
+            let [from, to] = ends.map(array);
+            return Some(Shape::Cylinder { from, to, radius });
         }
-        if let Some(c) = self.cone {
-            return Some(Shape::Cone {
-                base: array(&c.base),
-                apex: array(&c.apex),
-                radius: c.radius,
-            });
+        if let Some((ends, radius)) = self.cone {
+            let [base, apex] = ends.map(array);
+            return Some(Shape::Cone { base, apex, radius });
         }
-        if let Some(e) = self.extrusion {
+        if let Some((points, axis, [from, to])) = self.extrusion {
             return Some(Shape::Extrusion {
-                polygon: polygon(&e.polygon),
-                axis: e.axis as usize,
-                ends: [e.from.min(e.to), e.from.max(e.to)],
+                polygon: polygon(points),
+                axis: axis as usize,
+                ends: [from.min(to), from.max(to)],
             });
         }
-        self.disc.or(self.sphere).map(|r| Shape::Ball {
-            centre: array(&r.centre),
-            radius: r.radius,
-        })
+        let (centre, radius) = self.disc.or(self.sphere)?;
+        let centre = array(centre);
+        Some(Shape::Ball { centre, radius })
     }
 }
 
-/// Tables that give a shape by the same keys.
+/// Tables that give a shape by the same keys; `ellipse` only where there is one.
 macro_rules! with_shape {
-    ($table:ident) => {
+    ($table:ident $(, $ellipse:ident)?) => {
         impl $table {
             pub(crate) fn keys(&self) -> ShapeKeys<'_> {
-                ShapeKeys {
+                #[allow(unused_mut, reason = "of tables without an ellipse")]
+                let mut keys = ShapeKeys {
                     bounds: self.bounds.as_ref(),
                     polygon: self.polygon.as_deref(),
-                    disc: self.disc.as_ref(),
-                    ellipse: self.ellipse.as_ref(),
-                    sphere: self.sphere.as_ref(),
-                    cylinder: self.cylinder.as_ref(),
-                    cone: self.cone.as_ref(),
-                    extrusion: self.extrusion.as_ref(),
-                }
+                    disc: self.disc.as_ref().map(|d| (&d.centre[..], d.radius)),
+                    ellipse: None,
+                    sphere: self.sphere.as_ref().map(|s| (&s.centre[..], s.radius)),
+                    cylinder: self.cylinder.as_ref().map(|c| ([&c.from[..], &c.to], c.radius)),
+                    cone: self.cone.as_ref().map(|c| ([&c.base[..], &c.apex], c.radius)),
+                    extrusion: self.extrusion.as_ref().map(|e| (&e.polygon[..], e.axis, [e.from, e.to])),
+                };
+                $(keys.ellipse = self.$ellipse.as_ref();)?
+                keys
             }
         }
     };
 }
-with_shape!(Body);
-with_shape!(Cutout);
+with_shape!(Body, ellipse);
+with_shape!(Cutout, ellipse);
+with_shape!(Wall);
 
 impl Body {
     /// Whether walls decide what is filled: `clip` or `fill`.

@@ -6,6 +6,7 @@ use sph_core::parameters;
 
 use crate::Motion;
 use crate::reading::plugins::{AnyPlugins, Plugins};
+use crate::tables::given::given;
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
@@ -143,7 +144,7 @@ pub enum Side {
 impl Wall {
     /// The keys of geometries that are given.
     pub fn geometries(&self) -> Vec<&'static str> {
-        let all = [
+        given([
             ("polyline", self.polyline.is_some()),
             ("polygon", self.polygon.is_some()),
             ("disc", self.disc.is_some()),
@@ -154,9 +155,7 @@ impl Wall {
             ("wedge", self.wedge.is_some()),
             ("extrusion", self.extrusion.is_some()),
             ("file", self.file.is_some()),
-        ];
-        let given = all.iter().filter(|(_, given)| *given);
-        given.map(|(name, _)| *name).collect()
+        ])
     }
 
     /// The side of the fluid in force; none for a polyline.

@@ -1,10 +1,11 @@
 //! How walls move.
 
 use super::common::scene;
-use sph_scene::{Condition, Course, Courses};
+use sph_core::course::{Course, Translation};
+use sph_scene::{Condition, Courses};
 use tempfile::tempdir;
 
-fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses, String> {
+fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses<2>, String> {
     let wall = format!("box = [[0, 0], [1, 1]]\n[wall.w.motion]\n{motion}");
     let scene = scene(folder, 2, &wall);
     let motion = scene.wall["w"].motion.as_ref().unwrap();
@@ -12,18 +13,24 @@ fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses, String> {
     found.map_err(|p| p.to_string())
 }
 
+fn along(along: [f64; 2], course: Course) -> Translation<2> {
+    Translation { along, course }
+}
+
 #[test]
 fn constant_motions_are_courses_too() {
     let folder = tempdir().unwrap();
     let text = "velocity = [3, 4]\nangular_velocity = \"30 rpm\"\ncentre = [1, 2]\nstart = 0.5\nstop = \"2 s\"";
     let found = courses(folder.path(), text).unwrap();
-    assert_eq!(found.translations, [(vec![0.6, 0.8], Course::Speed(5.0))]);
+    let course = Course::Steady { speed: 5.0 };
+    assert_eq!(found.translations, [along([0.6, 0.8], course)]);
     let rotation = found.rotation.unwrap();
     assert_eq!(
         (rotation.centre, rotation.axis),
-        (vec![1.0, 2.0], [0.0, 0.0, 1.0])
+        ([1.0, 2.0], [0.0, 0.0, 1.0])
     );
-    assert_eq!(rotation.course, Course::Speed(std::f64::consts::PI));
+    let speed = std::f64::consts::PI;
+    assert_eq!(rotation.course, Course::Steady { speed });
     assert_eq!((found.start, found.stop), (0.5, 2.0));
     let still = courses(folder.path(), "velocity = [0, 0]").unwrap();
     assert!(still.translations.is_empty() && still.rotation.is_none());
@@ -50,14 +57,14 @@ fn units_of_courses_and_of_columns_reach_si() {
         speed: 0.1,
         over: 0.5,
     };
-    let table = Course::Table(vec![[0.0, 0.01], [1.0, 0.5]]);
+    let table = |rows: Vec<[f64; 2]>| Course::Table { rows: rows.into() };
     let expected = [
-        (vec![1.0, 0.0], ramp),
-        (vec![0.0, -1.0], sine),
-        (vec![1.0, 0.0], table),
+        along([1.0, 0.0], ramp),
+        along([0.0, -1.0], sine),
+        along([1.0, 0.0], table(vec![[0.0, 0.01], [1.0, 0.5]])),
     ];
     assert_eq!(found.translations, expected);
-    let turn = Course::Table(vec![[0.0, 0.0], [60.0, pi]]);
+    let turn = table(vec![[0.0, 0.0], [60.0, pi]]);
     assert_eq!(found.rotation.unwrap().course, turn);
 }
 
@@ -68,8 +75,8 @@ fn courses_come_from_files() {
     let text = "translate = { along = [0, 1], file = \"gate.csv\" }";
     file("t,s\n0,0\n# faster\n0.1,0.02\n0.2,0.5\n");
     let found = courses(folder.path(), text).unwrap();
-    let rows = vec![[0.0, 0.0], [0.1, 0.02], [0.2, 0.5]];
-    assert_eq!(found.translations[0].1, Course::Table(rows));
+    let rows = [[0.0, 0.0], [0.1, 0.02], [0.2, 0.5]].into();
+    assert_eq!(found.translations[0].course, Course::Table { rows });
     for (content, message) in [
         ("t,s\n0,0\n", "holds 1 rows, and a course needs at least 2"),
         (

@@ -13,9 +13,8 @@ pub struct WallDistance<const D: usize> {
     walls: Vec<String>,
     /// Beyond it nobody asks, m.
     within: f64,
-    tree: ElementTree<D>,
-    /// The places of the elements that it is of.
-    built_for: Option<Vec<Vect<D>>>,
+    /// With the places of the elements that it is of.
+    tree: Option<(ElementTree<D>, Vec<Vect<D>>)>,
 }
 
 impl<const D: usize> WallDistance<D> {
@@ -24,8 +23,7 @@ impl<const D: usize> WallDistance<D> {
         WallDistance {
             walls: walls.to_vec(),
             within,
-            tree: ElementTree::default(),
-            built_for: None,
+            tree: None,
         }
     }
 }
@@ -43,16 +41,22 @@ impl<const D: usize> Stage<World<D>> for WallDistance<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut distance = world.free.take(WALL_DISTANCE)?;
         let walls = &world.walls;
-        if self.built_for.as_ref() != Some(&walls.points.position) {
+        let places = &walls.points.position;
+        if self.tree.as_ref().is_none_or(|(_, of)| of != places) {
             let name = |s: usize| &walls.names[walls.elements.wall[s] as usize];
             let counts = |s: usize| self.walls.is_empty() || self.walls.contains(name(s));
-            self.tree = ElementTree::of(walls, &world.domain, counts);
-            self.built_for = Some(walls.points.position.clone());
+            let tree = ElementTree::of(walls, &world.domain, counts);
+            self.tree = Some((tree, places.clone()));
         }
-        let (tree, within) = (&self.tree, self.within);
+        let within = self.within;
+        let nearest = |x| {
+            self.tree
+                .as_ref()
+                .and_then(|(tree, _)| tree.nearest(x, within))
+        };
         let positions = world.free.get(fields::POSITION)?;
         let all = distance.par_iter_mut().zip(positions).with_min_len(256);
-        all.for_each(|(d, x)| *d = tree.nearest(x, within).map_or(within, |n| n.0));
+        all.for_each(|(d, x)| *d = nearest(x).map_or(within, |n| n.0));
         Ok(world.free.put(WALL_DISTANCE, distance)?)
     }
 }

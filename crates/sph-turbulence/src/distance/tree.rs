@@ -1,31 +1,17 @@
 //! Which wall element is nearest to a point.
 
-use sph_core::Vect;
+use sph_core::{BoxTree, Vect};
 use sph_neighbours::{Domain, WallSet};
 
 use super::simplex::squared_distance;
 
-/// Elements in one leaf at most.
-const LEAF: usize = 4;
-
-#[derive(Clone, Copy, Debug)]
-struct Node<const D: usize> {
-    lower: Vect<D>,
-    upper: Vect<D>,
-    /// Range of the elements below.
-    from: usize,
-    to: usize,
-    /// The second child; the first follows its parent. None of a leaf.
-    second: Option<usize>,
-}
-
-/// A hierarchy of boxes around the elements of walls, for the true distance to the nearest of them, periodic images included.
-#[derive(Clone, Debug, Default)]
+/// Boxes around the elements of walls, for the true distance to the nearest of them, periodic images included.
+#[derive(Clone, Debug)]
 pub struct ElementTree<const D: usize> {
     corners: Vec<[Vect<D>; D]>,
     /// Number of each in the set of walls.
     element: Vec<u32>,
-    nodes: Vec<Node<D>>,
+    tree: BoxTree<D>,
     shifts: Vec<Vect<D>>,
 }
 
@@ -33,63 +19,39 @@ impl<const D: usize> ElementTree<D> {
     /// Of the present places of all elements that count.
     pub fn of(walls: &WallSet<D>, domain: &Domain<D>, counts: impl Fn(usize) -> bool) -> Self {
         let (elements, places) = (&walls.elements, &walls.points.position);
-        let whole = |s: usize| {
-            let corners = elements.corners[s].map(|c| places[c as usize]);
+        let whole = |s: &u32| {
+            let corners = elements.corners[*s as usize].map(|c| places[c as usize]);
             corners.map(|c| corners[0] + domain.nearest_image(c - corners[0]))
         };
-        let wanted = (0..elements.centre.len()).filter(|s| counts(*s));
-        let mut listed: Vec<(u32, [Vect<D>; D])> = wanted.map(|s| (s as u32, whole(s))).collect();
-        let mut nodes = Vec::new();
-        if !listed.is_empty() {
-            split(&mut listed, 0, &mut nodes);
-        }
+        let all = 0..elements.centre.len();
+        let element: Vec<u32> = all.filter(|s| counts(*s)).map(|s| s as u32).collect();
+        let corners: Vec<[Vect<D>; D]> = element.iter().map(whole).collect();
+        let around = |corners: &[Vect<D>; D]| {
+            let low = corners[1..].iter().fold(corners[0], |low, c| low.inf(c));
+            let high = corners[1..].iter().fold(corners[0], |high, c| high.sup(c));
+            [low.into(), high.into()]
+        };
+        let boxes = corners.iter().map(around).collect();
+        let middle = |_: &_, k: usize, axis: usize| corners[k].iter().map(|c| c[axis]).sum::<f64>();
         ElementTree {
-            element: listed.iter().map(|l| l.0).collect(),
-            corners: listed.into_iter().map(|l| l.1).collect(),
-            nodes,
+            tree: BoxTree::by_middles(boxes, middle),
+            element,
             shifts: shifts(domain),
+            corners,
         }
     }
 
     /// Distance, m, to the nearest element and its number, if nearer than `within`.
     pub fn nearest(&self, x: &Vect<D>, within: f64) -> Option<(f64, u32)> {
-        let mut best = (within * within, None);
-        if self.nodes.is_empty() {
-            return None;
-        }
+        let mut best = None;
         for shift in &self.shifts {
-            self.search(&(x + shift), 0, &mut best);
+            let x = x + shift;
+            let within2 = best.map_or(within * within, |(squared, _)| squared);
+            let squared = |k: usize| squared_distance(&x, &self.corners[k]);
+            best = self.tree.nearest(x.into(), within2, squared).or(best);
         }
-        Some((best.0.sqrt(), best.1?))
+        best.map(|(squared, k)| (squared.sqrt(), self.element[k]))
     }
-
-    fn search(&self, x: &Vect<D>, node: usize, best: &mut (f64, Option<u32>)) {
-        let at = &self.nodes[node];
-        if outside(x, at) >= best.0 {
-            return;
-        }
-        let Some(second) = at.second else {
-            for k in at.from..at.to {
-                let squared = squared_distance(x, &self.corners[k]);
-                if squared < best.0 {
-                    *best = (squared, Some(self.element[k]));
-                }
-            }
-            return;
-        };
-        let children = [node + 1, second];
-        let apart = children.map(|c| outside(x, &self.nodes[c]));
-        match apart[1] < apart[0] {
-            true => children.iter().rev().for_each(|c| self.search(x, *c, best)),
-            false => children.iter().for_each(|c| self.search(x, *c, best)),
-        }
-    }
-}
-
-/// Squared distance of a point from a box, m².
-fn outside<const D: usize>(x: &Vect<D>, node: &Node<D>) -> f64 {
-    let beyond = |k: usize| (node.lower[k] - x[k]).max(x[k] - node.upper[k]).max(0.0);
-    (0..D).map(|k| beyond(k).powi(2)).sum()
 }
 
 /// Moves to the images of a point: none, and one period either way along each periodic axis and each diagonal.
@@ -103,40 +65,6 @@ fn shifts<const D: usize>(domain: &Domain<D>) -> Vec<Vect<D>> {
         all.extend(moved);
     }
     all
-}
-
-fn split<const D: usize>(
-    listed: &mut [(u32, [Vect<D>; D])],
-    from: usize,
-    nodes: &mut Vec<Node<D>>,
-) {
-    let mut lower = Vect::repeat(f64::INFINITY);
-    let mut upper = Vect::repeat(f64::NEG_INFINITY);
-    for corner in listed.iter().flat_map(|l| &l.1) {
-        for k in 0..D {
-            lower[k] = corner[k].min(lower[k]);
-            upper[k] = corner[k].max(upper[k]);
-        }
-    }
-    let own = nodes.len();
-    nodes.push(Node {
-        lower,
-        upper,
-        from,
-        to: from + listed.len(),
-        second: None,
-    });
-    if listed.len() <= LEAF {
-        return;
-    }
-    let axis = (upper - lower).imax();
-    let middle = |l: &(u32, [Vect<D>; D])| l.1.iter().map(|c| c[axis]).sum::<f64>();
-    listed.sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.0.cmp(&b.0)));
-    let half = listed.len() / 2;
-    let (first, second) = listed.split_at_mut(half);
-    split(first, from, nodes);
-    nodes[own].second = Some(nodes.len());
-    split(second, from + half, nodes);
 }
 
 #[cfg(test)]

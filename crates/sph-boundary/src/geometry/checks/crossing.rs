@@ -7,6 +7,7 @@ use sph_core::BoxTree;
 use crate::error::BoundaryError;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::vector::{add, bounds};
 use crate::limits::MOST_PAIRS;
 
 struct Edge {
@@ -37,7 +38,7 @@ fn compared(
     most: usize,
 ) -> Result<usize, BoundaryError> {
     let edges = edges(polylines, domain);
-    let tree = BoxTree::new(edges.iter().map(|e| around(e.ends)).collect());
+    let tree = BoxTree::new(edges.iter().map(|e| bounds(e.ends)).collect());
     let mut pairs = 0;
     for (i, first) in edges.iter().enumerate().filter(|(_, e)| !e.image) {
         // The lowest of those that it crosses.
@@ -55,71 +56,44 @@ fn compared(
                 false => ControlFlow::Continue(()),
             }
         });
-        if let Some((j, [x, y])) = met {
+        if let Some((j, at)) = met {
             let second = &edges[j];
             return Err(BoundaryError::Crossing {
+                what: "edge",
                 wall: polylines[first.wall].name.clone(),
-                edge: first.edge,
+                number: first.edge,
                 other: polylines[second.wall].name.clone(),
-                other_edge: second.edge,
-                x,
-                y,
+                other_number: second.edge,
+                at: at.into(),
             });
         }
         if whole.is_break() {
             let wall = polylines[first.wall].name.clone();
-            return Err(BoundaryError::Tangled { wall });
+            let what = "edges";
+            return Err(BoundaryError::Tangled { what, wall });
         }
     }
     Ok(pairs)
 }
 
-/// Lower and upper corner of the box around an edge, m.
-pub(crate) fn around([a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    [
-        [a[0].min(b[0]), a[1].min(b[1])],
-        [a[0].max(b[0]), a[1].max(b[1])],
-    ]
-}
-
-/// A box with so much room around it.
-pub(crate) fn widened([low, high]: [[f64; 2]; 2], by: f64) -> [[f64; 2]; 2] {
-    [low.map(|x| x - by), high.map(|x| x + by)]
-}
-
 /// All edges, and their images across the periodic sides that come near the walls themselves.
 fn edges(polylines: &[Polyline], domain: &PeriodicBox) -> Vec<Edge> {
-    let points = || polylines.iter().flat_map(|line| &line.points);
-    let low = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-    let high = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
-    let walls = PeriodicBox {
-        lower: low,
-        upper: high,
-        ..*domain
-    };
-    let periods = domain.periods();
-    // Images of an interval that overlap the walls, counted in periods of the box.
-    let images = |k: usize, a: f64, b: f64| {
-        if !walls.periodic[k] {
-            return 0..=0;
-        }
-        let first = ((low[k] - b) / periods[k]).ceil() as i32;
-        first..=((high[k] - a) / periods[k]).floor() as i32
-    };
+    let walls = bounds(
+        polylines
+            .iter()
+            .flat_map(|line| line.points.iter().copied()),
+    );
     let mut edges = Vec::new();
     for (wall, line) in polylines.iter().enumerate() {
-        for (edge, [a, b]) in line.edges().enumerate() {
-            for i in images(0, a[0].min(b[0]), a[0].max(b[0])) {
-                for j in images(1, a[1].min(b[1]), a[1].max(b[1])) {
-                    let shift = domain.shift([i, j]);
-                    let ends = [a, b].map(|p| [p[0] + shift[0], p[1] + shift[1]]);
-                    edges.push(Edge {
-                        wall,
-                        edge,
-                        image: [i, j] != [0; 2],
-                        ends,
-                    });
-                }
+        for (edge, own) in line.edges().enumerate() {
+            for image in domain.images_within(walls, bounds(own)) {
+                let shift = domain.shift(image);
+                edges.push(Edge {
+                    wall,
+                    edge,
+                    image: image != [0; 2],
+                    ends: own.map(|p| add(p, shift)),
+                });
             }
         }
     }
@@ -171,7 +145,7 @@ mod tests {
         crossed.points.extend([[10_001.0, 500.5], [-1.0, 500.5]]);
         let found = check_crossings(&[crossed], 1e-6, &none);
         assert!(
-            matches!(found, Err(BoundaryError::Crossing { edge: 0, .. })),
+            matches!(found, Err(BoundaryError::Crossing { number: 0, .. })),
             "{found:?}"
         );
     }

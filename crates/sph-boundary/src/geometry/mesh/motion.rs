@@ -1,90 +1,91 @@
-//! Walls that move as rigid bodies.
+//! Meshes that move as rigid bodies.
 
-use super::segment_mesh::SegmentMesh;
+use std::collections::HashMap;
+
+use super::elements::Mesh;
 use crate::error::BoundaryError;
-use crate::geometry::sides::Sides;
-use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
 
-impl SegmentMesh {
-    /// Says how the walls move, one motion per wall; only a bend matters to the mesh.
-    pub(crate) fn bend_by(&mut self, motions: Vec<RigidMotion<2>>) {
-        self.motions = motions;
-    }
+/// What the elements of a mesh are measured by.
+pub trait Measured {
+    /// Measure, centre and normal of an element from the positions of its nodes.
+    fn measure(&mut self, element: usize);
+    /// What else of nodes and faces changes with walls that moved.
+    fn follow(&mut self, moved: &[bool]);
+}
 
+impl<const D: usize> Mesh<D>
+where
+    Self: Measured,
+{
     /// Moves every wall to its pose, one per wall, given with respect to the reference position.
     ///
     /// Positions never accumulate rounding: they are computed from the reference. Fluid angles change only where walls
-    /// bend. Walls whose pose is unchanged cost nothing. A [`SegmentGrid`](crate::SegmentGrid)
-    /// must be built again afterwards.
+    /// bend. Walls whose pose is unchanged cost nothing. A [`Grid`](crate::Grid) must be built again afterwards.
     ///
     /// # Errors
-    /// A number of poses other than that of the walls, two walls joined end to end with different
-    /// poses, or the rotation of a wall that is closed through periodicity; the mesh is then left
-    /// as it was.
-    pub fn move_walls(&mut self, poses: &[Pose]) -> Result<(), BoundaryError> {
+    /// A number of poses other than that of the walls, two walls that are joined or of one group with different poses, or
+    /// the rotation of a wall that is closed through periodicity; the mesh is then left as it was.
+    pub fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
         self.check_poses(poses)?;
-        let moved: Vec<bool> = self
-            .poses
-            .iter()
-            .zip(poses)
-            .map(|(old, new)| old != new)
-            .collect();
+        let both = self.poses.iter().zip(poses);
+        let moved: Vec<bool> = both.map(|(old, new)| old != new).collect();
         self.poses.copy_from_slice(poses);
         if !moved.contains(&true) {
             return Ok(());
         }
-        self.sides = Sides::default();
         let walls = self.motions.iter().zip(poses);
         let maps: Vec<_> = walls.map(|(motion, pose)| motion.map(pose)).collect();
-        for (vertex, reference) in self.vertices.iter_mut().zip(&self.reference) {
-            if moved[vertex.wall] {
-                vertex.position = maps[vertex.wall](*reference);
+        for (node, reference) in self.nodes.iter_mut().zip(&self.reference) {
+            if moved[node.wall] {
+                node.position = maps[node.wall](*reference);
             }
         }
-        for segment in 0..self.segments.len() {
-            if moved[self.segments[segment].wall] {
-                self.measure(segment);
+        for element in 0..self.elements.len() {
+            if moved[self.elements[element].wall] {
+                self.measure(element);
             }
         }
-        if self.motions.iter().any(|motion| motion.bend.is_some()) {
-            self.find_angles();
-        }
-        for free in &mut self.free_ends {
-            free.position = self.vertices[free.vertex].position;
-        }
+        self.follow(&moved);
+        self.sides = std::sync::OnceLock::new();
         Ok(())
     }
 
     /// Present poses, one per wall.
-    pub fn poses(&self) -> &[Pose] {
+    pub fn poses(&self) -> &[Pose<D>] {
         &self.poses
     }
 
-    /// Position of a vertex before any motion, m.
-    pub fn reference_position(&self, vertex: usize) -> [f64; 2] {
-        self.reference[vertex]
-    }
-
-    fn check_poses(&self, poses: &[Pose]) -> Result<(), BoundaryError> {
+    fn check_poses(&self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());
-            return Err(BoundaryError::PoseCount { given, walls });
+            return Err(BoundaryError::Count {
+                what: "pose",
+                given,
+                walls,
+            });
         }
-        for segment in &self.segments {
-            let joint = segment.vertices[1];
-            let next = self.vertices[joint].wall;
-            if poses[segment.wall] != poses[next] {
-                let [x, y] = self.reference[joint];
+        let name = |wall: usize| self.walls[wall].clone();
+        let mut firsts = HashMap::new();
+        for (wall, group) in self.groups.iter().enumerate() {
+            let first = *firsts.entry(group).or_insert(wall);
+            if poses[first] != poses[wall] {
+                let (wall, other) = (name(first), name(wall));
+                return Err(BoundaryError::TornApart { wall, other });
+            }
+        }
+        for element in &self.elements {
+            let (wall, pose) = (element.wall, &poses[element.wall]);
+            let other = |node: &&usize| poses[self.nodes[**node].wall] != *pose;
+            if let Some(&joint) = element.nodes.iter().find(other) {
                 return Err(BoundaryError::JointTornApart {
-                    wall: self.walls[segment.wall].clone(),
-                    other: self.walls[next].clone(),
-                    x,
-                    y,
+                    wall: name(wall),
+                    other: name(self.nodes[joint].wall),
+                    at: self.reference[joint].into(),
                 });
             }
-            if segment.end_image != [0; 2] && poses[segment.wall].turns() {
-                let wall = self.walls[segment.wall].clone();
+            if element.images != [[0; D]; D] && pose.turns() {
+                let wall = name(wall);
                 return Err(BoundaryError::PeriodicWallRotated { wall });
             }
         }

@@ -1,52 +1,79 @@
-//! Distance and side of a place from a few segments.
+//! Distance and side of a place from a few elements.
 
-use super::segment_mesh::{NearSegment, SegmentMesh};
-use crate::geometry::segment_distance::distance_squared;
+use super::closest::nearest_to_origin;
+use super::elements::Mesh;
+use super::near_element::NearElement;
+use crate::geometry::vector::{dot, norm, sub};
 
-/// An image of a segment relative to a point.
+/// Two lengths that differ by less than this part are equal.
+const ALIKE: f64 = 1e-9;
+
+/// An image of an element relative to a point.
 #[derive(Clone, Copy, Debug)]
-pub struct SeenSegment {
-    ends: [[f64; 2]; 2],
-    normal: [f64; 2],
+pub struct SeenElement<const D: usize> {
+    corners: [[f64; D]; D],
+    normal: [f64; D],
+    /// Centre and radius of a sphere around it, m.
+    sphere: ([f64; D], f64),
 }
 
-impl SegmentMesh {
-    /// An image of a segment as seen from a point.
-    pub fn seen(&self, point: [f64; 2], near: NearSegment) -> SeenSegment {
-        SeenSegment {
-            ends: self.seen_from(point, near),
-            normal: self.segments[near.segment].normal,
+impl<const D: usize> Mesh<D> {
+    /// An image of an element as seen from a point.
+    pub fn seen(&self, point: [f64; D], near: NearElement<D>) -> SeenElement<D> {
+        let corners = self.corners_from(point, near);
+        let sum = |k: usize| corners[1..].iter().fold(corners[0][k], |sum, c| sum + c[k]);
+        let centre = std::array::from_fn(|k| sum(k) / D as f64);
+        let arms = corners.map(|corner| norm(sub(corner, centre)));
+        let radius = arms.into_iter().fold(0.0, f64::max) * (1.0 + ALIKE);
+        SeenElement {
+            corners,
+            normal: self.elements[near.index()].normal,
+            sphere: (centre, radius),
         }
     }
 }
 
-impl SeenSegment {
-    /// Distance of the nearest of some segments from a place, m, positive on its fluid's side;
+impl<const D: usize> SeenElement<D> {
+    /// Distance of the nearest of some elements from a place, m, positive on its fluid's side;
     /// `None` if none of them is nearer than `within`. The place is relative to the point that they
     /// are seen from.
-    pub fn signed_distance(seen: &[Self], place: [f64; 2], within: f64) -> Option<f64> {
-        let (mut nearest, mut height) = (f64::INFINITY, 0.0_f64);
-        for segment in seen {
-            let [start, end] = segment.ends.map(|[x, y]| [x - place[0], y - place[1]]);
-            let distance2 = distance_squared(start, end);
-            if distance2 >= within * within {
+    pub fn signed_distance(seen: &[Self], place: [f64; D], within: f64) -> Option<f64> {
+        let (mut distance, mut height) = (f64::INFINITY, 0.0_f64);
+        for element in seen {
+            let (centre, radius) = element.sphere;
+            let apart = sub(centre, place);
+            // What may be equally near is looked at.
+            let limit = distance.min(within) * (1.0 + 1e-6) + radius;
+            if dot(apart, apart) > limit * limit {
                 continue;
             }
-            let over = -(start[0] * segment.normal[0] + start[1] * segment.normal[1]);
-            // Two segments at a corner are equally near; the one seen more from above decides.
-            // Both faces of a plate of zero thickness are, too; the one seen from its front does.
-            let same = (distance2 - nearest).abs() <= 1e-9 * distance2;
-            let faces = (over + height).abs() <= 1e-9 * height.abs();
-            let decides = match (same, faces) {
-                (true, true) => over > 0.0,
-                (true, false) => over.abs() > height.abs(),
-                (false, _) => distance2 < nearest,
+            let corners = element.corners.map(|corner| sub(corner, place));
+            let new = norm(nearest_to_origin(&corners).0);
+            if new >= within {
+                continue;
+            }
+            let over = -dot(corners[0], element.normal);
+            let decides = match (new - distance).abs() <= ALIKE * new {
+                true => is_front(over, height, D),
+                false => new < distance,
             };
             if decides {
-                (nearest, height) = (distance2, over);
+                (distance, height) = (new, over);
             }
         }
         let sign = if height >= 0.0 { 1.0 } else { -1.0 };
-        nearest.is_finite().then(|| sign * nearest.sqrt())
+        distance.is_finite().then_some(sign * distance)
+    }
+}
+
+/// Elements at a corner or an edge are equally near; the one seen more from above decides, and of two that face each other
+/// (a plate of zero thickness) the one seen from its front.
+fn is_front(over: f64, height: f64, dimension: usize) -> bool {
+    let (new, old) = (over.abs(), height.abs());
+    let faces = (over + height).abs() <= ALIKE * old;
+    match (dimension, faces) {
+        (2, true) => over > 0.0,
+        (2, false) => new > old,
+        _ => new > old * (1.0 + ALIKE) || (new >= old * (1.0 - ALIKE) && over > 0.0),
     }
 }

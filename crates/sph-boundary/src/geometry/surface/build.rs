@@ -7,19 +7,18 @@ use super::drawn::{Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, nei
 use super::edges::{Cuts, Nodes, free_pieces};
 use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
-use super::places::{Places, SAME_PLACE, Site};
+use super::places::{Places, Site};
 use super::removal::remove_contacts;
 use super::seen::{Touched, seen};
-use super::triangle_mesh::{Face, FaceEdge, Node, Triangle, TriangleMesh};
-use super::vector::{double_area, norm};
-use crate::error::{BoundaryError, SurfaceError, WallWarning};
+use crate::error::{BoundaryError, WallWarning};
+use crate::geometry::mesh::{Element, Face, FaceEdge, Measured, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
-use crate::rigid::pose::Pose;
+use crate::geometry::vector::{double_area, norm};
 
 /// Elements with shorter sides than this part of the spacing are fine.
 const FINE: f64 = 0.25;
 
-impl TriangleMesh {
+impl Mesh<3> {
     /// Cuts the walls into triangles of about `spacing` metres.
     ///
     /// Walls with the same number in `groups`, one number per wall, move together: only those are
@@ -28,7 +27,7 @@ impl TriangleMesh {
     /// # Errors
     /// A surface that is degenerate, not a manifold or inconsistently oriented, that crosses itself
     /// or another one, is drawn twice, has no thickness, or is far too small or too large. A wall
-    /// that ends freely is not refused here: see [`TriangleMesh::check_free_edges`].
+    /// that ends freely is not refused here: see [`Mesh::check_free_edges`].
     pub fn build(
         surfaces: &[Surface],
         groups: &[usize],
@@ -61,35 +60,22 @@ impl TriangleMesh {
             .map(|(patch, sides)| fill(patch, sides, &position, domain, spacing))
             .collect();
 
-        let mut mesh = TriangleMesh {
-            walls: surfaces.iter().map(|s| s.name.clone()).collect(),
-            groups: groups.to_vec(),
-            spacing,
-            domain: *domain,
-            nodes: Vec::new(),
-            triangles: Vec::new(),
-            faces: Vec::with_capacity(patches.len()),
-            free_edges: Vec::new(),
-            openings: Vec::new(),
-            warnings: Vec::new(),
-            reference: Vec::new(),
-            reference_normals: patches.iter().map(|p| p.normal).collect(),
-            poses: vec![Pose::default(); surfaces.len()],
-            sides: std::sync::OnceLock::new(),
-        };
+        let names = surfaces.iter().map(|s| s.name.clone()).collect();
+        let mut mesh = Mesh::empty(names, groups, spacing, domain);
+        mesh.reference_normals = patches.iter().map(|p| p.normal).collect();
         let triangles = filled.iter().flatten().map(|f| f.triangles.len());
-        mesh.triangles.reserve_exact(triangles.sum());
+        mesh.elements.reserve_exact(triangles.sum());
         for (patch, filling) in patches.iter().zip(filled) {
-            let filling = filling.map_err(|reason| SurfaceError::NotMeshed {
+            let filling = filling.map_err(|reason| BoundaryError::NotMeshed {
                 wall: surfaces[patch.wall].name.clone(),
-                at: places.at(patch.boundary[0][0]),
+                at: places.at(patch.boundary[0][0]).into(),
                 reason,
             })?;
             mesh.append(patch, filling, &mut nodes, &places);
         }
         mesh.check_count()?;
         mesh.place_nodes(nodes.positions, nodes.walls);
-        for triangle in 0..mesh.triangles.len() {
+        for triangle in 0..mesh.elements.len() {
             mesh.measure(triangle);
         }
         mesh.free_edges = mesh.weigh();
@@ -108,26 +94,25 @@ fn check_arguments(
     spacing: f64,
     domain: &PeriodicBox<3>,
 ) -> Result<(), BoundaryError> {
-    if !(spacing > 0.0 && spacing.is_finite()) {
-        return Err(BoundaryError::NotPositive {
-            name: "wall spacing",
-            value: spacing,
-        });
-    }
+    BoundaryError::check_positive("wall spacing", spacing)?;
     domain.check()?;
     if groups.len() != surfaces.len() {
         let (given, walls) = (groups.len(), surfaces.len());
-        return Err(SurfaceError::GroupCount { given, walls }.into());
+        return Err(BoundaryError::Count {
+            what: "group",
+            given,
+            walls,
+        });
     }
     Ok(())
 }
 
 /// Refuses a wall of which nothing is left.
-fn check_left(surfaces: &[Surface], pieces: &[Patch]) -> Result<(), SurfaceError> {
+fn check_left(surfaces: &[Surface], pieces: &[Patch]) -> Result<(), BoundaryError> {
     for (wall, surface) in surfaces.iter().enumerate() {
         if !pieces.iter().any(|p| p.wall == wall) {
             let wall = surface.name.clone();
-            return Err(SurfaceError::Covered { wall });
+            return Err(BoundaryError::Covered { wall });
         }
     }
     Ok(())
@@ -157,7 +142,7 @@ fn planar_pieces(
     groups: &[usize],
     spacing: f64,
     places: &mut Places,
-) -> Result<(Vec<Patch>, Touched), SurfaceError> {
+) -> Result<(Vec<Patch>, Touched), BoundaryError> {
     let tolerance = SAME_PLACE * spacing;
     for surface in surfaces {
         check_input(surface)?;
@@ -183,7 +168,7 @@ fn planar_pieces(
     Ok((pieces, touched))
 }
 
-impl TriangleMesh {
+impl Mesh<3> {
     fn append(&mut self, patch: &Patch, filling: Filling, nodes: &mut Nodes, places: &Places) {
         let face = self.faces.len();
         let mut corner = |c: Site| {
@@ -216,12 +201,12 @@ impl TriangleMesh {
         };
         for corners in filling.triangles {
             let sites = corners.map(site);
-            self.triangles.push(Triangle {
+            self.elements.push(Element {
                 nodes: sites.map(|s| s.id as usize),
                 images: sites.map(|s| s.image),
                 wall: patch.wall,
                 face,
-                area: 0.0,
+                measure: 0.0,
                 centre: [0.0; 3],
                 normal: patch.normal,
             });
@@ -242,14 +227,14 @@ impl TriangleMesh {
             .collect();
     }
 
-    fn check_count(&self) -> Result<(), SurfaceError> {
-        let count = |wall: usize| self.triangles.iter().filter(|t| t.wall == wall).count() as u64;
-        let estimate = self.triangles.len() as u64;
+    fn check_count(&self) -> Result<(), BoundaryError> {
+        let count = |wall: usize| self.elements.iter().filter(|t| t.wall == wall).count() as u64;
+        let estimate = self.elements.len() as u64;
         if estimate <= MOST_ELEMENTS {
             return Ok(());
         }
         let most = (0..self.walls.len()).max_by_key(|w| count(*w)).unwrap_or(0);
-        Err(SurfaceError::TooManyElements {
+        Err(BoundaryError::TooManyElements {
             wall: self.walls[most].clone(),
             own: count(most),
             estimate,
@@ -257,26 +242,12 @@ impl TriangleMesh {
         })
     }
 
-    /// Area, centre and normal of a triangle from the positions of its nodes.
-    pub(super) fn measure(&mut self, triangle: usize) {
-        let corners = self.corners(triangle);
-        let double = double_area(corners);
-        let length = norm(double);
-        let triangle = &mut self.triangles[triangle];
-        let [a, b, c] = corners;
-        triangle.centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
-        triangle.area = 0.5 * length;
-        if length > 0.0 {
-            triangle.normal = double.map(|x| x / length);
-        }
-    }
-
     /// Walls most of whose triangles are far smaller than the spacing.
     fn fine_walls(&self) -> Vec<WallWarning> {
         let mut counts = vec![[0usize; 2]; self.walls.len()];
-        for triangle in &self.triangles {
+        for triangle in &self.elements {
             // Half a square of side s has the area s²/2.
-            let fine = 2.0 * triangle.area < (FINE * self.spacing).powi(2);
+            let fine = 2.0 * triangle.measure < (FINE * self.spacing).powi(2);
             counts[triangle.wall][0] += usize::from(fine);
             counts[triangle.wall][1] += 1;
         }
@@ -290,5 +261,32 @@ impl TriangleMesh {
                 spacing: self.spacing,
             })
             .collect()
+    }
+}
+
+impl Measured for Mesh<3> {
+    fn measure(&mut self, triangle: usize) {
+        let corners = self.corners(triangle);
+        let double = double_area(corners);
+        let length = norm(double);
+        let triangle = &mut self.elements[triangle];
+        let [a, b, c] = corners;
+        triangle.centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
+        triangle.measure = 0.5 * length;
+        if length > 0.0 {
+            triangle.normal = double.map(|x| x / length);
+        }
+    }
+
+    fn follow(&mut self, moved: &[bool]) {
+        for (face, reference) in self.faces.iter_mut().zip(&self.reference_normals) {
+            if moved[face.wall] {
+                let pose = &self.poses[face.wall];
+                face.normal = match pose.turns() {
+                    true => pose.turned(*reference),
+                    false => *reference,
+                };
+            }
+        }
     }
 }

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use sph_core::BoxTree;
 
 use super::drawn::{Drawn, Surface};
-use super::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
-use crate::error::SurfaceError;
+use crate::error::BoundaryError;
 use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::limits::MOST_PAIRS;
 
 /// Two triangles of different walls of one group that cover each other face to face: `other`,
@@ -41,45 +41,30 @@ pub(super) fn contacts(
     drawn: &[Drawn],
     tolerance: f64,
     domain: &PeriodicBox<3>,
-) -> Result<Vec<Contact>, SurfaceError> {
+) -> Result<Vec<Contact>, BoundaryError> {
     let boxes: Vec<_> = drawn.iter().map(|d| bounds(d.places)).collect();
     let tree = BoxTree::new(boxes.clone());
-    let [low, high] = tree.bounds();
-    let periods = domain.periods();
-    let images = |k: usize, own: [Point; 2]| {
-        if !domain.periodic[k] {
-            return 0..=0;
-        }
-        let first = ((low[k] - own[1][k]) / periods[k]).ceil() as i32;
-        first..=((high[k] - own[0][k]) / periods[k]).floor() as i32
-    };
     let pairs = AtomicUsize::new(0);
     // Triangle `t`, moved, against all others; every pair of images comes up once.
-    let about = |t: usize| -> Result<Vec<Contact>, SurfaceError> {
+    let about = |t: usize| -> Result<Vec<Contact>, BoundaryError> {
         let mut found = Vec::new();
-        for i in images(0, boxes[t]) {
-            for j in images(1, boxes[t]) {
-                for k in images(2, boxes[t]) {
-                    let image = [i, j, k];
-                    if image < [0; 3] {
-                        continue;
-                    }
-                    let shift = domain.shift(image);
-                    let query = boxes[t].map(|corner| add(corner, shift));
-                    let whole = tree.overlapping(query, &mut |other| {
-                        if image != [0; 3] || other > t {
-                            found.push((other, image));
-                        }
-                        match pairs.fetch_add(1, Ordering::Relaxed) < MOST_PAIRS {
-                            true => ControlFlow::Continue(()),
-                            false => ControlFlow::Break(()),
-                        }
-                    });
-                    if whole.is_break() {
-                        let wall = surfaces[drawn[t].wall].name.clone();
-                        return Err(SurfaceError::Tangled { wall });
-                    }
+        let images = domain.images_within(tree.bounds(), boxes[t]);
+        for image in images.filter(|image| *image >= [0; 3]) {
+            let shift = domain.shift(image);
+            let query = boxes[t].map(|corner| add(corner, shift));
+            let whole = tree.overlapping(query, &mut |other| {
+                if image != [0; 3] || other > t {
+                    found.push((other, image));
                 }
+                match pairs.fetch_add(1, Ordering::Relaxed) < MOST_PAIRS {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
+            });
+            if whole.is_break() {
+                let wall = surfaces[drawn[t].wall].name.clone();
+                let what = "triangles";
+                return Err(BoundaryError::Tangled { what, wall });
             }
         }
         found.sort_unstable();
@@ -120,7 +105,7 @@ fn touch(
     [a, b]: [&Drawn; 2],
     shift: Point,
     tolerance: f64,
-) -> Result<bool, SurfaceError> {
+) -> Result<bool, BoundaryError> {
     let moved = a.places.map(|p| add(p, shift));
     let meeting = meet((moved, a.normal), (b.places, b.normal), tolerance);
     let together = groups[a.wall] == groups[b.wall];
@@ -128,12 +113,13 @@ fn touch(
     match meeting {
         Meeting::Cross(at) => {
             let [wall, other] = names();
-            Err(SurfaceError::Crossing {
+            Err(BoundaryError::Crossing {
                 wall,
-                triangle: a.index,
+                what: "triangle",
+                number: a.index,
                 other,
-                other_triangle: b.index,
-                at,
+                other_number: b.index,
+                at: at.into(),
             })
         }
         Meeting::Cover {
@@ -141,20 +127,20 @@ fn touch(
             at,
         } if together => {
             let [wall, other] = names();
-            Err(SurfaceError::DrawnTwice {
+            Err(BoundaryError::DrawnTwice {
                 wall,
                 triangle: a.index,
                 other,
                 other_triangle: b.index,
-                at,
+                at: at.into(),
             })
         }
         Meeting::Cover { opposite: true, at } if a.wall == b.wall => {
-            Err(SurfaceError::NoThickness {
+            Err(BoundaryError::NoThickness {
                 wall: surfaces[a.wall].name.clone(),
                 triangle: a.index,
                 other: b.index,
-                at,
+                at: at.into(),
             })
         }
         Meeting::Cover { .. } => Ok(together),
@@ -268,7 +254,7 @@ mod tests {
 
     fn meeting(b: [Point; 3]) -> Meeting {
         let a = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
-        let normal = unit(super::super::vector::double_area(b));
+        let normal = unit(crate::geometry::vector::double_area(b));
         meet((a, [0.0, 0.0, 1.0]), (b, normal), 1e-6)
     }
 

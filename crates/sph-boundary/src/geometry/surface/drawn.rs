@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::places::{EdgeKey, Places, Site, edge_key};
-use super::vector::{Point, bounds, dot, double_area, norm, sub};
-use crate::error::SurfaceError;
+use super::places::{HalfEdge, Places, Site, half_edges};
+use crate::error::BoundaryError;
+use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
 
 /// Area over longest edge squared below which a triangle has none.
 const NO_AREA: f64 = 1e-9;
@@ -52,14 +52,14 @@ pub(super) struct Drawn {
 }
 
 /// Coordinates that are not finite and corners that do not exist.
-pub(super) fn check_input(surface: &Surface) -> Result<(), SurfaceError> {
+pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
     let wall = || surface.name.clone();
     if surface.triangles.is_empty() {
-        return Err(SurfaceError::NoTriangles { wall: wall() });
+        return Err(BoundaryError::NoTriangles { wall: wall() });
     }
     let finite = |p: &Point| p.iter().all(|x| x.is_finite());
     if let Some(point) = surface.points.iter().position(|p| !finite(p)) {
-        return Err(SurfaceError::NotFinite {
+        return Err(BoundaryError::NotFinite {
             wall: wall(),
             point,
         });
@@ -67,7 +67,7 @@ pub(super) fn check_input(surface: &Surface) -> Result<(), SurfaceError> {
     let count = surface.points.len();
     for (triangle, corners) in surface.triangles.iter().enumerate() {
         if let Some(point) = corners.iter().find(|c| **c as usize >= count) {
-            return Err(SurfaceError::MissingPoint {
+            return Err(BoundaryError::MissingPoint {
                 wall: wall(),
                 triangle,
                 point: *point,
@@ -79,7 +79,7 @@ pub(super) fn check_input(surface: &Surface) -> Result<(), SurfaceError> {
 }
 
 /// Surfaces of the size of a particle and walls of too many elements.
-pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), SurfaceError> {
+pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), BoundaryError> {
     let mut needs = Vec::with_capacity(surfaces.len());
     for surface in surfaces {
         let corners = |t: &[u32; 3]| t.map(|c| surface.points[c as usize]);
@@ -87,7 +87,7 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), Sur
         let extent = norm(sub(high, low));
         if extent < SMALLEST * spacing {
             let wall = surface.name.clone();
-            return Err(SurfaceError::TooSmall {
+            return Err(BoundaryError::TooSmall {
                 wall,
                 extent,
                 spacing,
@@ -100,7 +100,7 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), Sur
     let estimate: f64 = needs.iter().sum();
     let most = (0..needs.len()).max_by(|a, b| needs[*a].total_cmp(&needs[*b]));
     match most {
-        Some(most) if estimate > MOST_ELEMENTS as f64 => Err(SurfaceError::TooManyElements {
+        Some(most) if estimate > MOST_ELEMENTS as f64 => Err(BoundaryError::TooManyElements {
             wall: surfaces[most].name.clone(),
             own: needs[most] as u64,
             estimate: estimate as u64,
@@ -116,7 +116,7 @@ pub(super) fn weld(
     wall: usize,
     group: usize,
     places: &mut Places,
-) -> Result<Vec<Drawn>, SurfaceError> {
+) -> Result<Vec<Drawn>, BoundaryError> {
     // In the order of the points: the first of those at one place says where its node is.
     let mut used = vec![false; surface.points.len()];
     for corner in surface.triangles.iter().flatten() {
@@ -147,18 +147,18 @@ pub(super) fn weld(
         let name = || surface.name.clone();
         let [a, b, c] = corners;
         if a == b || b == c || c == a || area < NO_AREA * edge * edge {
-            return Err(SurfaceError::NoArea {
+            return Err(BoundaryError::NoArea {
                 wall: name(),
                 triangle: index,
-                at: at[0],
+                at: at[0].into(),
             });
         }
         let altitude = 2.0 * area / edge;
         if altitude < NEEDLE * edge {
-            return Err(SurfaceError::Needle {
+            return Err(BoundaryError::Needle {
                 wall: name(),
                 triangle: index,
-                at: at[0],
+                at: at[0].into(),
                 altitude,
                 edge,
             });
@@ -178,39 +178,18 @@ pub(super) fn weld(
 /// The triangle beyond each edge of each triangle of a wall, with the edge at the very same place.
 pub(super) type Neighbours = Vec<[Option<u32>; 3]>;
 
-struct HalfEdge {
-    key: EdgeKey,
-    triangle: u32,
-    edge: u8,
-    forward: bool,
-    at: [i32; 3],
-}
-
 /// Refuses triangles given twice, edges of more than two triangles and flipped neighbours.
 pub(super) fn neighbours(
     name: &str,
     drawn: &[Drawn],
     places: &Places,
-) -> Result<Neighbours, SurfaceError> {
+) -> Result<Neighbours, BoundaryError> {
     check_repeated(name, drawn)?;
-    let mut halves: Vec<HalfEdge> = Vec::with_capacity(3 * drawn.len());
-    for (triangle, d) in drawn.iter().enumerate() {
-        for edge in 0..3 {
-            let (key, forward, at) = edge_key(d.corners[edge], d.corners[(edge + 1) % 3]);
-            halves.push(HalfEdge {
-                key,
-                triangle: triangle as u32,
-                edge: edge as u8,
-                forward,
-                at,
-            });
-        }
-    }
-    halves.par_sort_by_key(|h| (h.key, h.triangle, h.edge));
+    let halves = half_edges(drawn.iter().map(|d| d.corners));
     let mut neighbours = vec![[None; 3]; drawn.len()];
     for run in halves.chunk_by(|a, b| a.key == b.key) {
         let index = |h: &HalfEdge| drawn[h.triangle as usize].index;
-        let middle = |h: &HalfEdge| {
+        let middle = |h: &HalfEdge| -> Point {
             let corners = &drawn[h.triangle as usize].corners;
             let [a, b] = [h.edge as usize, (h.edge as usize + 1) % 3].map(|k| corners[k]);
             let [a, b] = [places.at(a), places.at(b)];
@@ -225,19 +204,19 @@ pub(super) fn neighbours(
                 }
             }
             [a, b] => {
-                return Err(SurfaceError::Flipped {
+                return Err(BoundaryError::Flipped {
                     wall: name.into(),
                     triangle: index(a),
                     other: index(b),
-                    at: middle(a),
+                    at: middle(a).into(),
                 });
             }
             more => {
-                return Err(SurfaceError::NotManifold {
+                return Err(BoundaryError::NotManifold {
                     wall: name.into(),
                     triangle: index(&more[0]),
                     count: more.len(),
-                    at: middle(&more[0]),
+                    at: middle(&more[0]).into(),
                 });
             }
         }
@@ -245,7 +224,7 @@ pub(super) fn neighbours(
     Ok(neighbours)
 }
 
-fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), SurfaceError> {
+fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), BoundaryError> {
     let mut keys: Vec<([Site; 3], u32)> = drawn
         .iter()
         .enumerate()
@@ -260,15 +239,15 @@ fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), SurfaceError> {
         return Ok(());
     };
     let [a, b] = [&drawn[pair[0].1 as usize], &drawn[pair[1].1 as usize]];
-    let (wall, triangle, other, at) = (name.into(), a.index, b.index, a.places[0]);
+    let (wall, triangle, other, at) = (name.into(), a.index, b.index, a.places[0].into());
     Err(match dot(a.normal, b.normal) > 0.0 {
-        true => SurfaceError::Repeated {
+        true => BoundaryError::Repeated {
             wall,
             triangle,
             other,
             at,
         },
-        false => SurfaceError::NoThickness {
+        false => BoundaryError::NoThickness {
             wall,
             triangle,
             other,

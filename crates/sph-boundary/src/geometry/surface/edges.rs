@@ -2,11 +2,14 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use sph_core::BoxTree;
+
 use super::drawn::Surface;
 use super::patches::Patch;
-use super::places::{EdgeKey, Places, SAME_PLACE, Site, edge_key};
-use super::vector::{Point, along, bounds, dot, norm, sub};
-use crate::error::SurfaceError;
+use super::places::{EdgeKey, Places, Site, edge_key};
+use crate::error::BoundaryError;
+use crate::geometry::mesh::SAME_PLACE;
+use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
 /// Nodes of the mesh while it is built.
 #[derive(Default)]
@@ -84,7 +87,7 @@ pub(super) struct Cuts {
 
 impl Cuts {
     pub fn new(patches: &[Patch], places: &Places, spacing: f64) -> Self {
-        let corners = CornerGrid::new(patches, places, spacing);
+        let corners = Corners::new(patches, places, spacing);
         let mut chains = HashMap::new();
         for edge in patches.iter().flat_map(|patch| &patch.boundary) {
             let (key, ..) = edge_key(edge[0], edge[1]);
@@ -124,56 +127,41 @@ impl Cuts {
     }
 }
 
-/// Corners of all patches, with the images that come near the walls, in cells.
-struct CornerGrid {
-    size: f64,
+/// Corners of all patches, with the images that come near the walls.
+struct Corners {
     tolerance: f64,
-    cells: HashMap<[i64; 3], Vec<Site>>,
+    sites: Vec<Site>,
+    tree: BoxTree<3>,
+    /// Length of the pieces in which an edge is looked along, m.
+    piece: f64,
 }
 
-impl CornerGrid {
+impl Corners {
     fn new(patches: &[Patch], places: &Places, spacing: f64) -> Self {
         let corners = || patches.iter().flat_map(|p| p.boundary.iter().flatten());
         let [low, high] = bounds(corners().map(|c| places.at(*c)));
         let edges = || patches.iter().flat_map(|p| &p.boundary);
         let length = |e: &[Site; 2]| norm(sub(places.at(e[1]), places.at(e[0])));
         let mean = edges().map(length).sum::<f64>() / edges().count().max(1) as f64;
-        let mut grid = Self {
-            size: (2.0 * mean).max(SAME_PLACE * spacing),
-            // Corners left out of a straight edge lie off it by up to one tolerance.
-            tolerance: 2.0 * SAME_PLACE * spacing,
-            cells: HashMap::new(),
-        };
         let mut ids: Vec<u32> = corners().map(|c| c.id).collect();
         ids.sort_unstable();
         ids.dedup();
+        // An edge starts from its key's first end, which may be drawn a period elsewhere.
         let periods = places.domain.periods();
-        let images = |k: usize, x: f64| {
-            if !places.domain.periodic[k] {
-                return 0..=0;
-            }
-            // An edge starts from its key's first end, which may be drawn a period elsewhere.
-            let (low, high) = (low[k] - periods[k], high[k] + periods[k]);
-            ((low - x) / periods[k]).ceil() as i32..=((high - x) / periods[k]).floor() as i32
+        let around = [sub(low, periods), add(high, periods)];
+        let images = |id: u32| {
+            let own = [places.positions[id as usize]; 2];
+            let all = places.domain.images_within(around, own);
+            all.map(move |image| Site { id, image })
         };
-        for id in ids {
-            let at = places.positions[id as usize];
-            for i in images(0, at[0]) {
-                for j in images(1, at[1]) {
-                    for k in images(2, at[2]) {
-                        let image = [i, j, k];
-                        let site = Site { id, image };
-                        let cell = places.at(site).map(|x| grid.cell(x));
-                        grid.cells.entry(cell).or_default().push(site);
-                    }
-                }
-            }
+        let sites: Vec<Site> = ids.into_iter().flat_map(images).collect();
+        Corners {
+            // Corners left out of a straight edge lie off it by up to one tolerance.
+            tolerance: 2.0 * SAME_PLACE * spacing,
+            tree: BoxTree::new(sites.iter().map(|s| [places.at(*s); 2]).collect()),
+            sites,
+            piece: (2.0 * mean).max(SAME_PLACE * spacing),
         }
-        grid
-    }
-
-    fn cell(&self, x: f64) -> i64 {
-        (x / self.size).floor() as i64
     }
 
     /// Corners on an edge, from end to end.
@@ -186,29 +174,22 @@ impl CornerGrid {
         let whole = sub(end, start);
         let length2 = dot(whole, whole);
         let group = places.groups[key.first as usize];
-        let pieces = ((length2.sqrt() / self.size) as usize).max(1);
+        let pieces = ((length2.sqrt() / self.piece) as usize).max(1);
         let mut met: Vec<(f64, Site)> = Vec::new();
         for piece in 0..pieces {
             let at = |k: usize| along(start, k as f64 / pieces as f64, whole);
-            let [low, high] = bounds([at(piece), at(piece + 1)]);
-            let range =
-                |k: usize| self.cell(low[k] - self.tolerance)..=self.cell(high[k] + self.tolerance);
-            for i in range(0) {
-                for j in range(1) {
-                    for k in range(2) {
-                        for corner in self.cells.get(&[i, j, k]).into_iter().flatten() {
-                            let to = sub(places.at(*corner), start);
-                            let part = dot(to, whole) / length2;
-                            let off = norm(along(to, -part, whole));
-                            let within = part > 0.0 && part < 1.0 && off <= self.tolerance;
-                            let same = places.groups[corner.id as usize] == group;
-                            if within && same && *corner != first && *corner != key.second {
-                                met.push((part, *corner));
-                            }
-                        }
-                    }
+            let around = widened(bounds([at(piece), at(piece + 1)]), self.tolerance);
+            self.tree.each(around, |n| {
+                let corner = self.sites[n];
+                let to = sub(places.at(corner), start);
+                let part = dot(to, whole) / length2;
+                let off = norm(along(to, -part, whole));
+                let within = part > 0.0 && part < 1.0 && off <= self.tolerance;
+                let same = places.groups[corner.id as usize] == group;
+                if within && same && corner != first && corner != key.second {
+                    met.push((part, corner));
                 }
-            }
+            });
         }
         met.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         met.dedup_by_key(|(_, corner)| *corner);
@@ -232,7 +213,7 @@ pub(super) fn free_pieces(
     patches: &[Patch],
     cuts: &Cuts,
     places: &Places,
-) -> Result<Vec<[Site; 2]>, SurfaceError> {
+) -> Result<Vec<[Site; 2]>, BoundaryError> {
     // Of every piece: the walls that travel it with and against its key.
     let mut walls: BTreeMap<EdgeKey, [Travelled; 2]> = BTreeMap::new();
     for patch in patches {
@@ -256,10 +237,10 @@ pub(super) fn free_pieces(
             1 => free.push(more[0].1),
             _ => {
                 let [a, b] = more[0].1.map(|c| places.at(c));
-                return Err(SurfaceError::Opposed {
+                return Err(BoundaryError::Opposed {
                     wall: surfaces[more[0].0].name.clone(),
                     other: surfaces[more[1].0].name.clone(),
-                    at: std::array::from_fn(|k| 0.5 * (a[k] + b[k])),
+                    at: along(a, 0.5, sub(b, a)).into(),
                 });
             }
         }

@@ -7,9 +7,10 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::lattice::Lattice;
 use super::patches::{Patch, in_plane, in_space};
-use super::places::{SAME_PLACE, Site};
-use super::vector::{Point, add, norm, sub};
+use super::places::Site;
+use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::vector::{Point, add, norm, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
 const CLEARANCE: f64 = 0.6;

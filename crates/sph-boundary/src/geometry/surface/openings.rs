@@ -3,11 +3,13 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-use super::triangle_mesh::{FreeEdge, Opening, TriangleMesh};
-use super::vector::{Point, add, along, bounds, dot, norm, sub};
-use crate::error::{BoundaryError, SurfaceError};
+use sph_core::BoxTree;
 
-impl TriangleMesh {
+use crate::error::BoundaryError;
+use crate::geometry::mesh::{FreeEdge, Mesh, Opening};
+use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
+
+impl Mesh<3> {
     /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces
     /// around the openings.
     pub(super) fn find_openings(&mut self, pieces: impl Iterator<Item = usize>) {
@@ -75,7 +77,7 @@ impl TriangleMesh {
         if self.free_edges.is_empty() || points.is_empty() {
             return Ok(());
         }
-        let near = FreeEdgeGrid::new(self, bounds(points.iter().copied()), kernel_radius);
+        let near = Rims::new(self, bounds(points.iter().copied()), kernel_radius);
         let nearest = points
             .iter()
             .enumerate()
@@ -86,87 +88,58 @@ impl TriangleMesh {
         };
         let free = &self.free_edges[edge];
         let opening = &self.openings[free.opening];
-        Err(SurfaceError::FreeEdgeInReach {
+        Err(BoundaryError::FreeEdgeInReach {
             wall: self.walls[free.wall].clone(),
             edges: opening.edges,
             extent: opening.extent,
-            centre: Box::new(opening.centre),
-            met: free.met.map(|wall| self.walls[wall].clone()),
-            at,
+            centre: opening.centre.into(),
+            met: free.met.map(|wall| self.walls[wall].as_str().into()),
+            at: at.into(),
             particle,
             distance,
             radius: kernel_radius,
-        }
-        .into())
+        })
     }
 }
 
-/// Images of the free edges in the cells that they come near to.
-struct FreeEdgeGrid {
+/// Images of the free edges that come near to some points.
+struct Rims {
     radius: f64,
-    size: f64,
     /// Edges with their ends and the normals of their triangles.
     ends: Vec<(usize, [Point; 2], Point)>,
-    cells: HashMap<[i64; 3], Vec<u32>>,
+    tree: BoxTree<3>,
 }
 
-impl FreeEdgeGrid {
+impl Rims {
     /// For points within some bounds.
-    fn new(mesh: &TriangleMesh, [lower, upper]: [Point; 2], radius: f64) -> Self {
+    fn new(mesh: &Mesh<3>, points: [Point; 2], radius: f64) -> Self {
         let domain = mesh.domain();
-        let periods = domain.periods();
-        let mut grid = Self {
-            radius,
-            size: radius.max(2.0 * mesh.spacing()),
-            ends: Vec::new(),
-            cells: HashMap::new(),
-        };
+        let mut all = Vec::new();
         for (e, edge) in mesh.free_edges.iter().enumerate() {
             let ends = mesh.free_edge_ends(edge);
-            let normal = mesh.triangles[edge.triangle].normal;
-            let [low, high] = bounds(ends);
-            let images = |k: usize| {
-                if !domain.periodic[k] {
-                    return 0..=0;
-                }
-                let first = ((lower[k] - radius - high[k]) / periods[k]).ceil() as i32;
-                first..=((upper[k] + radius - low[k]) / periods[k]).floor() as i32
-            };
-            for i in images(0) {
-                for j in images(1) {
-                    for k in images(2) {
-                        let shift = domain.shift([i, j, k]);
-                        grid.insert((e, ends.map(|p| add(p, shift)), normal));
-                    }
-                }
+            let normal = mesh.elements[edge.triangle].normal;
+            for image in domain.images_within(widened(points, radius), bounds(ends)) {
+                let shift = domain.shift(image);
+                all.push((e, ends.map(|p| add(p, shift)), normal));
             }
         }
-        grid
-    }
-
-    fn insert(&mut self, edge: (usize, [Point; 2], Point)) {
-        let number = self.ends.len() as u32;
-        let [low, high] = bounds(edge.1);
-        self.ends.push(edge);
-        let range = |k: usize| {
-            let cell = |x: f64| (x / self.size).floor() as i64;
-            cell(low[k] - self.radius)..=cell(high[k] + self.radius)
-        };
-        for i in range(0) {
-            for j in range(1) {
-                for k in range(2) {
-                    self.cells.entry([i, j, k]).or_default().push(number);
-                }
-            }
+        let boxes = all.iter().map(|(_, ends, _)| bounds(*ends));
+        Rims {
+            radius,
+            tree: BoxTree::new(boxes.collect()),
+            ends: all,
         }
     }
 
     /// Whether a point is behind an edge and its distance, the edge and the place on it, if within the radius: of the
     /// nearest in front of which the point is, for that wall should go on there, else of the nearest.
     fn nearest(&self, point: Point) -> Option<((bool, f64), usize, Point)> {
-        let cell = point.map(|x| (x / self.size).floor() as i64);
-        let edges = self.cells.get(&cell)?.iter().map(|n| {
-            let (edge, [a, b], normal) = self.ends[*n as usize];
+        let mut near = Vec::new();
+        self.tree
+            .each(widened([point; 2], self.radius), |n| near.push(n));
+        near.sort_unstable();
+        let edges = near.into_iter().map(|n| {
+            let (edge, [a, b], normal) = self.ends[n];
             let (t, to) = (sub(b, a), sub(point, a));
             let part = (dot(to, t) / dot(t, t)).clamp(0.0, 1.0);
             let at = along(a, part, t);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::drawn::{Drawn, Neighbours};
 use super::places::{Places, Site};
-use super::vector::{Point, along, cross, distance_to_segment, dot, sub, unit};
+use crate::geometry::vector::{Point, along, cross, distance_to_segment, dot, sub, unit};
 
 /// Neighbours whose normals differ by more are never one plane, whatever the size.
 const SAME_DIRECTION: f64 = 0.99;

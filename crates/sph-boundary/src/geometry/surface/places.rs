@@ -2,12 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::vector::{Point, add, dot, sub};
-use crate::geometry::periodic::PeriodicBox;
+use rayon::prelude::*;
 
-/// Points closer than this part of the spacing are the same place, and so much may a point lie off
-/// an edge or a plane and still be on it.
-pub(super) const SAME_PLACE: f64 = 1e-6;
+use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::vector::{Point, add, dot, sub};
 
 /// Something numbered, moved by whole periods: a point of a wall as drawn, or a node of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -46,6 +44,37 @@ pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
         second: second.moved_back(first.image),
     };
     (key, forward, first.image)
+}
+
+/// An edge of a triangle.
+pub(super) struct HalfEdge {
+    pub key: EdgeKey,
+    pub triangle: u32,
+    /// Its first corner.
+    pub edge: u8,
+    /// Whether it is travelled like the key.
+    pub forward: bool,
+    /// Where the key's first end is drawn.
+    pub at: [i32; 3],
+}
+
+/// The edges of triangles with these corners, those alike behind each other.
+pub(super) fn half_edges(triangles: impl Iterator<Item = [Site; 3]>) -> Vec<HalfEdge> {
+    let of = |(triangle, corners): (usize, [Site; 3])| {
+        [0, 1, 2].map(|edge| {
+            let (key, forward, at) = edge_key(corners[edge], corners[(edge + 1) % 3]);
+            HalfEdge {
+                key,
+                triangle: triangle as u32,
+                edge: edge as u8,
+                forward,
+                at,
+            }
+        })
+    };
+    let mut halves: Vec<HalfEdge> = triangles.enumerate().flat_map(of).collect();
+    halves.par_sort_unstable_by_key(|h| (h.key, h.triangle, h.edge));
+    halves
 }
 
 /// The distinct places among points, by group of walls and up to whole periods.
@@ -97,7 +126,8 @@ impl Places {
     fn known(&self, point: Point, group: usize) -> Option<Site> {
         let wrapped = self.wrapped(point);
         let [x, y, z] = [0, 1, 2].map(|k| self.cells_about(k, wrapped[k]));
-        for cell in product(&x, &y, &z) {
+        let cells = x.iter().flat_map(|i| y.iter().map(move |j| (i, j)));
+        for cell in cells.flat_map(|(i, j)| z.iter().map(move |k| [*i, *j, *k])) {
             let mut next = self.cells.get(&cell).copied();
             while let Some(id) = next {
                 let apart = sub(point, self.positions[id as usize]);
@@ -145,17 +175,6 @@ impl Places {
         cells.dedup();
         cells
     }
-}
-
-fn product<'a>(
-    x: &'a [i64],
-    y: &'a [i64],
-    z: &'a [i64],
-) -> impl Iterator<Item = [i64; 3]> + use<'a> {
-    x.iter().flat_map(move |&i| {
-        y.iter()
-            .flat_map(move |&j| z.iter().map(move |&k| [i, j, k]))
-    })
 }
 
 #[cfg(test)]

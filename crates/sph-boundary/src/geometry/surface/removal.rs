@@ -11,7 +11,7 @@ use super::crossing::Contact;
 use super::patches::{Patch, in_plane, in_space};
 use super::places::{Places, Site, edge_key};
 use super::seen::Touched;
-use super::vector::sub;
+use crate::geometry::vector::sub;
 
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
 const BITS: i32 = 44;

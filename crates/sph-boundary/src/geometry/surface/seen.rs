@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, HashSet};
 use super::edges::Cuts;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, edge_key};
-use super::vector::{cross, dot, norm, sub};
-use crate::geometry::wedges::{Beside, Parts, wedges};
+use crate::geometry::sets::Sets;
+use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::geometry::wedges::{Beside, bound_fluid, wedges};
 
 /// Where walls touched face to face.
 #[derive(Default)]
@@ -33,7 +34,7 @@ pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Tou
             }
         }
     }
-    let mut parts = Parts::new(pieces.len());
+    let mut parts = Sets::new(pieces.len());
     // Pieces that nothing continues, each with those that do go on there.
     let mut severed: Vec<(usize, Vec<usize>)> = Vec::new();
     for (key, run) in &runs {
@@ -53,7 +54,7 @@ pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Tou
         let alone = run.iter().filter(|(piece, _)| !joined.contains(piece));
         severed.extend(alone.map(|(piece, _)| (*piece, joined.clone())));
     }
-    parts.bound_fluid(&severed)
+    bound_fluid(parts, pieces.len(), &severed)
 }
 
 /// The pieces at an edge with their angles about it.

@@ -2,23 +2,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rayon::prelude::*;
-
-use super::places::{EdgeKey, Site, edge_key};
-use super::triangle_mesh::{FreeEdge, TriangleMesh};
-use super::vector::{Point, cross, dot, norm, sub};
+use super::places::{HalfEdge, Site, half_edges};
+use crate::geometry::mesh::{FreeEdge, Mesh};
+use crate::geometry::sets::Sets;
+use crate::geometry::vector::{Point, cross, dot, norm, sub};
 
 /// Two triangles folded onto each other within this angle leave the fluid all around their edge.
 const FOLD: f64 = 1e-9;
 
-struct Half {
-    key: EdgeKey,
-    triangle: u32,
-    edge: u8,
-    forward: bool,
-}
-
-impl TriangleMesh {
+impl Mesh<3> {
     /// Sets θ and the size of all nodes; returns the edges that no other triangle continues.
     ///
     /// The fluid at a node is a spherical polygon whose angles are those between triangles that
@@ -27,29 +19,34 @@ impl TriangleMesh {
     /// 4π. Around a node on a free edge the wall goes straight on: the folds that it has count
     /// twice.
     pub(super) fn weigh(&mut self) -> Vec<FreeEdge> {
-        let halves = self.halves();
-        let mut fans = Fans::new(3 * self.triangles.len());
+        let halves = half_edges(self.elements.iter().map(|triangle| {
+            [0, 1, 2].map(|k| Site {
+                id: triangle.nodes[k] as u32,
+                image: triangle.images[k],
+            })
+        }));
+        let mut fans = Sets::new(3 * self.elements.len());
         let mut folds = vec![0.0; self.nodes.len()];
         let mut open = vec![false; self.nodes.len()];
         let mut free = Vec::new();
         for run in halves.chunk_by(|a, b| a.key == b.key) {
-            let (mut with, mut rest): (Vec<&Half>, Vec<&Half>) =
+            let (mut with, mut rest): (Vec<&HalfEdge>, Vec<&HalfEdge>) =
                 run.iter().partition(|h| h.forward);
             if with.len() > rest.len() && !rest.is_empty() {
                 // Where one is left over, the narrowest sectors are those of the fluid.
-                let narrowest = |half: &&Half| {
+                let narrowest = |half: &&HalfEdge| {
                     let folds = rest.iter().map(|other| self.fold(half, other));
                     folds.fold(f64::INFINITY, f64::min)
                 };
                 with.sort_by(|a, b| narrowest(a).total_cmp(&narrowest(b)));
             }
-            let met = |half: &Half| {
-                let wall = |h: &Half| self.triangles[h.triangle as usize].wall;
+            let met = |half: &HalfEdge| {
+                let wall = |h: &HalfEdge| self.elements[h.triangle as usize].wall;
                 run.iter().map(wall).find(|w| *w != wall(half))
             };
             for half in with {
                 // The fluid's sector beside a triangle ends at the next one around the edge.
-                let angle = |other: &Half| self.fold(half, other);
+                let angle = |other: &HalfEdge| self.fold(half, other);
                 let next =
                     (0..rest.len()).min_by(|a, b| angle(rest[*a]).total_cmp(&angle(rest[*b])));
                 let Some(next) = next else {
@@ -61,7 +58,7 @@ impl TriangleMesh {
                 for end in 0..2 {
                     let corner = (half.edge as usize + end) % 3;
                     let opposite = (other.edge as usize + 1 - end) % 3;
-                    folds[self.triangles[half.triangle as usize].nodes[corner]] += fold;
+                    folds[self.elements[half.triangle as usize].nodes[corner]] += fold;
                     let corners = [(half.triangle, corner), (other.triangle, opposite)];
                     fans.join(corners.map(|(t, corner)| 3 * t as usize + corner));
                 }
@@ -75,11 +72,11 @@ impl TriangleMesh {
         }
         let mut count = vec![0u32; self.nodes.len()];
         let mut area = vec![0.0; self.nodes.len()];
-        for (t, triangle) in self.triangles.iter().enumerate() {
+        for (t, triangle) in self.elements.iter().enumerate() {
             let parts = parts(self.corners(t));
             for (corner, node) in triangle.nodes.iter().enumerate() {
-                count[*node] += u32::from(fans.first(3 * t + corner) == 3 * t + corner);
-                area[*node] += triangle.area * parts[corner];
+                count[*node] += u32::from(fans.of(3 * t + corner) == 3 * t + corner);
+                area[*node] += triangle.measure * parts[corner];
             }
         }
         for (n, node) in self.nodes.iter_mut().enumerate() {
@@ -95,34 +92,10 @@ impl TriangleMesh {
         free
     }
 
-    fn halves(&self) -> Vec<Half> {
-        let site = |t: usize, corner: usize| {
-            let triangle = &self.triangles[t];
-            Site {
-                id: triangle.nodes[corner] as u32,
-                image: triangle.images[corner],
-            }
-        };
-        let mut halves: Vec<Half> = (0..self.triangles.len())
-            .flat_map(|t| (0..3).map(move |edge| (t, edge)))
-            .map(|(t, edge)| {
-                let (key, forward, _) = edge_key(site(t, edge), site(t, (edge + 1) % 3));
-                Half {
-                    key,
-                    triangle: t as u32,
-                    edge: edge as u8,
-                    forward,
-                }
-            })
-            .collect();
-        halves.par_sort_unstable_by_key(|h| (h.key, h.triangle, h.edge));
-        halves
-    }
-
     /// δ = β − π between two triangles along an edge of the first, positive where the fluid has
     /// more than half the space; exactly 0 within one plane.
-    fn fold(&self, half: &Half, other: &Half) -> f64 {
-        let [a, b] = [half, other].map(|h| &self.triangles[h.triangle as usize]);
+    fn fold(&self, half: &HalfEdge, other: &HalfEdge) -> f64 {
+        let [a, b] = [half, other].map(|h| &self.elements[h.triangle as usize]);
         if a.face == b.face {
             return 0.0;
         }
@@ -137,8 +110,8 @@ impl TriangleMesh {
         sine.atan2(cosine)
     }
 
-    fn free_edge(&self, half: &Half, met: Option<usize>) -> FreeEdge {
-        let triangle = &self.triangles[half.triangle as usize];
+    fn free_edge(&self, half: &HalfEdge, met: Option<usize>) -> FreeEdge {
+        let triangle = &self.elements[half.triangle as usize];
         let ends = [half.edge as usize, (half.edge as usize + 1) % 3];
         FreeEdge {
             nodes: ends.map(|k| triangle.nodes[k]),
@@ -148,35 +121,6 @@ impl TriangleMesh {
             opening: 0,
             met,
         }
-    }
-}
-
-/// Corners of triangles joined across edges: each set is one surface through a node.
-struct Fans {
-    parent: Vec<u32>,
-}
-
-impl Fans {
-    fn new(corners: usize) -> Self {
-        Self {
-            parent: (0..corners as u32).collect(),
-        }
-    }
-
-    fn first(&mut self, corner: usize) -> usize {
-        let mut at = corner as u32;
-        while self.parent[at as usize] != at {
-            let above = self.parent[at as usize];
-            self.parent[at as usize] = self.parent[above as usize];
-            at = above;
-        }
-        at as usize
-    }
-
-    fn join(&mut self, [a, b]: [usize; 2]) {
-        let (a, b) = (self.first(a), self.first(b));
-        let (low, high) = (a.min(b), a.max(b));
-        self.parent[high] = low as u32;
     }
 }
 

@@ -6,6 +6,7 @@ use sph_kernels::PiecewisePolynomial;
 use sph_lanes::Lane;
 
 use super::ring::{Ring, amplification};
+use crate::integrals::normalisation::steps;
 
 /// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
 ///
@@ -114,22 +115,6 @@ pub(super) fn tables(shape: &PiecewisePolynomial, sigma: f64) -> (Vec<Knot>, Vec
         }],
         rings,
     )
-}
-
-/// Knots where the polynomial changes and by how much, from the outermost inwards.
-fn steps(shape: &PiecewisePolynomial) -> Vec<(f64, Vec<f64>)> {
-    let mut steps = Vec::with_capacity(shape.pieces.len());
-    let mut outside: &[f64] = &[];
-    for (piece, bounds) in shape.pieces.iter().zip(shape.breaks.windows(2)).rev() {
-        let degree = piece.len().max(outside.len());
-        let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
-        let step: Vec<f64> = (0..degree).map(|n| at(piece, n) - at(outside, n)).collect();
-        outside = piece;
-        if step.iter().any(|c| *c != 0.0) {
-            steps.push((bounds[1], step));
-        }
-    }
-    steps
 }
 
 fn knot(radius: f64, step: Vec<f64>, sigma: f64) -> Knot {

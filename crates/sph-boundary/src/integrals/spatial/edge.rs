@@ -1,8 +1,8 @@
 //! One directed edge of a facet as the point sees it.
 
 use super::knot::End;
-use super::vector::{Vector, cross, dot, plus};
 use super::winding::Winding;
+use crate::geometry::vector::{Point, along, cross, dot};
 
 /// Below this distance over h the logarithmic terms, of order A² ln A, are no longer counted.
 const NO_LOGARITHM: f64 = 1e-30;
@@ -37,16 +37,16 @@ impl Edge {
     /// turned round. The angle between the two facets at the edge, as the point sees it, then comes
     /// out exactly however close the point is.
     #[inline]
-    pub fn seen(corners: [Vector; 2], r2: [f64; 2], along: Vector, l2: f64, n: Vector) -> Self {
+    pub fn seen(corners: [Point; 2], r2: [f64; 2], whole: Point, l2: f64, n: Point) -> Self {
         let [r1, r2_] = corners;
         let per_l = 1.0 / l2.sqrt();
-        let t = [along[0] * per_l, along[1] * per_l, along[2] * per_l];
+        let t = whole.map(|x| x * per_l);
         let y = [dot(r1, t), dot(r2_, t)];
         let first = r2[0] < r2[1] || (r2[0] == r2[1] && r1 < r2_);
         let perpendicular = if first {
-            plus(r1, -y[0], t)
+            along(r1, -y[0], t)
         } else {
-            plus(r2_, -y[1], t)
+            along(r2_, -y[1], t)
         };
         let a2 = dot(perpendicular, perpendicular);
         let (nearest, distance2) = if y[0] >= 0.0 {

@@ -5,11 +5,11 @@ use std::f64::consts::PI;
 use super::Renormalisation3d;
 use super::edge::{Clip, Edge};
 use super::knot::Knot;
-use super::vector::{Vector, cross, dot, plus};
 use super::winding::Winding;
+use crate::geometry::vector::{Point, along, cross, dot};
 
 /// The point's displacement over h, 10⁻¹⁰ long and along no simple direction.
-const DISPLACEMENT: Vector = [
+const DISPLACEMENT: Point = [
     0.473_205_080_756_9e-10,
     0.618_033_988_749_9e-10,
     0.627_693_841_720_3e-10,
@@ -83,7 +83,7 @@ impl Renormalisation3d {
 
     /// A vector to the wall over h, from the displaced point.
     #[inline(always)]
-    fn seen(&self, r: Vector) -> Vector {
+    fn seen(&self, r: Point) -> Point {
         let at = |i: usize| r[i] * self.per_h - DISPLACEMENT[i];
         [at(0), at(1), at(2)]
     }
@@ -92,7 +92,7 @@ impl Renormalisation3d {
 /// Sums over the edges of one facet.
 struct Facet<'a> {
     of: &'a Renormalisation3d,
-    normal: Vector,
+    normal: Point,
     /// a, and Q = |a|.
     height: f64,
     depth: f64,
@@ -110,7 +110,7 @@ struct Facet<'a> {
 
 impl<'a> Facet<'a> {
     #[inline]
-    fn new(of: &'a Renormalisation3d, height: f64, normal: Vector) -> Self {
+    fn new(of: &'a Renormalisation3d, height: f64, normal: Point) -> Self {
         Self {
             of,
             normal,
@@ -127,8 +127,8 @@ impl<'a> Facet<'a> {
 
     /// Adds the edge between two corners relative to the point, over h.
     #[inline]
-    fn add(&mut self, start: Vector, end: Vector) {
-        let along = plus(end, -1.0, start);
+    fn add(&mut self, start: Point, end: Point) {
+        let along = along(end, -1.0, start);
         let l2 = dot(along, along);
         if l2 == 0.0 {
             return;

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use sph_kernels::PiecewisePolynomial;
 
+use crate::integrals::normalisation::steps;
+
 /// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
 ///
 /// With b_n the factors of U_{n+2} and, downwards in n, b'_n = b_n + Q² b'_{n+2} and
@@ -94,21 +96,14 @@ impl Knot {
 
 /// Knots from the outermost inwards.
 pub(super) fn tables(shape: &PiecewisePolynomial, sigma: f64) -> Vec<Knot> {
-    let mut knots = Vec::with_capacity(shape.pieces.len());
-    let mut outside: &[f64] = &[];
-    for (piece, bounds) in shape.pieces.iter().zip(shape.breaks.windows(2)).rev() {
-        let degree = piece.len().max(outside.len());
-        let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
-        let step: Vec<f64> = (0..degree).map(|n| at(piece, n) - at(outside, n)).collect();
-        outside = piece;
-        if let Some(last) = step.iter().rposition(|c| *c != 0.0) {
-            knots.push(knot(bounds[1], step[..=last].to_vec(), sigma));
-        }
-    }
-    knots
+    let all = steps(shape).into_iter();
+    all.map(|(radius, step)| knot(radius, step, sigma))
+        .collect()
 }
 
-fn knot(radius: f64, step: Vec<f64>, sigma: f64) -> Knot {
+fn knot(radius: f64, mut step: Vec<f64>, sigma: f64) -> Knot {
+    let last = step.iter().rposition(|c| *c != 0.0).unwrap_or(0);
+    step.truncate(last + 1);
     let terms = step.iter().enumerate().rev().map(|(n, c)| {
         let n = n as f64;
         let kernel = sigma * c / (n + 2.0);

@@ -1,12 +1,12 @@
 //! The plane of a face, and its triangles in two coordinates.
 
-use super::vector::{Vector, cross, dot, plus};
+use crate::geometry::vector::{Point, along, cross, dot};
 
 /// A plane with two axes in it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
-    origin: Vector,
-    axes: [Vector; 2],
+    origin: Point,
+    axes: [Point; 2],
 }
 
 impl Plane {
@@ -16,7 +16,7 @@ impl Plane {
         let mut axis = [0.0; 3];
         let flattest = (0..3).min_by(|i, j| normal[*i].abs().total_cmp(&normal[*j].abs()));
         axis[flattest.unwrap_or(0)] = 1.0;
-        let first = plus(axis, -dot(axis, normal), normal);
+        let first = along(axis, -dot(axis, normal), normal);
         let length = dot(first, first).sqrt();
         let first = first.map(|x| x / length);
         Self {
@@ -28,7 +28,7 @@ impl Plane {
     /// Coordinates of the foot of the perpendicular from a point, m.
     #[inline]
     pub fn foot(&self, point: [f64; 3]) -> [f64; 2] {
-        let from = plus(point, -1.0, self.origin);
+        let from = along(point, -1.0, self.origin);
         [dot(from, self.axes[0]), dot(from, self.axes[1])]
     }
 }

@@ -47,7 +47,7 @@ use crate::integrals::normalisation::normalisation;
 /// θ and Γ_as jump where a point touches a facet, their difference γ does not. Everything is
 /// therefore evaluated at a point displaced by 10⁻¹⁰ h in one direction that no wall is parallel
 /// to; γ changes by less than 10⁻¹⁰, and the displaced point touches nothing. See
-/// [`GammaSum3d`](crate::GammaSum3d) for θ. Near an edge the facets on both its sides must agree on
+/// [`GammaSum`](crate::GammaSum) for θ. Near an edge the facets on both its sides must agree on
 /// where it is: pass bitwise the same end points, relative to the point, to both. Otherwise a point
 /// that touches the edge sees the rounding of the coordinates over 10⁻¹⁰ h, 10⁻⁵ in γ where an edge is
 /// cut on one side only. Corners that are off their plane by ε cost ε/h, touching included.

@@ -1,9 +1,9 @@
 //! ∫ w dS over small triangles by quadrature.
 
+use crate::geometry::vector::{along, dot};
 use sph_lanes::Lane;
 
 use super::Renormalisation3d;
-use super::vector::{dot, plus};
 
 /// Squared distance of the centre over the area from which on a rule is used, and the largest
 /// area over h² for it.
@@ -73,8 +73,8 @@ impl Renormalisation3d {
     #[inline]
     pub fn weight(&self, corners: [[f64; 3]; 3], normal: [f64; 3], area: f64) -> f64 {
         let [a, b, c] = corners;
-        let centre = plus(plus(a, 1.0, b), 1.0, c).map(|x| x * (1.0 / 3.0));
-        let arms = corners.map(|corner| plus(corner, -1.0, centre));
+        let centre = along(along(a, 1.0, b), 1.0, c).map(|x| x * (1.0 / 3.0));
+        let arms = corners.map(|corner| along(corner, -1.0, centre));
         let seen = Seen {
             centre: dot(centre, centre),
             slopes: arms.map(|arm| 2.0 * dot(centre, arm)),
@@ -247,7 +247,7 @@ mod tests {
             dot(p, p)
         };
         let centre = [0, 1, 2].map(|x: usize| corners.iter().map(|c| c[x]).sum::<f64>() / 3.0);
-        let arms = corners.map(|c| plus(c, -1.0, centre));
+        let arms = corners.map(|c| along(c, -1.0, centre));
         let seen = Seen {
             centre: dot(centre, centre),
             slopes: arms.map(|arm| 2.0 * dot(centre, arm)),

@@ -193,8 +193,8 @@ impl Patch {
 #[cfg(test)]
 mod tests {
     use super::super::plane::Plane;
-    use super::super::vector::{cross, dot, plus};
     use super::*;
+    use crate::geometry::vector::{along, cross, dot};
 
     #[test]
     fn a_triangle_of_a_plane_weighs_the_same_however_it_is_seen() {
@@ -204,8 +204,8 @@ mod tests {
         let of = of.expect("a kernel");
         let corners = [[0.1, 0.2, 0.3], [0.7, 0.1, 0.4], [0.2, 0.7, 0.0]];
         let twice = cross(
-            plus(corners[1], -1.0, corners[0]),
-            plus(corners[2], -1.0, corners[0]),
+            along(corners[1], -1.0, corners[0]),
+            along(corners[2], -1.0, corners[0]),
         );
         let area = 0.5 * dot(twice, twice).sqrt();
         let normal = twice.map(|x| 0.5 * x / area);
@@ -217,14 +217,14 @@ mod tests {
             let at = |n: i32| 2.5 * (f64::from(i * n % 101) / 50.0 - 1.0);
             let point = [at(1), at(37), at(59)];
             let place = plane.foot(point);
-            let height = dot(plus(point, -1.0, corners[2]), normal);
+            let height = dot(along(point, -1.0, corners[2]), normal);
             let reach = (4.0 - height * height).max(0.0).sqrt();
             let foot = Foot {
                 place,
                 height,
                 reach,
             };
-            let relative = corners.map(|c| plus(c, -1.0, point));
+            let relative = corners.map(|c| along(c, -1.0, point));
             let alone = of.weight(relative, normal, area);
             let found = weights.find(std::iter::repeat_n(0, 3), &[circle], &foot);
             weights.weigh(&of, &[patch], &foot);

@@ -1,6 +1,6 @@
 //! What must hold without any reference.
 
-use sph_boundary::{PeriodicBox, Polyline, Pose, Renormalisation2d, SegmentGrid, SegmentMesh};
+use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Pose, Renormalisation2d};
 
 use crate::gamma::random::Random;
 use crate::gamma::scene::{H, Scene};
@@ -83,7 +83,7 @@ fn a_collinear_vertex_changes_nothing() {
     let plain = Scene::new(vec![corners.clone()], 9.0);
     corners.insert(1, [2.5, 0.25]);
     let split = Scene::new(vec![corners], 9.0);
-    assert_eq!(split.mesh.vertices().len(), plain.mesh.vertices().len() + 1);
+    assert_eq!(split.mesh.nodes().len(), plain.mesh.nodes().len() + 1);
     let mut seen = points(&plain, 100);
     seen.extend([
         [2.5, 0.25],
@@ -108,15 +108,15 @@ fn mirrored_rotated_and_moved_walls_give_the_same() {
     let mirror = Scene::new(vec![mirrored], 0.3);
     let pose = Pose {
         translation: [-3.0, 1.5],
-        ..Pose::rotated(1.1, [2.0, 1.0])
+        ..Pose::turned_about([0.0, 0.0, 1.0], 1.1, [2.0, 1.0])
     };
     let map = pose.map();
     let line = Polyline::closed("wall", TANK.to_vec());
-    let mut moved = SegmentMesh::build(&[line], 0.3, &PeriodicBox::none()).unwrap();
+    let mut moved = Mesh::<2>::build(&[line], 0.3, &PeriodicBox::none()).unwrap();
     moved.move_walls(&[pose]).unwrap();
     let shape = sph_kernels::wendland_c2().shape().clone();
     let renormalisation = Renormalisation2d::new(&shape, H).unwrap();
-    let grid = SegmentGrid::build(&moved, renormalisation.kernel_radius());
+    let grid = Grid::build(&moved, renormalisation.kernel_radius());
     for point in points(&scene, 200) {
         let here = scene.sums(point);
         let there = mirror.sums([-point[0], point[1]]);
@@ -155,7 +155,7 @@ fn a_periodic_wall_has_no_seam() {
     };
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [2.0, 0.2], [5.0, 0.0]]);
     let lid = Polyline::open("lid", vec![[5.0, 1.5], [0.0, 1.5]]);
-    let mesh = SegmentMesh::build(&[floor, lid], 0.25, &domain).unwrap();
+    let mesh = Mesh::<2>::build(&[floor, lid], 0.25, &domain).unwrap();
     assert!(mesh.free_ends().is_empty());
     let mut long = vec![];
     for k in -2..3 {
@@ -165,7 +165,7 @@ fn a_periodic_wall_has_no_seam() {
     long.extend([[15.0, 0.0], [15.0, 1.5], [-10.0, 1.5]]);
     let scene = Scene::new(vec![long], 0.25);
     let renormalisation = Renormalisation2d::new(sph_kernels::wendland_c2().shape(), H).unwrap();
-    let grid = SegmentGrid::build(&mesh, renormalisation.kernel_radius());
+    let grid = Grid::build(&mesh, renormalisation.kernel_radius());
     let below = 5.0f64.next_down();
     for x in [
         0.0,

@@ -1,6 +1,6 @@
 //! A geometry with everything needed to compare the closed form with the reference.
 
-use sph_boundary::{GammaSum, PeriodicBox, Polyline, Renormalisation2d, SegmentGrid, SegmentMesh};
+use sph_boundary::{GammaSum, Grid, Mesh, PeriodicBox, Polyline, Renormalisation2d};
 
 use crate::gamma::kernels::TestKernel;
 use crate::gamma::reference;
@@ -10,8 +10,8 @@ pub const H: f64 = 0.7;
 
 pub struct Scene {
     pub loops: Vec<Vec<[f64; 2]>>,
-    pub mesh: SegmentMesh,
-    grid: SegmentGrid,
+    pub mesh: Mesh<2>,
+    grid: Grid<2>,
     kernels: Vec<TestKernel>,
     renormalisations: Vec<Renormalisation2d>,
 }
@@ -31,7 +31,7 @@ impl Scene {
             .enumerate()
             .map(|(i, points)| Polyline::closed(format!("wall {i}"), points.clone()))
             .collect();
-        let mesh = SegmentMesh::build(&lines, spacing, &PeriodicBox::none()).unwrap();
+        let mesh = Mesh::<2>::build(&lines, spacing, &PeriodicBox::none()).unwrap();
         let kernels = crate::gamma::kernels::all();
         let renormalisations: Vec<Renormalisation2d> = kernels
             .iter()
@@ -41,7 +41,7 @@ impl Scene {
             .iter()
             .map(|r| r.kernel_radius())
             .fold(0.0, f64::max);
-        let grid = SegmentGrid::build(&mesh, reach);
+        let grid = Grid::build(&mesh, reach);
         Self {
             loops,
             mesh,
@@ -51,7 +51,7 @@ impl Scene {
         }
     }
 
-    pub fn sums(&self, point: [f64; 2]) -> Vec<GammaSum> {
+    pub fn sums(&self, point: [f64; 2]) -> Vec<GammaSum<2>> {
         self.renormalisations
             .iter()
             .map(|r| r.at(point, &self.mesh, &self.grid))

@@ -95,7 +95,7 @@ fn walls_that_cross_are_refused_with_both_names_and_the_place() {
         );
         let refused = built(name, &[square(), fixed(sill)], &wendland_c2()).unwrap_err();
         let BoundaryError::Crossing {
-            wall, other, x, y, ..
+            wall, other, at, ..
         } = &refused
         else {
             panic!("{refused}");
@@ -103,7 +103,7 @@ fn walls_that_cross_are_refused_with_both_names_and_the_place() {
         let mut names = [wall.as_str(), other.as_str()];
         names.sort_unstable();
         assert_eq!(names, ["sill", "tank"]);
-        assert!((*x == 3.0 || *x == 5.0) && *y == 0.0, "({x}, {y})");
+        assert!((at.0[0] == 3.0 || at.0[0] == 5.0) && at.0[1] == 0.0, "{at}");
     }
 }
 

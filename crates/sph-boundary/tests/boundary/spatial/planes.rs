@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use sph_boundary::GammaSum3d;
+use sph_boundary::GammaSum;
 use sph_kernels::PiecewisePolynomial;
 
 use super::vector::{Random, Vector, minus, plus};
@@ -47,7 +47,7 @@ fn a_large_polygon_is_a_plane() {
                 let height = 0.03 * f64::from(i) * shape.support();
                 let point = [0.3, -0.2, height];
                 let wall = edges(&[square(half)], point);
-                let mut sum = GammaSum3d::default();
+                let mut sum = GammaSum::<3>::default();
                 sum.add(&of.polygon(height, UP, wall.into_iter()), UP);
                 let gamma = 0.5 + excess(shape, height);
                 worst = worst.max((sum.gamma() - gamma).abs());

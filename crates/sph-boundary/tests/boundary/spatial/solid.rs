@@ -1,6 +1,6 @@
 //! Closed walls of planar faces around the fluid.
 
-use sph_boundary::{GammaSum3d, Renormalisation3d};
+use sph_boundary::{GammaSum, Renormalisation3d};
 
 use super::vector::{Vector, cross, dot, minus, plus, unit};
 
@@ -61,8 +61,8 @@ impl Solid {
     }
 
     /// With every face as one polygon.
-    pub fn at(&self, of: &Renormalisation3d, point: Vector) -> GammaSum3d {
-        let mut sum = GammaSum3d::default();
+    pub fn at(&self, of: &Renormalisation3d, point: Vector) -> GammaSum<3> {
+        let mut sum = GammaSum::<3>::default();
         for (face, n) in &self.0 {
             let n_corners = face.len();
             let edges = (0..n_corners)
@@ -74,8 +74,8 @@ impl Solid {
     }
 
     /// With every face, all being convex, as a fan of triangles.
-    pub fn at_by_triangles(&self, of: &Renormalisation3d, point: Vector) -> GammaSum3d {
-        let mut sum = GammaSum3d::default();
+    pub fn at_by_triangles(&self, of: &Renormalisation3d, point: Vector) -> GammaSum<3> {
+        let mut sum = GammaSum::<3>::default();
         for (face, n) in &self.0 {
             for i in 1..face.len() - 1 {
                 let t = [face[0], face[i], face[i + 1]].map(|c| minus(c, point));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use sph_boundary::{PeriodicBox, Surface, TriangleMesh};
+use sph_boundary::{Mesh, PeriodicBox, Surface};
 
 use crate::surface::shapes::*;
 
@@ -15,7 +15,7 @@ fn solid_angle(a: Point, b: Point, c: Point) -> f64 {
 }
 
 /// Every place of the wall is met from both sides: closed, and no two nodes at one place.
-fn check_closed(mesh: &TriangleMesh) {
+fn check_closed(mesh: &Mesh<3>) {
     assert!(mesh.free_edges().is_empty());
     assert!(leak(mesh) < 1e-12, "leak {}", leak(mesh));
     let mut places: Vec<_> = mesh
@@ -44,7 +44,7 @@ fn a_pyramid_stands_on_the_floor() {
     println!(
         "area {} of {expected}, {} triangles",
         area(&mesh),
-        mesh.triangles().len()
+        mesh.elements().len()
     );
     assert!((area(&mesh) - expected).abs() < 1e-12 * expected);
     let floor = mesh.faces().iter().find(|f| f.normal[2] > 0.999).unwrap();
@@ -68,9 +68,9 @@ fn a_pyramid_stands_on_the_floor() {
     assert!((tip[0] - (1.0 - cone / (4.0 * PI))).abs() < 1e-14);
     // Quality: no element far smaller than the others.
     let smallest = mesh
-        .triangles()
+        .elements()
         .iter()
-        .map(|t| t.area)
+        .map(|t| t.measure)
         .fold(f64::INFINITY, f64::min);
     println!(
         "θ at the base {expected}, at the tip {}; smallest triangle {smallest} m²",
@@ -107,8 +107,8 @@ fn a_block_in_a_corner_touches_three_walls() {
     assert!(theta_at(&mesh, [0.0; 3]).is_empty());
     // All lengths are multiples of the spacing: lattice everywhere; the 2 + 4 cells in the middle of three are quartered.
     let of_size = |area: f64| {
-        let all = mesh.triangles().iter();
-        all.filter(|t| (t.area - area).abs() < 1e-14).count()
+        let all = mesh.elements().iter();
+        all.filter(|t| (t.measure - area).abs() < 1e-14).count()
     };
     assert_eq!([0.125, 0.0625].map(of_size), [768 - 2 * 6, 4 * 6]);
 }
@@ -138,7 +138,7 @@ fn two_blocks_side_by_side_are_one() {
     let common = 2.0 * (0.5 + 2.0 * 0.25);
     assert!((area(&mesh) - (single.iter().sum::<f64>() - common)).abs() < 1e-12);
     // In other groups all remain whole.
-    let apart = TriangleMesh::build(&walls, &[0, 1, 2], 0.125, &PeriodicBox::none()).unwrap();
+    let apart = Mesh::<3>::build(&walls, &[0, 1, 2], 0.125, &PeriodicBox::none()).unwrap();
     assert!((area(&apart) - single.iter().sum::<f64>()).abs() < 1e-12);
     assert!(!apart.contains([0.9, 0.5, 0.5]) && !apart.contains([1.1, 0.5, 0.5]));
     assert!(apart.contains([1.1, 0.1, 0.5]) && mesh.contains([1.1, 0.1, 0.5]));
@@ -148,7 +148,7 @@ fn two_blocks_side_by_side_are_one() {
 #[test]
 fn turned_bodies_touch_as_well() {
     // The same, turned out of all axes: planes and corners agree to rounding only.
-    let pose = sph_boundary::Pose::about_axis([1.0, 2.0, -0.5], 0.7, [0.3, 0.1, 0.9]);
+    let pose = sph_boundary::Pose::turned_about([0.48, 0.64, -0.6], 0.7, [0.3, 0.1, 0.9]);
     let turn = |mut s: Surface| {
         for p in &mut s.points {
             *p = pose.map()(*p);
@@ -204,7 +204,7 @@ fn walls_drawn_one_by_one_are_joined() {
     check_closed(&joined);
     assert_eq!(joined.nodes().len(), mesh(&[whole], 0.5).nodes().len());
     walls[0] = walls[0].clone().reversed();
-    let refused = TriangleMesh::build(&walls, &[0; 6], 0.5, &PeriodicBox::none());
+    let refused = Mesh::<3>::build(&walls, &[0; 6], 0.5, &PeriodicBox::none());
     let message = refused.unwrap_err().to_string();
     assert!(
         message.contains("put the fluid on opposite sides: reverse"),
@@ -233,7 +233,7 @@ fn a_block_across_the_seam_of_a_periodic_floor() {
     assert!(!mesh.contains([0.75, 1.5, -0.5]));
 }
 
-fn check_closed_area(mesh: &TriangleMesh) {
+fn check_closed_area(mesh: &Mesh<3>) {
     assert!(mesh.free_edges().is_empty());
     let sizes: f64 = mesh.nodes().iter().map(|n| n.size).sum();
     assert!((sizes * mesh.spacing().powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
@@ -245,7 +245,7 @@ fn a_block_turned_on_another_one() {
     let mut smallest = f64::INFINITY;
     for step in 0..90 {
         let angle = 0.07 * f64::from(step);
-        let turn = sph_boundary::Pose::about_axis([0.0, 0.0, 1.0], angle, [0.1, 0.2, 0.0]);
+        let turn = sph_boundary::Pose::turned_about([0.0, 0.0, 1.0], angle, [0.1, 0.2, 0.0]);
         let mut upper = block("upper", [-1.0, -0.7, 1.0], [1.0, 0.8, 2.0]);
         for p in &mut upper.points {
             *p = turn.map()(*p);
@@ -254,12 +254,12 @@ fn a_block_turned_on_another_one() {
         let lower = block("lower", [-1.0, -1.0, 0.0], [1.0, 0.5, 1.0]);
         let mesh = mesh(&[floor, lower, upper], 0.21);
         check_closed(&mesh);
-        let areas = mesh.triangles().iter().map(|t| t.area);
+        let areas = mesh.elements().iter().map(|t| t.measure);
         smallest = areas.fold(smallest, f64::min);
         // Above the common face is no boundary.
-        let common = mesh.triangles().iter().filter(|t| t.normal[2].abs() > 0.5);
+        let common = mesh.elements().iter().filter(|t| t.normal[2].abs() > 0.5);
         let common = common.filter(|t| (t.centre[2] - 1.0).abs() < 1e-9);
-        let both: f64 = common.map(|t| t.area * t.normal[2]).sum();
+        let both: f64 = common.map(|t| t.measure * t.normal[2]).sum();
         assert!(
             both.abs() < 1e-9,
             "as much of one faces up as of the other down"

@@ -8,7 +8,7 @@ use crate::surface::shapes::*;
 fn a_tank_gets_the_square_lattice() {
     let mesh = mesh(&[tank([0.0; 3], [4.0, 4.0, 4.0])], 0.5);
     // 8 cells to a side: 9³ − 7³ lattice points on the surface, two triangles to a cell.
-    assert_eq!((mesh.nodes().len(), mesh.triangles().len()), (386, 768));
+    assert_eq!((mesh.nodes().len(), mesh.elements().len()), (386, 768));
     assert_eq!((mesh.faces().len(), mesh.free_edges().len()), (6, 0));
     assert!(mesh.faces().iter().all(|f| f.edges.len() == 4));
     for node in mesh.nodes() {
@@ -17,9 +17,9 @@ fn a_tank_gets_the_square_lattice() {
         assert_eq!(node.theta, [0.5, 0.25, 0.125][sides.count() - 1]);
     }
     assert!(
-        mesh.triangles()
+        mesh.elements()
             .iter()
-            .all(|t| (t.area - 0.125).abs() < 1e-15)
+            .all(|t| (t.measure - 0.125).abs() < 1e-15)
     );
     assert!((area(&mesh) - 96.0).abs() < 1e-12);
     assert!(leak(&mesh) < 1e-13);
@@ -60,7 +60,7 @@ fn how_a_face_is_drawn_does_not_matter() {
     let drawn = surface(
         "tank",
         fine.nodes().iter().map(|n| n.position).collect(),
-        fine.triangles()
+        fine.elements()
             .iter()
             .map(|t| t.nodes.map(|n| n as u32))
             .collect(),
@@ -89,7 +89,7 @@ fn a_sphere_has_half_the_space() {
     let ratio = |k: usize| (mean[k] - 0.5) / (mean[k + 1] - 0.5);
     assert!((ratio(0) - 2.0).abs() < 0.05 && (ratio(1) - 2.0).abs() < 0.02);
     let mesh = mesh(&[icosphere(3, 1.0).reversed()], 0.2);
-    assert_eq!((mesh.nodes().len(), mesh.triangles().len()), (642, 1280));
+    assert_eq!((mesh.nodes().len(), mesh.elements().len()), (642, 1280));
     let mean = mesh.nodes().iter().map(|n| n.theta).sum::<f64>() / 642.0;
     println!("mean θ inside the icosphere of 1280 triangles: {mean}");
     assert!(mesh.nodes().iter().all(|n| n.theta < 0.5 && n.theta > 0.42));
@@ -105,7 +105,7 @@ fn a_pipe_closes_through_periodicity() {
     assert!(mesh.free_edges().is_empty());
     // One part across every side, eight along the period.
     assert_eq!(
-        (mesh.nodes().len(), mesh.triangles().len()),
+        (mesh.nodes().len(), mesh.elements().len()),
         (24 * 8, 24 * 8 * 2)
     );
     let expected = 0.5 - 1.0 / 24.0;
@@ -114,7 +114,7 @@ fn a_pipe_closes_through_periodicity() {
             .iter()
             .all(|n| (n.theta - expected).abs() < 1e-14)
     );
-    let moved = mesh.triangles().iter().filter(|t| t.images != [[0; 3]; 3]);
+    let moved = mesh.elements().iter().filter(|t| t.images != [[0; 3]; 3]);
     assert_eq!(
         moved.count(),
         24 * 2,
@@ -125,7 +125,7 @@ fn a_pipe_closes_through_periodicity() {
     let mut mesh = mesh;
     mesh.move_walls(&[Pose::translated([0.0, 0.0, 0.3])])
         .unwrap();
-    let turned = mesh.move_walls(&[Pose::about_axis([0.0, 0.0, 1.0], 0.1, [0.0; 3])]);
+    let turned = mesh.move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 3])]);
     assert_eq!(
         turned.unwrap_err().to_string(),
         "wall `pipe` is closed through periodicity and cannot rotate"
@@ -145,7 +145,7 @@ fn a_floor_of_two_periods_has_no_edge() {
     let domain = periodic([0.0; 3], [4.0, 3.0, 2.0], [true, true, false]);
     let mesh = mesh_in(&[floor], 0.5, &domain);
     assert!(mesh.free_edges().is_empty());
-    assert_eq!((mesh.nodes().len(), mesh.triangles().len()), (48, 96));
+    assert_eq!((mesh.nodes().len(), mesh.elements().len()), (48, 96));
     assert!(
         mesh.nodes()
             .iter()
@@ -159,17 +159,13 @@ fn walls_of_a_group_move_together() {
     let body = block("body", [1.0; 3], [2.0; 3]);
     let lid = block("lid", [1.0, 1.0, 2.0], [2.0, 2.0, 3.0]);
     let walls = [tank, body, lid];
-    let mut mesh = sph_boundary::TriangleMesh::build(
-        &walls,
-        &[0, 1, 1],
-        0.5,
-        &sph_boundary::PeriodicBox::none(),
-    )
-    .unwrap();
+    let mut mesh =
+        sph_boundary::Mesh::<3>::build(&walls, &[0, 1, 1], 0.5, &sph_boundary::PeriodicBox::none())
+            .unwrap();
     let before = mesh.clone();
     let turn = Pose {
         translation: [0.25, 0.0, 0.5],
-        ..Pose::about_axis([0.0, 0.0, 1.0], 0.5, [1.5, 1.5, 1.5])
+        ..Pose::turned_about([0.0, 0.0, 1.0], 0.5, [1.5, 1.5, 1.5])
     };
     let rest = Pose::default();
     assert_eq!(
@@ -187,8 +183,8 @@ fn walls_of_a_group_move_together() {
         };
         assert_eq!((b.position, b.theta), (expected, a.theta));
     }
-    for (a, b) in before.triangles().iter().zip(mesh.triangles()) {
-        assert!((a.area - b.area).abs() < 1e-15);
+    for (a, b) in before.elements().iter().zip(mesh.elements()) {
+        assert!((a.measure - b.measure).abs() < 1e-15);
         let turned = if a.wall == 0 {
             a.normal
         } else {
@@ -221,10 +217,10 @@ fn a_box_is_its_own_mirror_image() {
         places
     };
     let set = |mirrored: usize| -> std::collections::BTreeSet<[[i64; 3]; 3]> {
-        let all = 0..mesh.triangles().len();
+        let all = 0..mesh.elements().len();
         all.map(|t| corners(t, mirrored)).collect()
     };
     let drawn = set(3);
-    assert_eq!(drawn.len(), mesh.triangles().len());
+    assert_eq!(drawn.len(), mesh.elements().len());
     (0..3).for_each(|axis| assert_eq!(set(axis), drawn, "along axis {axis}"));
 }

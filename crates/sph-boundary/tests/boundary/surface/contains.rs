@@ -1,11 +1,11 @@
 //! Inside and outside against exact answers.
 
-use sph_boundary::{PeriodicBox, TriangleMesh};
+use sph_boundary::{Mesh, PeriodicBox};
 
 use crate::surface::shapes::*;
 
 /// 10⁴ random points and the lattice points of the mesh, which its rays hit in edges and nodes.
-fn check(mesh: &TriangleMesh, low: Point, high: Point, fluid: impl Fn(Point) -> Option<bool>) {
+fn check(mesh: &Mesh<3>, low: Point, high: Point, fluid: impl Fn(Point) -> Option<bool>) {
     let mut random = Random(42);
     let mut points: Vec<Point> = (0..10_000).map(|_| random.point(low, high)).collect();
     let nodes: Vec<Point> = mesh.nodes().iter().map(|n| n.position).collect();
@@ -46,7 +46,7 @@ fn a_box_with_a_pyramid() {
     let fluid =
         |p: Point| (!near_surface(p)).then(|| in_box(p, [0.0; 3], [6.0, 6.0, 4.0]) && !solid(p));
     check(&mesh(&walls, 0.5), [-1.0; 3], [7.0, 7.0, 5.0], fluid);
-    let apart = TriangleMesh::build(&walls, &[0, 1], 0.5, &PeriodicBox::none()).unwrap();
+    let apart = Mesh::<3>::build(&walls, &[0, 1], 0.5, &PeriodicBox::none()).unwrap();
     check(&apart, [-1.0; 3], [7.0, 7.0, 5.0], fluid);
 }
 
@@ -103,9 +103,9 @@ fn an_l_shaped_prism() {
     let mesh = mesh(&[walls], 0.25);
     assert_eq!(mesh.faces().len(), 8);
     assert!(
-        mesh.triangles()
+        mesh.elements()
             .iter()
-            .all(|t| (t.area - 0.03125).abs() < 1e-15),
+            .all(|t| (t.measure - 0.03125).abs() < 1e-15),
         "a lattice"
     );
     assert!((theta_at(&mesh, [1.0, 1.0, 1.0])[0] - 0.625).abs() < 1e-14);

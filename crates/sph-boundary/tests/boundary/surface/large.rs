@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sph_boundary::{PeriodicBox, Pose, TriangleGrid, TriangleMesh};
+use sph_boundary::{Grid, Mesh, PeriodicBox, Pose};
 
 use crate::surface::shapes::*;
 
@@ -11,7 +11,7 @@ fn a_ball_of_eighty_thousand_triangles() {
     let ball = icosphere(6, 1.0);
     for spacing in [0.02, 0.1, 0.006] {
         let start = Instant::now();
-        let mut mesh = TriangleMesh::build(
+        let mut mesh = Mesh::<3>::build(
             std::slice::from_ref(&ball),
             &[0],
             spacing,
@@ -21,7 +21,7 @@ fn a_ball_of_eighty_thousand_triangles() {
         let built = start.elapsed();
         assert!(leak(&mesh) < 1e-12);
         let start = Instant::now();
-        let grid = TriangleGrid::build(&mesh, 8.0 * spacing);
+        let grid = Grid::build(&mesh, 8.0 * spacing);
         let sorted = start.elapsed();
         assert!(mesh.contains([0.0, 0.0, 1.5]));
         let mut random = Random(5);
@@ -38,7 +38,7 @@ fn a_ball_of_eighty_thousand_triangles() {
             .sum();
         let listed = start.elapsed();
         let start = Instant::now();
-        mesh.move_walls(&[Pose::about_axis([0.0, 0.0, 1.0], 0.1, [0.0; 3])])
+        mesh.move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 3])])
             .unwrap();
         let moved = start.elapsed();
         println!(
@@ -46,7 +46,7 @@ fn a_ball_of_eighty_thousand_triangles() {
              bytes; 10⁴ points sided in {asked:.2?} ({fluid} fluid), listed in {listed:.2?} \
              ({near} near); moved in {moved:.2?}",
             ball.triangles.len(),
-            mesh.triangles().len(),
+            mesh.elements().len(),
             grid.memory(),
         );
         let ball = 4.0 / 3.0 * std::f64::consts::PI / 2.4f64.powi(3);
@@ -64,7 +64,7 @@ fn a_large_tank() {
     let mesh = mesh(&walls, 0.05);
     println!(
         "{} triangles of a tank in {:.2?}",
-        mesh.triangles().len(),
+        mesh.elements().len(),
         start.elapsed()
     );
     assert!(leak(&mesh) < 1e-10);

@@ -1,6 +1,6 @@
 //! Triangles near a point, and the nearest place on them.
 
-use sph_boundary::{Feature, NearTriangle, SeenTriangle, TriangleGrid, TriangleMesh};
+use sph_boundary::{Feature, Grid, Mesh, NearElement, SeenElement};
 
 use crate::surface::shapes::*;
 
@@ -28,9 +28,9 @@ fn the_nearest_place_against_samples() {
     let mut worst: f64 = 0.0;
     for _ in 0..300 {
         let point = random.point([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
-        for triangle in (0..mesh.triangles().len()).step_by(7) {
-            let near = NearTriangle {
-                triangle: triangle as u32,
+        for triangle in (0..mesh.elements().len()).step_by(7) {
+            let near = NearElement {
+                element: triangle as u32,
                 image: [0; 3],
             };
             let closest = mesh.closest(point, near);
@@ -40,7 +40,7 @@ fn the_nearest_place_against_samples() {
             assert!(closest.distance() <= samples + 1e-12);
             assert!(samples - closest.distance() < 0.006);
             worst = worst.max(samples - closest.distance());
-            let normal = mesh.triangles()[triangle].normal;
+            let normal = mesh.elements()[triangle].normal;
             assert!((closest.height + dot(corners[1], normal)).abs() < 1e-12);
             match closest.feature {
                 Feature::Face => {
@@ -64,7 +64,7 @@ fn the_nearest_place_against_samples() {
     assert!(features.iter().all(|n| *n > 50));
 }
 
-fn all_near(mesh: &TriangleMesh, point: Point, radius: f64) -> Vec<NearTriangle> {
+fn all_near(mesh: &Mesh<3>, point: Point, radius: f64) -> Vec<NearElement<3>> {
     let mut found = Vec::new();
     let range = |k: usize| {
         if mesh.domain().periodic[k] {
@@ -73,12 +73,12 @@ fn all_near(mesh: &TriangleMesh, point: Point, radius: f64) -> Vec<NearTriangle>
             0..=0
         }
     };
-    for triangle in 0..mesh.triangles().len() as u32 {
+    for element in 0..mesh.elements().len() as u32 {
         for i in range(0) {
             for j in range(1) {
                 for k in range(2) {
                     let image = [i, j, k];
-                    let near = NearTriangle { triangle, image };
+                    let near = NearElement { element, image };
                     if mesh.closest(point, near).distance() < radius {
                         found.push(near);
                     }
@@ -95,11 +95,11 @@ fn the_grid_finds_all_and_only_those() {
     let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
     let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
     let mesh = mesh_in(&[pipe, body], 0.25, &domain);
-    assert_eq!(size_of::<NearTriangle>(), 8);
+    assert_eq!(size_of::<NearElement<3>>(), 8);
     let mut random = Random(11);
     let mut found = 0;
     for reach in [0.1, 0.6, 1.1] {
-        let grid = TriangleGrid::build(&mesh, reach);
+        let grid = Grid::build(&mesh, reach);
         for radius in [reach, 0.7 * reach] {
             for _ in 0..200 {
                 let point = random.point([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
@@ -111,7 +111,7 @@ fn the_grid_finds_all_and_only_those() {
     }
     println!("{found} triangles found, as by brute force");
     assert!(
-        TriangleGrid::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
+        Grid::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
             .near(&crate::surface::shapes::mesh(&[], 1.0), [0.0; 3], 1.0)
             .next()
             .is_none()
@@ -127,7 +127,7 @@ fn rows_of_points_together_hold_what_is_near_each() {
     let mut random = Random(12);
     let (mut found, mut besides) = (0, 0);
     for (reach, radius) in [(0.6, 0.6), (1.1, 0.8)] {
-        let grid = TriangleGrid::build(&mesh, reach);
+        let grid = Grid::build(&mesh, reach);
         // Points side by side, and now and then one far away.
         let mut points = Vec::new();
         for _ in 0..40 {
@@ -143,13 +143,13 @@ fn rows_of_points_together_hold_what_is_near_each() {
             let (row, after) = rest.split_at(count as usize);
             rest = after;
             assert!(row.windows(2).all(|w| {
-                let key = |n: &NearTriangle| (n.image, n.triangle);
+                let key = |n: &NearElement<3>| (n.image, n.element);
                 key(&w[0]) < key(&w[1])
             }));
             let near = all_near(&mesh, *point, radius);
             assert!(near.iter().all(|n| row.contains(n)), "{point:?}");
             // A sphere around a triangle of 0.25 has at most its diagonal.
-            let out = |n: &NearTriangle| mesh.closest(*point, *n).distance() > radius + 0.5;
+            let out = |n: &NearElement<3>| mesh.closest(*point, *n).distance() > radius + 0.5;
             assert!(!row.iter().any(out), "{point:?}");
             // The same whoever is served with it.
             let (mut alone, mut same) = (Vec::new(), Vec::new());
@@ -168,13 +168,13 @@ fn a_node_is_the_same_vector_in_all_triangles() {
     let pipe = prism("pipe", &polygon(24, 1.0), [0.1, 2.1], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.1], [1.5, 1.5, 2.1], [false, false, true]);
     let mesh = mesh_in(&[pipe], 0.25, &domain);
-    let grid = TriangleGrid::build(&mesh, 0.8);
+    let grid = Grid::build(&mesh, 0.8);
     let point = [0.41, 0.3, 0.2];
     let mut seen = std::collections::HashMap::new();
     let mut faces = std::collections::BTreeSet::new();
     let mut repeated = 0;
     for near in grid.near(&mesh, point, 0.8) {
-        let triangle = mesh.triangles()[near.triangle as usize];
+        let triangle = mesh.elements()[near.index()];
         faces.insert((triangle.face, near.image));
         for (k, corner) in mesh.corners_from(point, near).iter().enumerate() {
             let image = [0, 1, 2].map(|a| triangle.images[k][a] + i32::from(near.image[a]));
@@ -203,7 +203,7 @@ fn a_node_is_the_same_vector_in_all_triangles() {
 #[test]
 fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
     let mesh = mesh(&[block("block", [0.0; 3], [1.0, 2.0, 1.5])], 0.25);
-    let grid = TriangleGrid::build(&mesh, 2.0);
+    let grid = Grid::build(&mesh, 2.0);
     let mut random = Random(8);
     let (mut found, mut largest) = (0, 0.0_f64);
     for _ in 0..400 {
@@ -216,7 +216,7 @@ fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
         let [x, y, z] = [0, 1, 2].map(|k| (-place[k]).max(place[k] - [1.0, 2.0, 1.5][k]));
         let outside = norm([x, y, z].map(|d| d.max(0.0)));
         let exact = outside + x.max(y).max(z).min(0.0);
-        match SeenTriangle::signed_distance(&seen, offset, 0.9) {
+        match SeenElement::signed_distance(&seen, offset, 0.9) {
             Some(distance) => {
                 found += 1;
                 largest = largest.max((distance - exact).abs());

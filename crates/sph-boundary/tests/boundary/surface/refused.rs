@@ -1,12 +1,12 @@
 //! What is refused, and with which words.
 
-use sph_boundary::{PeriodicBox, Surface, TriangleMesh};
+use sph_boundary::{Mesh, PeriodicBox, Surface};
 
 use crate::surface::shapes::*;
 
 fn message(walls: &[Surface], spacing: f64) -> String {
     let groups = vec![0; walls.len()];
-    let refused = TriangleMesh::build(walls, &groups, spacing, &PeriodicBox::none());
+    let refused = Mesh::<3>::build(walls, &groups, spacing, &PeriodicBox::none());
     refused.unwrap_err().to_string()
 }
 
@@ -27,14 +27,14 @@ fn points_and_corners() {
         one(|s| s.triangles[5][2] = 8),
         "wall `cube`: triangle 5 has the corner 8, there are 8 points"
     );
-    assert!(TriangleMesh::build(&[], &[], 0.0, &PeriodicBox::none()).is_err());
+    assert!(Mesh::<3>::build(&[], &[], 0.0, &PeriodicBox::none()).is_err());
     assert!(
-        TriangleMesh::build(&[], &[], 1.0, &PeriodicBox::none())
+        Mesh::<3>::build(&[], &[], 1.0, &PeriodicBox::none())
             .unwrap()
             .contains([0.0; 3])
     );
     let cube = block("cube", [0.0; 3], [1.0; 3]);
-    let refused = TriangleMesh::build(&[cube], &[], 0.1, &PeriodicBox::none());
+    let refused = Mesh::<3>::build(&[cube], &[], 0.1, &PeriodicBox::none());
     assert_eq!(
         refused.unwrap_err().to_string(),
         "0 group(s) given for 1 wall(s)"
@@ -127,7 +127,7 @@ fn crossing_walls() {
     assert!(crossing.contains("of wall `post` near (0."), "{crossing}");
     // Of other groups too.
     let walls = [cube.clone(), post];
-    assert!(TriangleMesh::build(&walls, &[0, 1], 0.1, &PeriodicBox::none()).is_err());
+    assert!(Mesh::<3>::build(&walls, &[0, 1], 0.1, &PeriodicBox::none()).is_err());
     // Through the wall itself.
     let mut twisted = prism(
         "twisted",
@@ -140,7 +140,7 @@ fn crossing_walls() {
     // Across a periodic side.
     let domain = periodic([0.0; 3], [2.0; 3], [true, false, false]);
     let arm = block("arm", [1.5, 0.4, 0.4], [2.5, 0.6, 0.6]);
-    let refused = TriangleMesh::build(&[cube.clone(), arm], &[0, 0], 0.1, &domain);
+    let refused = Mesh::<3>::build(&[cube.clone(), arm], &[0, 0], 0.1, &domain);
     let crossing = refused.unwrap_err().to_string();
     assert!(crossing.contains("crosses"), "{crossing}");
     let shift = block("next", [0.5, 0.0, 1.0], [1.5, 1.0, 2.0]);

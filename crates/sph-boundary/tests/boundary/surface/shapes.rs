@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use sph_boundary::{PeriodicBox, Surface, TriangleMesh};
+use sph_boundary::{Mesh, PeriodicBox, Surface};
 
 pub type Point = [f64; 3];
 
@@ -160,31 +160,31 @@ pub fn periodic(lower: Point, upper: Point, periodic: [bool; 3]) -> PeriodicBox<
 }
 
 /// All walls in one group, no periodic axis.
-pub fn mesh(walls: &[Surface], spacing: f64) -> TriangleMesh {
+pub fn mesh(walls: &[Surface], spacing: f64) -> Mesh<3> {
     mesh_in(walls, spacing, &PeriodicBox::none())
 }
 
-pub fn mesh_in(walls: &[Surface], spacing: f64, domain: &PeriodicBox<3>) -> TriangleMesh {
-    TriangleMesh::build(walls, &vec![0; walls.len()], spacing, domain).unwrap()
+pub fn mesh_in(walls: &[Surface], spacing: f64, domain: &PeriodicBox<3>) -> Mesh<3> {
+    Mesh::<3>::build(walls, &vec![0; walls.len()], spacing, domain).unwrap()
 }
 
-pub fn area(mesh: &TriangleMesh) -> f64 {
-    mesh.triangles().iter().map(|t| t.area).sum()
+pub fn area(mesh: &Mesh<3>) -> f64 {
+    mesh.elements().iter().map(|t| t.measure).sum()
 }
 
 /// |Σ area · normal|, zero for a closed wall.
-pub fn leak(mesh: &TriangleMesh) -> f64 {
+pub fn leak(mesh: &Mesh<3>) -> f64 {
     let mut sum = [0.0; 3];
-    for t in mesh.triangles() {
+    for t in mesh.elements() {
         for (total, n) in sum.iter_mut().zip(t.normal) {
-            *total += t.area * n;
+            *total += t.measure * n;
         }
     }
     norm(sum)
 }
 
 /// θ of the nodes at a place.
-pub fn theta_at(mesh: &TriangleMesh, place: Point) -> Vec<f64> {
+pub fn theta_at(mesh: &Mesh<3>, place: Point) -> Vec<f64> {
     let here = |p: Point| norm(sub(p, place)) < 1e-9;
     let nodes = mesh.nodes().iter().filter(|n| here(n.position));
     nodes.map(|n| n.theta).collect()

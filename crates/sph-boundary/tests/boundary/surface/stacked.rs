@@ -1,6 +1,6 @@
 //! Many unit blocks stacked at random in a tank: everything about them can be counted.
 
-use sph_boundary::{PeriodicBox, Pose, Surface, TriangleMesh};
+use sph_boundary::{Mesh, PeriodicBox, Pose, Surface};
 
 use crate::surface::shapes::*;
 
@@ -95,12 +95,7 @@ impl Stack {
         walls
     }
 
-    fn check(
-        &self,
-        mesh: &TriangleMesh,
-        place: impl Fn(Point) -> Point,
-        back: impl Fn(Point) -> Point,
-    ) {
+    fn check(&self, mesh: &Mesh<3>, place: impl Fn(Point) -> Point, back: impl Fn(Point) -> Point) {
         assert!(mesh.free_edges().is_empty());
         let expected = self.area() as f64;
         assert!(
@@ -142,11 +137,11 @@ fn areas_and_angles_of_stacks_in_a_tank() {
         assert!(leak(&mesh) < 1e-12);
         // A lattice throughout: its cells are halves of squares.
         assert!(
-            mesh.triangles()
+            mesh.elements()
                 .iter()
-                .all(|t| (t.area - 0.125).abs() < 1e-14)
+                .all(|t| (t.measure - 0.125).abs() < 1e-14)
         );
-        triangles += mesh.triangles().len();
+        triangles += mesh.elements().len();
     }
     println!("{triangles} triangles of 39 stacks");
 }
@@ -156,13 +151,12 @@ fn areas_and_angles_of_stacks_turned_out_of_the_axes() {
     for seed in 1..30 {
         let stack = Stack::new(seed * 1009, 0.3, false);
         let mut random = Random(seed);
+        let translation = random.point([-3.0; 3], [3.0; 3]);
+        let axis = random.point([-1.0; 3], [1.0; 3]);
+        let length = dot(axis, axis).sqrt();
         let pose = Pose {
-            translation: random.point([-3.0; 3], [3.0; 3]),
-            ..Pose::about_axis(
-                random.point([-1.0; 3], [1.0; 3]),
-                3.0 * random.number(),
-                [1.0; 3],
-            )
+            translation,
+            ..Pose::turned_about(axis.map(|x| x / length), 3.0 * random.number(), [1.0; 3])
         };
         let mut walls = stack.walls();
         for p in walls.iter_mut().flat_map(|w| &mut w.points) {
@@ -186,7 +180,7 @@ fn areas_and_angles_of_stacks_across_periods() {
         let stack = Stack::new(seed * 31, 0.3, true);
         let walls = stack.walls();
         let groups = vec![0; walls.len()];
-        let mesh = TriangleMesh::build(&walls, &groups, 0.5, &domain).unwrap();
+        let mesh = Mesh::<3>::build(&walls, &groups, 0.5, &domain).unwrap();
         stack.check(&mesh, |p| p, |p| p);
     }
 }
@@ -196,7 +190,7 @@ fn stacks_of_other_groups_are_left_as_they_are() {
     let stack = Stack::new(5, 0.3, false);
     let walls = stack.walls();
     let groups: Vec<usize> = (0..walls.len()).collect();
-    let mesh = TriangleMesh::build(&walls, &groups, 0.5, &PeriodicBox::none()).unwrap();
+    let mesh = Mesh::<3>::build(&walls, &groups, 0.5, &PeriodicBox::none()).unwrap();
     assert!((area(&mesh) - 6.0 * (15 + walls.len()) as f64).abs() < 1e-10);
     let side = SIDE as i32;
     for cell in stack.cells() {

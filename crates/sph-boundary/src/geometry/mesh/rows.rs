@@ -1,33 +1,34 @@
-//! Triangles near many points that lie close together.
+//! Elements near many points that lie close together.
 
-use super::grid::{NearTriangle, ROUNDING, Sphere, TriangleGrid};
-use super::vector::{Point, bounds, dot, norm, sub};
+use super::grid::{Grid, ROUNDING, Sphere};
+use super::near_element::NearElement;
+use crate::geometry::vector::{bounds, dot, norm, sub};
 
 /// Diagonal of the box around points that are served together, over the radius.
 const TOGETHER: f64 = 0.75;
 
 /// What may be near one of several points.
 #[derive(Default)]
-struct Candidates {
-    /// By image and triangle.
-    found: Vec<NearTriangle>,
-    spheres: Vec<Sphere>,
-    /// Image and triangle as one number, and the place in the grid.
+struct Candidates<const D: usize> {
+    /// By image and element.
+    found: Vec<NearElement<D>>,
+    spheres: Vec<Sphere<D>>,
+    /// Image and element as one number, and the place in the grid.
     keys: Vec<(u64, u32)>,
 }
 
-impl TriangleGrid {
-    /// For every point the images of triangles that may be nearer than `radius`, because the spheres around them are: their
-    /// number, and all of them one behind the other, each point's by image and triangle. `radius` at most the reach of the grid.
+impl<const D: usize> Grid<D> {
+    /// For every point the images of elements that may be nearer than `radius`, because the spheres around them are: their
+    /// number, and all of them one behind the other, each point's by image and element. `radius` at most the reach of the grid.
     ///
     /// The grid is walked once, and what it holds is sorted once, for neighbouring points that follow one another; each
     /// takes what is in its own reach.
     pub fn rows(
         &self,
-        points: &[Point],
+        points: &[[f64; D]],
         radius: f64,
         counts: &mut Vec<u32>,
-        rows: &mut Vec<NearTriangle>,
+        rows: &mut Vec<NearElement<D>>,
     ) {
         debug_assert!(radius <= self.reach(), "query beyond the reach of the grid");
         let mut candidates = Candidates::default();
@@ -42,11 +43,11 @@ impl TriangleGrid {
         }
     }
 
-    /// All that a point of the group may have, by image and triangle.
-    fn gather(&self, group: &[Point], radius: f64, candidates: &mut Candidates) {
+    /// All that a point of the group may have, by image and element.
+    fn gather(&self, group: &[[f64; D]], radius: f64, candidates: &mut Candidates<D>) {
         let [lower, upper] = bounds(group.iter().copied());
         let half = sub(upper, lower).map(|x| 0.5 * x);
-        let centre: Point = std::array::from_fn(|k| lower[k] + half[k]);
+        let centre: [f64; D] = std::array::from_fn(|k| lower[k] + half[k]);
         let spread = norm(half) * (1.0 + ROUNDING) + ROUNDING * radius;
         let Candidates {
             found,
@@ -66,11 +67,11 @@ impl TriangleGrid {
     }
 }
 
-impl Candidates {
+impl<const D: usize> Candidates<D> {
     /// Appends those in reach of a point; how many.
-    fn reached(&self, point: Point, radius: f64, rows: &mut Vec<NearTriangle>) -> u32 {
+    fn reached(&self, point: [f64; D], radius: f64, rows: &mut Vec<NearElement<D>>) -> u32 {
         let from = rows.len();
-        rows.resize(from + self.found.len(), NearTriangle::default());
+        rows.resize(from + self.found.len(), NearElement::default());
         let (slots, mut n) = (&mut rows[from..], 0);
         for (near, sphere) in self.found.iter().zip(&self.spheres) {
             slots[n] = *near;
@@ -82,9 +83,9 @@ impl Candidates {
 }
 
 /// How many points from the first on lie in a box of at most this diagonal, m.
-fn together(points: &[Point], diagonal: f64) -> usize {
+fn together<const D: usize>(points: &[[f64; D]], diagonal: f64) -> usize {
     let (mut lower, mut upper) = (points[0], points[0]);
-    let apart = |point: &Point| {
+    let apart = |point: &[f64; D]| {
         lower = std::array::from_fn(|k| lower[k].min(point[k]));
         upper = std::array::from_fn(|k| upper[k].max(point[k]));
         let across = sub(upper, lower);
@@ -94,14 +95,14 @@ fn together(points: &[Point], diagonal: f64) -> usize {
     1 + rest.iter().position(apart).unwrap_or(rest.len())
 }
 
-/// Ascending by image, then triangle.
-fn key(near: &NearTriangle) -> u64 {
+/// Ascending by image, then element.
+fn key<const D: usize>(near: &NearElement<D>) -> u64 {
     let place = |periods: i8| u64::from((i16::from(periods) + 128) as u16);
     let image = near
         .image
         .iter()
         .fold(0, |all, periods| (all << 8) | place(*periods));
-    (image << 32) | u64::from(near.triangle)
+    (image << 32) | u64::from(near.element)
 }
 
 #[cfg(test)]
@@ -109,8 +110,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn keys_ascend_by_image_and_triangle() {
-        let near = |triangle, image| NearTriangle { triangle, image };
+    fn keys_ascend_by_image_and_element() {
+        let near = |element, image| NearElement { element, image };
         let ascending = [
             near(9, [-127, 4, 0]),
             near(0, [-1, 127, 127]),
@@ -121,7 +122,7 @@ mod tests {
             near(0, [127, 0, 0]),
         ];
         assert!(ascending.map(|n| key(&n)).is_sorted());
-        assert!(ascending.map(|n| (n.image, n.triangle)).is_sorted());
+        assert!(ascending.map(|n| (n.image, n.element)).is_sorted());
     }
 
     #[test]

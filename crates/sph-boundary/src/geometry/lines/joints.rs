@@ -1,16 +1,12 @@
 //! Which ends of open walls are the same place.
 
-use std::ops::ControlFlow;
-
 use sph_core::BoxTree;
 
 use crate::error::BoundaryError;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::vector::{add, sub, widened};
 use crate::geometry::wall_end::WallEnd;
-
-/// Ends closer than this part of the spacing are the same place.
-pub(crate) const SAME_PLACE: f64 = 1e-6;
 
 /// What follows the last point of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,12 +41,9 @@ pub(super) fn joints(
     let after = polylines
         .iter()
         .enumerate()
-        .map(|(wall, line)| {
-            if line.closed {
-                own(wall)
-            } else {
-                Continuation::Free
-            }
+        .map(|(wall, line)| match line.closed {
+            true => own(wall),
+            false => Continuation::Free,
         })
         .collect();
     let starts_free = polylines.iter().map(|line| !line.closed).collect();
@@ -67,7 +60,7 @@ pub(super) fn joints(
             .filter_map(|j| Some((&ends[*j], images(&ends[*j])?)))
             .collect();
         let name = |end: &OpenEnd| polylines[end.wall].name.clone();
-        let [x, y] = end.position;
+        let at = end.position.into();
         match met.as_slice() {
             [] => {}
             [(other, _)] if other.end == end.end => {
@@ -76,8 +69,7 @@ pub(super) fn joints(
                     end: end.end,
                     other: name(other),
                     other_end: other.end,
-                    x,
-                    y,
+                    at,
                 });
             }
             [(other, image)] => {
@@ -94,8 +86,7 @@ pub(super) fn joints(
                 return Err(BoundaryError::AmbiguousJoint {
                     wall: name(end),
                     count,
-                    x,
-                    y,
+                    at,
                 });
             }
         }
@@ -105,25 +96,15 @@ pub(super) fn joints(
 
 /// Ends, moved into the periodic box, that may be at a place in it, ascending.
 fn near(tree: &BoxTree<2>, place: [f64; 2], tolerance: f64, domain: &PeriodicBox) -> Vec<usize> {
-    let periods = domain.periods();
-    // What is just within one side of the box is at the place of what is just within the other.
-    let shifts = |k: usize| match domain.periodic[k] {
-        true => vec![-periods[k], 0.0, periods[k]],
-        false => vec![0.0],
-    };
     // Twice the tolerance: wrapping rounds.
-    let reach = 2.0 * tolerance;
+    let around = widened([place; 2], 2.0 * tolerance);
+    // What is just within one side of the box is at the place of what is just within the other.
     let mut found = Vec::new();
-    for x in shifts(0) {
-        for y in shifts(1) {
-            let at = [place[0] + x, place[1] + y];
-            let around = [at.map(|c| c - reach), at.map(|c| c + reach)];
-            let whole = tree.overlapping(around, &mut |end| {
-                found.push(end);
-                ControlFlow::<()>::Continue(())
-            });
-            debug_assert!(whole.is_continue(), "nothing breaks it off");
-        }
+    for image in domain.images_within([domain.lower, domain.upper], around) {
+        let shift = domain.shift(image);
+        tree.each(around.map(|corner| add(corner, shift)), |end| {
+            found.push(end)
+        });
     }
     found.sort_unstable();
     found.dedup();
@@ -131,28 +112,24 @@ fn near(tree: &BoxTree<2>, place: [f64; 2], tolerance: f64, domain: &PeriodicBox
 }
 
 fn open_ends(polylines: &[Polyline]) -> Vec<OpenEnd> {
-    let open = polylines
+    let mut ends = Vec::new();
+    for (wall, line) in polylines
         .iter()
         .enumerate()
-        .filter(|(_, line)| !line.closed);
-    open.filter_map(|(wall, line)| {
-        let (first, last) = (*line.points.first()?, *line.points.last()?);
-        let first = OpenEnd {
-            wall,
-            end: WallEnd::First,
-            position: first,
-        };
-        Some([
-            first,
-            OpenEnd {
+        .filter(|(_, line)| !line.closed)
+    {
+        for (end, position) in [
+            (WallEnd::First, line.points.first()),
+            (WallEnd::Last, line.points.last()),
+        ] {
+            ends.extend(position.map(|&position| OpenEnd {
                 wall,
-                end: WallEnd::Last,
-                position: last,
-            },
-        ])
-    })
-    .flatten()
-    .collect()
+                end,
+                position,
+            }));
+        }
+    }
+    ends
 }
 
 /// The image of `there` that coincides with `here`, if one does.
@@ -162,7 +139,7 @@ fn same_place(
     tolerance: f64,
     domain: &PeriodicBox,
 ) -> Option<[i32; 2]> {
-    let apart = [here[0] - there[0], here[1] - there[1]];
+    let apart = sub(here, there);
     let image = domain.nearest_image(apart);
     let shift = domain.shift(image);
     let rest = (apart[0] - shift[0]).hypot(apart[1] - shift[1]);

@@ -1,9 +1,9 @@
 //! Free ends of open walls.
 
-use super::segment_mesh::SegmentMesh;
 use crate::error::BoundaryError;
+use crate::geometry::mesh::Mesh;
 
-impl SegmentMesh {
+impl Mesh<2> {
     /// Refuses a free end within the kernel radius of any point, where γ is not defined.
     ///
     /// # Errors
@@ -28,8 +28,7 @@ impl SegmentMesh {
                 return Err(BoundaryError::FreeEndInReach {
                     wall: self.walls[free.wall].clone(),
                     end: free.end,
-                    x: free.position[0],
-                    y: free.position[1],
+                    at: free.position.into(),
                     particle,
                     distance,
                     radius: kernel_radius,

@@ -67,6 +67,26 @@ pub struct Stage {
     pub acceleration: f64,
 }
 
+/// A translation along a direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Translation<const D: usize> {
+    /// Displacement per unit of the course.
+    pub along: [f64; D],
+    /// The course, m where `along` is a unit vector.
+    pub course: Course,
+}
+
+/// A rotation about a centre that is carried by the translations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation<const D: usize> {
+    /// Centre at time 0, m.
+    pub centre: [f64; D],
+    /// Axis, right-hand rule; ignored in two dimensions, where angles go counter-clockwise.
+    pub axis: [f64; 3],
+    /// The course, rad.
+    pub course: Course,
+}
+
 impl Course {
     /// Whether it is a course at all: finite, with positive periods and ascending instants.
     pub fn is_sound(&self) -> bool {

@@ -1,0 +1,215 @@
+//! From polylines to segments.
+
+use std::f64::consts::TAU;
+
+use super::joints::{Continuation, Joints, joints};
+use crate::error::BoundaryError;
+use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
+use crate::geometry::mesh::{Element, Measured, Mesh, Node, SAME_PLACE};
+use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::polyline::Polyline;
+use crate::geometry::wall_end::{FreeEnd, WallEnd};
+
+/// Two segments folded onto each other within this angle leave the fluid all around their node.
+const FOLD: f64 = 1e-9;
+
+impl Mesh<2> {
+    /// Cuts the walls into segments of about `spacing` metres.
+    ///
+    /// # Errors
+    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with
+    /// the fluid on the other side. A wall that ends freely is not refused here: see
+    /// [`Mesh::check_free_ends`].
+    pub fn build(
+        polylines: &[Polyline],
+        spacing: f64,
+        domain: &PeriodicBox,
+    ) -> Result<Self, BoundaryError> {
+        let names = polylines.iter().map(|line| line.name.clone()).collect();
+        let walls: Vec<usize> = (0..polylines.len()).collect();
+        Self::of_pieces((polylines, &walls), names, spacing, domain)
+    }
+
+    /// The same for pieces, each with the number of its wall.
+    pub(crate) fn of_pieces(
+        (polylines, walls): (&[Polyline], &[usize]),
+        names: Vec<String>,
+        spacing: f64,
+        domain: &PeriodicBox,
+    ) -> Result<Self, BoundaryError> {
+        BoundaryError::check_positive("wall spacing", spacing)?;
+        domain.check()?;
+        let tolerance = SAME_PLACE * spacing;
+        for line in polylines {
+            check_points(line)?;
+        }
+        check_crossings(polylines, tolerance, domain)?;
+        for line in polylines {
+            check_area(line, tolerance)?;
+        }
+        let joints = joints(polylines, tolerance, domain)?;
+        let groups: Vec<usize> = (0..names.len()).collect();
+        let mut mesh = Mesh::empty(names, &groups, spacing, domain);
+        let remarks = polylines.iter().flat_map(|line| short_edges(line, spacing));
+        mesh.warnings = remarks.collect();
+        let first_nodes = first_nodes(polylines, &joints, spacing);
+        for (piece, line) in polylines.iter().enumerate() {
+            let wall = walls[piece];
+            mesh.cut(wall, line, joints.after[piece], &first_nodes);
+            if joints.starts_free[piece] {
+                mesh.free_end(wall, WallEnd::First, first_nodes[piece]);
+            }
+            if joints.after[piece] == Continuation::Free {
+                let last = mesh.nodes.len() - 1;
+                mesh.free_end(wall, WallEnd::Last, last);
+            }
+        }
+        mesh.reference = mesh.nodes.iter().map(|node| node.position).collect();
+        for segment in 0..mesh.elements.len() {
+            mesh.measure(segment);
+        }
+        mesh.beside = vec![[None; 2]; mesh.nodes.len()];
+        for (s, segment) in mesh.elements.iter().enumerate() {
+            mesh.beside[segment.nodes[0]][1] = Some(s);
+            mesh.beside[segment.nodes[1]][0] = Some(s);
+        }
+        mesh.find_angles();
+        mesh.size_nodes();
+        Ok(mesh)
+    }
+}
+
+/// Number of equal parts of an edge.
+fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    ((length / spacing).round() as usize).max(1)
+}
+
+/// Index of the first node of every piece.
+fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
+    let mut next = 0;
+    polylines
+        .iter()
+        .zip(&joints.after)
+        .map(|(line, after)| {
+            let first = next;
+            next += line.edges().map(|edge| parts(edge, spacing)).sum::<usize>();
+            next += usize::from(*after == Continuation::Free);
+            first
+        })
+        .collect()
+}
+
+impl Measured for Mesh<2> {
+    fn measure(&mut self, segment: usize) {
+        let [a, b] = self.corners(segment);
+        let (x, y) = (b[0] - a[0], b[1] - a[1]);
+        let length = x.hypot(y);
+        let segment = &mut self.elements[segment];
+        segment.measure = length;
+        segment.centre = [a[0] + 0.5 * x, a[1] + 0.5 * y];
+        segment.normal = [-y / length, x / length];
+    }
+
+    fn follow(&mut self, _: &[bool]) {
+        if self.motions.iter().any(|motion| motion.bend.is_some()) {
+            self.find_angles();
+        }
+        self.size_nodes();
+        for free in &mut self.free_ends {
+            free.position = self.nodes[free.node].position;
+        }
+    }
+}
+
+impl Mesh<2> {
+    fn cut(&mut self, wall: usize, line: &Polyline, after: Continuation, first_nodes: &[usize]) {
+        let first_face = self.elements.last().map_or(0, |segment| segment.face + 1);
+        for (edge, [a, b]) in line.edges().enumerate() {
+            let count = parts([a, b], self.spacing);
+            for k in 0..count {
+                let along = k as f64 / count as f64;
+                let node = self.nodes.len();
+                self.push_node([0, 1].map(|i| a[i] + (b[i] - a[i]) * along), wall);
+                self.elements.push(Element {
+                    nodes: [node, node + 1],
+                    images: [[0; 2]; 2],
+                    wall,
+                    face: first_face + edge,
+                    measure: 0.0,
+                    centre: [0.0; 2],
+                    normal: [0.0; 2],
+                });
+            }
+        }
+        match after {
+            Continuation::Free => self.push_node(line.points[line.points.len() - 1], wall),
+            Continuation::Start { wall: next, image } => {
+                if let Some(last) = self.elements.last_mut() {
+                    last.nodes[1] = first_nodes[next];
+                    last.images[1] = image;
+                }
+            }
+        }
+    }
+
+    fn push_node(&mut self, position: [f64; 2], wall: usize) {
+        self.nodes.push(Node {
+            position,
+            theta: 0.5,
+            size: 0.0,
+            wall,
+        });
+    }
+
+    fn free_end(&mut self, wall: usize, end: WallEnd, node: usize) {
+        let position = self.nodes[node].position;
+        self.free_ends.push(FreeEnd {
+            wall,
+            end,
+            node,
+            position,
+        });
+    }
+
+    /// Fluid angles of the nodes.
+    fn find_angles(&mut self) {
+        for (node, beside) in self.nodes.iter_mut().zip(&self.beside) {
+            if let [Some(previous), Some(next)] = *beside {
+                let [from, to] = [previous, next].map(|s| self.elements[s].tangent());
+                node.theta = fluid_angle(from, to);
+            }
+        }
+    }
+
+    /// A free end answers for the half that is missing, too.
+    fn size_nodes(&mut self) {
+        for (node, beside) in self.nodes.iter_mut().zip(&self.beside) {
+            let half = |s: Option<usize>| s.map_or(0.0, |s| 0.5 * self.elements[s].measure);
+            let [before, after] = beside.map(half);
+            let length = match beside {
+                [Some(_), Some(_)] => before + after,
+                _ => 2.0 * (before + after),
+            };
+            node.size = length / self.spacing;
+        }
+    }
+
+    /// Part of θ that each segment at a node answers for: half where two meet, the whole at a free end.
+    pub(crate) fn theta_share(&self, node: usize) -> f64 {
+        match self.beside[node] {
+            [Some(_), Some(_)] => 0.5 * self.nodes[node].theta,
+            _ => self.nodes[node].theta,
+        }
+    }
+}
+
+/// θ = 1/2 − turn/2π between two directions of travel; 1 where the wall folds back.
+fn fluid_angle(from: [f64; 2], to: [f64; 2]) -> f64 {
+    let cross = from[0] * to[1] - from[1] * to[0];
+    let dot = from[0] * to[0] + from[1] * to[1];
+    if dot < 0.0 && cross.abs() <= FOLD {
+        return 1.0;
+    }
+    0.5 - cross.atan2(dot) / TAU
+}

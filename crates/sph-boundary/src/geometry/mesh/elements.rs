@@ -1,0 +1,288 @@
+//! Nodes, elements and faces of walls, and what may be asked of them.
+
+use std::sync::OnceLock;
+
+use super::near_element::NearElement;
+use super::sides::Sides;
+use crate::error::WallWarning;
+use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::vector::{Point, add, sub};
+use crate::geometry::wall_end::FreeEnd;
+use crate::rigid::motion::RigidMotion;
+use crate::rigid::pose::Pose;
+
+/// A node of the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node<const D: usize> {
+    /// Present position, m.
+    pub position: [f64; D],
+    /// θ, the angle of the fluid at the node over 2π: 1/2 on a straight wall, 1/4 in a right angle seen from the fluid,
+    /// 3/4 at a re-entrant one, 1 at the end of a plate of zero thickness. In space the solid angle over 4π: 1/2 on a flat
+    /// wall, 1/4 on a right-angled edge, 1/8 in the corner of a box, 3/4 and 7/8 on the edges and corners of a block. At
+    /// free ends and edges as if the wall went straight on.
+    pub theta: f64,
+    /// Wall that the node answers for, over δr^(D−1): half of each segment around it, at a free end as if the wall went
+    /// on; in space a third of each triangle (a quarter of each rectangle).
+    pub size: f64,
+    /// Index of the wall; at a joint, one of those that meet.
+    pub wall: usize,
+}
+
+/// An element of the wall: a segment or a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Element<const D: usize> {
+    /// Corners, in the direction of travel; counter-clockwise seen from the tip of the normal.
+    pub nodes: [usize; D],
+    /// Whole periods to add to the position of each.
+    pub images: [[i32; D]; D],
+    /// Index of the wall.
+    pub wall: usize,
+    /// Index of the straight edge or planar face that it is part of, among those of all walls.
+    pub face: usize,
+    /// Length or area, m^(D−1).
+    pub measure: f64,
+    /// Mean of the corners, m.
+    pub centre: [f64; D],
+    /// Unit normal into the fluid; in the plane (−t_y, t_x), t the direction of travel.
+    pub normal: [f64; D],
+}
+
+impl Element<2> {
+    /// Unit vector along the direction of travel.
+    pub fn tangent(&self) -> [f64; 2] {
+        [self.normal[1], -self.normal[0]]
+    }
+}
+
+/// A straight edge of a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FaceEdge {
+    /// First and second corner.
+    pub nodes: [usize; 2],
+    /// Whole periods to add to the position of each.
+    pub images: [[i32; 3]; 2],
+}
+
+/// A planar piece of a wall, as large as the wall is planar, perhaps with holes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face {
+    /// Index of the wall.
+    pub wall: usize,
+    /// Unit normal, into the fluid.
+    pub normal: [f64; 3],
+    /// Edges as drawn, not cut at the spacing; the face is on their left seen from the tip of the
+    /// normal.
+    pub edges: Vec<FaceEdge>,
+}
+
+/// An edge of a triangle that no other triangle continues.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FreeEdge {
+    /// First and second node, as its triangle travels it.
+    pub nodes: [usize; 2],
+    /// Whole periods to add to the position of each.
+    pub images: [[i32; 3]; 2],
+    /// Index of the wall.
+    pub wall: usize,
+    /// Index of the triangle.
+    pub triangle: usize,
+    /// Index of the opening.
+    pub opening: usize,
+    /// Index of another wall that has a face at the edge, which does not continue this one.
+    pub met: Option<usize>,
+}
+
+/// Free edges that hang together: a hole in a wall, or the rim of an open one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    /// Index of the wall, or of one of several.
+    pub wall: usize,
+    /// Number of straight edges around it, before they are cut at the spacing.
+    pub edges: usize,
+    /// Diagonal of the box around it, m.
+    pub extent: f64,
+    /// Middle of that box, m.
+    pub centre: [f64; 3],
+}
+
+/// All walls of a scene, cut into segments or triangles of about the particle spacing.
+///
+/// From polylines every edge is cut into equal segments, numbered along the walls in the order given. Ends of open
+/// polylines that coincide, also across a periodic side, are joined into one node; others are never merged. A plate of
+/// zero thickness therefore has two coincident nodes along it, one per side, each with the fluid angle of its own side.
+/// Walls may touch (a block on a floor, a corner on an edge) but not cross.
+///
+/// From surfaces triangles of a wall that lie in one plane become one face. The edges of the faces are cut into
+/// equal parts, alike for all faces that share them, also between walls of one group and across
+/// periodic sides, where nodes are merged. Inside a face are points of a square lattice along its
+/// longest edge; a rectangle of whole spacings gets exactly the lattice of the spacing. Where walls
+/// of one group touch face to face, what they have in common is left out of both, so that the mesh
+/// is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
+#[derive(Clone, Debug)]
+pub struct Mesh<const D: usize> {
+    pub(crate) walls: Vec<String>,
+    pub(crate) groups: Vec<usize>,
+    pub(crate) spacing: f64,
+    pub(crate) domain: PeriodicBox<D>,
+    pub(crate) nodes: Vec<Node<D>>,
+    pub(crate) elements: Vec<Element<D>>,
+    /// Of the plane, by node: the segments that end and begin there.
+    pub(crate) beside: Vec<[Option<usize>; 2]>,
+    /// Of the plane: ends that nothing continues.
+    pub(crate) free_ends: Vec<FreeEnd>,
+    /// Of space: planar pieces of walls.
+    pub(crate) faces: Vec<Face>,
+    /// Of space: edges that no other triangle continues.
+    pub(crate) free_edges: Vec<FreeEdge>,
+    pub(crate) openings: Vec<Opening>,
+    pub(crate) warnings: Vec<WallWarning>,
+    /// Positions of the nodes before any motion, m.
+    pub(crate) reference: Vec<[f64; D]>,
+    /// Normals of the faces before any motion.
+    pub(crate) reference_normals: Vec<Point>,
+    pub(crate) poses: Vec<Pose<D>>,
+    /// How each wall moves; only a bend matters.
+    pub(crate) motions: Vec<RigidMotion<D>>,
+    /// Made when first asked for, and again after a motion.
+    pub(crate) sides: OnceLock<Sides<D>>,
+}
+
+impl<const D: usize> Mesh<D> {
+    /// Walls without an element.
+    pub(crate) fn empty(
+        walls: Vec<String>,
+        groups: &[usize],
+        spacing: f64,
+        domain: &PeriodicBox<D>,
+    ) -> Self {
+        Mesh {
+            poses: vec![Pose::default(); walls.len()],
+            motions: vec![RigidMotion::default(); walls.len()],
+            walls,
+            groups: groups.to_vec(),
+            spacing,
+            domain: *domain,
+            nodes: Vec::new(),
+            elements: Vec::new(),
+            beside: Vec::new(),
+            free_ends: Vec::new(),
+            faces: Vec::new(),
+            free_edges: Vec::new(),
+            openings: Vec::new(),
+            warnings: Vec::new(),
+            reference: Vec::new(),
+            reference_normals: Vec::new(),
+            sides: OnceLock::new(),
+        }
+    }
+
+    /// Names of the walls, in the order given.
+    pub fn walls(&self) -> &[String] {
+        &self.walls
+    }
+
+    /// Length at which the walls are cut, m.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// All nodes.
+    pub fn nodes(&self) -> &[Node<D>] {
+        &self.nodes
+    }
+
+    /// All elements, face by face.
+    pub fn elements(&self) -> &[Element<D>] {
+        &self.elements
+    }
+
+    /// Remarks on the walls.
+    pub fn warnings(&self) -> &[WallWarning] {
+        &self.warnings
+    }
+
+    /// The box and its periodic directions.
+    pub fn domain(&self) -> &PeriodicBox<D> {
+        &self.domain
+    }
+
+    /// Corners of an element, m.
+    pub fn corners(&self, element: usize) -> [[f64; D]; D] {
+        let near = NearElement {
+            element: element as u32,
+            image: [0; D],
+        };
+        self.corners_from([0.0; D], near)
+    }
+
+    /// Corners of an image of an element relative to a point, m.
+    ///
+    /// Made from the node's own position and the whole number of periods to it, so that all
+    /// elements and faces at a node see bitwise the same vector, as
+    /// [`Renormalisation2d::segment`](crate::Renormalisation2d::segment) asks.
+    #[inline]
+    pub fn corners_from(&self, point: [f64; D], near: NearElement<D>) -> [[f64; D]; D] {
+        let Element { nodes, images, .. } = &self.elements[near.index()];
+        std::array::from_fn(|k| self.node_from(point, nodes[k], total(images[k], near.image)))
+    }
+
+    #[inline]
+    fn node_from(&self, point: [f64; D], node: usize, image: [i32; D]) -> [f64; D] {
+        let from = sub(self.nodes[node].position, point);
+        if image == [0; D] {
+            return from;
+        }
+        add(from, self.domain.shift(image))
+    }
+}
+
+impl Mesh<2> {
+    /// Ends that nothing continues.
+    pub fn free_ends(&self) -> &[FreeEnd] {
+        &self.free_ends
+    }
+
+    /// Segments that end and begin at a node.
+    pub fn beside(&self, node: usize) -> [Option<usize>; 2] {
+        self.beside[node]
+    }
+}
+
+impl Mesh<3> {
+    /// All planar faces, wall by wall.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
+    /// Edges that no other triangle continues.
+    pub fn free_edges(&self) -> &[FreeEdge] {
+        &self.free_edges
+    }
+
+    /// What the free edges surround.
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
+    }
+
+    pub(crate) fn node_at(&self, node: usize, image: [i32; 3]) -> Point {
+        self.node_from([0.0; 3], node, image)
+    }
+
+    /// Edges of an image of a face relative to a point, m; bitwise the same vectors as
+    /// [`Mesh::corners_from`] gives.
+    pub fn face_edges_from(
+        &self,
+        point: Point,
+        face: usize,
+        image: [i8; 3],
+    ) -> impl Iterator<Item = [Point; 2]> {
+        self.faces[face].edges.iter().map(move |edge| {
+            [0, 1].map(|k| self.node_from(point, edge.nodes[k], total(edge.images[k], image)))
+        })
+    }
+}
+
+#[inline]
+fn total<const D: usize>(own: [i32; D], image: [i8; D]) -> [i32; D] {
+    std::array::from_fn(|k| own[k] + i32::from(image[k]))
+}

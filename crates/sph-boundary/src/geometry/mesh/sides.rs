@@ -1,0 +1,25 @@
+//! What is kept to tell the sides of a mesh.
+
+use surface_file::Winding;
+
+use super::grid::Grid;
+use super::rays::Rays;
+
+/// What the question on which side a point is needs of a mesh, for the present position.
+#[derive(Clone, Debug)]
+pub struct Sides<const D: usize> {
+    /// Along one axis; if all are periodic, along each, and the last one goes
+    /// through an element.
+    pub(super) rays: Vec<Rays<D>>,
+    /// The centre of that element, m.
+    pub(super) target: [f64; D],
+    /// Whether the fluid lies beyond all walls.
+    pub(super) beyond: bool,
+    /// Where there are free edges, what finds the nearest wall.
+    pub(super) front: Option<Grid<D>>,
+    /// Of the plane, where walls end freely: first and last node of every straight edge.
+    pub(crate) lines: Vec<[usize; 2]>,
+    /// Of space, where walls end freely: how they wind around a place; of the other sign, since normals point into the
+    /// fluid.
+    pub(crate) winding: Option<Winding>,
+}

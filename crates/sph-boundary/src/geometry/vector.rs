@@ -1,0 +1,72 @@
+//! Vectors of D numbers.
+
+pub(crate) use sph_core::bounds;
+
+/// A place in space.
+pub(crate) type Point = [f64; 3];
+
+#[inline(always)]
+pub(crate) fn add<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+#[inline(always)]
+pub(crate) fn sub<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// a + t b.
+#[inline(always)]
+pub(crate) fn along<const D: usize>(a: [f64; D], t: f64, b: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|k| a[k] + t * b[k])
+}
+
+#[inline(always)]
+pub(crate) fn dot<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    (1..D).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
+}
+
+#[inline(always)]
+pub(crate) fn cross(a: Point, b: Point) -> Point {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+pub(crate) fn norm<const D: usize>(a: [f64; D]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// a / |a|; the zero vector stays what it is.
+pub(crate) fn unit<const D: usize>(a: [f64; D]) -> [f64; D] {
+    let length = norm(a);
+    if length > 0.0 {
+        a.map(|x| x / length)
+    } else {
+        a
+    }
+}
+
+/// Twice the area of a triangle times its normal.
+pub(crate) fn double_area([a, b, c]: [Point; 3]) -> Point {
+    cross(sub(b, a), sub(c, a))
+}
+
+/// A box with so much room around it.
+pub(crate) fn widened<const D: usize>([low, high]: [[f64; D]; 2], by: f64) -> [[f64; D]; 2] {
+    [low.map(|x| x - by), high.map(|x| x + by)]
+}
+
+/// Distance of a point from the segment between two others.
+pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], [a, b]: [[f64; D]; 2]) -> f64 {
+    let (t, to) = (sub(b, a), sub(p, a));
+    let length2 = dot(t, t);
+    let part = if length2 > 0.0 {
+        (dot(to, t) / length2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    norm(along(to, -part, t))
+}
