@@ -19,7 +19,6 @@ readmes! {
     Core "../crates/sph-core/README.md"
     Damping "../crates/sph-damping/README.md"
     Integrators "../crates/sph-integrators/README.md"
-    Lanes "../crates/sph-lanes/README.md"
     Kernels "../crates/sph-kernels/README.md"
     Neighbours "../crates/sph-neighbours/README.md"
     Probes "../crates/sph-probes/README.md"

@@ -1,6 +1,6 @@
 //! The sampler of piecewise polynomial kernels: slices in vector instructions.
 
-use sph_lanes::{Body, Lane, dispatch};
+use crate::lanes::{Body, Lane, dispatch};
 
 use crate::factored;
 use crate::formula::{Formula, General, Product, Selection};

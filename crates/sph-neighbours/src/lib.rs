@@ -99,7 +99,7 @@ pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
 pub use space::{Space, inner};
 pub use sph_derive::pair_term;
-pub use sph_lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
+pub use sph_kernels::lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, declared, interactions, interactions_with};
 pub use team::Team;
 pub use term::{BoundTerm, ByPairs, Interaction, PairTerm, RowTerm, TermEntry, Terms, WithTerm};

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 41] = [
+const ALLOWED: [(&str, &[&str]); 40] = [
     ("dem-triangulation", &[]),
     ("dem-flow", &["dem-triangulation", "sph-derive"]),
     ("dem-grains", &["sph-derive"]),
@@ -32,23 +32,13 @@ const ALLOWED: [(&str, &[&str]); 41] = [
             "sph-run",
         ],
     ),
-    ("sph-lanes", &[]),
-    ("sph-kernels", &["sph-lanes"]),
+    ("sph-kernels", &[]),
     ("sph-derive", &[]),
     ("sph-core", &["scene-text", "sph-derive"]),
-    (
-        "sph-neighbours",
-        &["sph-core", "sph-derive", "sph-kernels", "sph-lanes"],
-    ),
+    ("sph-neighbours", &["sph-core", "sph-derive", "sph-kernels"]),
     (
         "sph-boundary",
-        &[
-            "sph-core",
-            "sph-kernels",
-            "sph-lanes",
-            "sph-neighbours",
-            "surface-file",
-        ],
+        &["sph-core", "sph-kernels", "sph-neighbours", "surface-file"],
     ),
     ("sph-bodies", &["sph-core", "sph-boundary"]),
     (

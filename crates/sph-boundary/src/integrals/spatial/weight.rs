@@ -1,6 +1,6 @@
 //! ∫ w dS over small triangles by quadrature.
 
-use sph_lanes::Lane;
+use sph_kernels::lanes::Lane;
 
 use super::Renormalisation3d;
 use super::vector::{dot, plus};

@@ -13,10 +13,10 @@ mod dispatch;
 mod elementary;
 mod in_lanes;
 mod lane;
-mod lanes;
+mod vector;
 
 pub use dispatch::{Body, Width, dispatch, dispatch_at, force_width, width};
 pub use elementary::{atan2, ln};
 pub use in_lanes::InLanes;
 pub use lane::{Lane, add_scaled, dot, scaled};
-pub use lanes::{Lanes, MOST};
+pub use vector::{Lanes, MOST};

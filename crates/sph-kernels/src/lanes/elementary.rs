@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI};
 
-use crate::Lane;
+use crate::lanes::Lane;
 
 /// Below this over the larger of both sides atan is its series; from [`STEEP`] on it is taken from π/4.
 const FLAT: f64 = 7.0 / 16.0;
@@ -101,7 +101,7 @@ const _: () = assert!(LN_2_HIGH < LN_2);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, Lanes, Width, dispatch_at};
+    use crate::lanes::{Body, Lanes, Width, dispatch_at};
 
     /// Units in the last place between two numbers.
     fn apart(a: f64, b: f64) -> f64 {

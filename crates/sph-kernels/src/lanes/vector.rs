@@ -2,8 +2,8 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use crate::Lane;
-use crate::lane::parts;
+use crate::lanes::Lane;
+use crate::lanes::lane::parts;
 
 /// Most numbers side by side.
 pub const MOST: usize = 8;

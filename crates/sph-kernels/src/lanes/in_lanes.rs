@@ -1,6 +1,6 @@
 //! Numbers, vectors and tuples of several particles side by side.
 
-use crate::{Lane, MOST};
+use crate::lanes::{Lane, MOST};
 
 /// A number, a vector, a matrix or a tuple of these, one in each lane.
 ///
