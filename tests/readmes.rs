@@ -10,10 +10,9 @@ macro_rules! readmes {
 readmes! {
     Workspace "../README.md"
     Grains "../crates/dem-scene/README.md"
+    GrainsAndPores "../crates/dem-pfv/README.md"
     SceneText "../crates/scene-text/README.md"
     SurfaceFile "../crates/surface-file/README.md"
-    Flow "../crates/dem-flow/README.md"
-    Triangulation "../crates/dem-triangulation/README.md"
     Bodies "../crates/sph-bodies/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"

@@ -1,7 +1,7 @@
 //! From a scene to the system at the start of its preparation, and from there to the start of the run.
 
-use dem_coupled::{Condition, CoupledError, CoupledSystem, FlowSetup, Remeshing, Side, Wave};
-use dem_grains::{GrainError, GrainSystem};
+use dem_pfv::coupled::{Condition, CoupledError, CoupledSystem, FlowSetup, Remeshing, Side, Wave};
+use dem_pfv::grains::{GrainError, GrainSystem};
 
 use crate::error::DemError;
 use crate::laws::{Laws, throats};
@@ -109,10 +109,10 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 
 /// The fluid and its conditions.
 fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
-    let mut given = dem_coupled::Fluid::new(fluid.viscosity, fluid.density);
+    let mut given = dem_pfv::coupled::Fluid::new(fluid.viscosity, fluid.density);
     given.bulk_modulus = fluid.bulk_modulus;
     given.shear = fluid.shear;
-    given.lubrication = fluid.lubrication.map(|l| dem_coupled::Lubrication {
+    given.lubrication = fluid.lubrication.map(|l| dem_pfv::coupled::Lubrication {
         roughness: l.roughness,
         range: l.range,
     });

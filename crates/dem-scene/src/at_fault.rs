@@ -1,6 +1,6 @@
 //! What a scene calls the grains and walls that a refusal numbers.
 
-use dem_grains::GrainError;
+use dem_pfv::grains::GrainError;
 
 use crate::error::DemError;
 use crate::names::planes;

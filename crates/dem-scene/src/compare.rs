@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use dem_coupled::Terzaghi;
+use dem_pfv::coupled::Terzaghi;
 use serde::Serialize;
 use sph_io::{Table, read_table};
 

@@ -1,8 +1,8 @@
 //! Why a scene cannot be read, assembled or run.
 
-use dem_coupled::CoupledError;
-use dem_flow::FlowError;
-use dem_grains::GrainError;
+use dem_pfv::coupled::CoupledError;
+use dem_pfv::flow::FlowError;
+use dem_pfv::grains::GrainError;
 use scene_text::SceneProblem;
 use sph_io::IoError;
 use thiserror::Error;

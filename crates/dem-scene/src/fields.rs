@@ -1,6 +1,6 @@
 //! Fields of grains, for pictures and files.
 
-use dem_grains::{GrainSystem, Partner};
+use dem_pfv::grains::{GrainSystem, Partner};
 
 use crate::model::Model;
 use crate::origin::Origin;
@@ -59,7 +59,7 @@ fn length(u: [f64; 3]) -> f64 {
 /// Displacements since the start, m; those across the ends of a periodic axis by the nearest image.
 pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
     let period = system.period();
-    let from = |(x, start): (&dem_grains::Vector, &[f64; 3])| {
+    let from = |(x, start): (&dem_pfv::grains::Vector, &[f64; 3])| {
         std::array::from_fn(|k| {
             let shift = x[k] - start[k];
             match period[k] {
@@ -95,7 +95,7 @@ fn pore_pressures(model: &Model) -> Vec<f64> {
         let cells = system.pores().mesh().cells().iter();
         for ((cell, p), volume) in cells.zip(system.pressures()).zip(system.volumes()) {
             for vertex in cell.vertices() {
-                if let dem_triangulation::Vertex::Sphere(k) = vertex {
+                if let dem_pfv::triangulation::Vertex::Sphere(k) = vertex {
                     sums[k][0] += p * volume;
                     sums[k][1] += volume;
                 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dem_grains::{Grain, GrainSystem, Setup};
+use dem_pfv::grains::{Grain, GrainSystem, Setup};
 use serde::Serialize;
 
 use crate::error::DemError;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use dem_grains::{GrainSystem, Partner};
-use dem_triangulation::Vertex;
+use dem_pfv::grains::{GrainSystem, Partner};
+use dem_pfv::triangulation::Vertex;
 use sph_io::{Cells, FieldData, Picture, Piece, View};
 
 use crate::error::DemError;
@@ -115,7 +115,7 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
             Vertex::Wall(_) => None,
         });
         let count = (4 - cell.walls()).max(1) as f64;
-        let mean = centres.sum::<dem_grains::Vector>() / count;
+        let mean = centres.sum::<dem_pfv::grains::Vector>() / count;
         cells.push(vertices.map(|v| match v {
             Vertex::Sphere(k) => k as u32,
             Vertex::Wall(w) => {
@@ -233,8 +233,9 @@ fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
             })
     };
     let (x, z) = (ends(0), ends(2));
-    let standing = |w: &dem_grains::Wall| w.normal.y.abs() < 0.01 && w.point.amax() < FAR_ENOUGH;
-    let line = |w: &dem_grains::Wall| {
+    let standing =
+        |w: &dem_pfv::grains::Wall| w.normal.y.abs() < 0.01 && w.point.amax() < FAR_ENOUGH;
+    let line = |w: &dem_pfv::grains::Wall| {
         let p = w.point;
         match w.normal.x.abs() > w.normal.z.abs() {
             // z = p.z + s n_x, x = p.x − s n_z: a point at each end of the picture.

@@ -1,6 +1,6 @@
 //! How high grains reach.
 
-use dem_grains::GrainSystem;
+use dem_pfv::grains::GrainSystem;
 
 /// The highest point of a grain, m.
 pub fn highest(system: &GrainSystem) -> f64 {

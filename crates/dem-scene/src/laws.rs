@@ -1,7 +1,7 @@
 //! Contact laws and conductances by name.
 
-use dem_flow::{Conductance, HydraulicRadius, conductance, conductances};
-use dem_grains::{ContactLaw, contact_law, contact_laws};
+use dem_pfv::flow::{Conductance, HydraulicRadius, conductance, conductances};
+use dem_pfv::grains::{ContactLaw, contact_law, contact_laws};
 use scene_text::{OnePlugin, SceneProblem, conform, suggestion};
 use serde_json::Value as Json;
 use toml::Value;

@@ -1,6 +1,6 @@
 //! How high the surface of a bed lies.
 
-use dem_grains::GrainSystem;
+use dem_pfv::grains::GrainSystem;
 
 /// Points along and across a mean radius.
 const POINTS_PER_RADIUS: f64 = 4.0;
@@ -49,7 +49,7 @@ pub fn level(
 mod tests {
     use std::f64::consts::PI;
 
-    use dem_grains::{Grain, LinearElastic, Setup};
+    use dem_pfv::grains::{Grain, LinearElastic, Setup};
 
     use super::*;
 

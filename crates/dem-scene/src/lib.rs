@@ -1,6 +1,6 @@
 //! Scenes of grains: read, assembled, run, measured and written.
 //!
-//! A scene is a TOML text with a table `[grains]`. This crate joins `dem-grains` and `dem-coupled` to files; it knows of no
+//! A scene is a TOML text with a table `[grains]`. This crate joins `dem-pfv` to files; it knows of no
 //! particles, and carries no column of theirs.
 //!
 //! 1. [`read`] turns a [`scene_text::Source`] into a [`Loaded`] scene ([`Scene`] and its tables), or into all its mistakes

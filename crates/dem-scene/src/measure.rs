@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dem_grains::{GrainSystem, Wall};
+use dem_pfv::grains::{GrainSystem, Wall};
 
 use crate::fields::displacements;
 use crate::highest_point::highest;
@@ -160,8 +160,8 @@ fn effective_stress(model: &Model, axis: usize, at: f64) -> Option<f64> {
     for touch in grains.contacts() {
         let first = above(touch.grain);
         let second = match touch.partner {
-            dem_grains::Partner::Grain(other) => above(other),
-            dem_grains::Partner::Wall(w) if grains.walls()[w].normal[axis].abs() > 0.5 => {
+            dem_pfv::grains::Partner::Grain(other) => above(other),
+            dem_pfv::grains::Partner::Wall(w) if grains.walls()[w].normal[axis].abs() > 0.5 => {
                 grains.walls()[w].point[axis] >= at
             }
             _ => first,

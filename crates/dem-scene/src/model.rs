@@ -1,8 +1,8 @@
 //! The system of a scene: grains alone, or grains in a fluid.
 
-use dem_coupled::{CoupledError, CoupledSystem};
-use dem_flow::Conductance;
-use dem_grains::{ContactLaw, Control, GrainSystem};
+use dem_pfv::coupled::{CoupledError, CoupledSystem};
+use dem_pfv::flow::Conductance;
+use dem_pfv::grains::{ContactLaw, Control, GrainSystem};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Failure, grain_of};
@@ -23,9 +23,9 @@ pub enum Model {
 #[derive(Debug, Deserialize, Serialize)]
 pub enum Saved {
     /// Dry.
-    Dry(Box<dem_grains::State>),
+    Dry(Box<dem_pfv::grains::State>),
     /// Coupled.
-    Wet(Box<dem_coupled::State>),
+    Wet(Box<dem_pfv::coupled::State>),
 }
 
 /// A step that was made.

@@ -2,7 +2,7 @@
 
 use crate::tables::{Axis, Scene};
 
-/// The walls of a box, in the order of `dem_grains::Wall::cuboid`.
+/// The walls of a box, in the order of `dem_pfv::grains::Wall::cuboid`.
 pub const BOX: [&str; 6] = ["left", "right", "front", "back", "bottom", "top"];
 
 /// The axis across a wall of the box.

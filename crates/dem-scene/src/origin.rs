@@ -1,6 +1,6 @@
 //! What measurements refer to: the state at the start of the run.
 
-use dem_grains::GrainSystem;
+use dem_pfv::grains::GrainSystem;
 use serde::{Deserialize, Serialize};
 
 use crate::highest_point::highest;

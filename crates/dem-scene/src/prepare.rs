@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dem_grains::{
+use dem_pfv::grains::{
     Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, settle, uniform_radii,
 };
 
@@ -308,7 +308,7 @@ pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Resu
     for part in 1..=test.parts {
         let share = f64::from(part) / f64::from(test.parts);
         let stress = before + (piston.stress - before) * share;
-        dry.walls_mut()[wall].control = dem_grains::Control::Piston { stress, mass };
+        dry.walls_mut()[wall].control = dem_pfv::grains::Control::Piston { stress, mass };
         settle(&mut dry, safety, 1e-4, most).map_err(told)?;
     }
     settle(&mut dry, safety, 1e-6, most).map_err(told)?;

@@ -1,6 +1,6 @@
 //! Reading the pressures that another computation has left on a wall.
 
-use dem_coupled::Recorded;
+use dem_pfv::coupled::Recorded;
 use scene_text::{Source, suggestion, unit_factor};
 use sph_io::{Table, read_table};
 

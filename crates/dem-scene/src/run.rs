@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
-use dem_coupled::CoupledError;
+use dem_pfv::coupled::CoupledError;
 use sph_run::{
     BAD_STATE, BAD_STATE_PICTURE, Books, Frames, Identity, Now, Outlay, RunOptions, SERIES,
     Schedule, Start, Status, Watch, next_multiple,

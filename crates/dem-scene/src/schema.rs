@@ -1,7 +1,7 @@
 //! The JSON schema of scenes of grains.
 
-use dem_flow::conductances;
-use dem_grains::contact_laws;
+use dem_pfv::flow::conductances;
+use dem_pfv::grains::contact_laws;
 use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
 

@@ -1,6 +1,6 @@
 //! The walls of a scene: where they are at rest, and what moves them.
 
-use dem_grains::{Control, Mesh, Setup, Wall};
+use dem_pfv::grains::{Control, Mesh, Setup, Wall};
 use scene_text::unit_factor;
 
 use crate::error::DemError;
@@ -15,7 +15,7 @@ pub(crate) const FAR: f64 = 1e4;
 /// The planes and surfaces of a scene, at rest; a top that comes down later is out of the way.
 pub(crate) fn setup(
     loaded: &Loaded,
-    grains: Vec<dem_grains::Grain>,
+    grains: Vec<dem_pfv::grains::Grain>,
     laws: Laws,
 ) -> Result<Setup, DemError> {
     let scene = &loaded.scene;

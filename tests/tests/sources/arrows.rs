@@ -8,23 +8,14 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 40] = [
-    ("dem-triangulation", &[]),
-    ("dem-flow", &["dem-triangulation", "sph-derive"]),
-    ("dem-grains", &["sph-derive"]),
-    (
-        "dem-coupled",
-        &["dem-flow", "dem-grains", "dem-triangulation"],
-    ),
+const ALLOWED: [(&str, &[&str]); 37] = [
+    ("dem-pfv", &["sph-derive"]),
     ("scene-text", &[]),
     ("surface-file", &[]),
     (
         "dem-scene",
         &[
-            "dem-coupled",
-            "dem-flow",
-            "dem-grains",
-            "dem-triangulation",
+            "dem-pfv",
             "scene-text",
             "surface-file",
             "sph-derive",
@@ -198,8 +189,7 @@ const ALLOWED: [(&str, &[&str]); 40] = [
     (
         "sph-cli",
         &[
-            "dem-flow",
-            "dem-grains",
+            "dem-pfv",
             "dem-scene",
             "sph-bodies",
             "sph-core",
@@ -247,7 +237,7 @@ const KEPT_IN: [(&str, &[&str]); 7] = [
     ("clap", &["sph-cli"]),
     ("ariadne", &["sph-cli"]),
     ("indicatif", &["sph-cli"]),
-    ("faer", &["sph-implicit", "dem-flow"]),
+    ("faer", &["sph-implicit", "dem-pfv"]),
     ("hdf5", &["sph-io"]),
 ];
 
@@ -368,7 +358,7 @@ fn crates_that_can_be_used_alone_are_tested_alone() {
         "sph-core",
         "sph-rheology",
         "sph-io",
-        "dem-triangulation",
+        "dem-pfv",
     ] {
         let room = &rooms()[name];
         let others = room.tests_use.iter().filter(|d| d.starts_with("sph-"));

@@ -3,7 +3,7 @@
 use sph_derive::parameters;
 
 /// An axis.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// From left to right.

@@ -5,7 +5,7 @@ use sph_derive::parameters;
 use super::{AnyPlugins, Plugins, Triple};
 
 /// The grains and the law of their contacts.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Grains {
     /// How many; not with a file, a lattice or a filled box.
     #[parameter(min: 1, max: 10_000_000)]
@@ -34,7 +34,7 @@ pub struct Grains {
 
 /// Where the grains are at the start, and how they were prepared: exactly one of `cloud`, `grown`, `rained`, `lattice`
 /// and `file`. The clock of the run starts when they are ready.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Start {
     /// At random without touching.
     pub cloud: Option<Cloud>,
@@ -75,7 +75,7 @@ pub struct Start {
 }
 
 /// At random without touching, in the box or in a part of it.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Cloud {
     /// Lower corner, m; that of the box if left out.
     #[parameter(unit: "m")]
@@ -87,7 +87,7 @@ pub struct Cloud {
 
 /// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter
 /// of the box.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Grown {
     /// Mean stress of the walls, Pa.
     #[parameter(unit: "Pa", above: 0.0)]
@@ -107,7 +107,7 @@ pub struct Grown {
 }
 
 /// Dry pluviation.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Rained {
     /// Porosity of the cloud before it falls.
     #[parameter(default: 0.68, unit: "1", above: 0.0, below: 1.0)]
@@ -118,7 +118,7 @@ pub struct Rained {
 }
 
 /// Rows and layers that fill the box, each grain a little off its place.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Lattice {
     /// Grains along x, y and z.
     #[schemars(inner(range(min = 1, max = 1000)))]

@@ -4,7 +4,7 @@ use scene_text::PictureRange;
 use sph_derive::parameters;
 
 /// What a run writes and when.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Output {
     /// Simulated time between pictures and files for ParaView, s; a twentieth of the end if left out.
     #[parameter(default, unit: "s", above: 0.0)]

@@ -5,7 +5,7 @@ use sph_derive::parameters;
 use super::{Axis, Triple};
 
 /// A measurement; the key `kind` says which.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 #[serde(tag = "kind")]
 pub enum Probe {
     /// Total normal stress on a wall, Pa: that of the grains and that of the fluid.

@@ -3,7 +3,7 @@
 use sph_derive::parameters;
 
 /// A comparison; the key `kind` says with what.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 #[serde(tag = "kind")]
 pub enum Reference {
     /// Consolidation in one dimension after Terzaghi, drained at top and bottom, with the C_v of `[oedometer]`: root mean
@@ -73,7 +73,7 @@ pub enum Reference {
 }
 
 /// What is taken of the rows of a probe.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 #[serde(rename_all = "lowercase")]
 pub enum Statistic {
     /// Their mean, by time.

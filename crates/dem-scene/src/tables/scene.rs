@@ -7,7 +7,7 @@ use sph_derive::parameters;
 use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
 
 /// Which grains, between which walls, in which fluid, for how long, and what is written.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Scene {
     /// One line that says what the scene is, with its publication.
     pub title: String,
@@ -42,7 +42,7 @@ pub struct Scene {
 }
 
 /// How long the scene runs and how carefully.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Run {
     /// Simulated time at which the run ends, s, counted from the end of the preparation.
     #[parameter(unit: "s", above: 0.0)]
@@ -63,7 +63,7 @@ pub struct Run {
 
 /// A sudden load on a piston, and what its answer is measured with: the strain under the same load when it comes
 /// slowly and dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
-#[parameters(crate: dem_grains::reexport)]
+#[parameters(crate: dem_pfv::reexport)]
 pub struct Oedometer {
     /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.
     pub wall: String,

@@ -1,7 +1,7 @@
 //! The kinds of plugins that scenes of grains know.
 
-use dem_flow::conductances;
-use dem_grains::contact_laws;
+use dem_pfv::flow::conductances;
+use dem_pfv::grains::contact_laws;
 use sph_core::{Place, PluginInfo, PluginKind, reexport::inventory};
 
 /// Grains are spheres in space.
@@ -25,7 +25,7 @@ inventory::submit! {
 }
 
 fn laws() -> Vec<PluginInfo> {
-    let info = |e: &&dem_grains::LawEntry| PluginInfo {
+    let info = |e: &&dem_pfv::grains::LawEntry| PluginInfo {
         name: e.name,
         summary: e.summary,
         source: e.source,
@@ -37,7 +37,7 @@ fn laws() -> Vec<PluginInfo> {
 }
 
 fn throats() -> Vec<PluginInfo> {
-    let info = |e: &&dem_flow::ConductanceEntry| PluginInfo {
+    let info = |e: &&dem_pfv::flow::ConductanceEntry| PluginInfo {
         name: e.name,
         summary: e.summary,
         source: e.source,
