@@ -30,6 +30,5 @@ readmes! {
     State "../crates/sph-state/README.md"
     Stress "../crates/sph-stress/README.md"
     Turbulence "../crates/sph-turbulence/README.md"
-    Waves "../crates/sph-waves/README.md"
     Study "../crates/sph-study/README.md"
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 37] = [
+const ALLOWED: [(&str, &[&str]); 36] = [
     ("dem-pfv", &["sph-derive"]),
     ("scene-text", &[]),
     ("surface-file", &[]),
@@ -41,6 +41,7 @@ const ALLOWED: [(&str, &[&str]); 37] = [
             "sph-boundary",
             "sph-state",
             "sph-contribution",
+            "sph-probes",
         ],
     ),
     ("sph-decomposition", &["sph-core", "sph-neighbours"]),
@@ -136,16 +137,6 @@ const ALLOWED: [(&str, &[&str]); 37] = [
             "sph-probes",
         ],
     ),
-    (
-        "sph-waves",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-boundary",
-            "sph-open",
-            "sph-probes",
-        ],
-    ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (
         "sph-setup",
@@ -207,7 +198,7 @@ const ALLOWED: [(&str, &[&str]); 37] = [
             "sph-solver",
             "sph-study",
             "sph-turbulence",
-            "sph-waves",
+            "sph-open",
         ],
     ),
     (

@@ -1,8 +1,8 @@
 //! The books of energy close, and friction takes what closed forms say.
 
 use sph_core::System;
+use sph_open as _;
 use sph_setup::Assembled;
-use sph_waves as _;
 
 use crate::invariants::{fly, shipped};
 

@@ -3,7 +3,7 @@
 use sph_core::{Vect, plugin};
 use sph_probes::{Solution, SolutionEntry};
 
-use crate::orbits::depths;
+use crate::waves::orbits::depths;
 
 /// Water without friction whose surface is z = d + a sin(ωt) cos(kx), k = 2π/L, ω² = gk tanh(kd); z is the last axis and 0 at
 /// the floor:

@@ -7,8 +7,8 @@ use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
-use crate::dispersion::wavenumber_on;
-use crate::separation::{Separated, separated};
+use crate::waves::dispersion::wavenumber_on;
+use crate::waves::separation::{Separated, separated};
 
 /// Waves that run along the first axis and those that come back, from gauges at three places or more.
 ///

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use sph_core::parameters;
 
-use crate::dispersion::wavenumber_on;
-use crate::spectrum::{Jonswap, phases};
+use crate::waves::dispersion::wavenumber_on;
+use crate::waves::spectrum::{Jonswap, phases};
 
 /// One linear wave, η = a cos(ωt − kx + φ) with x from the paddle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Waves that stay at a paddle.
 
-use crate::Paddle;
+use crate::waves::Paddle;
 
 /// Waves of the near field that are summed; they fall as 1/j³.
 const TERMS: usize = 64;
@@ -64,7 +64,7 @@ mod tests {
     fn the_waves_of_a_piston_add_up_to_it() {
         let (omega, depth, gravity) = (4.0_f64, 0.6, 9.81);
         let y = omega * omega * depth / gravity;
-        let kd = depth * crate::wavenumber(omega, depth, gravity);
+        let kd = depth * crate::waves::wavenumber(omega, depth, gravity);
         let first = 4.0 * kd.sinh() * kd.cosh() / (2.0 * kd + (2.0 * kd).sinh());
         let rest: f64 = (1..4000)
             .map(|j| standing(j, y))

@@ -5,7 +5,6 @@
 //! * [`WaveFace`] is the law of an open face through which waves come and go, on a current.
 //! * [`StandingWave`] is a wave between two walls, as a start and as a reference.
 //! * [`wavenumber`] is the dispersion of linear waves, [`Jonswap`] a spectrum.
-#![doc = include_str!("../README.md")]
 
 mod absorption;
 mod dispersion;
@@ -18,8 +17,8 @@ mod reflection;
 mod separation;
 mod spectrum;
 mod standing_wave;
+mod superposition;
 mod wave_face;
-mod waves;
 
 pub use dispersion::{wavenumber, wavenumber_on};
 pub use maker::WaveMaker;
@@ -28,5 +27,5 @@ pub use reflection::ReflectionProbe;
 pub use separation::{Amplitude, Separated, separated};
 pub use spectrum::Jonswap;
 pub use standing_wave::StandingWave;
+pub use superposition::{Component, Waves};
 pub use wave_face::WaveFace;
-pub use waves::{Component, Waves};

@@ -9,10 +9,10 @@ use sph_boundary::{
 use sph_core::{Vect, plugin};
 use sph_neighbours::Sight;
 
-use crate::absorption::{Absorption, MEAN_WAY};
-use crate::face::{Face, forward};
-use crate::paddle::Paddle;
-use crate::waves::{Component, Waves};
+use crate::waves::absorption::{Absorption, MEAN_WAY};
+use crate::waves::face::{Face, forward};
+use crate::waves::paddle::Paddle;
+use crate::waves::superposition::{Component, Waves};
 
 /// A paddle that makes waves: a piston that slides, or a flap that turns about its `hinge`.
 ///

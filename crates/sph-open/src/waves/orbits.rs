@@ -1,6 +1,6 @@
 //! What waves do to the water below them.
 
-use crate::waves::Component;
+use crate::waves::superposition::Component;
 
 /// Waves that run along x on a uniform current, at x = 0.
 ///
@@ -133,7 +133,7 @@ mod tests {
     /// One wave, its phase that of the place kx.
     fn orbits(amplitude: f64, kx: f64) -> Orbits {
         let (depth, gravity, current) = (0.5, 9.81, 0.3);
-        let k = crate::wavenumber_on(5.2, depth, gravity, current).expect("a wave");
+        let k = crate::waves::wavenumber_on(5.2, depth, gravity, current).expect("a wave");
         Orbits {
             depth,
             gravity,

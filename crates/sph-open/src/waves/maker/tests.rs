@@ -30,7 +30,7 @@ fn a_piston_has_the_stroke_of_linear_theory() {
     let at = |t: f64| piston.next(&piston.start(), &Load::of_gravity(Vect::zeros()), t, 0.0);
     let stroke = at(0.35).pose.translation[0] - at(1.05).pose.translation[0];
     let transfer = 0.06 / stroke;
-    let k = crate::wavenumber(std::f64::consts::TAU / 1.4, 0.5, 9.81);
+    let k = crate::waves::wavenumber(std::f64::consts::TAU / 1.4, 0.5, 9.81);
     assert!((transfer / Paddle::Piston.transfer(k, 0.5) - 1.0).abs() < 1e-12);
     assert!(at(0.0).velocity[0] > 0.0 && at(0.0).pose.translation[0] == 0.0);
 }
@@ -48,7 +48,7 @@ fn second_order_is_that_of_long_waves_where_they_are_long() {
     let parts = piston
         .strokes(Paddle::Piston, [depth, 9.81])
         .expect("parts");
-    let k = crate::wavenumber(std::f64::consts::TAU / period, depth, 9.81);
+    let k = crate::waves::wavenumber(std::f64::consts::TAU / period, depth, 9.81);
     let kd: f64 = k * depth;
     let b = a * a * k * kd.cosh() * (2.0 + (2.0 * kd).cosh()) / (4.0 * kd.sinh().powi(3));
     let long = (b - a * a / depth) / (2.0 * kd);

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use sph_boundary::{Course, SinePart};
 
-use crate::Paddle;
-use crate::waves::Component;
+use crate::waves::Paddle;
+use crate::waves::superposition::Component;
 
 /// Within how many periods the paddle is led back to where it would be without waves that come back.
 const PERIODS: f64 = 10.0;
@@ -74,7 +74,7 @@ impl Absorption {
             false => parts.iter().map(begins).sum(),
         };
         let omega = TAU / period;
-        let leaves = paddle.transfer(crate::wavenumber(omega, depth, gravity), depth);
+        let leaves = paddle.transfer(crate::waves::wavenumber(omega, depth, gravity), depth);
         let stays = paddle.near_field(omega, depth, gravity);
         Absorption {
             made: Course::Sum {
@@ -116,7 +116,10 @@ mod tests {
     /// What comes back of a wave of the amplitude 1 that runs against the paddle: with X = −H η/(iω) and
     /// η = 2 + (i e₀ + E) X it is (1 − (e₀ + i E) H/ω)/(1 + (e₀ − i E) H/ω).
     fn comes_back(paddle: Paddle, omega: f64, response: [f64; 2]) -> f64 {
-        let e0 = paddle.transfer(crate::wavenumber(omega, WATER[0], WATER[1]), WATER[0]);
+        let e0 = paddle.transfer(
+            crate::waves::wavenumber(omega, WATER[0], WATER[1]),
+            WATER[0],
+        );
         let e = paddle.near_field(omega, WATER[0], WATER[1]);
         let [re, im] = response.map(|h| h / omega);
         let times = |e: f64| [e0 * re - e * im, e0 * im + e * re];
@@ -164,7 +167,7 @@ mod tests {
         let wave = Component {
             amplitude: 0.03,
             frequency: 5.0,
-            wavenumber: crate::wavenumber(5.0, WATER[0], WATER[1]),
+            wavenumber: crate::waves::wavenumber(5.0, WATER[0], WATER[1]),
             phase: 0.4,
         };
         let period = TAU / 5.0;
