@@ -11,8 +11,8 @@
 // Plugins that are found by their names: a binary with the solver has them.
 use sph_diffusion as _;
 use sph_implicit as _;
-use sph_seepage as _;
-use sph_stress as _;
+use sph_soil as _;
+use sph_soil as _;
 use sph_viscosity as _;
 
 pub mod defaults;

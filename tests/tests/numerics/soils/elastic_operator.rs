@@ -7,7 +7,7 @@ use sph_core::{Registry, Role, Stage, Store, Symmetric, Vect, fields};
 use sph_kernels::Kernel;
 use sph_kernels::wendland_c2;
 use sph_neighbours::{Domain, Interaction, World, interactions};
-use sph_stress::{GradientStage, StressDivergence, SymmetricDifference};
+use sph_soil::stress::{GradientStage, StressDivergence, SymmetricDifference};
 use sph_viscosity::{Viscosity, ViscousOperatorEntry};
 
 /// Particles along a side of the unit box.
