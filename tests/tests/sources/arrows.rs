@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 35] = [
+const ALLOWED: [(&str, &[&str]); 34] = [
     (
         "sph-soil",
         &[
@@ -114,7 +114,6 @@ const ALLOWED: [(&str, &[&str]); 35] = [
     ("sph-integrators", &["sph-core", "sph-implicit"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
-    ("sph-draw", &["sph-io"]),
     (
         "sph-turbulence",
         &[
@@ -176,7 +175,6 @@ const ALLOWED: [(&str, &[&str]); 35] = [
             "sph-core",
             "sph-damping",
             "sph-decomposition",
-            "sph-draw",
             "sph-io",
             "sph-mpi",
             "sph-pressure",

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sph_io::IoError;
+use crate::IoError;
 
 /// Why nothing could be drawn.
 #[derive(Debug, thiserror::Error)]

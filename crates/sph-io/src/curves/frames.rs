@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_io::{Cells, Piece};
+use crate::{Cells, Piece};
 
-use crate::{DrawError, Snapshot};
+use crate::curves::{DrawError, Snapshot};
 
 /// One frame: its time and its files.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl Frames {
     /// If there are none, or the list or the first frame cannot be read.
     pub fn of(folder: &Path) -> Result<Self, DrawError> {
         let mut entries: Vec<Entry> = Vec::new();
-        for listed in sph_io::list_pvd(folder.join("fields.pvd"))? {
+        for listed in crate::list_pvd(folder.join("fields.pvd"))? {
             let walls = listed.name == "walls";
             match entries.iter_mut().find(|e| e.time == listed.time) {
                 Some(entry) if walls => entry.walls = Some(listed.path),
@@ -55,7 +55,7 @@ impl Frames {
         entries.sort_by(|a, b| a.time.total_cmp(&b.time));
         let first = entries.first();
         let first = first.ok_or_else(|| DrawError::NoFrames(folder.to_path_buf()))?;
-        let (piece, _) = sph_io::read_piece(&first.particles)?;
+        let (piece, _) = crate::read_piece(&first.particles)?;
         let spacing = spacing(&piece.points);
         Ok(Frames { entries, spacing })
     }
@@ -93,7 +93,7 @@ impl Frames {
         for entry in self.entries.iter().rev().step_by(every) {
             values.extend(self.read(entry)?.column(field)?.values);
         }
-        let range = sph_io::ColourRanges::default().of(field, &values);
+        let range = crate::ColourRanges::default().of(field, &values);
         Ok(range.map(|(range, _)| range))
     }
 
@@ -102,9 +102,9 @@ impl Frames {
     /// # Errors
     /// A file that cannot be read.
     pub fn read(&self, entry: &Entry) -> Result<Snapshot, DrawError> {
-        let (piece, time) = sph_io::read_piece(&entry.particles)?;
+        let (piece, time) = crate::read_piece(&entry.particles)?;
         let walls = match &entry.walls {
-            Some(path) => drawn(&sph_io::read_piece(path)?.0, self.spacing),
+            Some(path) => drawn(&crate::read_piece(path)?.0, self.spacing),
             None => Vec::new(),
         };
         Ok(Snapshot::new(piece, time, walls, self.spacing))

@@ -1,6 +1,6 @@
 //! # Pictures of a run, made afterwards
 //!
-//! This crate reads the frames that a run has written and draws what the run itself did not: streamlines of one
+//! Read and drawn from the frames that a run has written: streamlines of one
 //! moment, profiles along a line, tracks of single particles. It knows no particle method, only points with columns.
 //!
 //! | subject | computed by | drawn and written by |
@@ -10,10 +10,6 @@
 //! | tracks by identity | [`tracks`] | [`draw_tracks`] |
 //!
 //! Values between particles are those of a linear fit, exact for linear fields: [`Cloud`].
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
 
 mod cloud;
 mod error;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{DrawError, Frames, Snapshot};
+use crate::curves::{DrawError, Frames, Snapshot};
 
 /// The places of a particle, frame by frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,7 +80,7 @@ pub fn draw_tracks(
     let along = tracks.iter().flat_map(|t| t.places.iter().map(|(_, x)| x));
     let half = extent(along.chain(snapshot.points())).map(|side| 0.5 * side);
     let lines: Vec<Vec<[f64; 3]>> = tracks.iter().flat_map(|t| unbroken(t, half)).collect();
-    let picture = sph_io::Picture {
+    let picture = crate::Picture {
         label: &column.label,
         lines: &lines,
         range: frames.range(field)?,
@@ -100,7 +100,7 @@ pub fn draw_tracks(
         ("z", "m"),
     ];
     let rows: Vec<Vec<f64>> = rows.collect();
-    Ok(sph_io::write_table(
+    Ok(crate::write_table(
         path.with_extension("csv"),
         columns,
         &rows,

@@ -25,7 +25,7 @@ pub type Weights = Vec<(u32, f64)>;
 /// determine a slope it is their mean.
 ///
 /// ```
-/// use sph_draw::Cloud;
+/// use sph_io::curves::Cloud;
 /// let points: Vec<[f64; 3]> = (0..100).map(|k| [0.1 * (k % 10) as f64, 0.1 * (k / 10) as f64, 0.0]).collect();
 /// let cloud = Cloud::new(&points, 0.1);
 /// let weights = cloud.weights([0.43, 0.52, 0.0]).unwrap();

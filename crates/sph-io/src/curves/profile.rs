@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use sph_io::{Plot, Series};
+use crate::{Plot, Series};
 
-use crate::{DrawError, Frames, Snapshot};
+use crate::curves::{DrawError, Frames, Snapshot};
 
 /// A straight line with points on it.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ pub fn draw_profile(
         ("z", "m"),
         (field, &unit),
     ];
-    Ok(sph_io::write_table(
+    Ok(crate::write_table(
         path.with_extension("csv"),
         columns,
         &rows,

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::cloud::square;
-use crate::{Cloud, DrawError, Frames, Snapshot};
+use crate::curves::cloud::square;
+use crate::curves::{Cloud, DrawError, Frames, Snapshot};
 
 /// Length of a step along a line, in spacings.
 const STEP: f64 = 0.25;
@@ -227,7 +227,7 @@ pub fn draw_streamlines(
     let lines = streamlines(&slice, &moving, flat, apart);
     let mut drawn = lines.clone();
     drawn.extend(lines.iter().filter_map(|l| arrow(l, flat, 0.3 * apart)));
-    let picture = sph_io::Picture {
+    let picture = crate::Picture {
         label: &column.label,
         lines: &drawn,
         range: frames.range(field)?,
@@ -240,7 +240,7 @@ pub fn draw_streamlines(
     });
     let columns = [("line", "1"), ("x", "m"), ("y", "m"), ("z", "m")];
     let rows: Vec<Vec<f64>> = rows.collect();
-    sph_io::write_table(path.with_extension("csv"), columns, &rows)?;
+    crate::write_table(path.with_extension("csv"), columns, &rows)?;
     Ok(lines.len())
 }
 

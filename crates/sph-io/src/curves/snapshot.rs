@@ -1,8 +1,8 @@
 //! One frame with its columns.
 
-use sph_io::{FieldValues, Location, Picture, Piece, View};
+use crate::{FieldValues, Location, Picture, Piece, View};
 
-use crate::{Cloud, DrawError};
+use crate::curves::{Cloud, DrawError};
 
 /// Particles at one time.
 pub struct Snapshot {
@@ -118,7 +118,7 @@ impl Snapshot {
         })
     }
 
-    fn field(&self, name: &str) -> Result<&sph_io::FieldData<'static>, DrawError> {
+    fn field(&self, name: &str) -> Result<&crate::FieldData<'static>, DrawError> {
         let mut at_points = self.piece.fields.iter();
         at_points
             .find(|f| f.name == name && f.location == Location::Point)
