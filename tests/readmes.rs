@@ -16,7 +16,6 @@ readmes! {
     Bodies "../crates/sph-bodies/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
-    Damping "../crates/sph-damping/README.md"
     Integrators "../crates/sph-integrators/README.md"
     Kernels "../crates/sph-kernels/README.md"
     Neighbours "../crates/sph-neighbours/README.md"

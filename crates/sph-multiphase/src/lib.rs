@@ -7,6 +7,7 @@
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; none is here.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
+//! * [`damping`]: velocities that die away, everywhere or in sponges.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
@@ -19,6 +20,7 @@ mod colagrossi_landrini;
 mod contact_angle;
 mod contract;
 mod contribution;
+pub mod damping;
 mod dilatation;
 mod divergence;
 mod gradient;

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 34] = [
+const ALLOWED: [(&str, &[&str]); 33] = [
     (
         "sph-soil",
         &[
@@ -75,10 +75,6 @@ const ALLOWED: [(&str, &[&str]); 34] = [
         ],
     ),
     (
-        "sph-damping",
-        &["sph-core", "sph-neighbours", "sph-contribution"],
-    ),
-    (
         "sph-diffusion",
         &[
             "sph-core",
@@ -94,7 +90,6 @@ const ALLOWED: [(&str, &[&str]); 34] = [
             "sph-neighbours",
             "sph-state",
             "sph-contribution",
-            "sph-damping",
             "sph-viscosity",
             "sph-diffusion",
         ],
@@ -173,7 +168,7 @@ const ALLOWED: [(&str, &[&str]); 34] = [
             "dem-scene",
             "sph-bodies",
             "sph-core",
-            "sph-damping",
+            "sph-multiphase",
             "sph-decomposition",
             "sph-io",
             "sph-mpi",

@@ -6,7 +6,7 @@ use sph_contribution::{
 };
 use sph_core::{Access, StepError, Vect, Work, fields, plugin};
 
-use crate::zone::Zone;
+use crate::damping::zone::Zone;
 
 contribution_kind!(
     /// What takes motion away, that a scene may name.

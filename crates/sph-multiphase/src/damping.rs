@@ -2,7 +2,6 @@
 //!
 //! * [`Rayleigh`] is the plugin, `[damping.rayleigh]`; [`Zone`] is where it acts.
 //! * [`DampingEntry`] is the kind, for plugins of other crates.
-#![doc = include_str!("../README.md")]
 
 mod rayleigh;
 mod zone;
