@@ -9,8 +9,8 @@
 use std::fmt::Debug;
 
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
-use sph_diffusion::BrezziPitkaranta;
 use sph_kernels::Sampler;
+use sph_multiphase::diffusion::BrezziPitkaranta;
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
     BoundTerm, ByPairs, Domain, KernelEntry, Lane, LanePair, Neighbourhood, PairSum, PairTerm,

@@ -8,6 +8,7 @@
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: velocities that die away, everywhere or in sponges.
+//! * [`diffusion`] of density against noise, and of particles against gaps.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
@@ -21,6 +22,7 @@ mod contact_angle;
 mod contract;
 mod contribution;
 pub mod damping;
+pub mod diffusion;
 mod dilatation;
 mod divergence;
 mod gradient;

@@ -9,8 +9,8 @@
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
 // Plugins that are found by their names: a binary with the solver has them.
-use sph_diffusion as _;
 use sph_implicit as _;
+use sph_multiphase as _;
 use sph_soil as _;
 use sph_soil as _;
 use sph_viscosity as _;

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 33] = [
+const ALLOWED: [(&str, &[&str]); 32] = [
     (
         "sph-soil",
         &[
@@ -75,15 +75,6 @@ const ALLOWED: [(&str, &[&str]); 33] = [
         ],
     ),
     (
-        "sph-diffusion",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-        ],
-    ),
-    (
         "sph-multiphase",
         &[
             "sph-core",
@@ -91,7 +82,6 @@ const ALLOWED: [(&str, &[&str]); 33] = [
             "sph-state",
             "sph-contribution",
             "sph-viscosity",
-            "sph-diffusion",
         ],
     ),
     (

@@ -2,7 +2,7 @@
 
 use sph_contribution::{Contribution, Offer, Setting};
 use sph_core::Vect;
-use sph_diffusion::BrezziPitkaranta;
+use sph_multiphase::diffusion::BrezziPitkaranta;
 use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Interaction, Terms, World, interactions};
 use sph_state::{EquationOfState, Laws, Linear, Reference};

@@ -3,9 +3,9 @@
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::{Around, Values, World, walk_into};
 
-use crate::balance::PRESSURE_SLOPE;
-use crate::linear_exact::linear_exact;
-use crate::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
+use crate::diffusion::balance::PRESSURE_SLOPE;
+use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:

@@ -6,8 +6,8 @@ use sph_neighbours::{
     splat,
 };
 
-use crate::per_phase::PerPhase;
-use crate::{Accelerated, SmootherEntry, Smoothing};
+use crate::diffusion::per_phase::PerPhase;
+use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_state::Laws;
 
@@ -24,7 +24,7 @@ use sph_state::Laws;
 /// across an interface, where β has a kink at rest, because ρ₀g/(ρ₀c²) jumps unless c is the same: two
 /// layers at rest have 6 to 8 % too much pressure between them. `balance = "hydrostatic"` takes
 /// ½[ρ_a(g − A_a) + ρ_b(g − A_b)]·r_ab/(ρ₀_a c_a²) from every difference, A the
-/// [mean acceleration](crate::MeanAcceleration), as the Brezzi–Pitkäranta smoother does,
+/// [mean acceleration](crate::diffusion::MeanAcceleration), as the Brezzi–Pitkäranta smoother does,
 /// and nothing is left to diffuse at rest. The volume that a pair of phases exchanges balances only
 /// if c is the same.
 ///

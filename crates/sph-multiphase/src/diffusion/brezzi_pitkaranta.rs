@@ -5,15 +5,15 @@ use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot, pair_term, splat,
 };
 
-use crate::diffusion_limit::fastest;
-use crate::{Accelerated, SmootherEntry, Smoothing};
+use crate::diffusion::diffusion_limit::fastest;
+use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_state::Laws;
 
 /// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b {[2(p_a − p_b) + (ρ_aA_a + ρ_bA_b)·r_ab]/(ρ_a + ρ_b) − g·r_ab} F_ab, free neighbours
 /// only.
 ///
-/// Symbols: δ strength; c speed of sound of the fastest phase (m/s); A the [mean acceleration](crate::MeanAcceleration) of a
+/// Symbols: δ strength; c speed of sound of the fastest phase (m/s); A the [mean acceleration](crate::diffusion::MeanAcceleration) of a
 /// particle (m/s²). The source has a step, ΛΔt, in the place of δ h/c: a strength that goes with whatever limits the step. At
 /// the sound's limit, Δt = 0.4 h/c, it is δ = 0.4 Λ.
 ///
@@ -23,7 +23,7 @@ use sph_state::Laws;
 /// term is anti-diffusive (a tank at rest blows up after 0.09 s).
 ///
 /// Limits: where friction or elasticity bears a part of the weight, the bracket is not zero at rest, and pushes the material
-/// on. [`DeltaSph`](crate::DeltaSph) is the same diffusion less whatever gradient there is: take it for soils.
+/// on. [`DeltaSph`](crate::diffusion::DeltaSph) is the same diffusion less whatever gradient there is: take it for soils.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 2.92–2.95 and 2.99, corrected; A, which is 0 there, is ours.
 #[plugin(SmootherEntry [2, 3], "brezzi-pitkaranta", "pressure diffusion with hydrostatic balance",
@@ -71,7 +71,7 @@ impl BrezziPitkaranta {
     }
 }
 
-/// The term of [`BrezziPitkaranta`] and of [`RhieChow`](crate::RhieChow).
+/// The term of [`BrezziPitkaranta`] and of [`RhieChow`](crate::diffusion::RhieChow).
 #[derive(Clone, Copy, Debug)]
 pub struct PressureDiffusion {
     /// δ/c, s/m.

@@ -2,7 +2,6 @@
 //!
 //! * Smoothers damp pressure noise: [`BrezziPitkaranta`], [`DeltaSph`], [`DeltaMultiphase`], [`RhieChow`].
 //! * Shifting keeps particles evenly spread: [`Fickian`].
-#![doc = include_str!("../README.md")]
 
 mod balance;
 mod brezzi_pitkaranta;

@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::World;
 
-use crate::ShiftingEntry;
-use crate::evenness::{Evenness, Held, evenness, held_normals};
-use crate::shift_transport::ShiftTransport;
+use crate::diffusion::ShiftingEntry;
+use crate::diffusion::evenness::{Evenness, Held, evenness, held_normals};
+use crate::diffusion::shift_transport::ShiftTransport;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// Particles move, besides their velocity, down the gradient of their concentration,
@@ -37,7 +37,7 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting};
 ///
 /// Source: Lind et al. 2012 (form, R, n); Sun et al. 2017 (limit,
 /// surfaces); Adami et al. 2013 (the scale: their background pressure ρc² shifts with B = 2cΔt/h); Sun et al. 2019 (transport). The walls'
-/// parts and the way back of the density ([`ShiftTransport`](crate::ShiftTransport)) are ours.
+/// parts and the way back of the density ([`ShiftTransport`](crate::diffusion::ShiftTransport)) are ours.
 ///
 /// ```toml
 /// [shifting.fickian]

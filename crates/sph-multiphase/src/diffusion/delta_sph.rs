@@ -8,9 +8,9 @@ use sph_neighbours::{
     World, dot, unlike, walk_into,
 };
 
-use crate::linear_exact::linear_exact;
-use crate::per_phase::PerPhase;
-use crate::{SmootherEntry, Smoothing};
+use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::per_phase::PerPhase;
+use crate::diffusion::{SmootherEntry, Smoothing};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
@@ -21,7 +21,7 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting};
 /// hydrostatic one is left alone also where the support is cut; it costs one more walk. The `plain`
 /// form has no ∇ρ: at a free surface a hydrostatic density then has a source of about δ ρ₀ g/c.
 /// Neighbours of other phases do not count, as in Fourtakas & Rogers (2016), so each phase sees the interface as a free
-/// surface; [`DeltaMultiphase`](crate::DeltaMultiphase) looks across.
+/// surface; [`DeltaMultiphase`](crate::diffusion::DeltaMultiphase) looks across.
 ///
 /// Source: Molteni & Colagrossi 2009 (plain); Antuono et al. 2010 (renormalised).
 ///

@@ -4,8 +4,8 @@ use sph_contribution::{Contribution, Offer, Setting, contribution_kind};
 use sph_core::Work;
 use sph_neighbours::Interaction;
 
-use crate::diffusion_limit::{DiffusionLimit, fastest};
-use crate::{Accelerated, MeanAcceleration};
+use crate::diffusion::diffusion_limit::{DiffusionLimit, fastest};
+use crate::diffusion::{Accelerated, MeanAcceleration};
 
 contribution_kind!(
     /// A smoother that a scene may name: a density diffusion that damps the chequerboard mode of pressure.
