@@ -11,6 +11,9 @@ use std::fmt::Debug;
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::diffusion::BrezziPitkaranta;
+use sph_multiphase::viscosity::{
+    Choice, FirstDifferences, Viscosity, ViscositySource, ViscousOperatorEntry, ViscousTerm,
+};
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
     BoundTerm, ByPairs, Domain, KernelEntry, Lane, LanePair, Neighbourhood, PairSum, PairTerm,
@@ -18,9 +21,6 @@ use sph_neighbours::{
 };
 use sph_scene::SplitMix;
 use sph_state::{EquationOfState, Laws, Linear, Reference};
-use sph_viscosity::{
-    Choice, FirstDifferences, Viscosity, ViscositySource, ViscousOperatorEntry, ViscousTerm,
-};
 
 /// Viscosity of the terms, Pa s.
 const VISCOSITY: f64 = 1e-3;

@@ -9,6 +9,7 @@
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: velocities that die away, everywhere or in sponges.
 //! * [`diffusion`] of density against noise, and of particles against gaps.
+//! * [`viscosity`]: viscous operators, solved for or not, and viscosities of eddies.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
@@ -37,6 +38,7 @@ mod repulsion;
 mod scattered;
 mod surface;
 mod surface_tension;
+pub mod viscosity;
 mod volume;
 
 pub use acoustic_damper::AcousticDamper;

@@ -21,5 +21,5 @@ pub use running::on_threads::run_on_threads;
 pub use running::run::{run, run_part};
 pub use running::stepper::Stepper;
 pub use running::trial::{Trial, examine_and_try};
-pub use sph_viscosity::Solves;
+pub use sph_multiphase::viscosity::Solves;
 pub use subject::Particles;

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 32] = [
+const ALLOWED: [(&str, &[&str]); 31] = [
     (
         "sph-soil",
         &[
@@ -18,7 +18,7 @@ const ALLOWED: [(&str, &[&str]); 32] = [
             "sph-contribution",
             "sph-implicit",
             "sph-rheology",
-            "sph-viscosity",
+            "sph-multiphase",
         ],
     ),
     ("dem-pfv", &["sph-derive"]),
@@ -65,23 +65,14 @@ const ALLOWED: [(&str, &[&str]); 32] = [
         &["sph-core", "sph-neighbours", "sph-state"],
     ),
     (
-        "sph-viscosity",
-        &[
-            "sph-core",
-            "sph-kernels",
-            "sph-neighbours",
-            "sph-contribution",
-            "sph-implicit",
-        ],
-    ),
-    (
         "sph-multiphase",
         &[
             "sph-core",
             "sph-neighbours",
             "sph-state",
             "sph-contribution",
-            "sph-viscosity",
+            "sph-kernels",
+            "sph-implicit",
         ],
     ),
     (
@@ -106,7 +97,7 @@ const ALLOWED: [(&str, &[&str]); 32] = [
             "sph-kernels",
             "sph-neighbours",
             "sph-contribution",
-            "sph-viscosity",
+            "sph-multiphase",
             "sph-soil",
             "sph-probes",
         ],
@@ -146,7 +137,7 @@ const ALLOWED: [(&str, &[&str]); 32] = [
             "sph-scene",
             "sph-setup",
             "sph-solver",
-            "sph-viscosity",
+            "sph-multiphase",
         ],
     ),
     ("sph-run", &["scene-text", "sph-io"]),

@@ -1,11 +1,11 @@
 //! The elastic force of a displacement.
 
 use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
+use sph_multiphase::viscosity::{OnLattice, PairFriction, WithTransposed};
 use sph_neighbours::{
     BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, World, dot, minus,
 };
-use sph_viscosity::{OnLattice, PairFriction, WithTransposed};
 
 use crate::stress::divergence::{PLACE, Sum};
 use crate::stress::{Blend, ElasticForce, ElasticForceEntry, Felt};

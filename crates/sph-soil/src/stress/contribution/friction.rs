@@ -5,7 +5,7 @@ use sph_contribution::{
 };
 use sph_core::AnyField;
 use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
-use sph_viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
+use sph_multiphase::viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
 
 use super::Materials;
 use crate::stress::{Blend, Blended, StrainRate, ViscosityStage};

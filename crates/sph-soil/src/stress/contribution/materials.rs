@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sph_contribution::Plugins;
 use sph_core::{AnyField, fields};
 use sph_implicit::ImplicitViscosityEntry;
+use sph_multiphase::viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 use sph_rheology::{Rheology, RheologyEntry};
-use sph_viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 
 use crate::stress::{
     Blend, ElasticForce, ElasticForceEntry, Felt, GradientStage, Rheologies, VelocityGradient,

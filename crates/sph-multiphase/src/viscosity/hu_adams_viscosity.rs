@@ -3,11 +3,11 @@
 use sph_core::plugin;
 use sph_neighbours::Lane;
 
-use crate::ViscousOperatorEntry;
-use crate::friction::{Choice, PairFriction, PairOperator};
+use crate::viscosity::ViscousOperatorEntry;
+use crate::viscosity::friction::{Choice, PairFriction, PairOperator};
 
 /// L_a = 1/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̄_ab u_ab F_ab plus the wall's friction, as of
-/// [`Morris`](crate::Morris) times (V_a² + V_s²)/(2 V_a V_s).
+/// [`Morris`](crate::viscosity::Morris) times (V_a² + V_s²)/(2 V_a V_s).
 ///
 /// The same as Morris's operator for equal volumes. The thesis prints the wall's factor without the
 /// 1/2, which is twice Morris's.

@@ -3,11 +3,11 @@
 use sph_core::{parameters, plugin};
 use sph_neighbours::Lane;
 
-use crate::friction::{Across, Choice, OnLattice, PairFriction, PairOperator, WallTerm};
-use crate::{BoundViscosity, OwnViscosity, ViscousOperatorEntry, Within};
+use crate::viscosity::friction::{Across, Choice, OnLattice, PairFriction, PairOperator, WallTerm};
+use crate::viscosity::{BoundViscosity, OwnViscosity, ViscousOperatorEntry, Within};
 
 /// L_a = c/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̃_ab F_ab [u_ab + (u_ab·e)e] plus the wall's friction, as
-/// of [`Morris`](crate::Morris), with η̃_ab = (ρ_a η_b + ρ_b η_a)/(ρ_a + ρ_b).
+/// of [`Morris`](crate::viscosity::Morris), with η̃_ab = (ρ_a η_b + ρ_b η_a)/(ρ_a + ρ_b).
 ///
 /// As printed (c = 1) the operator is (1 + 1/(d + 2)) η∇²u for constant η: 25 % too strong in two
 /// dimensions, 20 % in three. `strength = "corrected"` takes c = (d + 2)/(d + 3), which is exact there.

@@ -3,11 +3,11 @@
 use sph_core::plugin;
 use sph_neighbours::Lane;
 
-use crate::ViscousOperatorEntry;
-use crate::friction::{Choice, PairFriction, PairOperator};
+use crate::viscosity::ViscousOperatorEntry;
+use crate::viscosity::friction::{Choice, PairFriction, PairOperator};
 
 /// L_a = 2(d + 2)/γ_a Σ_b θ_b V_b η̄_ab F_ab (u_ab·e)e plus the wall's friction, as of
-/// [`Morris`](crate::Morris): div(η(∇u + ∇uᵀ)) + ∇(η div u), also for variable η.
+/// [`Morris`](crate::viscosity::Morris): div(η(∇u + ∇uᵀ)) + ∇(η div u), also for variable η.
 ///
 /// Forces are along the line of centres: conserves linear and angular momentum. On a square lattice
 /// with h = 2δr a sheared layer feels 4 % too little. Explicitly stable for νΔt/h² ≤ 0.1.

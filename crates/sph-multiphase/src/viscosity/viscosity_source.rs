@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::{Lane, Particles, World, unlike};
 
-use crate::interface_distance::INTERFACE_DISTANCE;
+use crate::viscosity::interface_distance::INTERFACE_DISTANCE;
 
 /// Mean viscosity of pairs of one phase.
 #[parameters]

@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_implicit::Operator;
 use sph_neighbours::{FreeBody, World};
 
-use crate::FrictionSystem;
+use crate::viscosity::FrictionSystem;
 
 /// The force of the friction over that of W alone, at the most: rows beside a flat wall have γ ≥ ½, and all that acts
 /// on them goes with 1/γ. With less than the true one light bodies swing from step to step, with more they follow

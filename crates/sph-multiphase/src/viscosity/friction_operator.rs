@@ -9,7 +9,7 @@ use sph_implicit::{
 };
 use sph_neighbours::{CouplingsAt, Neighbourhood, Owned, Space, Visitor};
 
-use crate::{BoundCoupling, CouplingRow};
+use crate::viscosity::{BoundCoupling, CouplingRow};
 
 /// An entry of a friction's matrix: a number, or a block where components are mixed.
 pub trait FrictionEntry<const D: usize>: Entry<D> {

@@ -6,8 +6,8 @@ use sph_core::{StepError, Vect, fields};
 use sph_implicit::Block;
 use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Space, Weak, World};
 
-use crate::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
-use crate::{BoundCoupling, Coupling, CouplingRow};
+use crate::viscosity::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
+use crate::viscosity::{BoundCoupling, Coupling, CouplingRow};
 
 /// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
 /// the bound of 1, and a step of water beside mud has a matrix of the mud alone.

@@ -6,7 +6,7 @@ use sph_neighbours::{
     Particles, Rates, World, add_scaled, dot, minus, scaled, splat, vector,
 };
 
-use crate::{BoundViscosity, OwnViscosity, ViscositySource};
+use crate::viscosity::{BoundViscosity, OwnViscosity, ViscositySource};
 
 mod choice;
 mod coupling;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use sph_implicit::Report;
 
-use crate::HeldBack;
+use crate::viscosity::HeldBack;
 
 /// What the implicit solves of a run took.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

@@ -7,7 +7,7 @@ use sph_neighbours::{
 };
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
-use crate::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
+use crate::viscosity::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
 impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {
     fn access(&self) -> Access {

@@ -4,7 +4,7 @@ use sph_contribution::Stages;
 use sph_core::{Work, contract};
 use sph_neighbours::Interaction;
 
-use crate::Coupling;
+use crate::viscosity::Coupling;
 
 /// Where a viscous operator finds the viscosity.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,9 +12,9 @@ use sph_core::{Access, StepError, Vect, fields};
 use sph_implicit::{LinearSolver, LowRank, Operator, TimeScheme};
 use sph_neighbours::World;
 
-use crate::giving_way::Bodies;
-use crate::start::{Start, put};
-use crate::{Coupling, FrictionSystem, Solves};
+use crate::viscosity::giving_way::Bodies;
+use crate::viscosity::start::{Start, put};
+use crate::viscosity::{Coupling, FrictionSystem, Solves};
 
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
 const INNER: f64 = 0.1;

@@ -3,11 +3,11 @@
 use sph_core::plugin;
 use sph_neighbours::Lane;
 
-use crate::ViscousOperatorEntry;
-use crate::friction::{Choice, PairFriction, PairOperator};
+use crate::viscosity::ViscousOperatorEntry;
+use crate::viscosity::friction::{Choice, PairFriction, PairOperator};
 
 /// L_a = 1/γ_a Σ_b θ_b V_b η̄_ab F_ab [(d + 2)(u_ab·e)e + u_ab] plus the wall's friction, as of
-/// [`Morris`](crate::Morris): div(η(∇u + ∇uᵀ)) for constant η and div u = 0.
+/// [`Morris`](crate::viscosity::Morris): div(η(∇u + ∇uᵀ)) for constant η and div u = 0.
 ///
 /// For variable η half of the transposed gradient is lost: the limit is
 /// η∇²u + ∇u·∇η + ½(∇u)ᵀ∇η. On a square lattice with h = 2δr a sheared layer feels 2 % too

@@ -4,8 +4,8 @@ use sph_core::{Vect, parameters};
 use sph_neighbours::{Interaction, Pair, World};
 
 use super::{PairFriction, ViscousTerm};
-use crate::interface_distance::InterfaceDistance;
-use crate::{Coupling, Viscosity, ViscositySource, ViscousOperator, Within};
+use crate::viscosity::interface_distance::InterfaceDistance;
+use crate::viscosity::{Coupling, Viscosity, ViscositySource, ViscousOperator, Within};
 use sph_contribution::Stages;
 use sph_neighbours::{lattice_sum, rows_sum};
 

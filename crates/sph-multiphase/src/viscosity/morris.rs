@@ -3,8 +3,8 @@
 use sph_core::plugin;
 use sph_neighbours::Lane;
 
-use crate::ViscousOperatorEntry;
-use crate::friction::{Choice, PairFriction, PairOperator, ViscousTerm};
+use crate::viscosity::ViscousOperatorEntry;
+use crate::viscosity::friction::{Choice, PairFriction, PairOperator, ViscousTerm};
 
 /// L_a = 2/γ_a Σ_b θ_b V_b η̄_ab u_ab F_ab − 2κ_a/γ_a Σ_s η_a u_t,as/δr_as |∇γ_as|.
 ///

@@ -4,12 +4,6 @@
 //!   [`KrimiViscosity`]. [`PairFriction`] is what most of them are made of, [`Coupling`] the same as rows of a matrix.
 //! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
 //! * Eddy viscosities ([`EddyViscosityEntry`]) are added to the viscosity of the laws; none is in this crate.
-#![doc = include_str!("../README.md")]
-// Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
-#![cfg_attr(
-    test,
-    allow(unused_imports, reason = "plugins are not registered in unit tests")
-)]
 
 mod contract;
 mod coupling;
