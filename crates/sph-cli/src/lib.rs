@@ -30,7 +30,6 @@ use sph_core::number;
 use sph_bodies as _;
 use sph_multiphase as _;
 use sph_open as _;
-use sph_pressure as _;
 use sph_turbulence as _;
 
 pub use app::main;

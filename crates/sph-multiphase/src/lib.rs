@@ -4,7 +4,7 @@
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
 //! * [`InterfaceEntry`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
-//! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; none is here.
+//! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: velocities that die away, everywhere or in sponges.
@@ -34,6 +34,7 @@ mod interface_friction;
 mod interface_limit;
 mod krimi;
 mod micro_mixing;
+pub mod pressure;
 mod repulsion;
 mod scattered;
 mod surface;

@@ -11,8 +11,6 @@
 // Plugins that are found by their names: a binary with the solver has them.
 use sph_implicit as _;
 use sph_multiphase as _;
-use sph_multiphase as _;
-use sph_soil as _;
 use sph_soil as _;
 
 pub mod defaults;

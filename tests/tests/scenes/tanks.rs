@@ -2,7 +2,6 @@
 
 use sph_io::Table;
 use sph_multiphase as _;
-use sph_pressure as _;
 
 use crate::shipped::{finished, whole};
 

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 31] = [
+const ALLOWED: [(&str, &[&str]); 30] = [
     (
         "sph-soil",
         &[
@@ -73,17 +73,6 @@ const ALLOWED: [(&str, &[&str]); 31] = [
             "sph-contribution",
             "sph-kernels",
             "sph-implicit",
-        ],
-    ),
-    (
-        "sph-pressure",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-            "sph-implicit",
-            "sph-multiphase",
         ],
     ),
     ("sph-implicit", &["sph-core", "sph-neighbours"]),
@@ -153,7 +142,6 @@ const ALLOWED: [(&str, &[&str]); 31] = [
             "sph-decomposition",
             "sph-io",
             "sph-mpi",
-            "sph-pressure",
             "sph-particles",
             "sph-probes",
             "sph-run",

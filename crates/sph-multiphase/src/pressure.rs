@@ -1,8 +1,7 @@
 //! Pressure from the end of the step.
 //!
 //! * [`ImplicitPressure`] is the plugin, `[pressure.implicit]`, of the kind that
-//!   [`PressureScheme`](sph_multiphase::PressureScheme) is.
-#![doc = include_str!("../README.md")]
+//!   [`PressureScheme`](crate::PressureScheme) is.
 
 mod bodies;
 mod implicit;

@@ -1,13 +1,13 @@
 //! The plugin: when pressure acts.
 
+use crate::{Acting, PressureEntry, PressureScheme};
 use sph_contribution::{Limiter, Setting, SoundLimit};
 use sph_core::{Stage, plugin};
 use sph_implicit::Automatic;
-use sph_multiphase::{Acting, PressureEntry, PressureScheme};
 use sph_neighbours::World;
 
-use crate::limit::FlowLimit;
-use crate::stage::SolvePressure;
+use crate::pressure::limit::FlowLimit;
+use crate::pressure::stage::SolvePressure;
 
 /// The pressure of the end of the step: p = p(ρ) − ρc²Δt D{uⁿ⁺¹} with uⁿ⁺¹ = uⁿ + Δt (g − ∇p/ρ), that is
 ///
