@@ -9,13 +9,13 @@ static TEAM: OnceLock<Arc<dyn Transport>> = OnceLock::new();
 /// Stays in the job as long as this lives.
 pub struct Joined {
     #[cfg(feature = "mpi")]
-    _job: Option<sph_mpi::Job>,
+    _job: Option<sph_decomposition::processes::Job>,
 }
 
 /// Joins the job that `mpirun` has started, if it has.
 #[cfg(feature = "mpi")]
 pub fn join() -> Joined {
-    let job = sph_mpi::Job::join();
+    let job = sph_decomposition::processes::Job::join();
     if let Some(job) = &job {
         let _ = TEAM.set(job.rank());
     }

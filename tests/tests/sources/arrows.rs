@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 30] = [
+const ALLOWED: [(&str, &[&str]); 29] = [
     (
         "sph-soil",
         &[
@@ -57,7 +57,6 @@ const ALLOWED: [(&str, &[&str]); 30] = [
         ],
     ),
     ("sph-decomposition", &["sph-core", "sph-neighbours"]),
-    ("sph-mpi", &["sph-decomposition"]),
     ("sph-rheology", &["sph-core"]),
     ("sph-state", &["sph-core", "sph-neighbours"]),
     (
@@ -141,7 +140,6 @@ const ALLOWED: [(&str, &[&str]); 30] = [
             "sph-multiphase",
             "sph-decomposition",
             "sph-io",
-            "sph-mpi",
             "sph-particles",
             "sph-probes",
             "sph-run",

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 /// Crates that divide flows, run their parts, or write a file of each.
-const KNOWS: [&str; 9] = [
+const KNOWS: [&str; 8] = [
     "sph-cli",
     "sph-decomposition",
     "sph-io",
-    "sph-mpi",
     "sph-neighbours",
     "sph-particles",
     "sph-run",
