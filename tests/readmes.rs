@@ -25,7 +25,6 @@ readmes! {
     Run "../crates/sph-run/README.md"
     Particles "../crates/sph-particles/README.md"
     Solver "../crates/sph-solver/README.md"
-    State "../crates/sph-state/README.md"
     Turbulence "../crates/sph-turbulence/README.md"
     Soil "../crates/sph-soil/README.md"
     Study "../crates/sph-study/README.md"

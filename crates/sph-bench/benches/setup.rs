@@ -19,8 +19,8 @@ use sph_neighbours::{
     BoundTerm, ByPairs, Domain, KernelEntry, Lane, LanePair, Neighbourhood, PairSum, PairTerm,
     Particles, Rates, Terms, World, interactions, interactions_with, kernel_sums,
 };
+use sph_rheology::state::{EquationOfState, Laws, Linear, Reference};
 use sph_scene::SplitMix;
-use sph_state::{EquationOfState, Laws, Linear, Reference};
 
 /// Viscosity of the terms, Pa s.
 const VISCOSITY: f64 = 1e-3;

@@ -5,6 +5,7 @@
 //! * [`InterfaceEntry`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
+//! * [`PressureStage`] applies the equations of state.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: velocities that die away, everywhere or in sponges.
@@ -35,6 +36,7 @@ mod interface_limit;
 mod krimi;
 mod micro_mixing;
 pub mod pressure;
+mod pressure_stage;
 mod repulsion;
 mod scattered;
 mod surface;
@@ -61,6 +63,7 @@ pub use interface_friction::InterfaceFriction;
 pub use interface_limit::InterfaceLimit;
 pub use krimi::{Continuity, Krimi};
 pub use micro_mixing::MicroMixing;
+pub use pressure_stage::PressureStage;
 pub use scattered::SCATTERED;
 pub use surface::{ConeTest, FREE_SURFACE, Place, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

@@ -10,11 +10,11 @@ use sph_multiphase::Formulation;
 use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
+use sph_rheology::state::{Laws, Lift, Lifted, Reference};
 use sph_scene::Scene;
 use sph_solver::setup::{Choices, Given, Planned, Planning, joined, shown};
 use sph_solver::step::{Nursery, Outlets, Swing, accounts};
 use sph_solver::{Flow, SolverError};
-use sph_state::{Laws, Lift, Lifted, Reference};
 
 use crate::domain::{extent, height, pressure_at_rest};
 use crate::field_error;

@@ -2,8 +2,8 @@
 
 use sph_core::Vect;
 use sph_probes::Solution;
+use sph_rheology::state::BoundState;
 use sph_scene::{Body, Pressure, Region, Scene};
-use sph_state::BoundState;
 
 use crate::layers::Layers;
 

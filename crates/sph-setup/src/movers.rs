@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use sph_boundary::{Mover, MoverSetting};
 use sph_core::SceneProblem;
+use sph_rheology::state::Laws;
 use sph_scene::Scene;
 use sph_solver::SolverError;
 use sph_solver::setup::Choices;
-use sph_state::Laws;
 
 use crate::shapes::Drawn;
 

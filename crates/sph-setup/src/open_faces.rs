@@ -6,10 +6,10 @@ use sph_boundary::{Condition, Wall};
 use sph_contribution::Part;
 use sph_core::{SceneProblem, Shape};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
+use sph_rheology::state::Laws;
 use sph_scene::Scene;
 use sph_solver::setup::Choices;
 use sph_solver::{SolverError, defaults};
-use sph_state::Laws;
 
 use crate::shapes::Drawn;
 use crate::tension;

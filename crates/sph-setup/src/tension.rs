@@ -8,8 +8,8 @@ use sph_boundary::Wall;
 use sph_core::Vect;
 use sph_neighbours::{CellGrid, World};
 use sph_open::OpenBoundaries;
+use sph_rheology::state::{Laws, Lift};
 use sph_scene::Scene;
-use sph_state::{Laws, Lift};
 
 /// Lift over ρcΔu: half as much again for what faces and walls throw back.
 const LIFT: f64 = 1.5;

@@ -8,16 +8,15 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 29] = [
+const ALLOWED: [(&str, &[&str]); 28] = [
     (
         "sph-soil",
         &[
             "sph-core",
             "sph-neighbours",
-            "sph-state",
+            "sph-rheology",
             "sph-contribution",
             "sph-implicit",
-            "sph-rheology",
             "sph-multiphase",
         ],
     ),
@@ -51,24 +50,23 @@ const ALLOWED: [(&str, &[&str]); 29] = [
             "sph-kernels",
             "sph-neighbours",
             "sph-boundary",
-            "sph-state",
+            "sph-rheology",
             "sph-contribution",
             "sph-probes",
         ],
     ),
     ("sph-decomposition", &["sph-core", "sph-neighbours"]),
-    ("sph-rheology", &["sph-core"]),
-    ("sph-state", &["sph-core", "sph-neighbours"]),
+    ("sph-rheology", &["sph-core", "sph-neighbours"]),
     (
         "sph-contribution",
-        &["sph-core", "sph-neighbours", "sph-state"],
+        &["sph-core", "sph-neighbours", "sph-rheology"],
     ),
     (
         "sph-multiphase",
         &[
             "sph-core",
             "sph-neighbours",
-            "sph-state",
+            "sph-rheology",
             "sph-contribution",
             "sph-kernels",
             "sph-implicit",
@@ -108,7 +106,6 @@ const ALLOWED: [(&str, &[&str]); 29] = [
             "sph-rheology",
             "sph-scene",
             "sph-solver",
-            "sph-state",
         ],
     ),
     (

@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::World;
 
-use sph_state::{BoundState, Laws};
+use sph_rheology::state::{BoundState, Laws};
 
 /// One number per phase; the phase column is read only where there are several.
 #[derive(Clone, Debug)]

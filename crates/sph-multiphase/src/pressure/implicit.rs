@@ -1,6 +1,5 @@
 //! The plugin: when pressure acts.
 
-use crate::{Acting, PressureEntry, PressureScheme};
 use sph_contribution::{Limiter, Setting, SoundLimit};
 use sph_core::{Stage, plugin};
 use sph_implicit::Automatic;
@@ -8,6 +7,7 @@ use sph_neighbours::World;
 
 use crate::pressure::limit::FlowLimit;
 use crate::pressure::stage::SolvePressure;
+use crate::{Acting, PressureEntry, PressureScheme};
 
 /// The pressure of the end of the step: p = p(ρ) − ρc²Δt D{uⁿ⁺¹} with uⁿ⁺¹ = uⁿ + Δt (g − ∇p/ρ), that is
 ///

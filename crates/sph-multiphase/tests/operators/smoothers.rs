@@ -8,7 +8,7 @@ use sph_multiphase::diffusion::{
     MeanAcceleration, PRESSURE_SLOPE, RhieChow,
 };
 use sph_neighbours::{Domain, World};
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::evaluate::{laws, offered, rates};
 use crate::world::{Random, at, disorder, lattice, periodic, set, world};

@@ -9,9 +9,9 @@ use sph_multiphase::{Formulation, FormulationEntry};
 use sph_neighbours::KernelEntry;
 use sph_open::{OpenBoundary, OpenBoundaryEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry, needs_gradient};
+use sph_rheology::state::{EquationOfState, EquationOfStateEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::Scene;
-use sph_state::{EquationOfState, EquationOfStateEntry};
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {

@@ -14,7 +14,7 @@ use sph_core::{
 };
 use sph_decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;

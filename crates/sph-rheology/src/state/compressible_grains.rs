@@ -2,7 +2,7 @@
 
 use sph_core::plugin;
 
-use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 
 /// p = ρ₀c₀² u with the largest root of u (u + 1 − ρ/ρ₀)² = A (1 + u)², where
 /// A = (γ̇d/c₀)² Δφ²/φ_max³; at rest p = c₀² max(ρ − ρ₀, 0).

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::{BoundState, Reference};
+use crate::state::{BoundState, Reference};
 
 /// Pressure that is added to all laws of a scene, Pa: set once at most, before the first of them is asked.
 #[derive(Clone, Debug, Default)]
@@ -81,7 +81,7 @@ impl BoundState for Lifted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{EquationOfState, Tait};
+    use crate::state::{EquationOfState, Tait};
 
     #[test]
     fn a_lifted_law_is_that_with_the_background_pressure() {

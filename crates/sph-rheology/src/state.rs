@@ -2,19 +2,15 @@
 //!
 //! * [`EquationOfState`] is a kind of plugin: [`Tait`], [`Linear`], and [`CompressibleGrains`], whose pressure follows
 //!   the strain rate as well. [`BoundState`] is one with the reference state of a phase, [`Laws`] those of a scene.
-//! * [`PressureStage`] applies them.
-#![doc = include_str!("../README.md")]
 
 mod compressible_grains;
 mod eos;
 mod lifted;
 mod linear;
-mod pressure_stage;
 mod tait;
 
 pub use compressible_grains::CompressibleGrains;
 pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Laws, Reference};
 pub use lifted::{Lift, Lifted};
 pub use linear::Linear;
-pub use pressure_stage::PressureStage;
 pub use tait::Tait;

@@ -2,7 +2,7 @@
 
 use sph_core::plugin;
 
-use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 
 /// p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1] + P_bg, c = c₀ (ρ/ρ₀)^((ξ−1)/2).
 ///

@@ -2,8 +2,7 @@
 
 use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::{World, by_phase};
-
-use crate::BoundState;
+use sph_rheology::state::BoundState;
 
 /// p = p(ρ) or p(ρ, γ̇), phase by phase; one virtual call per run of particles of the same phase.
 pub struct PressureStage {

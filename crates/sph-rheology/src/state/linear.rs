@@ -2,7 +2,7 @@
 
 use sph_core::plugin;
 
-use crate::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
 
 /// p = c₀² (ρ − ρ₀) + P_bg, constant speed of sound.
 ///
