@@ -2,7 +2,6 @@
 
 use std::sync::OnceLock;
 
-use crate::damping::DampingEntry;
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
@@ -12,6 +11,7 @@ use sph_neighbours::{
     WallSet, World, add_scaled, all_sums, declared, pair_term, walk_some,
 };
 
+use crate::damping::DampingEntry;
 use crate::divergence::{Divergence, OwnVolume};
 use crate::interface_limit::shortest_wave;
 

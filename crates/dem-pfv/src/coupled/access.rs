@@ -1,9 +1,8 @@
 //! What a system shows, and what may be changed from outside.
 
+use crate::coupled::{CoupledSystem, FlowSetup, Vector};
 use crate::flow::PoreGeometry;
 use crate::grains::GrainSystem;
-
-use crate::coupled::{CoupledSystem, FlowSetup, Vector};
 
 impl CoupledSystem {
     /// The grains, their walls and contacts; the fluid's forces are the external ones.

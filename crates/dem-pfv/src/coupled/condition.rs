@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::flow::{Boundary, PoreGeometry};
-use crate::triangulation::Vertex;
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::recorded::interpolated;
 use crate::coupled::{CoupledError, Recorded, Vector};
+use crate::flow::{Boundary, PoreGeometry};
+use crate::triangulation::Vertex;
 
 /// A wall as the fluid sees it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
+use crate::coupled::{FlowSetup, Fluid, Lubrication, Vector};
 use crate::flow::{Edge, PoreGeometry};
 use crate::grains::GrainSystem;
 use crate::triangulation::Vertex;
-
-use crate::coupled::{FlowSetup, Fluid, Lubrication, Vector};
 
 /// Share of the smaller radius in R_h = h + 0.45 R. The source does not define the hydraulic radius of an edge; this is
 /// that of YADE 2023.02a.

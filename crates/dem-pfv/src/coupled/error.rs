@@ -1,9 +1,10 @@
 //! What is refused, and why.
 
+use thiserror::Error;
+
 use crate::flow::FlowError;
 use crate::grains::GrainError;
 use crate::triangulation::TriangulationError;
-use thiserror::Error;
 
 /// Grains, fluids, conditions or steps with which nothing can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -1,11 +1,11 @@
 //! The largest stable step.
 
-use crate::flow::Boundary;
-use crate::grains::{Control, GrainSystem};
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::pores::{Places, Pores};
 use crate::coupled::{CoupledError, Vector};
+use crate::flow::Boundary;
+use crate::grains::{Control, GrainSystem};
 
 /// What limits a step.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]

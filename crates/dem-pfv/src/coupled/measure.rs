@@ -1,10 +1,9 @@
 //! What is measured: pressures and stresses of layers, mobility, what flows out.
 
-use crate::flow::{FlowSystem, Solver};
-use crate::grains::Partner;
-
 use crate::coupled::system::sphere;
 use crate::coupled::{CoupledError, CoupledSystem, Vector, condition};
+use crate::flow::{FlowSystem, Solver};
+use crate::grains::Partner;
 
 impl CoupledSystem {
     /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.

@@ -1,13 +1,13 @@
 //! The pores of one mesh: geometry, linear system, forces of unit pressures.
 
-use crate::flow::{Boundary, Conductance, FlowSystem, Grip, PoreGeometry, Storage, cell_volumes};
-use crate::grains::GrainSystem;
-use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::edge_forces::EdgeForces;
 use crate::coupled::unit_forces::UnitForces;
 use crate::coupled::{CoupledError, FlowSetup, Vector, condition};
+use crate::flow::{Boundary, Conductance, FlowSystem, Grip, PoreGeometry, Storage, cell_volumes};
+use crate::grains::GrainSystem;
+use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
 /// Where grains and walls were; with the radii it is all that a mesh follows from.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

@@ -1,10 +1,10 @@
 //! What the fluid is and how it is computed.
 
-use crate::flow::{SolidAngles, Solver};
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::error::number;
 use crate::coupled::{CoupledError, Side};
+use crate::flow::{SolidAngles, Solver};
 
 /// The fluid in the pores.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]

@@ -1,12 +1,12 @@
 //! Saving and resuming.
 
-use crate::flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
-use crate::grains::{ContactLaw, GrainSystem};
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::pores::{PRESSED, Places, Pores};
 use crate::coupled::system::{Clock, check};
 use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use crate::flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
+use crate::grains::{ContactLaw, GrainSystem};
 
 /// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
 /// keeps every bit of a number.

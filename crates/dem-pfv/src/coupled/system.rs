@@ -1,13 +1,12 @@
 //! The coupled system: made, stepped, meshed anew.
 
-use crate::flow::{Conductance, HydraulicRadius, Storage};
-use crate::grains::GrainSystem;
-
 use crate::coupled::error::number;
 use crate::coupled::limit::{Mode, StepLimit, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
 use crate::coupled::transfer::transferred;
 use crate::coupled::{CoupledError, FlowSetup, Side, Vector, condition};
+use crate::flow::{Conductance, HydraulicRadius, Storage};
+use crate::grains::GrainSystem;
 
 /// Grains that move, and the fluid in the pores between them.
 ///

@@ -1,8 +1,7 @@
 //! Pressures from one mesh to the next.
 
-use crate::triangulation::{Triangulation, Vertex};
-
 use crate::coupled::pores::Pores;
+use crate::triangulation::{Triangulation, Vertex};
 
 /// Pressure (Pa) of every new cell: that of the old cell of the same vertices, or where there is none, of the old cell
 /// around one of its spheres whose middle is nearest.

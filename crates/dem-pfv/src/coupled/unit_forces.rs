@@ -1,10 +1,10 @@
 //! Forces of unit pressures, kept while a mesh lasts.
 
-use crate::flow::PoreGeometry;
-use crate::triangulation::Vertex;
 use rayon::prelude::*;
 
 use crate::coupled::Vector;
+use crate::flow::PoreGeometry;
+use crate::triangulation::Vertex;
 
 /// F_k = Σ_i p_i u_i^k, with a vector for each cell around each body:
 ///

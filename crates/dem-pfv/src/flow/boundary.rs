@@ -1,9 +1,9 @@
 //! What is given: pressures and sources.
 
-use crate::triangulation::Vertex;
 use nalgebra::Vector3;
 
 use crate::flow::PoreGeometry;
+use crate::triangulation::Vertex;
 
 /// Pressures and sources of cells. Walls without either are closed.
 #[derive(Clone, Debug, PartialEq)]

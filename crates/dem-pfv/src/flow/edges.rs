@@ -1,10 +1,10 @@
 //! Edges of the triangulation, and the faces between neighbours.
 
-use crate::triangulation::{Sphere, Vertex};
 use nalgebra::Vector3;
 
 use crate::flow::facet::edge;
 use crate::flow::{PoreGeometry, Throat};
+use crate::triangulation::{Sphere, Vertex};
 
 /// Two neighbours: a sphere, and a sphere or a wall beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! Facets: vector areas, sectors of spheres, edges.
 
-use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 use nalgebra::Vector3;
+
+use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
 /// From a sphere's centre to another vertex: to a centre, or to its own foot on a wall.
 pub fn edge(mesh: &Triangulation, k: usize, other: Vertex) -> Vector3<f64> {

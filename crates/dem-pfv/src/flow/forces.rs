@@ -1,9 +1,9 @@
 //! Forces of the fluid on spheres and walls.
 
-use crate::triangulation::Vertex;
 use nalgebra::Vector3;
 
 use crate::flow::PoreGeometry;
+use crate::triangulation::Vertex;
 
 /// Forces on the solid, N, by piezometric pressure; buoyancy comes on top. Of a throat from i to j:
 ///

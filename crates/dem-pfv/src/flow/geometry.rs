@@ -1,12 +1,12 @@
 //! Pores and throats of spheres in a box.
 
-use crate::triangulation::{Triangulation, Vertex};
 use nalgebra::Vector3;
 
 use crate::flow::facet::Facet;
 use crate::flow::throat::{Grip, Pores, SolidAngles, Throat};
 use crate::flow::volume::solid_volume;
 use crate::flow::{FlowError, cell_volumes};
+use crate::triangulation::{Triangulation, Vertex};
 
 /// Deepest overlap, in terms of the smaller radius.
 const DEEPEST: f64 = 0.1;

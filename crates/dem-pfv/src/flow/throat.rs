@@ -1,12 +1,12 @@
 //! A throat: the space around a facet between the power centres of two cells.
 
-use crate::triangulation::{Triangulation, Vertex};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::facet::{Facet, angle, edge};
 use crate::flow::inscribed::inscribed_radius;
 use crate::flow::solid_angle;
+use crate::triangulation::{Triangulation, Vertex};
 
 /// How fluid meets a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! Volumes of cells and of what spheres fill of them.
 
-use crate::triangulation::{Cell, Triangulation, Vertex, Wall};
 use nalgebra::Vector3;
 
 use crate::flow::facet::edge;
 use crate::flow::solid_angle;
+use crate::triangulation::{Cell, Triangulation, Vertex, Wall};
 
 /// Volumes V_i (m³) of all cells with the centres and walls given in place of the mesh's own, connectivity
 /// kept; they add up to the room's. With distances a_c of a centre a from wall c:

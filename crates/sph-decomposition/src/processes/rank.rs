@@ -1,10 +1,11 @@
 //! A rank of an MPI job.
 
-use crate::{Transport, TransportError};
 use mpi::collective::SystemOperation;
 use mpi::point_to_point::{Destination, Source};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives};
+
+use crate::{Transport, TransportError};
 
 /// Bytes of a message that are sent at once: MPI counts in 31 bits.
 const PIECE: usize = 1 << 30;

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{Cells, Piece};
-
 use crate::curves::{DrawError, Snapshot};
+use crate::{Cells, Piece};
 
 /// One frame: its time and its files.
 #[derive(Clone, Debug)]

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use crate::{Plot, Series};
-
 use crate::curves::{DrawError, Frames, Snapshot};
+use crate::{Plot, Series};
 
 /// A straight line with points on it.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,7 @@
 //! One frame with its columns.
 
-use crate::{FieldValues, Location, Picture, Piece, View};
-
 use crate::curves::{Cloud, DrawError};
+use crate::{FieldValues, Location, Picture, Piece, View};
 
 /// Particles at one time.
 pub struct Snapshot {

@@ -6,10 +6,11 @@ use sph_neighbours::{
     splat,
 };
 
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_rheology::state::Laws;
+
 use crate::diffusion::per_phase::PerPhase;
 use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_state::Laws;
 
 /// dρ_a/dt += 2 δ h c_a ρ₀_a/γ_a [Σ_b V_b (β_a − β_b) F_ab − Σ_s (β_a − β_s)/d_s |∇γ_as|], β = ρ/ρ₀,
 /// over neighbours of all phases and over walls.
@@ -102,8 +103,9 @@ pub struct DeltaTerm {
 impl DeltaTerm {
     /// β of every phase at given pressures: entry k n + i for phase k and place i of n.
     fn compressions(&self, pressure: &[f64]) -> Vec<f64> {
-        let of =
-            |law: &dyn sph_state::BoundState, p: &f64| law.density(*p) / law.reference().density;
+        let of = |law: &dyn sph_rheology::state::BoundState, p: &f64| {
+            law.density(*p) / law.reference().density
+        };
         let each = self.laws.iter();
         each.flat_map(|law| pressure.iter().map(move |p| of(&**law, p)))
             .collect()

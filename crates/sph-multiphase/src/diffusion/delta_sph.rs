@@ -8,10 +8,11 @@ use sph_neighbours::{
     World, dot, unlike, walk_into,
 };
 
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+
 use crate::diffusion::linear_exact::linear_exact;
 use crate::diffusion::per_phase::PerPhase;
 use crate::diffusion::{SmootherEntry, Smoothing};
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
 /// of the same phase.

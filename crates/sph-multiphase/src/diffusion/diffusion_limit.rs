@@ -5,7 +5,7 @@ use sph_neighbours::World;
 
 use sph_contribution::Limiter;
 use sph_neighbours::lattice_sum;
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 /// Of λΔt: 1.45 for a chequerboard on a lattice, where it may be 2, and particles are not on one.
 const STABLE: f64 = 1.25;

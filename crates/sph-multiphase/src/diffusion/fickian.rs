@@ -4,10 +4,11 @@ use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
 use sph_neighbours::World;
 
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+
 use crate::diffusion::ShiftingEntry;
 use crate::diffusion::evenness::{Evenness, Held, evenness, held_normals};
 use crate::diffusion::shift_transport::ShiftTransport;
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// Particles move, besides their velocity, down the gradient of their concentration,
 /// s_a = −B h c 1/γ_a [Σ_b θ_b V_b (1 + R (w_ab/w(δr))ⁿ) ∇w_ab − Σ_s (C_a + R (w(2d_as)/w(δr))ⁿ) ∇γ_as],

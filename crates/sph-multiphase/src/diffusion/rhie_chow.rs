@@ -3,10 +3,11 @@
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_neighbours::{Around, Values, World, walk_into};
 
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+
 use crate::diffusion::balance::PRESSURE_SLOPE;
 use crate::diffusion::linear_exact::linear_exact;
 use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:
 /// s_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b 2/(ρ_a + ρ_b) (p_b − p_a) ∇w_ab over free neighbours of all phases.

@@ -3,15 +3,15 @@
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
-use crate::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place,
-};
 use sph_core::{Vect, plugin};
 
 use crate::waves::dispersion::wavenumber_on;
 use crate::waves::orbits::Orbits;
 use crate::waves::superposition::Waves;
+use crate::{
+    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
+    Place,
+};
 
 /// Waves come in through the face on a current, and waves that come to it go out.
 ///

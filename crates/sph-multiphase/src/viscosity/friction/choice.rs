@@ -3,11 +3,12 @@
 use sph_core::{Vect, parameters};
 use sph_neighbours::{Interaction, Pair, World};
 
+use sph_contribution::Stages;
+use sph_neighbours::{lattice_sum, rows_sum};
+
 use super::{PairFriction, ViscousTerm};
 use crate::viscosity::interface_distance::InterfaceDistance;
 use crate::viscosity::{Coupling, Viscosity, ViscositySource, ViscousOperator, Within};
-use sph_contribution::Stages;
-use sph_neighbours::{lattice_sum, rows_sum};
 
 /// Friction at semi-analytical walls.
 #[parameters]
