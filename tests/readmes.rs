@@ -21,7 +21,6 @@ readmes! {
     Neighbours "../crates/sph-neighbours/README.md"
     Probes "../crates/sph-probes/README.md"
     Rheology "../crates/sph-rheology/README.md"
-    Setup "../crates/sph-setup/README.md"
     Run "../crates/sph-run/README.md"
     Particles "../crates/sph-particles/README.md"
     Solver "../crates/sph-solver/README.md"

@@ -9,8 +9,8 @@ use std::path::Path;
 
 use divan::Bencher;
 use rayon::ThreadPoolBuilder;
+use sph_particles::setup::assemble;
 use sph_scene::Override;
-use sph_setup::assemble;
 use sph_solver::Snapshot;
 
 use running::advance;

@@ -6,7 +6,7 @@ mod running;
 
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
-use sph_setup::{Assembled, assemble};
+use sph_particles::setup::{Assembled, assemble};
 // For their plugins.
 use sph_bodies as _;
 

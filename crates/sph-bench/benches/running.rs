@@ -1,7 +1,7 @@
 //! A step of an assembled scene.
 
 use sph_core::{StepLimit, System};
-use sph_setup::Assembled;
+use sph_particles::setup::Assembled;
 
 /// What a run does between two outputs.
 pub fn advance<const D: usize>(parts: &mut Assembled<D>) {

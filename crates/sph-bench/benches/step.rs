@@ -9,8 +9,8 @@ use std::path::Path;
 
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::Override;
-use sph_setup::{Assembled, assemble};
 
 use running::advance;
 

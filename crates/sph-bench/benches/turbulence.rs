@@ -5,7 +5,7 @@ mod running;
 
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
-use sph_setup::{Assembled, assemble};
+use sph_particles::setup::{Assembled, assemble};
 // For its plugins.
 use sph_turbulence as _;
 

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 28] = [
+const ALLOWED: [(&str, &[&str]); 27] = [
     (
         "sph-soil",
         &[
@@ -90,25 +90,6 @@ const ALLOWED: [(&str, &[&str]); 28] = [
     ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
     (
-        "sph-setup",
-        &[
-            "sph-boundary",
-            "sph-contribution",
-            "sph-core",
-            "sph-decomposition",
-            "sph-integrators",
-            "sph-io",
-            "sph-kernels",
-            "sph-multiphase",
-            "sph-neighbours",
-            "sph-open",
-            "sph-probes",
-            "sph-rheology",
-            "sph-scene",
-            "sph-solver",
-        ],
-    ),
-    (
         "sph-particles",
         &[
             "sph-boundary",
@@ -120,9 +101,12 @@ const ALLOWED: [(&str, &[&str]); 28] = [
             "sph-probes",
             "sph-run",
             "sph-scene",
-            "sph-setup",
             "sph-solver",
             "sph-multiphase",
+            "sph-integrators",
+            "sph-kernels",
+            "sph-open",
+            "sph-rheology",
         ],
     ),
     ("sph-run", &["scene-text", "sph-io"]),
@@ -141,7 +125,6 @@ const ALLOWED: [(&str, &[&str]); 28] = [
             "sph-probes",
             "sph-run",
             "sph-scene",
-            "sph-setup",
             "sph-solver",
             "sph-study",
             "sph-turbulence",
@@ -165,7 +148,7 @@ const ALLOWED: [(&str, &[&str]); 28] = [
 ];
 
 /// From the plugins of a scene to its run.
-const SOLVERS: [&str; 3] = ["sph-solver", "sph-setup", "sph-particles"];
+const SOLVERS: [&str; 2] = ["sph-solver", "sph-particles"];
 
 /// Heavy crates, each with the crates that may name it: one for particles, and one for grains, which
 /// know nothing of each other.
@@ -236,14 +219,8 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                     !SOLVERS.contains(&target.as_str())
                 }
                 ("embedding", _) => true,
-                ("sph-solver", _) => ![
-                    "sph-setup",
-                    "sph-particles",
-                    "sph-study",
-                    "sph-cli",
-                    "sph-tests",
-                ]
-                .contains(&target.as_str()),
+                ("sph-solver", _) => !["sph-particles", "sph-study", "sph-cli", "sph-tests"]
+                    .contains(&target.as_str()),
                 (_, Some(allowed)) => allowed.contains(&target.as_str()),
                 (_, None) => target == "sph-core",
             };
@@ -258,7 +235,6 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
         let all = || room.uses.union(&room.tests_use);
         let knows = all().find(|d| SOLVERS.contains(&d.as_str()));
         let may = [
-            "sph-setup",
             "sph-particles",
             "sph-study",
             "sph-cli",

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 /// Crates that divide flows, run their parts, or write a file of each.
-const KNOWS: [&str; 8] = [
+const KNOWS: [&str; 7] = [
     "sph-cli",
     "sph-decomposition",
     "sph-io",
     "sph-neighbours",
     "sph-particles",
     "sph-run",
-    "sph-setup",
     "sph-solver",
 ];
 

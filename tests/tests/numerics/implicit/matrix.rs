@@ -7,8 +7,8 @@ use sph_multiphase::viscosity::{
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Weak, World, interactions};
+use sph_particles::setup::assemble;
 use sph_scene::parse;
-use sph_setup::assemble;
 
 const ETA: f64 = 3.0;
 /// A tank with a slanted wall, and what else stands in `[numerics]` and behind `[wall.tank]`.

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use sph_core::{System, Vect, fields};
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::{Override, load};
-use sph_setup::{Assembled, assemble};
 use sph_soil::seepage::{PoreResistance, SEEPAGE_VELOCITY};
 use sph_tests::{Bench, FinalState};
 

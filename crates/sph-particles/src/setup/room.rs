@@ -9,12 +9,12 @@ use sph_scene::Scene;
 use sph_solver::setup::Choices;
 use sph_solver::{SolverError, defaults};
 
-use crate::domain::{check_periods, domain_of};
-use crate::leaks::{Leak, leaks};
-use crate::placement::{Placed, place};
-use crate::shapes::Drawn;
-use crate::share::{Share, Standing};
-use crate::walls::{build_walls, thin_walls, wall_problem};
+use crate::setup::domain::{check_periods, domain_of};
+use crate::setup::leaks::{Leak, leaks};
+use crate::setup::placement::{Placed, place};
+use crate::setup::shapes::Drawn;
+use crate::setup::share::{Share, Standing};
+use crate::setup::walls::{build_walls, thin_walls, wall_problem};
 
 /// The room in which particles will move, and where they begin.
 pub(crate) struct Room<const D: usize> {

@@ -11,9 +11,9 @@ use sph_scene::Scene;
 use sph_solver::setup::Choices;
 use sph_solver::{SolverError, defaults};
 
-use crate::shapes::Drawn;
-use crate::tension;
-use crate::tension::Filled;
+use crate::setup::shapes::Drawn;
+use crate::setup::tension;
+use crate::setup::tension::Filled;
 
 /// How far in front of a port the room of a particle is looked at, over the spacing.
 const ROOM: f64 = 0.5;

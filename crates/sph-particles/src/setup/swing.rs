@@ -7,7 +7,7 @@ use sph_scene::{GravityOverTime, Region, Scene};
 use sph_solver::SolverError;
 use sph_solver::step::{Given, Swing};
 
-use crate::shapes::rigid_motion;
+use crate::setup::shapes::rigid_motion;
 
 const PLACE: &str = "numerics.gravity_over_time";
 /// Moments of a run at which the largest swing is looked for.

@@ -7,7 +7,7 @@ use sph_core::{Vect, number};
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
 
-use crate::rims::{Rim, Skin, Skins};
+use crate::setup::rims::{Rim, Skin, Skins};
 
 /// Ends nearer to each other than this share of the spacing are told as one place.
 const SAME: f64 = 1e-3;

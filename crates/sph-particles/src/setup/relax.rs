@@ -6,8 +6,8 @@ use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, Domain, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
 
-use crate::relaxation::Relaxation;
-use crate::shapes::Drawn;
+use crate::setup::relaxation::Relaxation;
+use crate::setup::shapes::Drawn;
 
 /// Share of h² ∇C by which a particle moves in one step; 1 does not converge.
 const MOBILITY: f64 = 0.4;

@@ -6,7 +6,7 @@ use sph_scene::Scene;
 use sph_solver::SolverError;
 use sph_solver::setup::own_accounts;
 
-use crate::reference_table::LONGEST;
+use crate::setup::reference_table::LONGEST;
 
 /// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
 ///

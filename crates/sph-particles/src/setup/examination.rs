@@ -7,12 +7,12 @@ use sph_core::{Declares, Role, StepLimit, System, fields};
 use sph_scene::Scene;
 use sph_solver::{Flow, PluginInForce, SolverError};
 
-use crate::assemble::Assembled;
-use crate::dimensions::assemble;
-use crate::estimate::short_steps;
-use crate::reference_table::readable;
-use crate::rehearsal::rehearse;
-use crate::{Estimate, Memory, Relaxation};
+use crate::setup::assemble::Assembled;
+use crate::setup::dimensions::assemble;
+use crate::setup::estimate::short_steps;
+use crate::setup::reference_table::readable;
+use crate::setup::rehearsal::rehearse;
+use crate::setup::{Estimate, Memory, Relaxation};
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]

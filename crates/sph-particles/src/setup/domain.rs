@@ -5,8 +5,8 @@ use sph_neighbours::Domain;
 use sph_scene::{Region, Scene};
 use sph_solver::SolverError;
 
-use crate::shapes::Drawn;
-use crate::wall_speeds::corners;
+use crate::setup::shapes::Drawn;
+use crate::setup::wall_speeds::corners;
 
 /// Extent of all bodies along gravity, m.
 pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {

@@ -16,21 +16,21 @@ use sph_solver::setup::{Choices, Given, Planned, Planning, joined, shown};
 use sph_solver::step::{Nursery, Outlets, Swing, accounts};
 use sph_solver::{Flow, SolverError};
 
-use crate::domain::{extent, height, pressure_at_rest};
-use crate::field_error;
-use crate::leaks::Leak;
-use crate::output_fields::check_output_fields;
-use crate::placement::Placed;
-use crate::probe_setup;
-use crate::relaxation::Relaxation;
-use crate::room::Room;
-use crate::shapes::Drawn;
-use crate::share::Share;
-use crate::soil_remarks::Ground;
-use crate::sound::sound_speeds;
-use crate::start::{Start, phases_of_bodies, start};
-use crate::wall_speeds::speeds;
-use crate::{lattices, movers, open_faces, swing};
+use crate::setup::domain::{extent, height, pressure_at_rest};
+use crate::setup::field_error;
+use crate::setup::leaks::Leak;
+use crate::setup::output_fields::check_output_fields;
+use crate::setup::placement::Placed;
+use crate::setup::probe_setup;
+use crate::setup::relaxation::Relaxation;
+use crate::setup::room::Room;
+use crate::setup::shapes::Drawn;
+use crate::setup::share::Share;
+use crate::setup::soil_remarks::Ground;
+use crate::setup::sound::sound_speeds;
+use crate::setup::start::{Start, phases_of_bodies, start};
+use crate::setup::wall_speeds::speeds;
+use crate::setup::{lattices, movers, open_faces, swing};
 
 /// How far the fastest point of a wall goes within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
@@ -147,7 +147,7 @@ pub(crate) fn assembled<const D: usize>(
 /// Walls and bodies of a scene, if they fit into memory.
 fn drawn_of<const D: usize>(scene: &Scene) -> Result<Drawn<D>, SolverError> {
     let drawn = Drawn::<D>::of(scene)?;
-    crate::estimate::refuse_the_absurd(scene, &drawn)?;
+    crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
     Ok(drawn)
 }
 

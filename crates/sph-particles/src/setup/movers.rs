@@ -9,7 +9,7 @@ use sph_scene::Scene;
 use sph_solver::SolverError;
 use sph_solver::setup::Choices;
 
-use crate::shapes::Drawn;
+use crate::setup::shapes::Drawn;
 
 /// Tells every mover of the scene, and every wall what moves it; takes the movers out of the choices.
 ///

@@ -5,7 +5,7 @@ use sph_probes::Solution;
 use sph_rheology::state::BoundState;
 use sph_scene::{Body, Pressure, Region, Scene};
 
-use crate::layers::Layers;
+use crate::setup::layers::Layers;
 
 /// Density and velocity of a body's particles at the start.
 pub struct InitialState<'a, const D: usize> {

@@ -7,7 +7,7 @@ use sph_scene::Scene;
 use sph_solver::step::costs;
 use sph_solver::{Flow, SolverError};
 
-use crate::dimensions::assemble;
+use crate::setup::dimensions::assemble;
 
 /// A rank's share.
 #[derive(Clone, Debug, Serialize)]

@@ -5,8 +5,8 @@ use std::any::Any;
 use sph_scene::Scene;
 use sph_solver::SolverError;
 
-use crate::assemble::{Assembled, assembled};
-use crate::share::Share;
+use crate::setup::assemble::{Assembled, assembled};
+use crate::setup::share::Share;
 
 /// Builds the plugins, the particles and the plan.
 ///

@@ -4,7 +4,7 @@
 //! * [`examine()`]: the numbers that follow from a scene, without running it; [`size()`]: how large it is, before it is
 //!   assembled; [`ranks()`]: how it divides between machines.
 //!
-//! The plugins and the plan are those of `sph-solver`. Runs are in `sph-particles`.
+//! The plugins and the plan are those of `sph-solver`.
 
 mod assemble;
 mod dimensions;

@@ -8,12 +8,12 @@ use sph_probes::Solution;
 use sph_scene::Scene;
 use sph_solver::{Flow, SolverError};
 
-use crate::initial::InitialState;
-use crate::layers::Layers;
-use crate::relax::relax;
-use crate::relaxation::Relaxation;
-use crate::shapes::Drawn;
-use crate::share::{Share, all_ready, refuse_the_indivisible};
+use crate::setup::initial::InitialState;
+use crate::setup::layers::Layers;
+use crate::setup::relax::relax;
+use crate::setup::relaxation::Relaxation;
+use crate::setup::shapes::Drawn;
+use crate::setup::share::{Share, all_ready, refuse_the_indivisible};
 
 /// What the first state of all particles is made from.
 pub(crate) struct Start<'a, const D: usize> {
