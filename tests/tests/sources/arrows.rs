@@ -240,7 +240,6 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
             "sph-cli",
             "sph-python",
             "sph-tests",
-            "sph-bench",
             "embedding",
         ];
         let may = may.contains(&name.as_str());

@@ -16,7 +16,7 @@ use running::advance;
 
 const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
-    "/../../scenes/dam-break-lobovsky.toml"
+    "/../scenes/dam-break-lobovsky.toml"
 );
 
 /// Spacings of about 20,000 and 80,000 particles, on 1 and 2 threads.

@@ -70,7 +70,7 @@ fn timed_in<const D: usize>(bencher: Bencher, case: Case, what: What) {
     let Case(scene, spacing, _, threads) = case;
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.expect("threads");
-    let file = format!("{}/../../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let file = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
     let spacing = Override::parse(&format!("numerics.spacing={spacing}")).expect("a length");
     let loaded = sph_scene::load(Path::new(&file), &[spacing]).expect("a shipped scene");
     let bounds = loaded.scene.numerics.density_bounds;

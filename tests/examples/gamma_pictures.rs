@@ -2,7 +2,7 @@
 //! gear from an SVG drawing, and on a slice through the tank of `hydrostatic-tank-3d`.
 //!
 //! ```sh
-//! cargo run --release -p sph-bench --example gamma_pictures
+//! cargo run --release -p sph-tests --example gamma_pictures
 //! ```
 
 use std::error::Error;
@@ -46,7 +46,7 @@ const ACROSS: f64 = 300.0;
 const BAND: f64 = 0.02;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let images = root.join("docs/images");
     let place = root.join("gear.toml").display().to_string();
     gear(&parse(GEAR, &place, &[])?.scene, &images)?;

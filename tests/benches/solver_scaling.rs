@@ -1,5 +1,5 @@
 //! Time and memory per solve against the number of particles, contrast and stiffness:
-//! `cargo bench -p sph-bench --bench solver_scaling`. Not a test: it takes some minutes.
+//! `cargo bench -p sph-tests --bench solver_scaling`. Not a test: it takes some minutes.
 
 use std::time::Instant;
 

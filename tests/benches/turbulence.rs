@@ -11,7 +11,7 @@ use sph_turbulence as _;
 
 use running::advance;
 
-const SCENE: &str = include_str!("../../../scenes/turb-channel-k-epsilon.toml");
+const SCENE: &str = include_str!("../../scenes/turb-channel-k-epsilon.toml");
 /// The tables of the scene that a case leaves out.
 const K_EPSILON: [&str; 1] = ["[eddy-viscosity.k-epsilon.channel]"];
 const WALL: [&str; 3] = [

@@ -1,6 +1,6 @@
 //! Instruction counts under Valgrind: the same on every run, whatever else the machine does.
 //!
-//! `cargo bench -p sph-bench --features instructions --bench instructions`; it needs valgrind and
+//! `cargo bench -p sph-tests --features instructions --bench instructions`; it needs valgrind and
 //! `gungraun-runner` of the same version as the library.
 
 #![allow(

@@ -2,7 +2,7 @@
 //! ways, and the run-out of the scenes `column-*` against the laws of Lube et al.
 //!
 //! ```sh
-//! cargo run --release -p sph-bench --example mu_i_pictures [TABLE]
+//! cargo run --release -p sph-tests --example mu_i_pictures [TABLE]
 //! ```
 //!
 //! TABLE has an aspect ratio and a run-out per line; without it only the law is drawn.
@@ -33,7 +33,7 @@ fn sand(regularisation: MuIRegularisation) -> MuI {
 const PRESSURE: f64 = 500.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let images = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images");
+    let images = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images");
     law(&images)?;
     match std::env::args().nth(1) {
         Some(table) => run_out(&std::fs::read_to_string(table)?, &images),
