@@ -9,7 +9,6 @@ macro_rules! readmes {
 
 readmes! {
     Workspace "../README.md"
-    Grains "../crates/dem-scene/README.md"
     GrainsAndPores "../crates/dem-pfv/README.md"
     SceneText "../crates/scene-text/README.md"
     SurfaceFile "../crates/surface-file/README.md"

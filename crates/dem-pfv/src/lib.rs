@@ -4,12 +4,15 @@
 //! * [`triangulation`]: regular triangulation of spheres between walls.
 //! * [`flow`]: creeping flow through the pores, and its forces on the grains.
 //! * [`coupled`]: grains and flow together, coupled both ways.
+//! * `scene`, with the feature of that name: scenes that are read, run, measured and written.
 //!
 //! Contact laws and conductances are plugins: [`register_law!`], [`register_conductance!`].
 
 pub mod coupled;
 pub mod flow;
 pub mod grains;
+#[cfg(feature = "scene")]
+pub mod scene;
 pub mod triangulation;
 
 /// Crates that the registration macros name; use them through the macros only.
