@@ -15,7 +15,6 @@ readmes! {
     Bodies "../crates/sph-bodies/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
-    Integrators "../crates/sph-integrators/README.md"
     Kernels "../crates/sph-kernels/README.md"
     Neighbours "../crates/sph-neighbours/README.md"
     Probes "../crates/sph-probes/README.md"

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use sph_boundary::Wall;
+use sph_contribution::integrators::Integrator;
 use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
 use sph_core::{Born, Role, Store, fields};
-use sph_integrators::Integrator;
 use sph_multiphase::Formulation;
 use sph_neighbours::World;
 use sph_probes::{Probe, Solution};

@@ -1,9 +1,9 @@
 //! From names in the scene to built plugins.
 
 use sph_boundary::{Mover, MoverEntry, Wall, WallEntry};
+use sph_contribution::integrators::{Integrator, IntegratorEntry};
 use sph_contribution::{Part, PluginInForce, Plugins};
 use sph_core::{SceneProblem, Work, fields, kind_of};
-use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
 use sph_multiphase::{Formulation, FormulationEntry};
 use sph_neighbours::KernelEntry;

@@ -2,7 +2,7 @@
 
 use sph_core::{Recall, StepError, System, plugin};
 
-use crate::{Integrator, IntegratorEntry, LimitCoefficients};
+use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 
 /// ũ = uⁿ + Δt aⁿ and r̃ = rⁿ + Δt uⁿ; then uⁿ⁺¹ = uⁿ + Δt/2 (aⁿ + ã) with ã from r̃, ũ and the old
 /// density, and rⁿ⁺¹ = rⁿ + Δt uⁿ⁺¹, the density following.
@@ -57,7 +57,7 @@ impl Integrator for PredictorCorrector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::Promise;
+    use crate::integrators::trial::Promise;
 
     #[test]
     fn orders_stability_and_energy_are_as_stated() {

@@ -2,7 +2,7 @@
 
 use sph_core::{Recall, StepError, System, plugin};
 
-use crate::{Integrator, IntegratorEntry, LimitCoefficients};
+use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 
 /// uⁿ⁺½ = uⁿ + Δt/2 aⁿ, rⁿ⁺¹ = rⁿ + Δt uⁿ⁺½, uⁿ⁺¹ = uⁿ⁺½ + Δt/2 a(rⁿ⁺¹, uⁿ + Δt aⁿ).
 ///
@@ -53,7 +53,7 @@ impl Integrator for LeapFrog {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::Promise;
+    use crate::integrators::trial::Promise;
 
     #[test]
     fn orders_stability_and_energy_are_as_stated() {

@@ -2,7 +2,7 @@
 
 use sph_core::{Recall, StepError, System, plugin};
 
-use crate::{Integrator, IntegratorEntry, LimitCoefficients};
+use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 
 /// rⁿ⁺½ = rⁿ + Δt/2 uⁿ, uⁿ⁺¹ = uⁿ + Δt a(rⁿ⁺½, uⁿ + Δt/2 aⁿ), rⁿ⁺¹ = rⁿ⁺½ + Δt/2 uⁿ⁺¹.
 ///
@@ -55,7 +55,7 @@ impl Integrator for Verlet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::Promise;
+    use crate::integrators::trial::Promise;
 
     #[test]
     fn orders_stability_and_energy_are_as_stated() {

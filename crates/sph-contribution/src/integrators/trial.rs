@@ -2,7 +2,7 @@
 
 use sph_core::{Recall, StepError, StepLimit, System};
 
-use crate::Integrator;
+use crate::integrators::Integrator;
 
 /// ẋ = u, u̇ = −p − c u with the "pressure" p = x that an evaluation of the forces alone leaves
 /// as it was.

@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, System, plugin};
 
-use crate::{Integrator, IntegratorEntry, LimitCoefficients};
+use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 
 /// uⁿ⁺¹ = uⁿ + Δt aⁿ, then rⁿ⁺¹ = rⁿ + Δt uⁿ⁺¹, then the density from the new positions.
 ///
@@ -52,7 +52,7 @@ impl Integrator for SymplecticEuler {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::Promise;
+    use crate::integrators::trial::Promise;
 
     #[test]
     fn orders_stability_and_energy_are_as_stated() {
