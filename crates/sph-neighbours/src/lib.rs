@@ -8,6 +8,7 @@
 //!   form, called once per cluster of particles and never per pair.
 //! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum, [`lattice_sum`] what a sum
 //!   would be on a lattice.
+//! * [`decomposition`] divides particles between ranks.
 //!
 //! Each particle sums its own neighbourhood in the order of its list: no atomics, and the same
 //! bits for any number of threads.
@@ -21,6 +22,7 @@ mod clusters;
 mod contacts;
 mod couplings;
 mod cross;
+pub mod decomposition;
 mod domain;
 mod exchange;
 mod facing;

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 25] = [
+const ALLOWED: [(&str, &[&str]); 24] = [
     (
         "sph-soil",
         &[
@@ -53,7 +53,6 @@ const ALLOWED: [(&str, &[&str]); 25] = [
             "sph-probes",
         ],
     ),
-    ("sph-decomposition", &["sph-core", "sph-neighbours"]),
     ("sph-rheology", &["sph-core", "sph-neighbours"]),
     (
         "sph-contribution",
@@ -92,9 +91,8 @@ const ALLOWED: [(&str, &[&str]); 25] = [
             "sph-boundary",
             "sph-contribution",
             "sph-core",
-            "sph-decomposition",
-            "sph-io",
             "sph-neighbours",
+            "sph-io",
             "sph-probes",
             "sph-run",
             "sph-scene",
@@ -114,7 +112,7 @@ const ALLOWED: [(&str, &[&str]); 25] = [
             "sph-bodies",
             "sph-core",
             "sph-multiphase",
-            "sph-decomposition",
+            "sph-neighbours",
             "sph-io",
             "sph-particles",
             "sph-probes",

@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 /// Crates that divide flows, run their parts, or write a file of each.
-const KNOWS: [&str; 7] = [
+const KNOWS: [&str; 6] = [
     "sph-cli",
-    "sph-decomposition",
     "sph-io",
     "sph-neighbours",
     "sph-particles",

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_core::{StepError, System};
-use sph_decomposition::{PartError, Transport};
+use sph_neighbours::decomposition::{PartError, Transport};
 use sph_neighbours::{Nearby, WallSet};
 use sph_run::{Identity, RunOptions, Start};
 use sph_scene::Scene;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use sph_decomposition::Transport;
 use sph_neighbours::Nearby;
+use sph_neighbours::decomposition::Transport;
 use sph_run::RunOptions;
 use sph_scene::Scene;
 

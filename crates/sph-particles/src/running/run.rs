@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
-use sph_decomposition::Transport;
+use sph_neighbours::decomposition::Transport;
 use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
 use sph_scene::Scene;
 use sph_solver::step::guard;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sph_core::{Declares, System, fields};
-use sph_decomposition::{Halo, bisect, exchanges};
+use sph_neighbours::decomposition::{Halo, bisect, exchanges};
 use sph_scene::Scene;
 use sph_solver::step::costs;
 use sph_solver::{Flow, SolverError};
@@ -93,7 +93,7 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
 fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {
     let stages: Vec<_> = flow.stages.iter().map(|s| s.access()).collect();
     let free = &flow.world.free;
-    let one = |exchange: sph_decomposition::Exchange| {
+    let one = |exchange: sph_neighbours::decomposition::Exchange| {
         let columns = exchange.columns.iter().filter(|f| free.has(f.name));
         ExchangeUse {
             stage: flow.stages[exchange.stage].name(),

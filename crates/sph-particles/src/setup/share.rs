@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_core::StepError;
-use sph_decomposition::{PartError, Transport};
 use sph_neighbours::WallSet;
+use sph_neighbours::decomposition::{PartError, Transport};
 use sph_solver::{Flow, SolverError};
 
 /// How much of a flow a process begins with.

@@ -12,7 +12,7 @@ use sph_contribution::{
 use sph_core::{
     Access, AnyField, Declares, Evolved, Field, Role, Scalar, StepError, StepLimit, fields,
 };
-use sph_decomposition::Parts;
+use sph_neighbours::decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_rheology::state::Laws;
 

@@ -1,10 +1,10 @@
 //! The whole flow at one rank, for files and measurements.
 
 use sph_core::{AnyField, Vect};
-use sph_neighbours::World;
 
-use crate::owner::OWNER;
-use crate::{PartError, Parts};
+use crate::World;
+use crate::decomposition::owner::OWNER;
+use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
     /// Gathers the particles of all ranks into a world with the same columns, but for the owner, at rank 0, which has the `whole`: in

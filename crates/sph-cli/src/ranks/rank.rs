@@ -4,8 +4,7 @@ use mpi::collective::SystemOperation;
 use mpi::point_to_point::{Destination, Source};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives};
-
-use crate::{Transport, TransportError};
+use sph_neighbours::decomposition::{Transport, TransportError};
 
 /// Bytes of a message that are sent at once: MPI counts in 31 bits.
 const PIECE: usize = 1 << 30;

@@ -6,7 +6,7 @@ use mpi::Threading;
 use mpi::environment::Universe;
 use mpi::traits::Communicator;
 
-use crate::processes::MpiRank;
+use crate::ranks::rank::MpiRank;
 
 /// What launchers tell the processes that they start: Open MPI, MPICH and its kin, Slurm.
 const SIGNS: [&str; 4] = [

@@ -4,7 +4,7 @@ use serde::Serialize;
 use sph_core::{FieldError, StepError};
 use thiserror::Error;
 
-use crate::{CutError, DecompositionError, TransportError};
+use crate::decomposition::{CutError, DecompositionError, TransportError};
 
 /// What keeps a rank from its part.
 #[derive(Clone, Debug, Error, PartialEq)]

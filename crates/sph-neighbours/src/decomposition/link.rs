@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
 use sph_core::{AnyField, StepError, Store, Vect};
-use sph_neighbours::{Team, World};
 
-use crate::owner::OWNER;
-use crate::{PartError, Transport};
+use crate::decomposition::owner::OWNER;
+use crate::decomposition::{PartError, Transport};
+use crate::{Team, World};
 
 /// Slots that are sent to, or received from, a rank.
 pub(crate) type Partner = (usize, Vec<u32>);

@@ -1,9 +1,9 @@
 //! What walls feel, at one rank, for files.
 
 use sph_core::{Vect, fields};
-use sph_neighbours::{Clusters, World};
 
-use crate::{PartError, Parts};
+use crate::decomposition::{PartError, Parts};
+use crate::{Clusters, World};
 
 impl<const D: usize> Parts<D> {
     /// Gives the points and elements of the walls at rank 0, which has the `whole`, the pressures that the ranks found there. A rank

@@ -2,7 +2,7 @@
 
 use sph_core::StepError;
 
-use crate::{PartError, Parts};
+use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
     /// Whether anybody says yes, if nobody has failed. Every message between ranks is preceded by this, so that a rank that fails

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::{DecompositionError, Transport, TransportError};
+use crate::decomposition::{DecompositionError, Transport, TransportError};
 
 /// Halvings of an interval until its ends are one number, or nearly.
 const HALVINGS: usize = 52;
@@ -195,7 +195,7 @@ pub enum CutError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Thread;
+    use crate::decomposition::Thread;
 
     /// The right third costs five times as much; two ranks hold half of the particles each, or one all.
     #[test]

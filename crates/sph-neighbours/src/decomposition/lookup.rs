@@ -2,9 +2,9 @@
 
 use sph_core::{AnyField, Slots, Store, fields};
 
-use crate::link::Partner;
-use crate::owner::OWNER;
-use crate::{PartError, Parts};
+use crate::decomposition::link::Partner;
+use crate::decomposition::owner::OWNER;
+use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
     /// Brings an earlier copy of this rank's particles into the order of now: who has come since is asked of who had it then,

@@ -4,8 +4,7 @@
 //!   [`Cuts`] are the same as planes in space, found by ranks that hold a part each.
 //! * [`Halo`] counts the guests: particles of others that a rank needs because they are within reach of its own.
 //! * [`exchanges`] tells which columns guests must be sent before which stage, from what stages say that they touch.
-//! * [`Transport`] is what ranks need to talk to each other; [`Thread`] is one that is a thread of this process,
-//!   `processes` with the feature `mpi` has one that is a process of an MPI job.
+//! * [`Transport`] is what ranks need to talk to each other; [`Thread`] is one that is a thread of this process.
 //! * [`Parts`] is a rank's part of a flow: it moves particles between ranks, tells guests what their owners found, and
 //!   gathers the whole.
 //!
@@ -24,8 +23,6 @@ mod link;
 mod lookup;
 mod owner;
 mod parts;
-#[cfg(feature = "mpi")]
-pub mod processes;
 mod threads;
 mod transport;
 

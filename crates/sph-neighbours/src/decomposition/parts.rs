@@ -8,12 +8,12 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
 
 use sph_core::{AnyField, Role, Store, Vect, fields};
-use sph_neighbours::{Extent, World};
 
-use crate::guests::{Around, Needs};
-use crate::link::{Link, Partner, Partners};
-use crate::owner::OWNER;
-use crate::{Cuts, Divided, PartError, Thread, Transport};
+use crate::decomposition::guests::{Around, Needs};
+use crate::decomposition::link::{Link, Partner, Partners};
+use crate::decomposition::owner::OWNER;
+use crate::decomposition::{Cuts, DecompositionError, Divided, PartError, Thread, Transport};
+use crate::{Extent, World};
 
 /// Rebuilt lists until the parts are looked at again.
 const BUILDS_TO_LOOK: u64 = 20;
@@ -60,11 +60,11 @@ impl<const D: usize> Parts<D> {
         let reference = world.lists.reference.clone();
         let particles = reference.len();
         if ranks > particles {
-            return Err(crate::DecompositionError::TooManyRanks { ranks, particles }.into());
+            return Err(DecompositionError::TooManyRanks { ranks, particles }.into());
         }
         let cuts = match Thread::team(1).first() {
             Some(alone) => Cuts::of(&reference, &vec![1.0; particles], ranks, alone)?,
-            None => return Err(crate::DecompositionError::NoRanks.into()),
+            None => return Err(crate::decomposition::DecompositionError::NoRanks.into()),
         };
         let owners: Vec<u32> = reference.iter().map(|x| cuts.owner(x)).collect();
         world.free.add(OWNER, Role::State);

@@ -1,7 +1,8 @@
 //! Whom other ranks need copies of.
 
 use sph_core::Vect;
-use sph_neighbours::{CellGrid, Domain, World};
+
+use crate::{CellGrid, Domain, World};
 
 /// A box around the particles of a rank; upside down where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]

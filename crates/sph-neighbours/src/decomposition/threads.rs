@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 
-use crate::{Transport, TransportError};
+use crate::decomposition::{Transport, TransportError};
 
 /// A rank among the threads of this process.
 #[derive(Debug)]

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use sph_core::{FieldError, fields};
-use sph_neighbours::World;
 
-use crate::guests::{Around, Needs};
+use crate::World;
+use crate::decomposition::guests::{Around, Needs};
 
 /// Guests: particles that others own and a rank needs, because they are within reach of the box around its own, or of
 /// a wall that one of its own touches.
