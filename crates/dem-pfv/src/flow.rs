@@ -35,23 +35,17 @@
 
 mod assembly;
 mod boundary;
-mod cholesky;
 mod conductance;
-mod conjugate_gradient;
-mod dissection;
 mod edges;
 mod error;
 mod facet;
 mod forces;
 mod geometry;
 mod inscribed;
-mod matrix;
 mod registry;
 mod solid_angle;
-mod substitution;
 mod system;
 mod throat;
-mod vertex_cover;
 mod volume;
 
 pub use crate::register_conductance;

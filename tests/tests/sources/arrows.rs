@@ -8,7 +8,8 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 24] = [
+const ALLOWED: [(&str, &[&str]); 25] = [
+    ("sparse", &[]),
     (
         "sph-soil",
         &[
@@ -23,6 +24,7 @@ const ALLOWED: [(&str, &[&str]); 24] = [
     (
         "dem-pfv",
         &[
+            "sparse",
             "sph-derive",
             "scene-text",
             "surface-file",
@@ -69,7 +71,7 @@ const ALLOWED: [(&str, &[&str]); 24] = [
             "sph-implicit",
         ],
     ),
-    ("sph-implicit", &["sph-core", "sph-neighbours"]),
+    ("sph-implicit", &["sparse", "sph-core", "sph-neighbours"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
     (
@@ -143,15 +145,14 @@ const ALLOWED: [(&str, &[&str]); 24] = [
 /// From the plugins of a scene to its run.
 const SOLVERS: [&str; 2] = ["sph-solver", "sph-particles"];
 
-/// Heavy crates, each with the crates that may name it: one for particles, and one for grains, which
-/// know nothing of each other.
+/// Heavy crates, each with the crates that may name it.
 const KEPT_IN: [(&str, &[&str]); 7] = [
     ("pyo3", &["sph-python"]),
     ("numpy", &["sph-python"]),
     ("clap", &["sph-cli"]),
     ("ariadne", &["sph-cli"]),
     ("indicatif", &["sph-cli"]),
-    ("faer", &["sph-implicit", "dem-pfv"]),
+    ("faer", &["sparse"]),
     ("hdf5", &["sph-io"]),
 ];
 

@@ -1,6 +1,7 @@
 //! Pores, unknowns and entries of the system.
 
-use crate::flow::matrix::Matrix;
+use sparse::UpperTriangle;
+
 use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
 
 /// A cell of a given pressure, in place of the number of an unknown.
@@ -112,7 +113,7 @@ pub fn assemble(
     ends: &[[u32; 2]],
     unknowns: &[u32],
     count: usize,
-) -> (Vec<f64>, Matrix) {
+) -> (Vec<f64>, UpperTriangle) {
     let mut diagonal = vec![0.0; count];
     let mut entries = Vec::new();
     for (k, e) in conductances.iter().zip(ends) {
@@ -127,6 +128,6 @@ pub fn assemble(
             entries.push((u.max(v), u.min(v), -k));
         }
     }
-    let matrix = Matrix::new(&diagonal, entries);
+    let matrix = UpperTriangle::new(&diagonal, entries);
     (diagonal, matrix)
 }

@@ -1,5 +1,6 @@
 //! What is refused, and why.
 
+use sparse::SparseError;
 use thiserror::Error;
 
 /// Spheres, walls or conditions through which no flow can be computed.
@@ -88,26 +89,9 @@ pub enum FlowError {
         /// One of them.
         cell: usize,
     },
-    /// The factorisation broke down.
-    #[error("the matrix of {unknowns} unknown pressures is not positive definite")]
-    NotDefinite {
-        /// Its size.
-        unknowns: usize,
-    },
-    /// There is not enough memory for the factor.
-    #[error("not enough memory to factorise {unknowns} unknown pressures; use conjugate gradients")]
-    NoMemory {
-        /// Its size.
-        unknowns: usize,
-    },
-    /// Conjugate gradients did not end.
-    #[error("the residual is {residual:e} of the right side after {iterations} iterations")]
-    NotConverged {
-        /// Relative residual.
-        residual: f64,
-        /// Iterations made.
-        iterations: usize,
-    },
+    /// The system of the pressures could not be solved.
+    #[error("pressures: {0}")]
+    Unsolved(#[from] SparseError),
     /// No conductance has this name.
     #[error("no conductance is called {name:?}; known are {known}")]
     UnknownConductance {

@@ -1,13 +1,12 @@
 //! The balance of all pores as one linear system.
 
 use serde::{Deserialize, Serialize};
+use sparse::{Cholesky, Order, UpperTriangle, conjugate_gradient, nested_dissection};
 
 use crate::flow::assembly::{
     GIVEN, assemble, conductances, given, givers, joined, numbered, reachable,
 };
-use crate::flow::cholesky::Cholesky;
-use crate::flow::matrix::Matrix;
-use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry, conjugate_gradient, dissection};
+use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
 
 /// How the system is solved.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -58,7 +57,7 @@ pub struct FlowSystem {
     storage: Option<Storage>,
     /// Diagonal without storage.
     diagonal: Vec<f64>,
-    matrix: Matrix,
+    matrix: UpperTriangle,
     solver: Solver,
     factor: Option<Cholesky>,
     last: Vec<f64>,
@@ -149,8 +148,8 @@ impl FlowSystem {
                     places[u as usize] = *at;
                 }
             }
-            let order = dissection::order(&system.matrix, &places);
-            system.factor = Some(Cholesky::analyse(&system.matrix, &order)?);
+            let order = nested_dissection(&system.matrix, &places);
+            system.factor = Some(Cholesky::analyse(&system.matrix, Order::Given(&order))?);
         }
         system.refresh()?;
         Ok(system)
@@ -182,7 +181,7 @@ impl FlowSystem {
             self.matrix.values[place] = value;
         }
         match &mut self.factor {
-            Some(factor) => factor.factorise(&self.matrix),
+            Some(factor) => Ok(factor.factorise(&self.matrix)?),
             None => Ok(()),
         }
     }
@@ -253,7 +252,7 @@ impl FlowSystem {
         match (self.solver, &mut self.factor) {
             (_, Some(factor)) => self.last = factor.solve(&right),
             (Solver::ConjugateGradient { tolerance, limit }, None) => {
-                conjugate_gradient::solve(&self.matrix, &right, &mut self.last, tolerance, limit)?;
+                conjugate_gradient(&self.matrix, &right, &mut self.last, tolerance, limit)?;
             }
             (_, None) => {}
         }

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::flow::matrix::Matrix;
-use crate::flow::vertex_cover::Joins;
+use crate::UpperTriangle;
+use crate::vertex_cover::Joins;
 
 /// Parts that are not cut further.
 const SMALL: usize = 8;
@@ -12,7 +12,7 @@ const SMALL: usize = 8;
 /// fewest unknowns that touch all that join the halves. Parts of eight and the fewest unknowns fill a sixth less than parts
 /// of 48 and the unknowns of one half (5,000 spheres); minimum degree fills a third to a half more than the latter.
 /// Source: George 1973; cuts by coordinates instead of a grid's lines.
-pub fn order(matrix: &Matrix, places: &[Vector3<f64>]) -> Vec<u32> {
+pub fn nested_dissection(matrix: &UpperTriangle, places: &[Vector3<f64>]) -> Vec<u32> {
     let mut cutter = Cutter {
         neighbours: neighbours(matrix),
         places,
@@ -110,7 +110,7 @@ impl Cutter<'_> {
 }
 
 /// Starts and lists of the neighbours of every unknown.
-fn neighbours(matrix: &Matrix) -> (Vec<u32>, Vec<u32>) {
+fn neighbours(matrix: &UpperTriangle) -> (Vec<u32>, Vec<u32>) {
     let n = matrix.len();
     let mut starts = vec![0_u32; n + 1];
     let entries = || {

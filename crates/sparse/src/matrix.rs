@@ -1,14 +1,17 @@
 //! The upper triangle of a symmetric matrix, column by column.
 
-/// Rows of each column ascending, the diagonal last.
+/// A symmetric matrix by the columns of its upper triangle: rows of each column ascending, the diagonal last.
 #[derive(Clone, Debug, Default)]
-pub struct Matrix {
+pub struct UpperTriangle {
+    /// Where each column begins, and the end of the last one.
     pub starts: Vec<u32>,
+    /// Row of each value.
     pub rows: Vec<u32>,
+    /// Column by column.
     pub values: Vec<f64>,
 }
 
-impl Matrix {
+impl UpperTriangle {
     /// From a diagonal and entries (column, row, value) with row < column, in any order; entries of one place
     /// are added up in the order given.
     pub fn new(diagonal: &[f64], mut entries: Vec<(u32, u32, f64)>) -> Self {
@@ -36,8 +39,14 @@ impl Matrix {
         matrix
     }
 
+    /// Number of unknowns.
     pub fn len(&self) -> usize {
-        self.starts.len() - 1
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// Whether there are no unknowns.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
     }
 
     /// Place of a diagonal value.

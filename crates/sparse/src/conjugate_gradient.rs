@@ -1,17 +1,19 @@
 //! Conjugate gradients with the diagonal as preconditioner.
 
-use crate::flow::FlowError;
-use crate::flow::matrix::Matrix;
+use crate::{SparseError, UpperTriangle};
 
 /// Solves A x = b from the x given, to |b − A x| ≤ tolerance |b|, within `limit` iterations.
 /// Source: Hestenes & Stiefel 1952; Saad 2003, Algorithm 9.1.
-pub fn solve(
-    matrix: &Matrix,
+///
+/// # Errors
+/// What has not converged by then.
+pub fn conjugate_gradient(
+    matrix: &UpperTriangle,
     right: &[f64],
     x: &mut [f64],
     tolerance: f64,
     limit: usize,
-) -> Result<(), FlowError> {
+) -> Result<(), SparseError> {
     let n = right.len();
     let scale = dot(right, right).sqrt();
     if scale == 0.0 {
@@ -51,7 +53,7 @@ pub fn solve(
     if size <= tolerance {
         return Ok(());
     }
-    Err(FlowError::NotConverged {
+    Err(SparseError::NotConverged {
         residual: size,
         iterations: limit,
     })
