@@ -204,7 +204,7 @@ mod tests {
         assert_eq!(
             refused,
             Err(SparseError::NotPositive {
-                row: 1,
+                row: 2,
                 unknowns: 2
             })
         );

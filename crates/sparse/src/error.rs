@@ -14,7 +14,7 @@ pub enum SparseError {
     /// The matrix is not positive definite.
     #[error("the matrix of {unknowns} unknowns is not positive definite: row {row}")]
     NotPositive {
-        /// The row, in the order of elimination, whose pivot is not positive.
+        /// The row whose pivot is not positive, in the order of elimination and counted from 1.
         row: usize,
         /// Size of the system.
         unknowns: usize,
