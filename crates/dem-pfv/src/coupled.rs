@@ -6,7 +6,7 @@
 //!   it starts from, [`Wave`] the load of waves on a bed.
 //! * [`Fluid::shear`], [`Lubrication`]: what neighbours feel of each other besides the pores' pressures, if wanted.
 //! * [`Remeshing`]: when pores are found anew. [`StepLimit`]: the largest stable step, of contacts and drag.
-//! * [`CoupledSystem::layer_pressure`], [`CoupledSystem::gradient`], [`CoupledSystem::effective_stress`],
+//! * [`CoupledSystem::layer_pressure`], [`CoupledSystem::gradient`], [`GrainSystem::effective_stress`](crate::grains::GrainSystem::effective_stress),
 //!   [`CoupledSystem::mobility`]: measures.
 //! * [`State`]: saved, and resumed to the same bits. [`CoupledError`]: what is refused, by grain, wall or cell.
 //! * [`Terzaghi`]: the exact consolidation that a loaded packing is compared with.

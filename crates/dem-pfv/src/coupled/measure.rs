@@ -3,7 +3,6 @@
 use crate::coupled::system::sphere;
 use crate::coupled::{CoupledError, CoupledSystem, Vector, condition};
 use crate::flow::{FlowSystem, Solver};
-use crate::grains::Partner;
 
 impl CoupledSystem {
     /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
@@ -16,28 +15,30 @@ impl CoupledSystem {
     /// without such cells.
     #[must_use]
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
-        let cells = self.layer(axis, from, to);
+        let cells = self.cells(axis, |x| (from..to).contains(&x[axis]));
         let sums = cells.iter().fold((0.0, 0.0), |(v, pv), (_, volume, p)| {
             (v + volume, pv + p * volume)
         });
         (sums.0 > 0.0).then(|| sums.1 / sums.0)
     }
 
-    /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells that lie between two places along it.
-    fn layer(&self, axis: usize, from: f64, to: f64) -> Vec<(f64, f64, f64)> {
+    /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells whose places are inside.
+    fn cells(&self, axis: usize, inside: impl Fn(&Vector) -> bool) -> Vec<(f64, f64, f64)> {
         let places = self.pores.middles();
         let clock = &self.clock;
         let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
-        let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));
-        cells.filter(|(x, ..)| (from..to).contains(x)).collect()
+        let cells = cells.filter(|((x, _), _)| inside(x));
+        cells
+            .map(|((x, volume), p)| (x[axis], *volume, *p))
+            .collect()
     }
 
-    /// Slope −dp/dx of the pressure along an axis (Pa/m) between two places (m): least squares over the cells that lie
-    /// there, by their volumes; none with fewer than two.
+    /// Slope −dp/dx of the pressure along an axis (Pa/m): least squares over the cells whose places (m) are inside, by
+    /// their volumes; none with fewer than two.
     #[must_use]
-    pub fn gradient(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
+    pub fn gradient(&self, axis: usize, inside: impl Fn(&Vector) -> bool) -> Option<f64> {
         let [mut w, mut x1, mut p1, mut xx, mut xp] = [0.0; 5];
-        for (x, volume, p) in self.layer(axis, from, to) {
+        for (x, volume, p) in self.cells(axis, inside) {
             w += volume;
             x1 += volume * x;
             p1 += volume * p;
@@ -46,46 +47,6 @@ impl CoupledSystem {
         }
         let spread = w * xx - x1 * x1;
         (spread > 0.0).then(|| -(w * xp - x1 * p1) / spread)
-    }
-
-    /// Normal component of the contact forces that cross a plane normal to an axis, over the plane's area (Pa),
-    /// positive in compression: the effective stress σ'. Grains belong to the side of their centres.
-    ///
-    /// # Errors
-    /// If the box is not closed.
-    pub fn effective_stress(&self, axis: usize, at: f64) -> Result<f64, CoupledError> {
-        let grains = &self.grains;
-        let above = |grain: usize| grains.grains().positions()[grain][axis] >= at;
-        let mut force = 0.0;
-        for touch in grains.contacts() {
-            let first = above(touch.grain);
-            let second = match touch.partner {
-                Partner::Grain(other) => above(other),
-                Partner::Wall(wall) => {
-                    let wall = &grains.walls()[wall];
-                    match wall.normal[axis].abs() > 0.5 {
-                        true => wall.point[axis] >= at,
-                        false => first,
-                    }
-                }
-                Partner::Triangle { .. } => first,
-            };
-            if first != second {
-                force += if first {
-                    touch.force[axis]
-                } else {
-                    -touch.force[axis]
-                };
-            }
-        }
-        Ok(force / self.section(axis)?)
-    }
-
-    /// Area of the box across an axis, m².
-    fn section(&self, axis: usize) -> Result<f64, CoupledError> {
-        let lengths = self.grains.box_lengths();
-        let lengths = lengths.ok_or(crate::grains::GrainError::NoArea { wall: 2 * axis })?;
-        Ok(lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3])
     }
 
     /// Sum of the fluid's forces on all grains, buoyancy apart, N.
@@ -148,6 +109,6 @@ impl CoupledSystem {
         )?;
         let pressures = system.solve(&boundary, &[])?;
         let length = self.grains.box_lengths().ok_or(none)?[axis];
-        Ok(system.inflow(geometry, high, &pressures) * length / self.section(axis)?)
+        Ok(system.inflow(geometry, high, &pressures) * length / self.grains.section(axis)?)
     }
 }

@@ -151,6 +151,48 @@ impl GrainSystem {
         Some([self.length(0)?, self.length(1)?, self.length(2)?])
     }
 
+    /// Area of the box across an axis, m².
+    ///
+    /// # Errors
+    /// If the box is not closed.
+    pub fn section(&self, axis: usize) -> Result<f64, GrainError> {
+        let lengths = self.box_lengths();
+        let lengths = lengths.ok_or(GrainError::NoArea { wall: 2 * axis })?;
+        Ok(lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3])
+    }
+
+    /// Normal component of the contact forces that cross a plane normal to an axis, over the plane's area (Pa),
+    /// positive in compression: the effective stress σ'. Grains belong to the side of their centres.
+    ///
+    /// # Errors
+    /// If the box is not closed.
+    pub fn effective_stress(&self, axis: usize, at: f64) -> Result<f64, GrainError> {
+        let above = |grain: usize| self.grains().positions()[grain][axis] >= at;
+        let mut force = 0.0;
+        for touch in self.contacts() {
+            let first = above(touch.grain);
+            let second = match touch.partner {
+                Partner::Grain(other) => above(other),
+                Partner::Wall(wall) => {
+                    let wall = &self.walls()[wall];
+                    match wall.normal[axis].abs() > 0.5 {
+                        true => wall.point[axis] >= at,
+                        false => first,
+                    }
+                }
+                Partner::Triangle { .. } => first,
+            };
+            if first != second {
+                force += if first {
+                    touch.force[axis]
+                } else {
+                    -touch.force[axis]
+                };
+            }
+        }
+        Ok(force / self.section(axis)?)
+    }
+
     /// Volume of the box, m³, if it is closed.
     #[must_use]
     pub fn box_volume(&self) -> Option<f64> {

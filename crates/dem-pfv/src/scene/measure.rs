@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::grains::{GrainSystem, Wall};
+use crate::grains::{GrainSystem, Vector, Wall};
 use crate::scene::fields::displacements;
 use crate::scene::highest_point::highest;
 use crate::scene::level::level;
@@ -66,7 +66,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let [left, right] = between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
             gradient(model, axis.number(), [*from, *to], [left, right])
         }
-        Probe::EffectiveStress { axis, at } => effective_stress(model, axis.number(), *at),
+        Probe::EffectiveStress { axis, at } => grains.effective_stress(axis.number(), *at).ok(),
         Probe::Strain { axis } => {
             let (now, start) = (grains.box_lengths()?, origin.lengths?);
             Some(-(now[axis.number()] / start[axis.number()]).ln())
@@ -129,52 +129,12 @@ fn gradient(
     [left, right]: [f64; 2],
 ) -> Option<f64> {
     let system = model.wet()?;
-    let places = system.pore_places();
-    let cells = places.iter().zip(system.volumes()).zip(system.pressures());
-    let [mut w, mut x1, mut p1, mut xx, mut xp] = [0.0; 5];
-    for ((at, volume), p) in cells {
-        if (from..to).contains(&at[axis]) && (left..=right).contains(&at.x) {
-            let x = at[axis];
-            w += volume;
-            x1 += volume * x;
-            p1 += volume * p;
-            xx += volume * x * x;
-            xp += volume * x * p;
-        }
-    }
-    let spread = w * xx - x1 * x1;
+    let inside = |x: &Vector| (from..to).contains(&x[axis]) && (left..=right).contains(&x.x);
     let grains = model.grains();
     let solid: f64 = grains.grains().radii().iter().map(|r| sphere(*r)).sum();
     let weight = buoyant_weight(model) / solid * (1.0 - porosity(grains, axis, from, to)?);
-    (spread > 0.0 && weight > 0.0).then(|| -(w * xp - x1 * p1) / spread / weight)
-}
-
-fn effective_stress(model: &Model, axis: usize, at: f64) -> Option<f64> {
-    if let Some(system) = model.wet() {
-        return system.effective_stress(axis, at).ok();
-    }
-    let grains = model.grains();
-    let above = |k: usize| grains.grains().positions()[k][axis] >= at;
-    let mut force = 0.0;
-    for touch in grains.contacts() {
-        let first = above(touch.grain);
-        let second = match touch.partner {
-            crate::grains::Partner::Grain(other) => above(other),
-            crate::grains::Partner::Wall(w) if grains.walls()[w].normal[axis].abs() > 0.5 => {
-                grains.walls()[w].point[axis] >= at
-            }
-            _ => first,
-        };
-        if first != second {
-            force += if first {
-                touch.force[axis]
-            } else {
-                -touch.force[axis]
-            };
-        }
-    }
-    let lengths = grains.box_lengths()?;
-    Some(force / (lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3]))
+    let slope = system.gradient(axis, inside)?;
+    (weight > 0.0).then(|| slope / weight)
 }
 
 fn deviator(grains: &GrainSystem, axis: usize) -> Option<f64> {

@@ -146,7 +146,7 @@ fn the_fluid_bears_a_sudden_load_at_first() {
             system.step(step).expect("a step");
             made += 1;
         }
-        let middle = system.effective_stress(2, 0.5).expect("a box") - sample.confining;
+        let middle = system.grains().effective_stress(2, 0.5).expect("a box") - sample.confining;
         let inner = system.layer_pressure(2, 0.25, 0.75).expect("pores") / LOAD;
         let piston = (system.grains().wall_stress(5).expect("a wall") - sample.confining) / LOAD;
         let total = middle / LOAD + system.layer_pressure(2, 0.45, 0.55).expect("pores") / LOAD;
@@ -213,7 +213,8 @@ fn a_packing_consolidates_as_terzaghi_has_it() {
         if tenth >= 3 {
             for k in 2..=8 {
                 let at = 0.1 * f64::from(k);
-                let stress = system.effective_stress(2, at).expect("a box") - sample.confining;
+                let stress =
+                    system.grains().effective_stress(2, at).expect("a box") - sample.confining;
                 worst = worst.max((stress / LOAD + layer(at) - 1.0).abs());
             }
         }
