@@ -9,7 +9,7 @@
 //! ```
 //!
 //! * [`PoreGeometry`]: cells and [`Throat`]s of spheres in a box, by signed [`SolidAngles`].
-//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`register_conductance!`],
+//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`register_law!`](crate::register_law),
 //!   [`conductance()`].
 //! * [`Boundary`]: pressures and inflows on any part of a wall, in any cell.
 //! * [`FlowSystem`]: the system, its [`Solver`], compressibility of the fluid, permeability.
@@ -42,20 +42,17 @@ mod facet;
 mod forces;
 mod geometry;
 mod inscribed;
-mod registry;
 mod solid_angle;
 mod system;
 mod throat;
 mod volume;
 
-pub use crate::register_conductance;
 pub use boundary::Boundary;
-pub use conductance::{Conductance, EffectiveRadius, HydraulicRadius};
+pub use conductance::{Conductance, EffectiveRadius, HydraulicRadius, conductance, conductances};
 pub use edges::Edge;
 pub use error::FlowError;
 pub use forces::Forces;
 pub use geometry::PoreGeometry;
-pub use registry::{ConductanceEntry, conductance, conductances};
 pub use solid_angle::solid_angle;
 pub use system::{FlowSystem, Solver, Storage};
 pub use throat::{Grip, SolidAngles, Throat};

@@ -5,7 +5,7 @@
 //!
 //! * [`Setup`] of [`Grain`]s, [`Wall`]s and [`Mesh`]es; [`GrainSystem`] steps it, [`Grains`] are its columns.
 //! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:
-//!   [`register_law!`], [`contact_law`].
+//!   [`register_law!`](crate::register_law), [`contact_law`].
 //! * [`Control`]: walls at a velocity, a stress or a rate of strain, and free pistons.
 //! * [`Cloud`], [`rain`], [`Growth`], [`settle`]: samples.
 //! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
@@ -44,7 +44,6 @@ mod measure;
 mod mesh;
 mod motion;
 mod overlaps;
-mod registry;
 mod rest;
 mod rolling;
 mod setup;
@@ -59,17 +58,15 @@ mod touch;
 mod unrest;
 mod wall;
 
-pub use crate::register_law;
 pub use cloud::{Cloud, rain, uniform_radii};
 pub use columns::Grains;
 pub use error::GrainError;
 pub use growth::{Growth, Target, settle};
 pub use hertz_mindlin::HertzMindlin;
-pub use law::{Contact, ContactLaw, MEMORY, Stiffness, require};
+pub use law::{Contact, ContactLaw, MEMORY, Stiffness, contact_law, contact_laws, require};
 pub use linear::LinearElastic;
 pub use measure::{Partner, Touch};
 pub use mesh::Mesh;
-pub use registry::{LawEntry, contact_law, contact_laws};
 pub use rolling::RollingResistance;
 pub use setup::{Grain, Period, Setup};
 pub use state::State;

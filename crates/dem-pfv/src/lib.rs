@@ -6,7 +6,7 @@
 //! * [`coupled`]: grains and flow together, coupled both ways.
 //! * `scene`, with the feature of that name: scenes that are read, run, measured and written.
 //!
-//! Contact laws and conductances are plugins: [`register_law!`], [`register_conductance!`].
+//! Contact laws and conductances are plugins: [`register_law!`], [`Entry`].
 
 pub mod coupled;
 pub mod flow;
@@ -14,6 +14,10 @@ pub mod grains;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod triangulation;
+
+mod registry;
+
+pub use registry::{Entry, PluginError};
 
 /// Crates that the registration macros name; use them through the macros only.
 #[doc(hidden)]

@@ -2,9 +2,12 @@
 
 use std::f64::consts::PI;
 
+use serde_json::Value as Json;
 use sph_derive::parameters;
 
-use crate::flow::{FlowError, Throat, register_conductance};
+use crate::flow::{FlowError, Throat};
+use crate::registry::{built, entries};
+use crate::{Entry, register_law};
 
 /// A law for the conductance of throats.
 pub trait Conductance: Send + Sync {
@@ -18,6 +21,33 @@ pub trait Conductance: Send + Sync {
     fn check(&self) -> Result<(), FlowError> {
         Ok(())
     }
+}
+
+inventory::collect!(Entry<dyn Conductance>);
+
+/// Every conductance registered in this binary, sorted by name.
+#[must_use]
+pub fn conductances() -> Vec<&'static Entry<dyn Conductance>> {
+    entries()
+}
+
+/// The conductance of that name with these parameters (a JSON object, SI units).
+///
+/// # Errors
+/// None or two of that name; an unknown parameter; a value out of range.
+///
+/// ```
+/// use dem_pfv::flow::conductance;
+/// use serde_json::json;
+///
+/// assert!(conductance("hydraulic-radius", &json!({ "shape_factor": 0.5 })).is_ok());
+/// let refused = conductance("hydraulic-radius", &json!({ "shape_factor": -1.0 }));
+/// assert!(refused.err().is_some_and(|e| e.to_string().contains("shape factor")));
+/// ```
+pub fn conductance(name: &str, parameters: &Json) -> Result<Box<dyn Conductance>, FlowError> {
+    let law = built::<dyn Conductance>("conductance", name, parameters)?;
+    law.check()?;
+    Ok(law)
 }
 
 /// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
@@ -34,8 +64,8 @@ pub struct HydraulicRadius {
     pub reduced_at_slip_walls: bool,
 }
 
-register_conductance!(
-    HydraulicRadius,
+register_law!(
+    HydraulicRadius as Conductance,
     "hydraulic-radius",
     "a tube with the throat's ratio of fluid volume to wetted surface",
     "Catalano 2012, Eqs. (3.4), (3.5)"
@@ -70,8 +100,8 @@ impl Conductance for HydraulicRadius {
 #[derive(PartialEq)]
 pub struct EffectiveRadius {}
 
-register_conductance!(
-    EffectiveRadius,
+register_law!(
+    EffectiveRadius as Conductance,
     "effective-radius",
     "a tube between the throat's inscribed circle and the circle of its area; about half as permeable",
     "Bryant & Blunt 1992; Catalano 2012, Eq. (3.6)"

@@ -3,6 +3,8 @@
 use sparse::SparseError;
 use thiserror::Error;
 
+use crate::PluginError;
+
 /// Spheres, walls or conditions through which no flow can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum FlowError {
@@ -92,32 +94,9 @@ pub enum FlowError {
     /// The system of the pressures could not be solved.
     #[error("pressures: {0}")]
     Unsolved(#[from] SparseError),
-    /// No conductance has this name.
-    #[error("no conductance is called {name:?}; known are {known}")]
-    UnknownConductance {
-        /// The name.
-        name: String,
-        /// Those that are known.
-        known: String,
-    },
-    /// Two plugins have the same name.
-    #[error("both {first} and {second} register a conductance {name:?}")]
-    TwoConductances {
-        /// The name.
-        name: &'static str,
-        /// A crate.
-        first: &'static str,
-        /// Another.
-        second: &'static str,
-    },
-    /// A table of parameters that a conductance does not understand.
-    #[error("the parameters of the conductance {name:?}: {problem}")]
-    Parameters {
-        /// The conductance.
-        name: &'static str,
-        /// What is wrong.
-        problem: String,
-    },
+    /// A conductance that cannot be found by name, or built.
+    #[error(transparent)]
+    Plugin(#[from] PluginError),
     /// A parameter of a conductance out of range.
     #[error("the {what} of the conductance {name:?} is {value}; it must be {valid}")]
     BadParameter {

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::PluginError;
+
 /// Grains, walls, laws or steps with which nothing can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum GrainError {
@@ -156,32 +158,9 @@ pub enum GrainError {
         /// What is valid.
         valid: &'static str,
     },
-    /// No contact law of that name.
-    #[error("there is no contact law {name:?}; there are: {known}")]
-    UnknownLaw {
-        /// The name.
-        name: String,
-        /// Those that are known.
-        known: String,
-    },
-    /// Two plugins have the same name.
-    #[error("both {first} and {second} register a contact law {name:?}")]
-    TwoLaws {
-        /// The name.
-        name: &'static str,
-        /// A crate.
-        first: &'static str,
-        /// Another.
-        second: &'static str,
-    },
-    /// A table of parameters that a law does not understand.
-    #[error("the parameters of the contact law {name:?}: {problem}")]
-    Parameters {
-        /// The law.
-        name: &'static str,
-        /// What is wrong.
-        problem: String,
-    },
+    /// A contact law that cannot be found by name, or built.
+    #[error(transparent)]
+    Plugin(#[from] PluginError),
     /// A wall or a mesh names a law by a number that none has.
     #[error("{what} {number} follows contact law {law}, but there are {laws}")]
     NoLaw {

@@ -4,7 +4,8 @@ use serde::Serialize;
 use sph_derive::parameters;
 
 use crate::grains::law::{reduced, require};
-use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness, register_law};
+use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness};
+use crate::register_law;
 
 /// F_n = (4/3) E* √R* δ^{3/2} − c_n v_n and ΔF_s = −k_t Δu_s with k_t = 4 G √(R* δ) / (2 − ν), |F_s| ≤ µ F_n.
 ///
@@ -34,7 +35,7 @@ pub struct HertzMindlin {
 }
 
 register_law!(
-    HertzMindlin,
+    HertzMindlin as ContactLaw,
     "hertz-mindlin",
     "Hertz's normal force and Mindlin's tangential stiffness with Coulomb friction",
     "Catalano 2012, Eqs. (2.10), (2.11)"

@@ -2,7 +2,11 @@
 
 use std::fmt::Debug;
 
+use serde_json::Value as Json;
+
+use crate::Entry;
 use crate::grains::{GrainError, Vector};
+use crate::registry::{built, entries};
 
 /// How many numbers a law may remember per contact.
 pub const MEMORY: usize = 8;
@@ -140,6 +144,34 @@ pub trait ContactLaw: Debug + Send + Sync {
 
     /// Stiffnesses of a contact of bodies of these radii (m, infinite for walls) at this overlap (m).
     fn stiffness(&self, radius: [f64; 2], overlap: f64) -> Stiffness;
+}
+
+inventory::collect!(Entry<dyn ContactLaw>);
+
+/// Every contact law registered in this binary, sorted by name.
+#[must_use]
+pub fn contact_laws() -> Vec<&'static Entry<dyn ContactLaw>> {
+    entries()
+}
+
+/// The contact law of that name with these parameters (a JSON object, SI units).
+///
+/// # Errors
+/// No law or two of that name; an unknown or missing parameter; a value out of range.
+///
+/// ```
+/// use dem_pfv::grains::contact_law;
+/// use serde_json::json;
+///
+/// let table = json!({ "modulus": 15e6, "stiffness_ratio": 0.5, "friction": 0.577 });
+/// let law = contact_law("linear-elastic", &table)?;
+/// assert_eq!(law.stiffness([0.1, 0.1], 0.0).normal, 1.5e6);
+/// # Ok::<(), dem_pfv::grains::GrainError>(())
+/// ```
+pub fn contact_law(name: &str, parameters: &Json) -> Result<Box<dyn ContactLaw>, GrainError> {
+    let law = built::<dyn ContactLaw>("contact law", name, parameters)?;
+    law.check()?;
+    Ok(law)
 }
 
 /// Checks a parameter of a law.

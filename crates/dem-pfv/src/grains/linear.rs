@@ -4,7 +4,8 @@ use serde::Serialize;
 use sph_derive::parameters;
 
 use crate::grains::law::require;
-use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness, register_law};
+use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness};
+use crate::register_law;
 
 /// F_n = k_n δ − c_n v_n and ΔF_s = −k_t Δu_s, |F_s| ≤ µ F_n.
 ///
@@ -34,7 +35,7 @@ pub struct LinearElastic {
 }
 
 register_law!(
-    LinearElastic,
+    LinearElastic as ContactLaw,
     "linear-elastic",
     "springs in the normal and the tangential direction with Coulomb friction",
     "Catalano 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2)"

@@ -4,6 +4,7 @@ use scene_text::{OnePlugin, SceneProblem, conform, suggestion};
 use serde_json::Value as Json;
 use toml::Value;
 
+use crate::Entry;
 use crate::flow::{Conductance, HydraulicRadius, conductance, conductances};
 use crate::grains::{ContactLaw, contact_law, contact_laws};
 use crate::scene::error::DemError;
@@ -34,18 +35,12 @@ pub struct Laws {
     pub of_walls: Vec<Option<usize>>,
 }
 
-/// A registered plugin, as far as it matters here.
-struct Entry {
-    name: &'static str,
-    schema: fn() -> Json,
-}
-
 /// The only plugin of a table, its parameters in SI.
-fn chosen(
+fn chosen<L: ?Sized>(
     plugins: &Plugins,
     path: &str,
     what: &str,
-    entries: &[Entry],
+    entries: &[&Entry<L>],
 ) -> Result<Option<(String, Json, String)>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
@@ -79,14 +74,7 @@ fn chosen(
 }
 
 fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>, DemError> {
-    let entries: Vec<_> = contact_laws()
-        .iter()
-        .map(|e| Entry {
-            name: e.name,
-            schema: e.schema,
-        })
-        .collect();
-    let Some((name, json, inside)) = chosen(plugins, path, "contact law", &entries)? else {
+    let Some((name, json, inside)) = chosen(plugins, path, "contact law", &contact_laws())? else {
         return Ok(None);
     };
     let law = contact_law(&name, &json).map_err(|e| DemError::at(inside, e))?;
@@ -137,16 +125,9 @@ impl Laws {
 /// # Errors
 /// Unknown laws and parameters.
 pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
-    let entries: Vec<_> = conductances()
-        .iter()
-        .map(|e| Entry {
-            name: e.name,
-            schema: e.schema,
-        })
-        .collect();
     let none = Plugins::new();
     let given = scene.fluid.as_ref().map_or(&none, |f| &f.conductance);
-    match chosen(given, "fluid.conductance", "conductance", &entries)? {
+    match chosen(given, "fluid.conductance", "conductance", &conductances())? {
         None => Ok(Box::new(HydraulicRadius::default())),
         Some((name, json, inside)) => {
             conductance(&name, &json).map_err(|e| DemError::at(inside, e))

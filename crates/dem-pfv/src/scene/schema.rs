@@ -3,6 +3,7 @@
 use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
 
+use crate::Entry;
 use crate::flow::conductances;
 use crate::grains::contact_laws;
 use crate::scene::tables::{Probe, Reference, Scene};
@@ -17,14 +18,7 @@ pub(crate) fn of_scene() -> Json {
 pub fn editor_schema() -> Json {
     let mut root = of_scene();
     let mut shared = Map::new();
-    let laws: Vec<_> = contact_laws()
-        .iter()
-        .map(|e| (e.name, format!("{}. {}", e.summary, e.source), (e.schema)()))
-        .collect();
-    let throats: Vec<_> = conductances()
-        .iter()
-        .map(|e| (e.name, format!("{}. {}", e.summary, e.source), (e.schema)()))
-        .collect();
+    let (laws, throats) = (described(contact_laws()), described(conductances()));
     for owner in ["Grains", "Start", "Box", "Wall"] {
         let place = format!("/$defs/{owner}/properties/contact");
         plugins(root.pointer_mut(&place), &laws, &mut shared);
@@ -53,6 +47,12 @@ pub fn editor_schema() -> Json {
     root["title"] = json!("Scene of grains");
     for_editors(&mut root);
     root
+}
+
+/// Names, descriptions and schemas of laws.
+fn described<L: ?Sized>(entries: Vec<&Entry<L>>) -> Vec<(&'static str, String, Json)> {
+    let told = |e: &Entry<L>| (e.name, format!("{}. {}", e.summary, e.source), (e.schema)());
+    entries.into_iter().map(told).collect()
 }
 
 /// Plugins as the keys of a table.

@@ -2,8 +2,9 @@
 
 use dem_pfv::grains::{
     Contact, ContactLaw, GrainError, GrainSystem, Setup, Stiffness, contact_law, contact_laws,
-    register_law, require,
+    require,
 };
+use dem_pfv::register_law;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
@@ -43,7 +44,12 @@ impl ContactLaw for Bruised {
     }
 }
 
-register_law!(Bruised, "bruised", "half as stiff when unloading", "nobody");
+register_law!(
+    Bruised as ContactLaw,
+    "bruised",
+    "half as stiff when unloading",
+    "nobody"
+);
 
 #[test]
 fn a_law_of_another_crate_is_found_and_remembers() {
