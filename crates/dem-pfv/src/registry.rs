@@ -67,7 +67,7 @@ where
     all
 }
 
-/// The law of a name with these parameters (a JSON object, SI units), whose values nobody has checked.
+/// The law of a name with these parameters (a JSON object, SI units), whose values are not checked.
 pub(crate) fn built<L: ?Sized>(
     kind: &'static str,
     name: &str,
