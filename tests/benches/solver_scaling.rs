@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use sph_core::Vect;
-use sph_implicit::{
+use sph_multiphase::linear::{
     Bicgstab, Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, Preconditioner,
 };
 

@@ -10,6 +10,7 @@
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: velocities that die away, everywhere or in sponges.
 //! * [`diffusion`] of density against noise, and of particles against gaps.
+//! * [`linear`]: sparse systems on the neighbour graph and what solves them.
 //! * [`viscosity`]: viscous operators, solved for or not, and viscosities of eddies.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
@@ -34,6 +35,7 @@ mod hu_adams;
 mod interface_friction;
 mod interface_limit;
 mod krimi;
+pub mod linear;
 mod micro_mixing;
 pub mod pressure;
 mod pressure_stage;

@@ -10,7 +10,7 @@
 //!
 //! ```
 //! use sph_core::Vect;
-//! use sph_implicit::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern};
+//! use sph_multiphase::linear::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern};
 //!
 //! // Three particles in a row, each coupled to the next: diagonal 2, coupling −1.
 //! let pattern = Pattern::from_rows(&[vec![1], vec![0, 2], vec![1]]);

@@ -9,7 +9,6 @@
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
 // Plugins that are found by their names: a binary with the solver has them.
-use sph_implicit as _;
 use sph_multiphase as _;
 use sph_soil as _;
 

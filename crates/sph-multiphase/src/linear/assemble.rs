@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_neighbours::{CHUNK, Cluster, ClusterWalk, World};
 
-use crate::{Entry, Pattern, Values};
+use crate::linear::{Entry, Pattern, Values};
 
 /// A matrix of a system of C components, the dimensions of space for velocities, one for a pressure; with its sources, and
 /// what it is put together from.

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::{Halved, Halves, Matrix, Operator};
+use crate::linear::{Halved, Halves, Matrix, Operator};
 
 impl<const D: usize> Operator<D> for Matrix<D> {
     fn rows(&self) -> usize {

@@ -2,8 +2,8 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::conjugate_gradient::{ITERATIONS, iterate};
-use crate::{
+use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
+use crate::linear::{
     Cholesky, Diagonal, Keeps, LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner,
     Report, SolveError, Tolerance,
 };

@@ -2,10 +2,12 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::krylov::{Tolerance, Watch};
-use crate::precondition::Factors;
-use crate::vector::add;
-use crate::{LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError};
+use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::precondition::Factors;
+use crate::linear::vector::add;
+use crate::linear::{
+    LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError,
+};
 
 /// BiCGSTAB (van der Vorst 1992), which needs no symmetry: what the thesis solves with. Two products
 /// per iteration; for these matrices conjugate gradients are faster.

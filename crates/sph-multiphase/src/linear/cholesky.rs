@@ -5,9 +5,11 @@ use std::sync::Arc;
 use sparse::{Order, SparseError, UpperTriangle};
 use sph_core::{Vect, plugin};
 
-use crate::matrix::{Entries, Matrix, Values};
-use crate::vector::norm;
-use crate::{Entry, LinearSolver, LinearSolverEntry, Operator, Pattern, Report, SolveError};
+use crate::linear::matrix::{Entries, Matrix, Values};
+use crate::linear::vector::norm;
+use crate::linear::{
+    Entry, LinearSolver, LinearSolverEntry, Operator, Pattern, Report, SolveError,
+};
 
 /// A = L Lᵀ by faer, with the order of elimination kept while the pattern stays the same.
 ///
@@ -79,7 +81,7 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         if norm(&rest) > REFINE * scale {
             let mut correction = vec![Vect::zeros(); rest.len()];
             solve(kept, &rest, &mut correction);
-            crate::vector::add(x, 1.0, &correction);
+            crate::linear::vector::add(x, 1.0, &correction);
             operator.residual(right, x, &mut rest);
         }
         let relative = norm(&rest) / scale;

@@ -2,10 +2,10 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::krylov::{Tolerance, Watch};
-use crate::memory::Vectors;
-use crate::vector::{add, scale_and_add};
-use crate::{
+use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::memory::Vectors;
+use crate::linear::vector::{add, scale_and_add};
+use crate::linear::{
     Keeps, LinearSolver, LinearSolverEntry, Memories, Memory, Operator, Preconditioner, Report,
     SolveError,
 };

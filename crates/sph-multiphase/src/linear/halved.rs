@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::matrix::{Entries, Values};
-use crate::{Block, Entry, Matrix, Pattern};
+use crate::linear::matrix::{Entries, Values};
+use crate::linear::{Block, Entry, Matrix, Pattern};
 
 /// Least number of rows of a part.
 const PART: usize = 2048;

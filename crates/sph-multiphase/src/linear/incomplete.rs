@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::matrix::Values;
-use crate::{Entry, Pattern};
+use crate::linear::matrix::Values;
+use crate::linear::{Entry, Pattern};
 
 /// A ≈ (P + L) P⁻¹ (P + Lᵀ) with L on the lower pattern of A:
 /// l_ij = a_ij − Σ_{k<j} l_ik p_k⁻¹ l_jkᵀ, p_i = a_ii − Σ_{k<i} l_ik p_k⁻¹ l_ikᵀ.

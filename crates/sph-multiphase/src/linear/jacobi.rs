@@ -2,9 +2,9 @@
 
 use sph_core::Vect;
 
-use crate::krylov::{Tolerance, Watch};
-use crate::precondition::Factors;
-use crate::{LinearSolver, Operator, Preconditioner, Report, SolveError};
+use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::precondition::Factors;
+use crate::linear::{LinearSolver, Operator, Preconditioner, Report, SolveError};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
 ///
@@ -51,7 +51,7 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Entries, Matrix, Pattern};
+    use crate::linear::{Entries, Matrix, Pattern};
 
     /// A chain of n rows, held at both ends: the spectral radius is cos(π/(n + 1)).
     fn sweeps(n: u32) -> usize {

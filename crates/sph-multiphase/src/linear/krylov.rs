@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::{Operator, Report, SolveError};
+use crate::linear::{Operator, Report, SolveError};
 
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

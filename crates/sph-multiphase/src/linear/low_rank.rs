@@ -2,8 +2,8 @@
 
 use sph_core::Vect;
 
-use crate::vector::add;
-use crate::{Diagonal, Matrix, Operator};
+use crate::linear::vector::add;
+use crate::linear::{Diagonal, Matrix, Operator};
 
 /// A + s Σ g gᵀ with few vectors g, s = 1 or −1: what is left of unknowns that many rows share. A alone makes its
 /// preconditioner.
@@ -58,7 +58,7 @@ impl<const D: usize> Operator<D> for LowRank<'_, D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ConjugateGradient, Entries, LinearSolver, Pattern, Values};
+    use crate::linear::{ConjugateGradient, Entries, LinearSolver, Pattern, Values};
 
     /// (2 1 + g gᵀ) x = b with g = (1, 2, 3): x = (b − g (g·b)/(2 + g·g))/2.
     #[test]

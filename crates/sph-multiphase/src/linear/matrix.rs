@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::{Block, Entry};
+use crate::linear::{Block, Entry};
 
 /// Rows that one task works through.
 pub(crate) const ROWS: usize = 256;

@@ -2,8 +2,8 @@
 
 use sph_core::Vect;
 
-use crate::Halves;
-use crate::precondition::Factors;
+use crate::linear::Halves;
+use crate::linear::precondition::Factors;
 
 /// Vectors and factors of the solves before, for vectors of D components.
 #[derive(Default)]

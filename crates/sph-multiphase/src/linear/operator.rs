@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_neighbours::inner;
 
-use crate::{Diagonal, Halved, Halves, Matrix, SolveError};
+use crate::linear::{Diagonal, Halved, Halves, Matrix, SolveError};
 
 /// A symmetric operator on vectors of particles, with or without a matrix behind it.
 ///
@@ -57,7 +57,7 @@ pub trait Operator<const D: usize>: Sync {
     }
 
     /// Largest ratio of what couples a row to others to what is left of its diagonal, as
-    /// [`Matrix::stiffness`](crate::Matrix::stiffness); none where nobody knows it.
+    /// [`Matrix::stiffness`](crate::linear::Matrix::stiffness); none where nobody knows it.
     fn stiffness(&self) -> Option<f64> {
         self.assembled().map(Matrix::stiffness)
     }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use sph_core::Vect;
 use sph_neighbours::{Owned, Space};
 
-use crate::{Entries, Halved, Halves, Matrix, Operator, Pattern, Values};
+use crate::linear::{Entries, Halved, Halves, Matrix, Operator, Pattern, Values};
 
 /// A matrix whose rows and columns are those of particles. Where some of these are copies of particles that are at home
 /// elsewhere, they follow their owners in every product.

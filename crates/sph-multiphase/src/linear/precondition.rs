@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use sph_core::{Vect, parameters};
 
-use crate::incomplete::Incomplete;
-use crate::matrix::{Entries, ROWS};
-use crate::{Block, Diagonal, Entry, Operator, SolveError};
+use crate::linear::incomplete::Incomplete;
+use crate::linear::matrix::{Entries, ROWS};
+use crate::linear::{Block, Diagonal, Entry, Operator, SolveError};
 
 /// z ≈ A⁻¹ r.
 #[parameters]

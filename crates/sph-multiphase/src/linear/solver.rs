@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, contract};
 
-use crate::{Operator, SolveError};
+use crate::linear::{Operator, SolveError};
 
 /// What a solve took.
 #[derive(Clone, Copy, Debug, PartialEq)]

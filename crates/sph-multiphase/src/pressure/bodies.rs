@@ -1,8 +1,9 @@
 //! Bodies that give way to the pressure that is solved for.
 
 use sph_core::{StepError, Vect, fields};
-use sph_implicit::Operator;
 use sph_neighbours::{FreeBody, World};
+
+use crate::linear::Operator;
 
 /// The force of the wall over Bᵀp that is reckoned with: it is 2 for a pressure that is the same everywhere, 2.5 were
 /// measured for one that falls off from the body. With less than the true one light bodies swing from step to step,

@@ -2,9 +2,9 @@
 
 use sph_contribution::{Limiter, Setting, SoundLimit};
 use sph_core::{Stage, plugin};
-use sph_implicit::Automatic;
 use sph_neighbours::World;
 
+use crate::linear::Automatic;
 use crate::pressure::limit::FlowLimit;
 use crate::pressure::stage::SolvePressure;
 use crate::{Acting, PressureEntry, PressureScheme};

@@ -1,11 +1,11 @@
 //! The stage that solves for the pressure.
 
 use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields};
-use sph_implicit::{Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, ParticleMatrix};
 use sph_neighbours::{Interaction, World, interactions, lattice_sum};
 use sph_rheology::state::BoundState;
 
 use crate::PressureStage;
+use crate::linear::{Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, ParticleMatrix};
 use crate::pressure::bodies::give_way;
 use crate::pressure::system::{Couplings, Part, Room as ClusterRoom};
 use crate::{Acting, FREE_SURFACE, Place};

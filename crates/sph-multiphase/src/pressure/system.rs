@@ -1,10 +1,11 @@
 //! The system of the pressure: what couples particles, and what holds them.
 
 use sph_core::{Pool, Vect};
-use sph_implicit::Rows;
 use sph_neighbours::{
     Body, Cluster, Lane, LanePair, MOST, Owned, PairNumbers, Particles, dot, splat,
 };
+
+use crate::linear::Rows;
 
 /// What couples the pressures of two particles.
 pub(crate) struct Couplings<'a, const D: usize> {

@@ -3,12 +3,12 @@
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use sph_core::Vect;
-use sph_implicit::{
+use sph_neighbours::{CouplingsAt, Neighbourhood, Owned, Space, Visitor};
+
+use crate::linear::{
     Assembly, Block, Diagonal, Entries, Entry, Halved, Halves, Matrix, Operator, Pattern, Rows,
     Values,
 };
-use sph_neighbours::{CouplingsAt, Neighbourhood, Owned, Space, Visitor};
-
 use crate::viscosity::{BoundCoupling, CouplingRow};
 
 /// An entry of a friction's matrix: a number, or a block where components are mixed.

@@ -3,9 +3,9 @@
 use std::sync::Mutex;
 
 use sph_core::{StepError, Vect, fields};
-use sph_implicit::Block;
 use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Space, Weak, World};
 
+use crate::linear::Block;
 use crate::viscosity::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
 use crate::viscosity::{BoundCoupling, Coupling, CouplingRow};
 

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector6};
 use sph_core::{StepError, Vect, fields};
-use sph_implicit::Operator;
 use sph_neighbours::{FreeBody, World};
 
+use crate::linear::Operator;
 use crate::viscosity::FrictionSystem;
 
 /// The force of the friction over that of W alone, at the most: rows beside a flat wall have γ ≥ ½, and all that acts

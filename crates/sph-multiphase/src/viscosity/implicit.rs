@@ -9,9 +9,9 @@ use std::time::Instant;
 use serde_json::Value as Json;
 use sph_contribution::{Report, Stages, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, StepError, Vect, fields};
-use sph_implicit::{LinearSolver, LowRank, Operator, TimeScheme};
 use sph_neighbours::World;
 
+use crate::linear::{LinearSolver, LowRank, Operator, TimeScheme};
 use crate::viscosity::giving_way::Bodies;
 use crate::viscosity::start::{Start, put};
 use crate::viscosity::{Coupling, FrictionSystem, Solves};

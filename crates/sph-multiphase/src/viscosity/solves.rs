@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use sph_implicit::Report;
 
+use crate::linear::Report;
 use crate::viscosity::HeldBack;
 
 /// What the implicit solves of a run took.

@@ -1,7 +1,8 @@
 //! Where a solve starts.
 
 use sph_core::Vect;
-use sph_implicit::Operator;
+
+use crate::linear::Operator;
 
 /// Vectors of a start, for their memory.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! What `automatic` takes, by dimension, size and stiffness.
 
 use sph_core::Vect;
-use sph_implicit::{Automatic, Cholesky, LinearSolver, Matrix, Report};
+use sph_multiphase::linear::{Automatic, Cholesky, LinearSolver, Matrix, Report};
 
 use crate::systems::{apart, block, right, scalar};
 

@@ -5,7 +5,7 @@ mod operators;
 mod systems;
 
 use sph_core::Vect;
-use sph_implicit::{
+use sph_multiphase::linear::{
     Automatic, Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, Preconditioner,
     SolveError,
 };

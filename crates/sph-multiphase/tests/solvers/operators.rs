@@ -3,7 +3,7 @@
 use std::sync::{Barrier, Mutex};
 
 use sph_core::Vect;
-use sph_implicit::{
+use sph_multiphase::linear::{
     Automatic, Bicgstab, Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Operator,
     Pattern, Preconditioner, SolveError,
 };

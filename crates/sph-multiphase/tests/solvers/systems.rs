@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use sph_core::Vect;
-use sph_implicit::{
+use sph_multiphase::linear::{
     Automatic, Bicgstab, Block, Cholesky, ConjugateGradient, Entries, Entry, LinearSolver, Matrix,
     Pattern, Preconditioner,
 };

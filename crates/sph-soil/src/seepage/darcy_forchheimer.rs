@@ -2,7 +2,7 @@
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{fields, plugin, suggestion};
-use sph_implicit::{ConjugateGradient, Preconditioner};
+use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
 
 use crate::seepage::contract::SeepageEntry;
 use crate::seepage::exchange::Exchange;

@@ -3,7 +3,7 @@
 use nalgebra::SMatrix;
 use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
-use sph_implicit::{
+use sph_multiphase::linear::{
     ConjugateGradient, Entries, LinearSolver, Matrix, ParticleMatrix, Pattern, Values,
 };
 use sph_neighbours::{Around, Neighbourhood, World, trusted_inverse, walk_some};

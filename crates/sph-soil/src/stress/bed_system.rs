@@ -1,7 +1,7 @@
 //! The system of the effective pressure: who is in it, and what couples them.
 
 use sph_core::{Pool, Vect};
-use sph_implicit::Rows;
+use sph_multiphase::linear::Rows;
 use sph_neighbours::{
     Body, Cluster, Lane, LanePair, MOST, Owned, PairNumbers, Particles, dot, splat,
 };

@@ -2,7 +2,7 @@
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields, parameters, plugin};
-use sph_implicit::{
+use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
     Preconditioner, Report,
 };

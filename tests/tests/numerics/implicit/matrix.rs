@@ -1,7 +1,7 @@
 //! The matrix is the explicit term's: the same accelerations, symmetric, positive definite.
 
 use sph_core::{System, Vect, fields};
-use sph_implicit::{Cholesky, Diagonal, Entries, Entry, LinearSolver, Matrix, Operator};
+use sph_multiphase::linear::{Cholesky, Diagonal, Entries, Entry, LinearSolver, Matrix, Operator};
 use sph_multiphase::viscosity::{
     Choice, EspanolRevenga, FrictionOperator, FrictionSystem, HuAdamsViscosity, KrimiViscosity,
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,

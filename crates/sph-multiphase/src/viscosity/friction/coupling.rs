@@ -1,12 +1,12 @@
 //! The rows of a friction's matrix.
 
 use sph_core::{Access, StepError, Vect};
-use sph_implicit::{Block, Entry};
 use sph_neighbours::{
     Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
 };
 
 use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
+use crate::linear::{Block, Entry};
 use crate::viscosity::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
 impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {

@@ -4,7 +4,7 @@ use sph_contribution::{
     Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, Stages, contributes,
 };
 use sph_core::AnyField;
-use sph_implicit::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
+use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_multiphase::viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
 
 use super::Materials;

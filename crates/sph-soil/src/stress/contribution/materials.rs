@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sph_contribution::Plugins;
 use sph_core::{AnyField, fields};
-use sph_implicit::ImplicitViscosityEntry;
+use sph_multiphase::linear::ImplicitViscosityEntry;
 use sph_multiphase::viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 
