@@ -64,7 +64,7 @@ fn scene(path: &Path, corpus: &Path) -> Done {
         return Ok(());
     };
     let scene = &loaded.scene;
-    let Ok(size) = sph_setup::size(scene) else {
+    let Ok(size) = sph_particles::setup::size(scene) else {
         return Ok(());
     };
     let wider = (size.particles / PARTICLES).powf(1.0 / scene.dimension as f64);

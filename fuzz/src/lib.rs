@@ -36,9 +36,9 @@ pub fn assemble(loaded: &Loaded) {
     }
     // A particle in space has five times the neighbours of one in the plane.
     let most = MOST / if scene.dimension == 3 { 2.0 } else { 1.0 };
-    match sph_setup::size(&scene) {
+    match sph_particles::setup::size(&scene) {
         Ok(size) if size.particles + size.wall_points <= most => {
-            let _ = sph_setup::examine(&scene);
+            let _ = sph_particles::setup::examine(&scene);
         }
         _ => {}
     }

@@ -28,10 +28,9 @@ mod tool_arguments;
 use sph_core::number;
 // Their plugins are in this binary.
 use sph_bodies as _;
-use sph_damping as _;
-use sph_pressure as _;
+use sph_multiphase as _;
+use sph_open as _;
 use sph_turbulence as _;
-use sph_waves as _;
 
 pub use app::main;
 pub use scene_file::method;

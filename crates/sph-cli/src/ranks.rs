@@ -1,21 +1,26 @@
 //! The processes that `mpirun` has started with this one.
 
+#[cfg(feature = "mpi")]
+mod job;
+#[cfg(feature = "mpi")]
+mod rank;
+
 use std::sync::{Arc, OnceLock};
 
-use sph_decomposition::Transport;
+use sph_neighbours::decomposition::Transport;
 
 static TEAM: OnceLock<Arc<dyn Transport>> = OnceLock::new();
 
 /// Stays in the job as long as this lives.
 pub struct Joined {
     #[cfg(feature = "mpi")]
-    _job: Option<sph_mpi::Job>,
+    _job: Option<job::Job>,
 }
 
 /// Joins the job that `mpirun` has started, if it has.
 #[cfg(feature = "mpi")]
 pub fn join() -> Joined {
-    let job = sph_mpi::Job::join();
+    let job = job::Job::join();
     if let Some(job) = &job {
         let _ = TEAM.set(job.rank());
     }

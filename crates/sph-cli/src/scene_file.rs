@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dem_scene::DiscreteElements;
+use dem_pfv::scene::DiscreteElements;
 use sph_core::suggestion;
 use sph_io::Scratch;
 use sph_particles::Particles;
@@ -20,7 +20,7 @@ pub enum AnyScene {
     /// Of particles.
     Particles(Box<sph_scene::Loaded>),
     /// Of grains.
-    Grains(Box<dem_scene::Loaded>),
+    Grains(Box<dem_pfv::scene::Loaded>),
 }
 
 /// Reads a scene of either kind: the one place where they are told apart.
@@ -30,8 +30,8 @@ pub fn read(source: Source) -> Result<AnyScene, Trouble> {
     };
     // What is no TOML is told by the reader of particles.
     let table = source.table();
-    if table.is_ok_and(|table| dem_scene::is_grain_scene(&table)) {
-        let loaded = dem_scene::read(source);
+    if table.is_ok_and(|table| dem_pfv::scene::is_grain_scene(&table)) {
+        let loaded = dem_pfv::scene::read(source);
         let loaded = loaded.map_err(|(source, found)| mistakes(&source, &found))?;
         return Ok(AnyScene::Grains(Box::new(loaded)));
     }
@@ -180,7 +180,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
 #[must_use]
 pub fn method(text: &str, name: &str) -> &'static dyn Method {
     let table = Source::new(text, name, &[]).table();
-    match table.is_ok_and(|table| dem_scene::is_grain_scene(&table)) {
+    match table.is_ok_and(|table| dem_pfv::scene::is_grain_scene(&table)) {
         true => &DiscreteElements,
         false => &Particles,
     }

@@ -2,7 +2,7 @@
 
 use sph_core::{AnyField, Evolved};
 use sph_neighbours::World;
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::{Offer, OwnColumn, Refusal};
 

@@ -11,6 +11,7 @@
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
 //! * [`contributes!`] declares the contribution of a kind whose plugins are something else; [`Plugins`] has the plugins of all
 //!   kinds for it. [`parts`] are the contributions of a scene.
+//! * [`integrators`] advance a flow by kicks, drifts and evaluations.
 //!
 //! What a contribution remembers from step to step belongs into its columns, not into its own fields: only
 //! columns are rolled back when a step fails, and only they are in checkpoints.
@@ -20,6 +21,7 @@ mod column;
 mod contribution;
 mod even_out;
 mod gate;
+pub mod integrators;
 mod kinds;
 mod limiter;
 mod limits;

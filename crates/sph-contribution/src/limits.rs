@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::{StepError, StepLimit, fields};
 use sph_neighbours::{World, lightness};
-use sph_state::{BoundState, Laws};
+use sph_rheology::state::{BoundState, Laws};
 
 use crate::Limiter;
 

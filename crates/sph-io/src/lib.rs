@@ -13,6 +13,7 @@
 //! | pictures of particles | [`Picture`] | your eyes |
 //! | films | [`write_film`], [`write_gif`] from pictures | your eyes |
 //! | plots | [`Plot`], or [`Panels`] of them, as PNG or SVG | your eyes |
+//! | streamlines, profiles, tracks | [`curves`], from the frames of a run | your eyes |
 //! | summaries | [`write_json`] | anything |
 //!
 //! Three promises hold for all of them.
@@ -41,6 +42,7 @@
 struct Readme;
 
 mod checkpoint;
+pub mod curves;
 mod drawing;
 mod error;
 mod files;

@@ -38,6 +38,8 @@
 //! A kernel of your own is either a [`PolynomialKernel`] made from coefficients ([`algebra`]
 //! multiplies factors out) or any type that implements [`Kernel`], with [`ScalarSampler`] as
 //! its ready-made sampler.
+//!
+//! [`lanes`] has the vectors in which slices are evaluated: one formula for a number and for 2, 4 or 8 of them.
 
 pub mod algebra;
 mod builtin;
@@ -45,6 +47,7 @@ mod double_double;
 mod factored;
 mod formula;
 mod kernel;
+pub mod lanes;
 mod moments;
 mod polynomial;
 mod polynomial_kernel;

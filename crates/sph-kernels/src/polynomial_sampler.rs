@@ -1,9 +1,8 @@
 //! The sampler of piecewise polynomial kernels: slices in vector instructions.
 
-use sph_lanes::{Body, Lane, dispatch};
-
 use crate::factored;
 use crate::formula::{Formula, General, Product, Selection};
+use crate::lanes::{Body, Lane, dispatch};
 use crate::sampler::assert_smoothing_length;
 use crate::{PiecewisePolynomial, Sampler};
 

@@ -6,12 +6,12 @@ use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{
     Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
 };
-use sph_damping::DampingEntry;
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values,
     WallSet, World, add_scaled, all_sums, declared, pair_term, walk_some,
 };
 
+use crate::damping::DampingEntry;
 use crate::divergence::{Divergence, OwnVolume};
 use crate::interface_limit::shortest_wave;
 

@@ -3,7 +3,8 @@
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{Evolved, Field, Scalar, Stage, StepError, Work, contract};
 use sph_neighbours::{Interaction, World};
-use sph_state::PressureStage;
+
+use crate::PressureStage;
 
 /// How density diffusion reaches what a formulation integrates.
 #[derive(Clone, Copy)]

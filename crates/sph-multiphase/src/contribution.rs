@@ -4,11 +4,10 @@ use sph_contribution::{
     Contribution, FromPlugins, LightBodyLimit, Offer, Plugins, Refusal, Setting, SoundLimit,
     contributes,
 };
-use sph_state::PressureStage;
 
 use crate::{
     Acting, Dilatation, Formulation, FormulationEntry, InterfaceLimit, PressureEntry,
-    PressureScheme,
+    PressureScheme, PressureStage,
 };
 
 /// The formulation that a scene names, with its equations of state.

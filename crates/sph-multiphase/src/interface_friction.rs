@@ -8,11 +8,12 @@ use sph_neighbours::{
     World, add_scaled, dot, minus, pair_term, unlike,
 };
 
-use crate::scattered::{SCATTERED, Scattered};
-use crate::{InterfaceEntry, offer_interface};
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_neighbours::lattice_sum;
-use sph_state::Laws;
+use sph_rheology::state::Laws;
+
+use crate::scattered::{SCATTERED, Scattered};
+use crate::{InterfaceEntry, offer_interface};
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
 /// is not of the heaviest phase, with v = α χ c̄ (unlike phases only) + β min(h |u_ab·r_ab|/r², c̄) (closing pairs only).

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use sph_contribution::Limiter;
 use sph_core::{StepError, StepLimit};
 use sph_neighbours::{World, lattice_sum};
-use sph_state::{BoundState, Reference};
+use sph_rheology::state::{BoundState, Reference};
 
 /// Δt ≤ 1/ω, ω² = S² max_φ (Σ_k φ_k ρ_k c_k²)(Σ_k φ_k/ρ_k), over the mixtures φ of two phases, with
 /// S = max_k Σ_b V |∂w/∂x sin(kx)| on a lattice.

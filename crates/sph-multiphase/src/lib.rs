@@ -4,9 +4,14 @@
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
 //! * [`InterfaceEntry`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
-//! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; none is here.
+//! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
+//! * [`PressureStage`] applies the equations of state.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
+//! * [`damping`]: velocities that die away, everywhere or in sponges.
+//! * [`diffusion`] of density against noise, and of particles against gaps.
+//! * [`linear`]: sparse systems on the neighbour graph and what solves them.
+//! * [`viscosity`]: viscous operators, solved for or not, and viscosities of eddies.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
@@ -19,6 +24,8 @@ mod colagrossi_landrini;
 mod contact_angle;
 mod contract;
 mod contribution;
+pub mod damping;
+pub mod diffusion;
 mod dilatation;
 mod divergence;
 mod gradient;
@@ -28,11 +35,15 @@ mod hu_adams;
 mod interface_friction;
 mod interface_limit;
 mod krimi;
+pub mod linear;
 mod micro_mixing;
+pub mod pressure;
+mod pressure_stage;
 mod repulsion;
 mod scattered;
 mod surface;
 mod surface_tension;
+pub mod viscosity;
 mod volume;
 
 pub use acoustic_damper::AcousticDamper;
@@ -54,6 +65,7 @@ pub use interface_friction::InterfaceFriction;
 pub use interface_limit::InterfaceLimit;
 pub use krimi::{Continuity, Krimi};
 pub use micro_mixing::MicroMixing;
+pub use pressure_stage::PressureStage;
 pub use scattered::SCATTERED;
 pub use surface::{ConeTest, FREE_SURFACE, Place, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

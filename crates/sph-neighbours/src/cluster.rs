@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use sph_core::Vect;
 use sph_kernels::Sampler;
-use sph_lanes::{Lane, MOST, Width, dispatch_at};
+use sph_kernels::lanes::{Lane, MOST, Width, dispatch_at};
 
 use crate::lane_pair::LanePair;
 use crate::members::Members;

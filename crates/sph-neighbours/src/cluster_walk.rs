@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use sph_core::{Pool, StepError};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane, dispatch_at};
+use sph_kernels::lanes::{Body, Lane, dispatch_at};
 
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
@@ -30,7 +30,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         Ok(ClusterWalk {
             sweep: Sweep::new(world, &*world.kernel)?,
             pool: &world.lists.pools.sweeps,
-            lanes: sph_lanes::width().lanes(),
+            lanes: sph_kernels::lanes::width().lanes(),
         })
     }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use sph_core::{Pool, Vect};
-use sph_lanes::{Body, Lane, dispatch_at, width};
+use sph_kernels::lanes::{Body, Lane, dispatch_at, width};
 
 use crate::list::{keep_all, make_room};
 use crate::members::Members;
@@ -30,7 +30,7 @@ struct Block {
 type Room = (Vec<u32>, Vec<Range<usize>>);
 
 /// For every free particle, or place on a wall, the free particles that may be within reach: one list for a cluster of at
-/// most [`MOST`](sph_lanes::MOST) that follow each other.
+/// most [`MOST`](sph_kernels::lanes::MOST) that follow each other.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
     blocks: Vec<Block>,

@@ -1,7 +1,7 @@
 //! Couplings of pairs, kept in lanes for many sums over particles that stay where they are.
 
 use sph_core::{StepError, Vect, fields};
-use sph_lanes::{Body, Lane, Width, dispatch_at};
+use sph_kernels::lanes::{Body, Lane, Width, dispatch_at};
 
 use crate::blocks::each_block;
 use crate::lane_vector::{minus, vector};

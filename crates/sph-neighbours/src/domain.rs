@@ -1,7 +1,7 @@
 //! The box the flow lives in, and which of its directions are periodic.
 
 use sph_core::Vect;
-use sph_lanes::Lane;
+use sph_kernels::lanes::Lane;
 
 /// A box; along a periodic axis the upper face is the lower one.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
-use sph_lanes::{Body, Lane, MOST, dispatch_at, dot};
+use sph_kernels::lanes::{Body, Lane, MOST, dispatch_at, dot};
 
 use crate::cluster::Cluster;
 use crate::couplings::{Couplings, Group, Kept, Kinds};

@@ -1,7 +1,7 @@
 //! Sums of kernel values alone: the density sum, which prunes the lists, and Shepard means.
 
 use sph_core::{StepError, Vect, fields};
-use sph_lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
+use sph_kernels::lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
 use crate::blocks::each_block;
 use crate::kernel_values::SumRoom;

@@ -1,7 +1,7 @@
 //! Vectors whose components stand in lanes.
 
 use sph_core::Vect;
-use sph_lanes::Lane;
+use sph_kernels::lanes::Lane;
 
 /// The same vector in all lanes.
 #[inline(always)]

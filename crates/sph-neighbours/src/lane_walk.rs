@@ -1,7 +1,7 @@
 //! Walks that make something else than rates of sums in lanes.
 
 use sph_core::StepError;
-use sph_lanes::{InLanes, width};
+use sph_kernels::lanes::{InLanes, width};
 
 use crate::blocks::each_block;
 use crate::members::groups;

@@ -8,6 +8,7 @@
 //!   form, called once per cluster of particles and never per pair.
 //! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum, [`lattice_sum`] what a sum
 //!   would be on a lattice.
+//! * [`decomposition`] divides particles between ranks.
 //!
 //! Each particle sums its own neighbourhood in the order of its list: no atomics, and the same
 //! bits for any number of threads.
@@ -21,6 +22,7 @@ mod clusters;
 mod contacts;
 mod couplings;
 mod cross;
+pub mod decomposition;
 mod domain;
 mod exchange;
 mod facing;
@@ -103,7 +105,7 @@ pub use sight::Sight;
 pub use slopes::{Slope, Slopes};
 pub use space::{Space, inner};
 pub use sph_derive::pair_term;
-pub use sph_lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
+pub use sph_kernels::lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, declared, interactions, interactions_with};
 pub use team::Team;
 pub use term::{BoundTerm, ByPairs, Interaction, PairTerm, RowTerm, TermEntry, Terms, WithTerm};

@@ -1,6 +1,6 @@
 //! Who is in a cluster, and whom it looks at.
 
-use sph_lanes::MOST;
+use sph_kernels::lanes::MOST;
 
 /// Some particles that follow each other, and whom any of them may have within reach.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Sums over pairs, their formula written once for lanes.
 
-use sph_lanes::{Body, InLanes, Lane, dispatch_at};
+use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;

@@ -1,7 +1,7 @@
 //! Particles side by side, and what is summed for them.
 
 use sph_core::Vect;
-use sph_lanes::{Lane, MOST};
+use sph_kernels::lanes::{Lane, MOST};
 
 use crate::members::Members;
 

@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{Body, Lane};
+use sph_kernels::lanes::{Body, Lane};
 
 use crate::members::Members;
 use crate::particles::Particles;

@@ -1,7 +1,7 @@
 //! Separations of the members of a cluster from one neighbour after the other, in lanes.
 
 use sph_core::Vect;
-use sph_lanes::{Body, Lane, dot};
+use sph_kernels::lanes::{Body, Lane, dot};
 
 use crate::Domain;
 use crate::lane_vector::minus;

@@ -5,7 +5,7 @@ use std::borrow::Borrow;
 use rayon::prelude::*;
 use sph_core::{Access, StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_lanes::{MOST, Width, width};
+use sph_kernels::lanes::{MOST, Width, width};
 
 use crate::cluster::{Buffers, Cluster};
 use crate::half::is_wanted;

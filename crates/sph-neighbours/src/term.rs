@@ -1,7 +1,7 @@
 //! Pair terms: what they sum over free neighbours is written once, for lanes; walls are added one by one.
 
 use sph_core::{Access, StepError, contract};
-use sph_lanes::InLanes;
+use sph_kernels::lanes::InLanes;
 
 use crate::lane_pair::{LanePair, Pair};
 use crate::pair_sum::{PairSum, sum_cluster};

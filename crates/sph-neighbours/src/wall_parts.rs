@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_lanes::MOST;
+use sph_kernels::lanes::MOST;
 
 use crate::scaling::Scaling;
 use crate::sweep::{Sweep, with_all};

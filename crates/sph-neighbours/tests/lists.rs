@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use sph_core::Pool;
 use sph_core::{Role, Store, Vect, fields};
 use sph_kernels::Kernel;
-use sph_lanes::{Width, force_width};
+use sph_kernels::lanes::{Width, force_width};
 use sph_neighbours::{CellGrid, Clusters, Domain, NeighbourList, World, kernel_sums};
 
 fn cloud<const D: usize>(n: usize, seed: u64) -> Vec<Vect<D>> {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use sph_boundary::Wall;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::Vect;
-use sph_state::{BoundState, Laws};
+use sph_rheology::state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
 use crate::memory::Memory;

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use sph_core::Vect;
 use sph_kernels::Sampler;
 use sph_neighbours::{Passed, WallSet};
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::cells::cells;
 use crate::looked::Looked;

@@ -3,13 +3,15 @@
 //! * [`run()`]: steps, outputs, checkpoints, roll-back, references, summary.
 //! * [`run_part()`]: the same on one of several ranks, with a part of the particles.
 //! * [`Stepper`]: the same in memory, step by step, with columns that may be changed in between.
+//! * [`setup`]: a scene becomes particles, walls and a flow, without a run.
 //! * [`examine_and_try()`]: the numbers that follow from a scene, and a trial of its first steps.
 //!
-//! Particles and walls come from `sph-setup`, plugins and steps from `sph-solver`.
+//! Plugins and steps come from `sph-solver`.
 
 mod failure;
 mod results;
 mod running;
+pub mod setup;
 mod subject;
 
 pub use failure::error::{Failure, RunError};
@@ -21,5 +23,5 @@ pub use running::on_threads::run_on_threads;
 pub use running::run::{run, run_part};
 pub use running::stepper::Stepper;
 pub use running::trial::{Trial, examine_and_try};
-pub use sph_viscosity::Solves;
+pub use sph_multiphase::viscosity::Solves;
 pub use subject::Particles;

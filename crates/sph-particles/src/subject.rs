@@ -7,13 +7,13 @@ use sph_core::SceneProblem;
 use sph_io::IoError;
 use sph_run::{Ended, FileMark, Method, RunOptions, Subject, Watch, unusable};
 use sph_scene::{Diagnostic, Loaded, Source, read};
-use sph_setup::examine;
 use sph_solver::SolverError;
 use toml::Table;
 
 use crate::failure::error::RunError;
 use crate::running::identity::marks;
 use crate::running::run::run;
+use crate::setup::examine;
 
 /// Smoothed particles.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 //!
 //! A [`Rheology`] says what it [`Needs`] and turns it into an effective viscosity; one that is
 //! [`Elastic`] also advances a stress that it remembers. The crate knows nothing of kernels or
-//! walls; an embedder hands it slices and gets slices back.
+//! walls; an embedder hands it slices and gets slices back. Equations of state are in [`state`].
 //!
 //! ```
 //! use sph_rheology::{Bingham, Inputs, Newtonian, Regularisation, Rheology};
@@ -38,6 +38,7 @@ mod newtonian;
 mod power_law;
 mod regularisation;
 pub mod rheometer;
+pub mod state;
 
 pub use bingham::Bingham;
 pub use carreau::Carreau;

@@ -4,16 +4,13 @@
 //! formulation, integrator, probe or solution: names come from the scene, or from
 //! [`defaults`] where the scene is silent.
 //!
-//! * [`setup`]: names → plugins → stages in order, terms, step limits. `sph-setup` gives them particles and walls.
+//! * [`setup`]: names → plugins → stages in order, terms, step limits. `sph-particles` gives them particles and walls.
 //! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator. `sph-particles` takes the steps of a run.
 //! * [`rheometer`]: a law by its name, sheared alone; [`kernels`]: a kernel by its name.
 
 // Plugins that are found by their names: a binary with the solver has them.
-use sph_diffusion as _;
-use sph_implicit as _;
-use sph_seepage as _;
-use sph_stress as _;
-use sph_viscosity as _;
+use sph_multiphase as _;
+use sph_soil as _;
 
 pub mod defaults;
 mod error;

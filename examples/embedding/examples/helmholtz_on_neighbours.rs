@@ -1,10 +1,13 @@
-//! κ²u − ∇²u = f on particles of a periodic square, with `sph-neighbours`, `sph-kernels` and `sph-implicit` alone.
+//! κ²u − ∇²u = f on particles of a periodic square, with `sph-neighbours`, `sph-kernels` and the linear
+//! systems of `sph-multiphase` alone.
 
 use std::f64::consts::TAU;
 
 use sph_core::Vect;
-use sph_implicit::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, SolveError};
 use sph_kernels::{Kernel, by_name};
+use sph_multiphase::linear::{
+    ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, SolveError,
+};
 use sph_neighbours::{CellGrid, Domain, NeighbourList};
 
 /// Largest error of u = sin(2πx) with `n` × `n` particles, over its largest value.

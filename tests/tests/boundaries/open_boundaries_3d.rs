@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use serde_json::Value as Json;
+use sph_particles::setup::assemble;
 use sph_particles::{Summary, run};
 use sph_run::{Identity, RunOptions, Start};
 use sph_scene::parse;
-use sph_setup::assemble;
 use sph_solver::SolverError;
 use sph_tests::FinalState;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sph_draw::{Cloud, DrawError, Frames, Line, evenly, nearest, streamlines, tracks};
+use sph_io::curves::{Cloud, DrawError, Frames, Line, evenly, nearest, streamlines, tracks};
 use sph_io::{Cells, FieldData, Frame, Piece, PvdSeries};
 
 /// Spacing of the particles, m.
@@ -144,7 +144,8 @@ fn a_profile_of_a_linear_field_is_exact_and_ends_with_the_fluid() {
     }
     assert!(outside > 30, "{outside}");
     let path = folder.path().join("line.svg");
-    sph_draw::draw_profile(&frames, &line, "velocity.x", &[Some(0.0), None], &path).expect("drawn");
+    sph_io::curves::draw_profile(&frames, &line, "velocity.x", &[Some(0.0), None], &path)
+        .expect("drawn");
     let table = sph_io::read_table(path.with_extension("csv")).expect("a table");
     assert_eq!(table.column("time").map(<[f64]>::len), Some(202));
     // u = −y on that line, at all times.
@@ -175,7 +176,7 @@ fn tracks_follow_identities_through_other_orders() {
         }
     }
     let path = folder.path().join("tracks.png");
-    sph_draw::draw_tracks(&frames, &all, "speed", &path).expect("drawn");
+    sph_io::curves::draw_tracks(&frames, &all, "speed", &path).expect("drawn");
     let rows = sph_io::read_table(path.with_extension("csv")).expect("a table");
     assert_eq!(rows.column("identity").map(<[f64]>::len), Some(30));
     let lost = tracks(&frames, &[999_999]).unwrap_err();
@@ -203,7 +204,7 @@ fn what_was_not_written_is_told_with_what_was() {
         "the first component of a number is the number"
     );
     assert!(snapshot.column("height.y").is_err());
-    let drawn = sph_draw::draw_streamlines(
+    let drawn = sph_io::curves::draw_streamlines(
         &frames,
         None,
         "height",

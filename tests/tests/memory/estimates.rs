@@ -4,9 +4,9 @@ use std::path::Path;
 
 use dhat::{HeapStats, Profiler};
 use sph_particles::run;
+use sph_particles::setup::{Memory, examine};
 use sph_run::{Identity, RunOptions, Start, Status};
 use sph_scene::{Override, load};
-use sph_setup::{Memory, examine};
 
 /// The largest difference, of what is allocated: an estimate is to say whether a run fits, not to account for it.
 const OFF: f64 = 0.25;

@@ -6,8 +6,8 @@
 use std::io::Write;
 
 use sph_core::{StepLimit, System, Vect, fields};
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::{Override, load};
-use sph_setup::{Assembled, assemble};
 use sph_solver::SolverError;
 
 const STEPS: usize = 60;

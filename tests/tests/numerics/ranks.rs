@@ -230,7 +230,7 @@ fn what_cannot_be_divided_is_refused_before_anything_is_written() {
 #[cfg(not(feature = "mpi"))]
 #[test]
 fn mpirun_is_left_out() {
-    println!("skipped: built without the feature `mpi` (crates/sph-mpi/README.md)");
+    println!("skipped: built without the feature `mpi` (crates/sph-cli/README.md)");
 }
 
 /// Ranks that are processes; ends with the bits of one process.

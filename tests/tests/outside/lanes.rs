@@ -2,7 +2,7 @@
 
 use artificial_viscosity::ArtificialViscosity;
 use sph_core::{Access, StepError, plugin};
-use sph_lanes::{Width, force_width};
+use sph_kernels::lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
 use sph_particles::run;
 use sph_run::{RunOptions, Start};

@@ -1,9 +1,9 @@
 //! The kind of plugin of `examples/tracer`: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
+use sph_particles::setup::{Examination, examine};
 use sph_particles::{RunError, Summary, run};
 use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
-use sph_setup::{Examination, examine};
 use sph_tests::FinalState;
 use tracer as _;
 
@@ -70,7 +70,8 @@ fn examined(changes: &[&str]) -> Examination {
 /// Rate at which a wave of length 1 dies on the lattice, over κ: 2 Σ_b V F_ab (1 − cos k x_b), the operator's own.
 fn decay_on_the_lattice() -> f64 {
     let loaded = parse(SCENE, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let parts = sph_setup::assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let parts =
+        sph_particles::setup::assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     let (world, d) = (&parts.flow.world, 0.0625);
     let reach = (world.kernel.support_radius() / d).ceil() as i32;
     let mut sum = 0.0;

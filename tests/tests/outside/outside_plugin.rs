@@ -7,10 +7,10 @@
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
+use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::{
     Interaction, KernelEntry, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World,
 };
-use sph_viscosity::EddyViscosityEntry;
 
 // ------------------------------------------------------------------------------------------------
 

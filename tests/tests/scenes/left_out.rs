@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use sph_particles::setup::{Examination, examine};
 use sph_scene::{Override, load};
-use sph_setup::{Examination, examine};
 
 fn examined(name: &str, overrides: &[&str]) -> Examination {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));

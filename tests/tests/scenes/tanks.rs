@@ -1,8 +1,7 @@
 //! Water at rest: in a tank, over a wedge, between dummy particles.
 
-use sph_damping as _;
 use sph_io::Table;
-use sph_pressure as _;
+use sph_multiphase as _;
 
 use crate::shipped::{finished, whole};
 

@@ -1,7 +1,7 @@
 //! Waves that travel.
 
 use crate::shipped::finished;
-use sph_waves as _;
+use sph_open as _;
 
 /// Time of the crest, s, as the middle of the times at half its height, and its height over the first
 /// value, m.

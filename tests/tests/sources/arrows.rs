@@ -8,47 +8,38 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 41] = [
-    ("dem-triangulation", &[]),
-    ("dem-flow", &["dem-triangulation", "sph-derive"]),
-    ("dem-grains", &["sph-derive"]),
+const ALLOWED: [(&str, &[&str]); 24] = [
+    ("sparse", &[]),
     (
-        "dem-coupled",
-        &["dem-flow", "dem-grains", "dem-triangulation"],
-    ),
-    ("scene-text", &[]),
-    ("surface-file", &[]),
-    (
-        "dem-scene",
+        "sph-soil",
         &[
-            "dem-coupled",
-            "dem-flow",
-            "dem-grains",
-            "dem-triangulation",
+            "sph-core",
+            "sph-neighbours",
+            "sph-rheology",
+            "sph-contribution",
+            "sph-multiphase",
+        ],
+    ),
+    (
+        "dem-pfv",
+        &[
+            "sparse",
+            "sph-derive",
             "scene-text",
             "surface-file",
-            "sph-derive",
             "sph-io",
             "sph-run",
         ],
     ),
-    ("sph-lanes", &[]),
-    ("sph-kernels", &["sph-lanes"]),
+    ("scene-text", &[]),
+    ("surface-file", &[]),
+    ("sph-kernels", &[]),
     ("sph-derive", &[]),
     ("sph-core", &["scene-text", "sph-derive"]),
-    (
-        "sph-neighbours",
-        &["sph-core", "sph-derive", "sph-kernels", "sph-lanes"],
-    ),
+    ("sph-neighbours", &["sph-core", "sph-derive", "sph-kernels"]),
     (
         "sph-boundary",
-        &[
-            "sph-core",
-            "sph-kernels",
-            "sph-lanes",
-            "sph-neighbours",
-            "surface-file",
-        ],
+        &["sph-core", "sph-kernels", "sph-neighbours", "surface-file"],
     ),
     ("sph-bodies", &["sph-core", "sph-boundary"]),
     (
@@ -58,49 +49,19 @@ const ALLOWED: [(&str, &[&str]); 41] = [
             "sph-kernels",
             "sph-neighbours",
             "sph-boundary",
-            "sph-state",
+            "sph-rheology",
             "sph-contribution",
+            "sph-probes",
         ],
     ),
-    ("sph-decomposition", &["sph-core", "sph-neighbours"]),
-    ("sph-mpi", &["sph-decomposition"]),
-    ("sph-rheology", &["sph-core"]),
-    ("sph-state", &["sph-core", "sph-neighbours"]),
+    ("sph-rheology", &["sph-core", "sph-neighbours"]),
     (
         "sph-contribution",
-        &["sph-core", "sph-neighbours", "sph-state"],
-    ),
-    (
-        "sph-viscosity",
-        &[
-            "sph-core",
-            "sph-kernels",
-            "sph-neighbours",
-            "sph-contribution",
-            "sph-implicit",
-        ],
-    ),
-    (
-        "sph-damping",
-        &["sph-core", "sph-neighbours", "sph-contribution"],
-    ),
-    (
-        "sph-diffusion",
         &[
             "sph-core",
             "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-        ],
-    ),
-    (
-        "sph-seepage",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-            "sph-implicit",
+            "sph-rheology",
+            "sph-multiphase",
         ],
     ),
     (
@@ -108,41 +69,14 @@ const ALLOWED: [(&str, &[&str]); 41] = [
         &[
             "sph-core",
             "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-            "sph-damping",
-            "sph-viscosity",
-            "sph-diffusion",
-        ],
-    ),
-    (
-        "sph-pressure",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-            "sph-implicit",
-            "sph-multiphase",
-        ],
-    ),
-    (
-        "sph-stress",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-state",
-            "sph-contribution",
-            "sph-implicit",
             "sph-rheology",
-            "sph-viscosity",
+            "sph-contribution",
+            "sph-kernels",
+            "sparse",
         ],
     ),
-    ("sph-implicit", &["sph-core", "sph-neighbours"]),
-    ("sph-integrators", &["sph-core", "sph-implicit"]),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
     ("sph-io", &[]),
-    ("sph-draw", &["sph-io"]),
     (
         "sph-turbulence",
         &[
@@ -150,57 +84,28 @@ const ALLOWED: [(&str, &[&str]); 41] = [
             "sph-kernels",
             "sph-neighbours",
             "sph-contribution",
-            "sph-viscosity",
-            "sph-stress",
-            "sph-probes",
-        ],
-    ),
-    (
-        "sph-waves",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-boundary",
-            "sph-open",
+            "sph-multiphase",
+            "sph-soil",
             "sph-probes",
         ],
     ),
     ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
-    (
-        "sph-setup",
-        &[
-            "sph-boundary",
-            "sph-contribution",
-            "sph-core",
-            "sph-decomposition",
-            "sph-integrators",
-            "sph-io",
-            "sph-kernels",
-            "sph-multiphase",
-            "sph-neighbours",
-            "sph-open",
-            "sph-probes",
-            "sph-rheology",
-            "sph-scene",
-            "sph-solver",
-            "sph-state",
-        ],
-    ),
     (
         "sph-particles",
         &[
             "sph-boundary",
             "sph-contribution",
             "sph-core",
-            "sph-decomposition",
-            "sph-io",
             "sph-neighbours",
+            "sph-io",
             "sph-probes",
             "sph-run",
             "sph-scene",
-            "sph-setup",
             "sph-solver",
-            "sph-viscosity",
+            "sph-multiphase",
+            "sph-kernels",
+            "sph-open",
+            "sph-rheology",
         ],
     ),
     ("sph-run", &["scene-text", "sph-io"]),
@@ -208,26 +113,20 @@ const ALLOWED: [(&str, &[&str]); 41] = [
     (
         "sph-cli",
         &[
-            "dem-flow",
-            "dem-grains",
-            "dem-scene",
+            "dem-pfv",
             "sph-bodies",
             "sph-core",
-            "sph-damping",
-            "sph-decomposition",
-            "sph-draw",
+            "sph-multiphase",
+            "sph-neighbours",
             "sph-io",
-            "sph-mpi",
-            "sph-pressure",
             "sph-particles",
             "sph-probes",
             "sph-run",
             "sph-scene",
-            "sph-setup",
             "sph-solver",
             "sph-study",
             "sph-turbulence",
-            "sph-waves",
+            "sph-open",
         ],
     ),
     (
@@ -247,17 +146,16 @@ const ALLOWED: [(&str, &[&str]); 41] = [
 ];
 
 /// From the plugins of a scene to its run.
-const SOLVERS: [&str; 3] = ["sph-solver", "sph-setup", "sph-particles"];
+const SOLVERS: [&str; 2] = ["sph-solver", "sph-particles"];
 
-/// Heavy crates, each with the crates that may name it: one for particles, and one for grains, which
-/// know nothing of each other.
+/// Heavy crates, each with the crates that may name it.
 const KEPT_IN: [(&str, &[&str]); 7] = [
     ("pyo3", &["sph-python"]),
     ("numpy", &["sph-python"]),
     ("clap", &["sph-cli"]),
     ("ariadne", &["sph-cli"]),
     ("indicatif", &["sph-cli"]),
-    ("faer", &["sph-implicit", "dem-flow"]),
+    ("faer", &["sparse"]),
     ("hdf5", &["sph-io"]),
 ];
 
@@ -318,14 +216,8 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                     !SOLVERS.contains(&target.as_str())
                 }
                 ("embedding", _) => true,
-                ("sph-solver", _) => ![
-                    "sph-setup",
-                    "sph-particles",
-                    "sph-study",
-                    "sph-cli",
-                    "sph-tests",
-                ]
-                .contains(&target.as_str()),
+                ("sph-solver", _) => !["sph-particles", "sph-study", "sph-cli", "sph-tests"]
+                    .contains(&target.as_str()),
                 (_, Some(allowed)) => allowed.contains(&target.as_str()),
                 (_, None) => target == "sph-core",
             };
@@ -340,13 +232,11 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
         let all = || room.uses.union(&room.tests_use);
         let knows = all().find(|d| SOLVERS.contains(&d.as_str()));
         let may = [
-            "sph-setup",
             "sph-particles",
             "sph-study",
             "sph-cli",
             "sph-python",
             "sph-tests",
-            "sph-bench",
             "embedding",
         ];
         let may = may.contains(&name.as_str());
@@ -378,7 +268,7 @@ fn crates_that_can_be_used_alone_are_tested_alone() {
         "sph-core",
         "sph-rheology",
         "sph-io",
-        "dem-triangulation",
+        "dem-pfv",
     ] {
         let room = &rooms()[name];
         let others = room.tests_use.iter().filter(|d| d.starts_with("sph-"));

@@ -3,15 +3,12 @@
 use std::path::{Path, PathBuf};
 
 /// Crates that divide flows, run their parts, or write a file of each.
-const KNOWS: [&str; 9] = [
+const KNOWS: [&str; 6] = [
     "sph-cli",
-    "sph-decomposition",
     "sph-io",
-    "sph-mpi",
     "sph-neighbours",
     "sph-particles",
     "sph-run",
-    "sph-setup",
     "sph-solver",
 ];
 

@@ -1,7 +1,7 @@
 //! Walls of dummy particles after Adami, Hu & Adams (2012).
 
 use sph_core::{StepError, Vect, fields, plugin};
-use sph_lanes::{Lane, dot};
+use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{
     Contacts, Frame, LanePair, PairSum, Particles, Slopes, WallPoints, WallSet, World, add_scaled,
     shepard, splat,

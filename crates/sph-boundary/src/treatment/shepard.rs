@@ -1,7 +1,7 @@
 //! Means of the fluid's state at the wall.
 
 use sph_core::{StepError, Vect, fields};
-use sph_lanes::{Lane, dot};
+use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{Blocked, Clusters, LanePair, PairSum, Particles, World, shepard};
 
 /// What the fluid looks like from a place on the wall.

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Value as Json, json};
+use sph_particles::setup::{Examination, Memory};
 use sph_particles::{draw_scene, examine_and_try};
-use sph_setup::{Examination, Memory};
 
 use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use sph_core::parse_quantity;
-use sph_draw::{DrawError, Frames, Line};
 use sph_io::IoError;
+use sph_io::curves::{DrawError, Frames, Line};
 
 use crate::telling::console;
 use crate::telling::trouble::Trouble;
@@ -30,7 +30,7 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     }
     let slice = quantity("slice", arguments.slice.as_deref(), "m")?;
     let how = (apart, slice);
-    let drawn = sph_draw::draw_streamlines(&frames, time, &arguments.field, how, path);
+    let drawn = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path);
     let lines = drawn.map_err(trouble)?;
     told(&format!("{lines} lines"), path);
     Ok(())
@@ -54,7 +54,7 @@ fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
         times.push(None);
     }
     let frames = frames(&arguments.results)?;
-    let drawn = sph_draw::draw_profile(&frames, &line, &arguments.field, &times, path);
+    let drawn = sph_io::curves::draw_profile(&frames, &line, &arguments.field, &times, path);
     drawn.map_err(trouble)?;
     told(&format!("{} profiles", times.len()), path);
     Ok(())
@@ -68,16 +68,16 @@ fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
     if !arguments.near.is_empty() || identities.is_empty() {
         let start = frames.read(first).map_err(trouble)?;
         for text in &arguments.near {
-            let near = sph_draw::nearest(&start, place("near", text)?);
+            let near = sph_io::curves::nearest(&start, place("near", text)?);
             identities.push(near.map_err(trouble)?);
         }
         if identities.is_empty() {
             let count = arguments.count as usize;
-            identities = sph_draw::evenly(&start, count).map_err(trouble)?;
+            identities = sph_io::curves::evenly(&start, count).map_err(trouble)?;
         }
     }
-    let tracks = sph_draw::tracks(&frames, &identities).map_err(trouble)?;
-    let drawn = sph_draw::draw_tracks(&frames, &tracks, &arguments.field, path);
+    let tracks = sph_io::curves::tracks(&frames, &identities).map_err(trouble)?;
+    let drawn = sph_io::curves::draw_tracks(&frames, &tracks, &arguments.field, path);
     drawn.map_err(trouble)?;
     told(&format!("{} tracks", tracks.len()), path);
     Ok(())

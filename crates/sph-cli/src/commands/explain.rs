@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 use sph_particles::RunError;
-use sph_setup::{Examination, Ranks, StageUse, examine, ranks};
+use sph_particles::setup::{Examination, Ranks, StageUse, examine, ranks};
 use sph_solver::PluginInForce;
 
 use crate::arguments::ExplainArguments;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 use sph_core::parse_quantity;
-use sph_draw::{Column, Snapshot};
+use sph_io::curves::{Column, Snapshot};
 use sph_io::{Durability, write_atomic};
 use sph_probes::{Reduction, Weight, quantile, reduced};
 

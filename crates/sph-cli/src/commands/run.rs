@@ -99,7 +99,7 @@ fn particles(
 
 fn grains(
     arguments: &RunArguments,
-    loaded: &dem_scene::Loaded,
+    loaded: &dem_pfv::scene::Loaded,
     out: &Path,
     observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
@@ -112,10 +112,10 @@ fn grains(
         ));
     }
     let options = RunOptions {
-        identity: dem_scene::identity(loaded),
+        identity: dem_pfv::scene::identity(loaded),
         ..options(arguments, out)?
     };
-    let result = dem_scene::run(loaded, &options, observer);
+    let result = dem_pfv::scene::run(loaded, &options, observer);
     let s = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
     let text = grains::outcome::text(&s, out);
     Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))

@@ -7,7 +7,7 @@ use crate::telling::trouble::Trouble;
 /// Prints the JSON schema of scenes with all plugins of this binary.
 pub fn command(arguments: &SchemaArguments) -> Result<(), Trouble> {
     match arguments.grains {
-        true => console::json(&dem_scene::editor_schema()),
+        true => console::json(&dem_pfv::scene::editor_schema()),
         false => console::json(&sph_scene::schema()),
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Everything that keeps a command from its end, and how it is told.
 
-use dem_scene::DemError;
+use dem_pfv::scene::DemError;
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;

@@ -1,6 +1,8 @@
 //! Every lane has the bits of `f64`, at every width.
 
-use sph_lanes::{Body, Lane, Lanes, MOST, Width, add_scaled, dispatch, dispatch_at, dot, width};
+use sph_kernels::lanes::{
+    Body, Lane, Lanes, MOST, Width, add_scaled, dispatch, dispatch_at, dot, width,
+};
 
 /// Numbers of all sizes and signs, from a fixed start.
 fn numbers(n: usize) -> Vec<f64> {

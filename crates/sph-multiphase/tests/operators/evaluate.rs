@@ -2,11 +2,11 @@
 
 use sph_contribution::{Contribution, Offer, Setting};
 use sph_core::Vect;
-use sph_diffusion::BrezziPitkaranta;
+use sph_multiphase::diffusion::BrezziPitkaranta;
+use sph_multiphase::viscosity::{Choice, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
 use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Interaction, Terms, World, interactions};
-use sph_state::{EquationOfState, Laws, Linear, Reference};
-use sph_viscosity::{Choice, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm};
+use sph_rheology::state::{EquationOfState, Laws, Linear, Reference};
 
 /// Accelerations and the rate of the density constant.
 pub fn rates<const D: usize>(world: &World<D>, terms: &Terms<D>) -> (Vec<Vect<D>>, Vec<f64>) {

@@ -1,11 +1,11 @@
 //! The viscous operators on known fields: limits, order of consistency, momentum.
 
 use sph_core::{Role, Vect, fields};
-use sph_neighbours::{Domain, World};
-use sph_viscosity::{
+use sph_multiphase::viscosity::{
     Choice, EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, OnLattice,
     Strength, Viscosity, ViscousOperator,
 };
+use sph_neighbours::{Domain, World};
 
 use crate::conservation::{cloud, imbalance};
 use crate::evaluate::acceleration;

@@ -7,7 +7,7 @@ use sph_multiphase::{
     SurfaceTension,
 };
 use sph_neighbours::{Domain, World};
-use sph_state::{EquationOfState, Laws, Linear, Reference};
+use sph_rheology::state::{EquationOfState, Laws, Linear, Reference};
 
 use crate::evaluate::{offered, rates};
 use crate::world::{Random, disorder, lattice, periodic, set, set_velocity, world};

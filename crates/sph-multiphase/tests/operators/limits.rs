@@ -4,7 +4,7 @@ use sph_contribution::Limiter;
 use sph_core::{Vect, fields};
 use sph_multiphase::{Formulation, HuAdams, InterfaceLimit};
 use sph_neighbours::World;
-use sph_state::{EquationOfState, Linear, Reference};
+use sph_rheology::state::{EquationOfState, Linear, Reference};
 
 use crate::evaluate::{acceleration, pressure};
 use crate::world::{Random, lattice, periodic, set, world};

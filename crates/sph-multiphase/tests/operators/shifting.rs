@@ -2,7 +2,7 @@
 
 use sph_contribution::Offer;
 use sph_core::{Role, Vect, fields};
-use sph_diffusion::{Fickian, Transport};
+use sph_multiphase::diffusion::{Fickian, Transport};
 use sph_multiphase::{Formulation, HuAdams};
 use sph_neighbours::{Domain, World};
 

@@ -2,13 +2,13 @@
 
 use sph_contribution::Contribution;
 use sph_core::{Role, Vect, fields};
-use sph_diffusion::{
+use sph_kernels::{Kernel, quintic_spline};
+use sph_multiphase::diffusion::{
     Accelerated, BrezziPitkaranta, DENSITY_GRADIENT, DeltaForm, DeltaMultiphase, DeltaSph,
     MeanAcceleration, PRESSURE_SLOPE, RhieChow,
 };
-use sph_kernels::{Kernel, quintic_spline};
 use sph_neighbours::{Domain, World};
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::evaluate::{laws, offered, rates};
 use crate::world::{Random, at, disorder, lattice, periodic, set, world};

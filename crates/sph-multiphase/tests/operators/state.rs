@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use sph_core::{Declares, Role, Stage, fields};
+use sph_multiphase::PressureStage;
 use sph_neighbours::World;
-use sph_state::{
-    BoundState, CompressibleGrains, EquationOfState, Laws, Linear, PressureStage, Reference,
+use sph_rheology::state::{
+    BoundState, CompressibleGrains, EquationOfState, Laws, Linear, Reference,
 };
 
 use crate::world::{lattice, periodic, set, world};

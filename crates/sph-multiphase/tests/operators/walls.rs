@@ -1,11 +1,11 @@
 //! The operators next to a flat semi-analytical wall, rows 1 to 4 of a lattice with h/δr = 2.
 
 use sph_core::{Vect, fields};
-use sph_neighbours::Interaction;
-use sph_viscosity::{
+use sph_multiphase::viscosity::{
     EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, Strength, Viscosity,
     ViscousOperator,
 };
+use sph_neighbours::Interaction;
 
 use crate::channel::Channel;
 use crate::evaluate::{acceleration, literal_viscosity, pressure, viscosity};

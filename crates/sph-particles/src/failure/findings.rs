@@ -189,7 +189,7 @@ mod tests {
     use sph_core::System;
 
     use super::*;
-    use sph_setup::assemble;
+    use crate::setup::assemble;
 
     const SCENE: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\n\
          numerics = { spacing = 0.02, gravity = [0, -9.81], disorder = 0.2, velocity_noise = 0.1 }\n\

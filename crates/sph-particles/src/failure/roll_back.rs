@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use sph_core::{StepError, Vect, fields};
 use sph_run::{BAD_STATE, Books, CHECKPOINT, Status, Watch};
-use sph_setup::Leak;
 
 use crate::failure::bad_pictures;
 use crate::failure::error::{Failure, RunError};
@@ -14,6 +13,7 @@ use crate::failure::trouble::trouble;
 use crate::results::summary::Summary;
 use crate::running::course::{Known, Running};
 use crate::running::output::write_everything;
+use crate::setup::Leak;
 
 /// Distance from a leak, in kernel supports, within which it is the cause: neighbours of the particles that it
 /// disturbs are two supports away.

@@ -7,9 +7,9 @@ use std::path::Path;
 use sph_io::{Plot, Series, read_table};
 use sph_probes::norm;
 use sph_scene::{Norm, Scene};
-use sph_setup::reference_table;
 
 use crate::failure::error::RunError;
+use crate::setup::reference_table;
 
 /// More points than this are drawn as a line: markers would cover one another, and the run.
 const MOST_MARKERS: usize = 200;

@@ -7,12 +7,12 @@ use sph_core::fields;
 use sph_io::{Table, read_table};
 use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
-use sph_setup::field_error::Compared;
-use sph_setup::{field_error, reference_table};
 use sph_solver::Flow;
 
 use crate::failure::error::RunError;
 use crate::results::summary::ErrorEntry;
+use crate::setup::field_error::Compared;
+use crate::setup::{field_error, reference_table};
 
 type Solutions<const D: usize> = [(String, Box<dyn Solution<D>>)];
 

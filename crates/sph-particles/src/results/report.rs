@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use sph_run::{Books, SERIES, SUMMARY, Status};
-use sph_setup::Memory;
 use sph_solver::Left;
 
 use crate::failure::error::{Failure, RunError};
@@ -15,6 +14,7 @@ use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Summary};
 use crate::results::{reference_plots, references};
 use crate::running::course::Running;
 use crate::running::mach::SHARE;
+use crate::setup::Memory;
 
 impl<const D: usize> Running<'_, D> {
     /// Content of `summary.json`.

@@ -5,13 +5,13 @@ use std::path::Path;
 use sph_core::{Vect, fields, parse_quantity};
 use sph_io::{Colour, Picture, View};
 use sph_scene::Scene;
-use sph_setup::{Assembled, assemble};
 use sph_solver::Flow;
 use toml::{Table, Value};
 
 use crate::failure::error::RunError;
 use crate::running::drawn_flow::{drawn_walls, padded};
 use crate::running::pieces::points;
+use crate::setup::{Assembled, assemble};
 
 const NORMAL: Colour = Colour([0x7a, 0x7a, 0x7a]);
 const OPEN: Colour = Colour([0x1b, 0x9e, 0x3c]);

@@ -6,10 +6,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use sph_run::{Status, Trouble};
-use sph_setup::{Memory, Relaxation};
 use sph_solver::{Left, PluginInForce};
 
 use crate::Findings;
+use crate::setup::{Memory, Relaxation};
 
 /// Version of the summary's layout.
 pub const SCHEMA_VERSION: u32 = 1;

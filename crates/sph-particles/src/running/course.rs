@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use sph_core::StepLimit;
-use sph_decomposition::Transport;
 use sph_neighbours::Nearby;
+use sph_neighbours::decomposition::Transport;
 use sph_run::RunOptions;
 use sph_scene::Scene;
-use sph_setup::Assembled;
 use sph_solver::Snapshot;
 
 use crate::results::summary::RankShare;
@@ -17,6 +16,7 @@ use crate::running::energy::EnergyWatch;
 use crate::running::mach::MachWatch;
 use crate::running::output::Outputs;
 use crate::running::series::Extrema;
+use crate::setup::Assembled;
 
 /// A run on its way.
 pub(crate) struct Running<'a, const D: usize> {

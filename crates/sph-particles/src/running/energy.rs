@@ -2,10 +2,10 @@
 
 use sph_core::StepError;
 use sph_scene::Scene;
-use sph_setup::moves;
 use sph_solver::{Flow, defaults};
 
 use crate::results::balance::Balance;
+use crate::setup::moves;
 
 /// Shares of the scale from which the run is told of it, and from which no result is right.
 const TOLD: f64 = 0.01;

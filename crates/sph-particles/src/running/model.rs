@@ -4,7 +4,6 @@ use std::path::Path;
 
 use sph_core::StepError;
 use sph_run::{Books, Frames, Model, Now, Start, Status, Watch, Wish};
-use sph_setup::measure_walls;
 
 use crate::failure::error::RunError;
 use crate::results::summary::Summary;
@@ -14,6 +13,7 @@ use crate::running::energy::EnergyWatch;
 use crate::running::output::shows_depths;
 use crate::running::ranked;
 use crate::running::series;
+use crate::setup::measure_walls;
 
 impl<const D: usize> Model for Running<'_, D> {
     type Error = RunError;

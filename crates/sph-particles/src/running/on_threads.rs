@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_decomposition::Thread;
+use sph_neighbours::decomposition::Thread;
 use sph_run::{RunOptions, Watch};
 use sph_scene::Scene;
 

@@ -7,13 +7,13 @@ use sph_io::{ColourMap, FieldData, Picture, View};
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_run::{Frames, Outlay};
 use sph_scene::Scene;
-use sph_setup::Probes;
 use sph_solver::Flow;
 
 use crate::failure::error::RunError;
 use crate::running::colours::Colours;
 use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls};
+use crate::setup::Probes;
 
 /// Whether outputs show how far particles are from the surface, which is found from lists and contacts.
 pub(crate) fn shows_depths(scene: &Scene) -> bool {

@@ -1,9 +1,9 @@
 //! Particles and walls as pieces of a frame.
 
 use sph_core::{Plain, Store, fields};
-use sph_decomposition::OWNER;
 use sph_io::{Cells, FieldData, FieldValues, Location, Piece};
 use sph_neighbours::World;
+use sph_neighbours::decomposition::OWNER;
 use sph_scene::Scene;
 use sph_solver::Flow;
 

@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_core::{StepError, System};
-use sph_decomposition::{PartError, Transport};
+use sph_neighbours::decomposition::{PartError, Transport};
 use sph_neighbours::{Nearby, WallSet};
 use sph_run::{Identity, RunOptions, Start};
 use sph_scene::Scene;
-use sph_setup::{Assembled, Memory, Share, assemble_share};
 
 use crate::failure::error::RunError;
 use crate::results::summary::RankShare;
@@ -17,6 +16,7 @@ use crate::running::beginning::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;
+use crate::setup::{Assembled, Memory, Share, assemble_share};
 
 /// What a process assembles: on ranks only where particles settle first does each hold the whole for a while.
 pub(crate) fn share<const D: usize>(

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use sph_decomposition::Transport;
 use sph_neighbours::Nearby;
+use sph_neighbours::decomposition::Transport;
 use sph_run::RunOptions;
 use sph_scene::Scene;
-use sph_setup::{assemble_share, readable, refuse_the_indivisible, rehearse, short_steps};
 
 use crate::failure::error::RunError;
 use crate::running::counters::Counters;
@@ -17,6 +16,7 @@ use crate::running::mach::MachWatch;
 use crate::running::output::Outputs;
 use crate::running::ranked;
 use crate::running::series::Extrema;
+use crate::setup::{assemble_share, readable, refuse_the_indivisible, rehearse, short_steps};
 
 /// A run that has not begun, of a scene that nothing is refused of.
 pub(crate) fn ready<'a, const D: usize>(

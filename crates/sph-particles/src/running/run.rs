@@ -6,10 +6,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use sph_core::{StepError, StepLimit, System};
-use sph_decomposition::Transport;
+use sph_neighbours::decomposition::Transport;
 use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
 use sph_scene::Scene;
-use sph_setup::all_ready;
 use sph_solver::step::guard;
 
 use crate::failure::error::RunError;
@@ -19,6 +18,7 @@ use crate::running::course::Running;
 use crate::running::next_step::next_step;
 use crate::running::output::outlay;
 use crate::running::ready::ready;
+use crate::setup::all_ready;
 
 /// Runs a scene.
 ///

@@ -1,10 +1,10 @@
 //! `series.csv`: balances and probes over time.
 
-use sph_setup::Probes;
 use sph_solver::Flow;
 
 use crate::failure::error::RunError;
 use crate::results::balance::Balance;
+use crate::setup::Probes;
 
 /// What the rows have seen so far.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ impl Extrema {
         [low, high, self.energy_scale, self.momentum_scale]
     }
 
-    /// Measures a row; forces on walls have been [measured](sph_setup::measure_walls).
+    /// Measures a row; forces on walls have been [measured](crate::setup::measure_walls).
     pub fn row<const D: usize>(
         &mut self,
         flow: &Flow<D>,

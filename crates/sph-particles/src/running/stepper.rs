@@ -4,7 +4,6 @@ use std::path::Path;
 
 use sph_core::{FieldError, Role, StepError, System, fields};
 use sph_scene::Scene;
-use sph_setup::{Assembled, assemble, rehearse};
 use sph_solver::Snapshot;
 use sph_solver::step::guard;
 
@@ -12,6 +11,7 @@ use crate::failure::error::RunError;
 use crate::running::checkpoint;
 use crate::running::next_step::next_step;
 use crate::running::run::RECOVERY;
+use crate::setup::{Assembled, assemble, rehearse};
 
 /// A scene in memory, one step at a time.
 ///

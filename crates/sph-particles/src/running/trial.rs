@@ -4,10 +4,10 @@ use std::time::{Duration, Instant};
 
 use sph_core::StepError;
 use sph_scene::Scene;
-use sph_setup::{Assembled, Examination, examine_in};
 
 use crate::Stepper;
 use crate::failure::error::RunError;
+use crate::setup::{Assembled, Examination, examine_in};
 
 /// Least number of steps, where there is time for them.
 const FEWEST: usize = 32;
@@ -25,7 +25,7 @@ pub struct Trial {
     pub seconds: f64,
 }
 
-/// As [`examine`](sph_setup::examine), and a trial of the first steps.
+/// As [`examine`](crate::setup::examine), and a trial of the first steps.
 ///
 /// # Errors
 /// Every problem of the scene, with its path. That of the trial is apart: a scene whose first steps fail is known.

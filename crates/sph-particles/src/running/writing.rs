@@ -5,7 +5,6 @@ use std::path::Path;
 
 use sph_probes::Probe;
 use sph_run::{Books, Frames, Watch};
-use sph_setup::Probes;
 
 use crate::failure::error::RunError;
 use crate::results::balance::Balance;
@@ -14,6 +13,7 @@ use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;
 use crate::running::pieces::write_own_share;
+use crate::setup::Probes;
 
 /// Sums of probes, by their names.
 fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {

@@ -1,17 +1,17 @@
 //! From names in the scene to built plugins.
 
 use sph_boundary::{Mover, MoverEntry, Wall, WallEntry};
+use sph_contribution::integrators::{Integrator, IntegratorEntry};
 use sph_contribution::{Part, PluginInForce, Plugins};
 use sph_core::{SceneProblem, Work, fields, kind_of};
-use sph_integrators::{Integrator, IntegratorEntry};
 use sph_kernels::Kernel;
 use sph_multiphase::{Formulation, FormulationEntry};
 use sph_neighbours::KernelEntry;
 use sph_open::{OpenBoundary, OpenBoundaryEntry};
 use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry, needs_gradient};
+use sph_rheology::state::{EquationOfState, EquationOfStateEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::Scene;
-use sph_state::{EquationOfState, EquationOfStateEntry};
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {

@@ -3,7 +3,7 @@
 use sph_boundary::Wall;
 use sph_core::{AnyField, Evolved, Role, fields};
 use sph_neighbours::World;
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::setup::planning::Planned;
 use crate::step::declared::Columns;

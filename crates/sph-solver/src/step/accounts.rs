@@ -1,7 +1,7 @@
 //! Opens the books of energy where a probe asks for them.
 
+use sph_contribution::integrators::Integrator;
 use sph_core::SceneProblem;
-use sph_integrators::Integrator;
 use sph_multiphase::Formulation;
 use sph_probes::Probe;
 use sph_scene::Scene;

@@ -6,7 +6,7 @@ use sph_core::{Field, FieldError, Role, Scalar, StepError, Vect, Work, fields, k
 use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::{ClassRate, Interaction, World, class_rates, interactions};
 use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, work_of_stranger};
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::step::flow::Flow;
 use crate::step::observer::{Boundary, Observer, Seen};

@@ -12,9 +12,9 @@ use sph_contribution::{
 use sph_core::{
     Access, AnyField, Declares, Evolved, Field, Role, Scalar, StepError, StepLimit, fields,
 };
-use sph_decomposition::Parts;
+use sph_neighbours::decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
-use sph_state::Laws;
+use sph_rheology::state::Laws;
 
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;

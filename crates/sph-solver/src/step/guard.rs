@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
-use sph_state::BoundState;
+use sph_rheology::state::BoundState;
 
 const BATCH: usize = 4096;
 

@@ -2,7 +2,7 @@
 
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Stage, StepError};
-use sph_decomposition::Parts;
+use sph_neighbours::decomposition::Parts;
 use sph_neighbours::{SweepHalf, World};
 
 use crate::step::stages::Work;

@@ -1,8 +1,8 @@
 //! The kept state of particles that may go to another rank within a step.
 
 use sph_core::Store;
-use sph_decomposition::{PartError, Parts};
 use sph_neighbours::World;
+use sph_neighbours::decomposition::{PartError, Parts};
 
 /// All particles of a rank as they were when the state was kept; nothing where one process has all.
 #[derive(Default)]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sph_core::{StepError, StepLimit};
-use sph_decomposition::{PartError, Parts, Transport};
+use sph_neighbours::decomposition::{PartError, Parts, Transport};
 
 use crate::step::cost::costs;
 use crate::step::flow::Flow;

@@ -2,8 +2,8 @@
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
+use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
-use sph_viscosity::EddyViscosityEntry;
 
 use super::behind::{Behind, Distances};
 use super::length::Length;

@@ -2,8 +2,8 @@
 
 use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin};
+use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
-use sph_viscosity::EddyViscosityEntry;
 
 use super::behind::Behind;
 use super::filter::FilterLength;

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
+use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
-use sph_viscosity::EddyViscosityEntry;
 
 use super::behind::Behind;
 use super::filter::FilterLength;

@@ -5,8 +5,8 @@ use sph_contribution::{
     Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
 };
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
-use sph_viscosity::EddyViscosityEntry;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;

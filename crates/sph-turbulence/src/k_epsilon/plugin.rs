@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use sph_contribution::{Birth, Contribution, Offer, OwnColumn, Refusal, Setting};
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
-use sph_stress::StressDivergence;
-use sph_viscosity::EddyViscosityEntry;
+use sph_soil::stress::StressDivergence;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::earsm::AlgebraicStress;

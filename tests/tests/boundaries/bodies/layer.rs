@@ -2,8 +2,8 @@
 
 use sph_boundary::{Load, Mover, MoverEntry, RigidState};
 use sph_core::{System, plugin};
+use sph_particles::setup::assemble;
 use sph_scene::{Override, parse};
-use sph_setup::assemble;
 
 /// A wall that stays, whose pressures feel an acceleration along y all the same.
 #[plugin(MoverEntry [2], "still", "stays and feels an acceleration", source: "the tests")]

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use sph_core::{Stage, Symmetric, System, Vect, fields};
 use sph_neighbours::interactions;
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::parse;
-use sph_setup::{Assembled, assemble};
-use sph_stress::{GradientStage, Renormalised, StressDivergence};
+use sph_soil::stress::{GradientStage, Renormalised, StressDivergence};
 
 /// A periodic layer of shaken particles, 12 rows on a smooth floor.
 fn layer() -> Assembled<2> {

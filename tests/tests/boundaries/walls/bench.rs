@@ -2,8 +2,8 @@
 
 use sph_core::{StepLimit, System, Vect, fields};
 use sph_neighbours::WallForce;
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::parse;
-use sph_setup::{Assembled, assemble};
 
 /// A flow that is stepped by hand.
 pub struct Flowing<const D: usize>(pub Assembled<D>);

@@ -1,7 +1,7 @@
 //! Relaxing the first particles evens out the density next to slanted and curved walls.
 
+use sph_particles::setup::{Relaxation, assemble};
 use sph_scene::parse;
-use sph_setup::{Relaxation, assemble};
 
 /// Largest error of the density that the scenes ask for.
 const TOLERANCE: f64 = 0.01;

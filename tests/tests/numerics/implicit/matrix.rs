@@ -1,14 +1,14 @@
 //! The matrix is the explicit term's: the same accelerations, symmetric, positive definite.
 
 use sph_core::{System, Vect, fields};
-use sph_implicit::{Cholesky, Diagonal, Entries, Entry, LinearSolver, Matrix, Operator};
-use sph_neighbours::{Weak, World, interactions};
-use sph_scene::parse;
-use sph_setup::assemble;
-use sph_viscosity::{
+use sph_multiphase::linear::{Cholesky, Diagonal, Entries, Entry, LinearSolver, Matrix, Operator};
+use sph_multiphase::viscosity::{
     Choice, EspanolRevenga, FrictionOperator, FrictionSystem, HuAdamsViscosity, KrimiViscosity,
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
 };
+use sph_neighbours::{Weak, World, interactions};
+use sph_particles::setup::assemble;
+use sph_scene::parse;
 
 const ETA: f64 = 3.0;
 /// A tank with a slanted wall, and what else stands in `[numerics]` and behind `[wall.tank]`.

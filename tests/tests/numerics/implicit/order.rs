@@ -1,8 +1,8 @@
 //! Orders in time, against the same flow with ever smaller steps.
 
 use sph_core::{System, Vect, fields};
+use sph_particles::setup::assemble;
 use sph_scene::parse;
-use sph_setup::assemble;
 
 /// Vortices that decay by e^−0.5 in the time that sound takes over half the box.
 pub fn vortices(integrator: &str, viscosity: &str) -> String {

@@ -1,10 +1,10 @@
 //! Pressure from the end of the step.
 
 use sph_core::{System, Vect, fields};
+use sph_multiphase as _;
 use sph_multiphase::FREE_SURFACE;
-use sph_pressure as _;
+use sph_particles::setup::assemble;
 use sph_scene::parse;
-use sph_setup::assemble;
 use sph_tests::Bench;
 
 use crate::implicit::order::{after, vortices};

@@ -5,9 +5,9 @@ use std::path::Path;
 use proptest::prelude::*;
 use sph_core::{Vect, fields};
 use sph_particles::run;
+use sph_particles::setup::Assembled;
 use sph_run::{RunOptions, Start};
 use sph_scene::load;
-use sph_setup::Assembled;
 
 use crate::invariants::{fly, given, shipped};
 

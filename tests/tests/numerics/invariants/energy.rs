@@ -1,8 +1,8 @@
 //! The books of energy close, and friction takes what closed forms say.
 
 use sph_core::System;
-use sph_setup::Assembled;
-use sph_waves as _;
+use sph_open as _;
+use sph_particles::setup::Assembled;
 
 use crate::invariants::{fly, shipped};
 
@@ -139,7 +139,7 @@ fn what_cannot_be_booked_is_refused() {
         let path = path.join("../scenes/dam-break-koshizuka.toml");
         let given = crate::invariants::given(&[BUDGET, "numerics.spacing=0.02", more]);
         let scene = sph_scene::load(&path, &given).unwrap_or_else(|e| panic!("{e}"));
-        let refused = sph_setup::assemble::<2>(&scene.scene).err();
+        let refused = sph_particles::setup::assemble::<2>(&scene.scene).err();
         refused.expect("a refusal").to_string()
     };
     let why = refused("integrator.leap-frog={}");

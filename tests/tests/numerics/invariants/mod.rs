@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use sph_core::{StepLimit, System, Vect, fields};
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::{Override, load, parse};
-use sph_setup::{Assembled, assemble};
 
 mod conservation;
 mod energy;

@@ -4,7 +4,7 @@
 //! Taylor–Green vortices on a shaken lattice, a hundred steps of a fixed Δt.
 
 use sph_core::{Vect, fields};
-use sph_setup::Assembled;
+use sph_particles::setup::Assembled;
 
 use crate::invariants::{States, fly, shipped, states};
 

@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use sph_core::{StepLimit, System, fields};
 use sph_neighbours::World;
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::{Override, load};
-use sph_setup::{Assembled, assemble};
-use sph_stress::{Laplace, PressureSolver, Soils};
+use sph_soil::stress::{Laplace, PressureSolver, Soils};
 
 /// ρ and Δρ of the bed, kg/m³.
 const DENSITY: f64 = 1992.0;

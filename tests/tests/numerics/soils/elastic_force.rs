@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use sph_core::{Registry, Role, System, Vect, fields};
+use sph_multiphase::viscosity::{Viscosity, ViscousOperatorEntry};
 use sph_neighbours::{Interaction, interactions};
+use sph_particles::setup::{Assembled, assemble};
 use sph_rheology::{DruckerPrager, Newtonian, Rheology};
-use sph_setup::{Assembled, assemble};
+use sph_soil::stress::{Blended, Rheologies};
 use sph_solver::SolverError;
-use sph_stress::{Blended, Rheologies};
-use sph_viscosity::{Viscosity, ViscousOperatorEntry};
 
 use crate::soils::tried;
 

@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use sph_core::{Registry, Role, Stage, Store, Symmetric, Vect, fields};
 use sph_kernels::Kernel;
 use sph_kernels::wendland_c2;
+use sph_multiphase::viscosity::{Viscosity, ViscousOperatorEntry};
 use sph_neighbours::{Domain, Interaction, World, interactions};
-use sph_stress::{GradientStage, StressDivergence, SymmetricDifference};
-use sph_viscosity::{Viscosity, ViscousOperatorEntry};
+use sph_soil::stress::{GradientStage, StressDivergence, SymmetricDifference};
 
 /// Particles along a side of the unit box.
 const ROWS: usize = 100;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
-use sph_setup::Assembled;
+use sph_particles::setup::Assembled;
 
 use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
 use crate::soils::tried;

@@ -13,8 +13,8 @@ mod stepping;
 
 use std::path::Path;
 
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::{Override, load};
-use sph_setup::{Assembled, assemble};
 use sph_solver::SolverError;
 
 /// A shipped scene in the plane with some changes, assembled.

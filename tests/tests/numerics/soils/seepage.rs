@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use sph_core::{System, Vect, fields};
+use sph_particles::setup::{Assembled, assemble};
 use sph_scene::{Override, load};
-use sph_seepage::{PoreResistance, SEEPAGE_VELOCITY};
-use sph_setup::{Assembled, assemble};
+use sph_soil::seepage::{PoreResistance, SEEPAGE_VELOCITY};
 use sph_tests::{Bench, FinalState};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");

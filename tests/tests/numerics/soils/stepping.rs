@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
-use sph_setup::{Assembled, assemble};
+use sph_particles::setup::{Assembled, assemble};
 
 /// A step, and the forces after it.
 pub fn step(parts: &mut Assembled<2>, dt: f64) {

@@ -7,10 +7,10 @@ mod refusals;
 mod strains;
 
 use sph_core::{System, Vect, fields};
+use sph_particles::setup::{Assembled, assemble};
 use sph_particles::{Summary, run};
 use sph_run::{RunOptions, Start};
 use sph_scene::{Override, parse};
-use sph_setup::{Assembled, assemble};
 use sph_tests::{Bench, FinalState, PERIODIC};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,

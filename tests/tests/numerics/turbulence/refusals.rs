@@ -1,7 +1,7 @@
 //! What scenes of turbulence are refused for, and what laminar ones do not carry.
 
+use sph_particles::setup::examine;
 use sph_scene::parse;
-use sph_setup::examine;
 
 use crate::turbulence::CHANNEL;
 use crate::turbulence::phases::OVER_A_BED;

@@ -114,13 +114,13 @@ const SMALL: f64 = 600.0;
 /// As `sph check` does it. Returns whether it was assembled.
 fn checked(path: &Path) -> bool {
     match load(path, &[]) {
-        Ok(loaded) => match sph_setup::size(&loaded.scene) {
+        Ok(loaded) => match sph_particles::setup::size(&loaded.scene) {
             Ok(size) if size.particles + size.wall_points <= SMALL => {
                 let mut scene = loaded.scene;
                 if let Some(relax) = &mut scene.numerics.relax {
                     relax.steps = 1;
                 }
-                if let Err(e) = sph_setup::examine(&scene) {
+                if let Err(e) = sph_particles::setup::examine(&scene) {
                     assert!(!e.to_string().is_empty());
                 }
                 true
@@ -196,9 +196,9 @@ proptest! {
         std::fs::write(&path, &scenes()[4])?;
         let scene = load(&path, &[]).expect("the scene itself is good").scene;
         // What is wrong is wrong in the walls or the references, and says so.
-        let read = sph_setup::size(&scene).and_then(|size| {
+        let read = sph_particles::setup::size(&scene).and_then(|size| {
             let small = size.particles + size.wall_points <= SMALL;
-            small.then(|| sph_setup::examine(&scene)).transpose()
+            small.then(|| sph_particles::setup::examine(&scene)).transpose()
         });
         if let Err(e) = read {
             let told = e.to_string();
@@ -334,7 +334,9 @@ fn files_that_are_no_text_name_the_line() {
     let scene = load(&folder.path().join("scene.toml"), &[])
         .expect("a scene")
         .scene;
-    let told = sph_setup::size(&scene).expect_err("no text").to_string();
+    let told = sph_particles::setup::size(&scene)
+        .expect_err("no text")
+        .to_string();
     assert!(
         told.contains("tank.csv`, line 2: this is no UTF-8 text"),
         "{told}"
@@ -351,7 +353,7 @@ fn what_is_mutated_is_good() {
         std::fs::write(&path, &scene).expect("a file");
         assert!(checked(&path), "{scene}");
         let loaded = load(&path, &[]).expect("a scene");
-        sph_setup::examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+        sph_particles::setup::examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
     }
     assert_eq!(
         Facets::from_stl(BINARY.to_vec(), "s")

@@ -180,7 +180,7 @@ fn every_whole_scene_of_the_documents_can_be_assembled() {
             if block.starts_with("title = ") {
                 let loaded = sph_scene::parse(block, "scene.toml", &[]);
                 let loaded = loaded.unwrap_or_else(|e| panic!("{page:?}: {e}"));
-                let examined = sph_setup::examine(&loaded.scene);
+                let examined = sph_particles::setup::examine(&loaded.scene);
                 examined.unwrap_or_else(|e| panic!("{page:?}: {e}"));
                 scenes += 1;
             }

@@ -1,6 +1,6 @@
 //! Segments seen from many points, side by side.
 
-use sph_lanes::{Body, Lane, MOST, dispatch};
+use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::renormalisation::Renormalisation2d;
 use super::segment::{OnLine, SegmentIntegral};

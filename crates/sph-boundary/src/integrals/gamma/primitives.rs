@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use sph_kernels::PiecewisePolynomial;
-use sph_lanes::Lane;
+use sph_kernels::lanes::Lane;
 
 use super::ring::{Ring, amplification};
 use crate::integrals::normalisation::steps;

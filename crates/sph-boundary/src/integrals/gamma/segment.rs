@@ -1,6 +1,6 @@
 //! The integrals of one segment seen from one point.
 
-use sph_lanes::{Lane, atan2, ln};
+use sph_kernels::lanes::{Lane, atan2, ln};
 
 use super::primitives::End;
 use super::renormalisation::Renormalisation2d;

@@ -1,7 +1,7 @@
 //! ∫ w dS over small triangles by quadrature.
 
 use crate::geometry::vector::{along, dot};
-use sph_lanes::Lane;
+use sph_kernels::lanes::Lane;
 
 use super::Renormalisation3d;
 

@@ -1,6 +1,6 @@
 //! ∫ w dS over many triangles of one plane, side by side.
 
-use sph_lanes::{Body, Lane, MOST, dispatch};
+use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
 use super::plane::{Circle, Foot, Patch};

@@ -1,6 +1,6 @@
 //! `sph explain` of a scene of grains.
 
-use dem_scene::{Examination, Loaded, examine};
+use dem_pfv::scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
 use crate::number;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dem_scene::{Compared, Summary};
+use dem_pfv::scene::{Compared, Summary};
 
 use crate::commands::outcome::{headline, limited_by, row, wall_time};
 use crate::commands::written;

@@ -1,7 +1,8 @@
 //! The kinds of plugins that scenes of grains know.
 
-use dem_flow::conductances;
-use dem_grains::contact_laws;
+use dem_pfv::Entry;
+use dem_pfv::flow::conductances;
+use dem_pfv::grains::contact_laws;
 use sph_core::{Place, PluginInfo, PluginKind, reexport::inventory};
 
 /// Grains are spheres in space.
@@ -25,25 +26,20 @@ inventory::submit! {
 }
 
 fn laws() -> Vec<PluginInfo> {
-    let info = |e: &&dem_grains::LawEntry| PluginInfo {
-        name: e.name,
-        summary: e.summary,
-        source: e.source,
-        provider: e.provider,
-        dimensions: DIMENSIONS,
-        schema: e.schema,
-    };
-    contact_laws().iter().map(info).collect()
+    contact_laws().into_iter().map(info).collect()
 }
 
 fn throats() -> Vec<PluginInfo> {
-    let info = |e: &&dem_flow::ConductanceEntry| PluginInfo {
-        name: e.name,
-        summary: e.summary,
-        source: e.source,
-        provider: e.provider,
+    conductances().into_iter().map(info).collect()
+}
+
+fn info<L: ?Sized>(entry: &Entry<L>) -> PluginInfo {
+    PluginInfo {
+        name: entry.name,
+        summary: entry.summary,
+        source: entry.source,
+        provider: entry.provider,
         dimensions: DIMENSIONS,
-        schema: e.schema,
-    };
-    conductances().iter().map(info).collect()
+        schema: entry.schema,
+    }
 }

@@ -1,0 +1,80 @@
+//! Time of a step and of its parts: a dense packing at rest, and grains that flow.
+
+use dem_pfv::grains::{
+    Cloud, ContactLaw, Grain, GrainSystem, Growth, HertzMindlin, LinearElastic, Setup, Target, Wall,
+};
+use divan::counter::ItemsCount;
+
+fn main() {
+    divan::main();
+}
+
+const MODULUS: f64 = 15e6;
+
+/// Dense at a porosity of 0.40 in a unit box, about five contacts per grain.
+fn packing(grains: usize, law: impl ContactLaw + 'static) -> GrainSystem {
+    let radius = 0.38 / (grains as f64).cbrt();
+    let radii = dem_pfv::grains::uniform_radii(grains, 0.9 * radius, 1.1 * radius, 1);
+    let places = Cloud::new([0.0; 3], [1.0; 3])
+        .place(&radii, 1)
+        .expect("a cloud");
+    let grains = places.iter().zip(&radii);
+    let grains = grains.map(|(at, &r)| Grain::new((*at).into(), r, 2600.0));
+    let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
+    let setup = Setup::new(grains.collect(), LinearElastic::new(MODULUS, 0.5, 0.1));
+    let mut system = GrainSystem::new(setup.walls(walls).damping(0.4)).expect("a cloud");
+    let growth = Growth {
+        fast: 1.004,
+        tolerance: 0.1,
+        ..Growth::new(Target::Porosity(0.39), MODULUS)
+    };
+    growth.run(&mut system).expect("grown");
+    system.set_law(0, law).expect("a law");
+    system
+}
+
+fn stepping(bencher: divan::Bencher, mut system: GrainSystem) {
+    let step = 0.3 * system.critical_step();
+    let contacts = system.contacts().count();
+    bencher
+        .counter(ItemsCount::new(contacts * 100))
+        .bench_local(|| {
+            for _ in 0..100 {
+                system.step(step).expect("a step");
+            }
+        });
+}
+
+#[divan::bench(args = [1_000, 5_000, 20_000], sample_count = 5, sample_size = 1)]
+fn linear(bencher: divan::Bencher, grains: usize) {
+    stepping(
+        bencher,
+        packing(grains, LinearElastic::new(MODULUS, 0.5, 0.5)),
+    );
+}
+
+#[divan::bench(args = [5_000], sample_count = 5, sample_size = 1)]
+fn hertz_mindlin(bencher: divan::Bencher, grains: usize) {
+    stepping(bencher, packing(grains, HertzMindlin::new(1e9, 0.3, 0.5)));
+}
+
+/// Evaluation alone, without lists to make.
+#[divan::bench(args = [5_000], sample_count = 5, sample_size = 20)]
+fn contacts_alone(bencher: divan::Bencher, grains: usize) {
+    let mut system = packing(grains, LinearElastic::new(MODULUS, 0.5, 0.5));
+    let contacts = system.contacts().count();
+    bencher
+        .counter(ItemsCount::new(contacts))
+        .bench_local(|| system.evaluate().expect("forces"));
+}
+
+/// A shower: lists are made anew every few steps.
+#[divan::bench(args = [5_000], sample_count = 5, sample_size = 1)]
+fn flowing(bencher: divan::Bencher, grains: usize) {
+    let mut system = packing(grains, LinearElastic::new(MODULUS, 0.5, 0.5));
+    for (i, velocity) in system.velocities_mut().iter_mut().enumerate() {
+        let shake = |k: usize| ((i * 7919 + k * 104_729) % 1000) as f64 / 500.0 - 1.0;
+        *velocity = 2.0 * dem_pfv::grains::Vector::new(shake(1), shake(2), shake(3));
+    }
+    stepping(bencher, system);
+}

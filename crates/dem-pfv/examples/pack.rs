@@ -1,0 +1,46 @@
+//! Grows a packing in the unit box and prints its spheres, x y z r in m.
+//!
+//! `cargo run --release -p dem-pfv --example pack [grains] [stress Pa] [friction degrees] [d_max/d_min] [seed]`
+
+use dem_pfv::grains::{
+    Cloud, Grain, GrainError, GrainSystem, Growth, LinearElastic, Setup, Target, Wall,
+    uniform_radii,
+};
+
+fn main() -> Result<(), GrainError> {
+    let mut numbers = std::env::args()
+        .skip(1)
+        .map(|a| a.parse().unwrap_or(f64::NAN));
+    let mut next = |or: f64| numbers.next().unwrap_or(or);
+    let (count, stress, degrees, ratio, seed) =
+        (next(1000.0), next(1e4), next(1.0), next(1.22), next(1.0));
+    let radius = (0.25 * 0.75 / std::f64::consts::PI / count).cbrt();
+    let (low, high) = (
+        2.0 * radius / (1.0 + ratio),
+        2.0 * radius * ratio / (1.0 + ratio),
+    );
+    let radii = uniform_radii(count as usize, low, high, seed as u64);
+    let places = Cloud::new([0.0; 3], [1.0; 3]).place(&radii, seed as u64)?;
+    let grains = places.iter().zip(&radii);
+    let grains = grains
+        .map(|(at, &r)| Grain::new((*at).into(), r, 2600.0))
+        .collect();
+    let law = |ratio, friction| LinearElastic::new(15e6, ratio, friction);
+    let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
+    let setup = Setup::new(grains, law(0.5, degrees.to_radians().tan())).law(law(0.0, 0.0));
+    let mut system = GrainSystem::new(setup.walls(walls).damping(0.2))?;
+    let steps = Growth::new(Target::Stress(stress), 15e6).run(&mut system)?;
+    let porosity = system.porosity().unwrap_or_default();
+    println!(
+        "# {count} spheres grown to {stress} Pa with E = 15 MPa, {degrees} degrees, in {steps} steps; n = {porosity:.4}"
+    );
+    for (x, r) in system
+        .grains()
+        .positions()
+        .iter()
+        .zip(system.grains().radii())
+    {
+        println!("{} {} {} {r}", x.x, x.y, x.z);
+    }
+    Ok(())
+}

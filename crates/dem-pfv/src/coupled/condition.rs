@@ -1,0 +1,201 @@
+//! What the fluid meets at each wall.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::recorded::interpolated;
+use crate::coupled::{CoupledError, Recorded, Vector};
+use crate::flow::{Boundary, PoreGeometry};
+use crate::triangulation::Vertex;
+
+/// A wall as the fluid sees it.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Side {
+    /// What is given there.
+    pub condition: Condition,
+    /// Whether fluid sticks to the wall; otherwise it slides, as on a plane of symmetry.
+    pub sticks: bool,
+}
+
+/// What is given at a wall. Pressures are piezometric: zero everywhere in fluid at rest. Where two walls with pressures
+/// meet, the later one counts. The fluid pushes a wall with the pressure inside; a piston's stress is the total one.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub enum Condition {
+    /// No flow: undrained.
+    Closed,
+    /// One pressure, Pa: drained.
+    Pressure(f64),
+    /// A pressure that is linear between places along an axis and constant beyond the ends; that of any other
+    /// computation, such as a free surface with waves above a bed. Replace it as often as it changes.
+    Profile {
+        /// 0, 1 or 2.
+        axis: usize,
+        /// Places along the axis, ascending, m.
+        places: Vec<f64>,
+        /// Pressures there, Pa.
+        pressures: Vec<f64>,
+    },
+    /// The load of a wave.
+    Wave(Wave),
+    /// What another computation has left.
+    Recorded(Recorded),
+    /// An even inflow, m/s; negative lets fluid out.
+    Inflow(f64),
+}
+
+/// p = (A + r t) cos(π (x − x₀)/ℒ), times sin(2π t/T) if there is a period T: waves on the bed's surface, the mean
+/// pressure removed. Source: Catalano 2012, §6.3.2 (ramps) and §6.4 (standing waves).
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Wave {
+    /// Axis along which it runs, 0, 1 or 2.
+    pub axis: usize,
+    /// Place x₀ of the crest, m.
+    pub crest: f64,
+    /// Half the wave's length ℒ, m.
+    pub half_length: f64,
+    /// Amplitude A at time zero, Pa.
+    pub amplitude: f64,
+    /// Growth r of the amplitude, Pa/s.
+    pub ramp: f64,
+    /// Period T, s; none for a load that stands still.
+    pub period: Option<f64>,
+}
+
+impl Wave {
+    /// Pressure (Pa) at a place (m) and a time (s).
+    #[must_use]
+    pub fn pressure(&self, place: &Vector, time: f64) -> f64 {
+        let phase = PI * (place[self.axis] - self.crest) / self.half_length;
+        let swing = self.period.map_or(1.0, |t| (2.0 * PI * time / t).sin());
+        (self.amplitude + self.ramp * time) * phase.cos() * swing
+    }
+}
+
+impl Side {
+    /// No flow, and no grip.
+    #[must_use]
+    pub fn closed() -> Self {
+        Self {
+            condition: Condition::Closed,
+            sticks: false,
+        }
+    }
+
+    /// A given pressure (Pa) without grip.
+    #[must_use]
+    pub fn drained(pressure: f64) -> Self {
+        Self {
+            condition: Condition::Pressure(pressure),
+            sticks: false,
+        }
+    }
+
+    pub(crate) fn check(&self, wall: usize) -> Result<(), CoupledError> {
+        let bad = |problem: &str| {
+            let problem = problem.to_string();
+            Err(CoupledError::BadCondition { wall, problem })
+        };
+        let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
+        match &self.condition {
+            Condition::Closed => Ok(()),
+            Condition::Pressure(p) if !p.is_finite() => bad("is a pressure that is not finite"),
+            Condition::Inflow(v) if !v.is_finite() => bad("is an inflow that is not finite"),
+            Condition::Pressure(_) | Condition::Inflow(_) => Ok(()),
+            Condition::Profile {
+                axis,
+                places,
+                pressures,
+            } => match () {
+                () if *axis > 2 => bad("is along an axis that is not 0, 1 or 2"),
+                () if places.is_empty() || places.len() != pressures.len() => {
+                    bad("needs as many pressures as places, and one at least")
+                }
+                () if !finite(places) || !finite(pressures) => {
+                    bad("has numbers that are not finite")
+                }
+                () if !places.is_sorted() => bad("has places that do not ascend"),
+                () => Ok(()),
+            },
+            Condition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
+            Condition::Wave(w) => {
+                let lengths = [w.half_length, w.period.unwrap_or(1.0)];
+                match () {
+                    () if w.axis > 2 => bad("is along an axis that is not 0, 1 or 2"),
+                    () if !finite(&[w.crest, w.amplitude, w.ramp]) || !finite(&lengths) => {
+                        bad("has numbers that are not finite")
+                    }
+                    () if lengths.iter().any(|l| *l <= 0.0) => {
+                        bad("has a length or a period that is not positive")
+                    }
+                    () => Ok(()),
+                }
+            }
+        }
+    }
+
+    /// Whether its values change while the clock runs.
+    pub(crate) fn varies(&self) -> bool {
+        matches!(self.condition, Condition::Wave(_) | Condition::Recorded(_))
+    }
+
+    /// Whether both give a pressure, or neither does: then a change needs no new matrix.
+    pub(crate) fn like(&self, other: &Self) -> bool {
+        self.sticks == other.sticks && self.presses() == other.presses()
+    }
+
+    /// Whether it gives a pressure.
+    fn presses(&self) -> bool {
+        !matches!(self.condition, Condition::Closed | Condition::Inflow(_))
+    }
+
+    /// Puts what is given at a time (s) into the conditions of the flow.
+    fn give(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
+        match &self.condition {
+            Condition::Closed => {}
+            Condition::Pressure(p) => boundary.pressure(pores, wall, |_| Some(*p)),
+            Condition::Profile {
+                axis,
+                places,
+                pressures,
+            } => boundary.pressure(pores, wall, |x| {
+                Some(interpolated(places, pressures, x[*axis]))
+            }),
+            Condition::Wave(w) => boundary.pressure(pores, wall, |x| Some(w.pressure(&x, time))),
+            Condition::Recorded(r) => {
+                boundary.pressure(pores, wall, |x| Some(r.pressure(x[r.axis], time)));
+            }
+            Condition::Inflow(v) => {
+                boundary.inflow(pores, wall, *v, |_| true);
+            }
+        }
+    }
+}
+
+/// The conditions of all walls at a time (s).
+pub(crate) fn boundary(sides: &[Side], pores: &PoreGeometry, time: f64) -> Boundary {
+    let mut boundary = Boundary::closed(pores);
+    for (wall, side) in sides.iter().enumerate() {
+        side.give(&mut boundary, pores, wall, time);
+    }
+    boundary
+}
+
+/// Flux into the pores through every wall, m³/s, from that through each cell with a given pressure.
+pub(crate) fn inflows(sides: &[Side], pores: &PoreGeometry, influx: &[f64]) -> Vec<f64> {
+    let mut owners = vec![usize::MAX; influx.len()];
+    let around = |wall: usize| pores.mesh().cells_around(Vertex::Wall(wall)).iter();
+    for (wall, _) in sides.iter().enumerate().filter(|(_, s)| s.presses()) {
+        around(wall).for_each(|c| owners[*c as usize] = wall);
+    }
+    let through = |(wall, side): (usize, &Side)| match side.condition {
+        Condition::Inflow(v) => around(wall)
+            .map(|c| v * pores.area_on_wall(*c as usize, wall))
+            .sum(),
+        _ => (owners.iter().zip(influx))
+            .filter(|(o, _)| **o == wall)
+            .map(|(_, q)| q)
+            .sum(),
+    };
+    sides.iter().enumerate().map(through).collect()
+}

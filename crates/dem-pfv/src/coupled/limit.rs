@@ -1,0 +1,216 @@
+//! The largest stable step.
+
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::pores::{Places, Pores};
+use crate::coupled::{CoupledError, Vector};
+use crate::flow::Boundary;
+use crate::grains::{Control, GrainSystem};
+
+/// What limits a step.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct StepLimit {
+    /// Largest stable step Δt, s.
+    pub step: f64,
+    /// 2/ω, the contacts alone, s.
+    pub elastic: f64,
+    /// 2/λ, the drag alone, s.
+    pub viscous: f64,
+    /// The grain that moves most in the mode of strongest drag.
+    pub grain: usize,
+}
+
+/// The mode of strongest drag, kept as the start of the next search.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub(crate) struct Mode {
+    /// Velocities of the grains, m/s; empty before the first search.
+    grains: Vec<Vector>,
+    /// Velocities of the walls along their normals, m/s.
+    walls: Vec<f64>,
+    /// λ, 1/s.
+    pub rate: f64,
+    pub grain: usize,
+}
+
+/// Applications of the operator at most, and the relative change of λ at which they end.
+const MOST: usize = 60;
+const LEAST: usize = 4;
+const CHANGE: f64 = 1e-3;
+
+/// Root of λ Δt / 2 + ω² Δt² / 4 = 1 with ω = 2 / `elastic`: beyond it the leap-frog with drag of the velocity half a
+/// step behind, z² − (2 − λ Δt − ω² Δt²) z + (1 − λ Δt), has a root below −1.
+pub(crate) fn combined(elastic: f64, rate: f64, grain: usize) -> StepLimit {
+    let half = 0.25 * rate;
+    // 1 / (a + √(a² + 1/Δt_e²)), the root without the difference of near numbers.
+    let step = 1.0 / (half + (half * half + elastic.powi(-2)).sqrt());
+    StepLimit {
+        step,
+        elastic,
+        viscous: 2.0 / rate,
+        grain,
+    }
+}
+
+/// λ_max of M⁻¹ S G⁻¹ E by power iterations: velocities change the volumes of pores, pressures answer, their forces
+/// slow the grains. Bodies are the free grains and free pistons. The change of volumes is a central difference, exact
+/// but for 1e-8 as volumes are cubic. Source: Catalano 2012, Eqs. (4.9) to (4.15), but for all grains at once.
+pub(crate) fn strongest_drag(
+    grains: &GrainSystem,
+    pores: &mut Pores,
+    mode: Mode,
+) -> Result<Mode, CoupledError> {
+    let bodies = Bodies::new(grains);
+    let boundary = silent(pores);
+    let places = Places::of(grains);
+    let mut mode = bodies.started(mode);
+    bodies.normalise(&mut mode);
+    for made in 0..MOST {
+        let before = mode.rate;
+        bodies.apply(&places, pores, &boundary, &mut mode)?;
+        mode.rate = bodies.normalise(&mut mode);
+        let still = (mode.rate - before).abs() <= CHANGE * mode.rate;
+        if mode.rate == 0.0 || (made >= LEAST && still) {
+            break;
+        }
+    }
+    let speeds = mode.grains.iter().map(Vector::norm_squared).enumerate();
+    let fastest = speeds.fold(
+        (0, -1.0),
+        |best, (i, v)| if v > best.1 { (i, v) } else { best },
+    );
+    mode.grain = fastest.0;
+    Ok(mode)
+}
+
+/// Zero wherever a pressure is given, no sources.
+fn silent(pores: &Pores) -> Boundary {
+    let mut boundary = Boundary::closed(&pores.geometry);
+    for (cell, given) in pores.boundary.given().enumerate() {
+        if given {
+            boundary.cell_pressure(cell, 0.0);
+        }
+    }
+    boundary
+}
+
+/// Masses of what moves freely; infinite for what does not.
+struct Bodies {
+    grains: Vec<f64>,
+    walls: Vec<f64>,
+    smallest: f64,
+}
+
+impl Bodies {
+    fn new(system: &GrainSystem) -> Self {
+        let grains = system.grains();
+        let held = grains.held().iter().zip(grains.masses());
+        let wall = |w: &crate::grains::Wall| match w.control {
+            Control::Piston { mass, .. } => mass,
+            _ => f64::INFINITY,
+        };
+        Self {
+            grains: held
+                .map(|(held, m)| if *held { f64::INFINITY } else { *m })
+                .collect(),
+            walls: system.walls().iter().map(wall).collect(),
+            smallest: grains.radii().iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// Alternating velocities that no symmetry of a packing shares, if there is no mode from before.
+    fn started(&self, mode: Mode) -> Mode {
+        if mode.grains.len() == self.grains.len()
+            && mode.walls.len() == self.walls.len()
+            && mode.rate > 0.0
+        {
+            return mode;
+        }
+        let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut draw = || {
+            // Marsaglia's xorshift.
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let free = |mass: f64| if mass.is_finite() { 1.0 } else { 0.0 };
+        let grains = self
+            .grains
+            .iter()
+            .map(|m| Vector::from_fn(|_, _| draw()) * free(*m));
+        Mode {
+            grains: grains.collect(),
+            walls: self.walls.iter().map(|m| free(*m)).collect(),
+            rate: 0.0,
+            grain: 0,
+        }
+    }
+
+    /// Scales to Σ m v² = 1; tells what the root of it was.
+    fn normalise(&self, mode: &mut Mode) -> f64 {
+        let finite = |m: &f64| if m.is_finite() { *m } else { 0.0 };
+        let grains = mode
+            .grains
+            .iter()
+            .zip(&self.grains)
+            .map(|(v, m)| finite(m) * v.norm_squared());
+        let walls = mode
+            .walls
+            .iter()
+            .zip(&self.walls)
+            .map(|(v, m)| finite(m) * v * v);
+        let size = grains.chain(walls).sum::<f64>().sqrt();
+        if size > 0.0 {
+            mode.grains.iter_mut().for_each(|v| *v /= size);
+            mode.walls.iter_mut().for_each(|v| *v /= size);
+        }
+        size
+    }
+
+    /// Velocities become what drag takes from them per second.
+    fn apply(
+        &self,
+        places: &Places,
+        pores: &mut Pores,
+        boundary: &Boundary,
+        mode: &mut Mode,
+    ) -> Result<(), CoupledError> {
+        let fastest = mode.grains.iter().map(|v| v.amax()).fold(0.0, f64::max);
+        let fastest = mode.walls.iter().map(|v| v.abs()).fold(fastest, f64::max);
+        if fastest == 0.0 {
+            return Ok(());
+        }
+        let time = 1e-4 * self.smallest / fastest;
+        let moved = |time: f64| {
+            let centres = places.centres.iter().zip(&mode.grains);
+            let walls = places.walls.iter().zip(&mode.walls);
+            Places {
+                centres: centres.map(|(x, v)| x + v * time).collect(),
+                walls: walls.map(|((n, c), v)| (*n, c + v * time)).collect(),
+            }
+        };
+        let (after, before) = (pores.volumes(&moved(time)), pores.volumes(&moved(-time)));
+        let rates = after
+            .iter()
+            .zip(&before)
+            .map(|(a, b)| (a - b) / (2.0 * time));
+        let rates: Vec<_> = rates.collect();
+        let pressures = pores.system.solve(boundary, &rates)?;
+        let forces = pores.forces.apply(&pressures);
+        let (on_grains, on_walls) = forces.split_at(self.grains.len());
+        for ((v, m), f) in mode.grains.iter_mut().zip(&self.grains).zip(on_grains) {
+            *v = -f / *m;
+        }
+        let normals = places.walls.iter().map(|(n, _)| n);
+        for (((v, m), f), n) in mode
+            .walls
+            .iter_mut()
+            .zip(&self.walls)
+            .zip(on_walls)
+            .zip(normals)
+        {
+            *v = -f.dot(n) / m;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,144 @@
+//! The pores of one mesh: geometry, linear system, forces of unit pressures.
+
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::edge_forces::EdgeForces;
+use crate::coupled::unit_forces::UnitForces;
+use crate::coupled::{CoupledError, FlowSetup, Vector, condition};
+use crate::flow::{Boundary, Conductance, FlowSystem, Grip, PoreGeometry, Storage, cell_volumes};
+use crate::grains::GrainSystem;
+use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
+
+/// Where grains and walls were; with the radii it is all that a mesh follows from.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct Places {
+    pub centres: Vec<Vector>,
+    /// Inward unit normals and offsets n · x, m.
+    pub walls: Vec<(Vector, f64)>,
+}
+
+impl Places {
+    pub fn of(grains: &GrainSystem) -> Self {
+        let walls = grains.walls().iter();
+        Self {
+            centres: grains.grains().positions().to_vec(),
+            walls: walls.map(|w| (w.normal, w.normal.dot(&w.point))).collect(),
+        }
+    }
+
+    pub fn planes(&self) -> Vec<Wall> {
+        let plane = |&(normal, offset): &(Vector, f64)| Wall { normal, offset };
+        self.walls.iter().map(plane).collect()
+    }
+}
+
+/// Deepest overlap, in terms of the smaller radius, of grains at the start, and of those that a load has pressed
+/// together since.
+pub(crate) const GIVEN: f64 = 0.1;
+pub(crate) const PRESSED: f64 = 0.5;
+
+/// Everything that lasts as long as a mesh.
+pub(crate) struct Pores {
+    pub geometry: PoreGeometry,
+    pub boundary: Boundary,
+    pub system: FlowSystem,
+    pub forces: UnitForces,
+    /// Shear and lubrication, if there are any.
+    pub edges: Option<EdgeForces>,
+    pub places: Places,
+}
+
+impl Pores {
+    /// Makes the mesh of grains at their places, and its system, at a time and for a step (s). Overlaps may be as deep
+    /// as `deepest` in terms of the smaller radius.
+    pub fn new(
+        places: Places,
+        radii: &[f64],
+        setup: &FlowSetup,
+        law: &dyn Conductance,
+        [time, step]: [f64; 2],
+        deepest: f64,
+    ) -> Result<Self, CoupledError> {
+        let spheres = places.centres.iter().zip(radii);
+        let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
+        let mesh = Triangulation::within(&spheres, &places.planes())?;
+        let grip = |sticks: bool| if sticks { Grip::NoSlip } else { Grip::Slip };
+        let grips: Vec<_> = setup.sides.iter().map(|s| grip(s.sticks)).collect();
+        let geometry = PoreGeometry::pressed(mesh, &grips, setup.angles, deepest)?;
+        let boundary = condition::boundary(&setup.sides, &geometry, time);
+        let system = Self::assemble(&geometry, &boundary, setup, law, step)?;
+        let forces = UnitForces::new(&geometry);
+        let edges = EdgeForces::new(&geometry, setup);
+        Ok(Self {
+            geometry,
+            boundary,
+            system,
+            forces,
+            edges,
+            places,
+        })
+    }
+
+    fn assemble(
+        geometry: &PoreGeometry,
+        boundary: &Boundary,
+        setup: &FlowSetup,
+        law: &dyn Conductance,
+        step: f64,
+    ) -> Result<FlowSystem, CoupledError> {
+        let (viscosity, solver) = (setup.fluid.viscosity, setup.solver);
+        Ok(match setup.fluid.bulk_modulus {
+            None => FlowSystem::new(geometry, boundary, law, viscosity, solver)?,
+            Some(bulk_modulus) => {
+                let storage = Storage { bulk_modulus, step };
+                FlowSystem::compressible(geometry, boundary, law, viscosity, storage, solver)?
+            }
+        })
+    }
+
+    /// Values of the conditions at a time (s).
+    pub fn refresh(&mut self, setup: &FlowSetup, time: f64) {
+        self.boundary = condition::boundary(&setup.sides, &self.geometry, time);
+    }
+
+    /// Conditions of other kinds on the same mesh.
+    pub fn reassemble(
+        &mut self,
+        setup: &FlowSetup,
+        law: &dyn Conductance,
+        time: f64,
+        step: f64,
+    ) -> Result<(), CoupledError> {
+        let boundary = condition::boundary(&setup.sides, &self.geometry, time);
+        self.system = Self::assemble(&self.geometry, &boundary, setup, law, step)?;
+        self.boundary = boundary;
+        Ok(())
+    }
+
+    /// Volumes of the cells of this mesh with grains and walls elsewhere, m³.
+    pub fn volumes(&self, places: &Places) -> Vec<f64> {
+        cell_volumes(self.geometry.mesh(), &places.centres, &places.planes())
+    }
+
+    /// A place inside each cell (m): the mean of its centres, half-way to its walls.
+    pub fn middles(&self) -> Vec<Vector> {
+        let mesh = self.geometry.mesh();
+        let middle = |cell: &crate::triangulation::Cell| {
+            let vertices = cell.vertices();
+            let spheres = vertices.iter().filter_map(|v| match v {
+                Vertex::Sphere(k) => Some(mesh.spheres()[*k].centre),
+                Vertex::Wall(_) => None,
+            });
+            let count = 4 - cell.walls();
+            let mean = spheres.sum::<Vector>() / count as f64;
+            vertices.iter().fold(mean, |at, v| match v {
+                Vertex::Wall(w) => {
+                    let wall = &mesh.walls()[*w];
+                    at - 0.5 * wall.distance(mean) * wall.normal
+                }
+                Vertex::Sphere(_) => at,
+            })
+        };
+        mesh.cells().iter().map(middle).collect()
+    }
+}

@@ -1,0 +1,229 @@
+//! What the fluid is and how it is computed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::error::number;
+use crate::coupled::{CoupledError, Side};
+use crate::flow::{SolidAngles, Solver};
+
+/// The fluid in the pores.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Fluid {
+    /// Dynamic viscosity µ, Pa s.
+    pub viscosity: f64,
+    /// Density ρ_f, kg/m³, for buoyancy; zero for none.
+    pub density: f64,
+    /// Bulk modulus K_f, Pa; none for a fluid that does not give way.
+    pub bulk_modulus: Option<f64>,
+    /// Whether it shears between neighbours that slide past each other: Catalano 2012, Eqs. (6.29), (6.30).
+    #[serde(default)]
+    pub shear: bool,
+    /// What it resists when the gap between neighbours changes; nothing beyond the pores' pressures if none.
+    #[serde(default)]
+    pub lubrication: Option<Lubrication>,
+}
+
+/// Lubrication of the gap h between two spheres with the reduced radius a = R₁ R₂/(R₁ + R₂), or a sphere and a wall with
+/// a = R, that part or approach with v_n:
+///
+/// ```text
+/// F = 6 π µ a² (1/max(h, ε a) − 1/(c a)) v_n,     h < c a
+/// ```
+///
+/// The leading term of Jeffrey and Onishi (J. Fluid Mech. 139, 1984), less its value at the range c a, beyond which the
+/// pores' pressures have to do (as Nguyen and Ladd, Phys. Rev. E 66, 046708, 2002, subtract what their fluid resolves).
+/// No gap counts as narrower than the roughness ε a, so that spheres touch.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Lubrication {
+    /// Roughness ε in terms of a.
+    pub roughness: f64,
+    /// Range c in terms of a.
+    pub range: f64,
+}
+
+impl Fluid {
+    /// A viscosity (Pa s) and a density (kg/m³).
+    #[must_use]
+    pub fn new(viscosity: f64, density: f64) -> Self {
+        Self {
+            viscosity,
+            density,
+            bulk_modulus: None,
+            shear: false,
+            lubrication: None,
+        }
+    }
+
+    /// The same that shears between neighbours.
+    #[must_use]
+    pub fn shearing(mut self) -> Self {
+        self.shear = true;
+        self
+    }
+
+    /// The same with lubrication of the gaps between neighbours.
+    #[must_use]
+    pub fn lubricated(mut self, lubrication: Lubrication) -> Self {
+        self.lubrication = Some(lubrication);
+        self
+    }
+
+    /// The same with a bulk modulus, Pa.
+    #[must_use]
+    pub fn compressible(mut self, bulk_modulus: f64) -> Self {
+        self.bulk_modulus = Some(bulk_modulus);
+        self
+    }
+
+    fn check(&self) -> Result<(), CoupledError> {
+        let positive = "positive and finite";
+        number(
+            "the viscosity",
+            self.viscosity,
+            positive,
+            self.viscosity > 0.0,
+        )?;
+        number(
+            "the fluid's density",
+            self.density,
+            "at least 0 and finite",
+            self.density >= 0.0,
+        )?;
+        if let Some(Lubrication { roughness, range }) = self.lubrication {
+            let (fine, rule) = (roughness > 0.0, "positive and finite");
+            number("the roughness of lubrication", roughness, rule, fine)?;
+            let (fine, rule) = (range > roughness, "above the roughness and finite");
+            number("the range of lubrication", range, rule, fine)?;
+        }
+        match self.bulk_modulus {
+            Some(k) => number("the bulk modulus", k, positive, k > 0.0),
+            None => Ok(()),
+        }
+    }
+}
+
+/// When pores are found anew.
+///
+/// The largest volumetric strain of a pore is summed step by step; at `strain` the mesh is made anew. Source: Catalano
+/// 2012, Eqs. (5.13), (5.14).
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Remeshing {
+    /// ε_RTRG; zero remeshes at every step, `None` by the number of steps only.
+    pub strain: Option<f64>,
+    /// Steps after which it is done whatever the strain.
+    pub most_steps: Option<u64>,
+}
+
+impl Default for Remeshing {
+    /// 1 %, and no limit of steps.
+    fn default() -> Self {
+        Self {
+            strain: Some(0.01),
+            most_steps: None,
+        }
+    }
+}
+
+impl Remeshing {
+    /// At a strain.
+    #[must_use]
+    pub fn at(strain: f64) -> Self {
+        Self {
+            strain: Some(strain),
+            most_steps: None,
+        }
+    }
+
+    /// At every step.
+    #[must_use]
+    pub fn always() -> Self {
+        Self::at(0.0)
+    }
+
+    /// Never: for comparison, and for grains that are held.
+    #[must_use]
+    pub fn never() -> Self {
+        Self {
+            strain: None,
+            most_steps: None,
+        }
+    }
+
+    pub(crate) fn due(&self, strain: f64, steps: u64) -> bool {
+        self.strain.is_some_and(|most| strain >= most)
+            || self.most_steps.is_some_and(|n| steps >= n)
+    }
+}
+
+/// Everything about the fluid that a [`crate::coupled::CoupledSystem`] starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlowSetup {
+    /// The fluid.
+    pub fluid: Fluid,
+    /// One side per wall, in the order of the grains' walls.
+    pub sides: Vec<Side>,
+    /// When pores are found anew.
+    pub remeshing: Remeshing,
+    /// How solid angles are summed.
+    pub angles: SolidAngles,
+    /// How pressures are found.
+    pub solver: Solver,
+}
+
+impl FlowSetup {
+    /// A fluid in a box whose six walls are closed and smooth.
+    #[must_use]
+    pub fn new(fluid: Fluid) -> Self {
+        Self {
+            fluid,
+            sides: vec![Side::closed(); 6],
+            remeshing: Remeshing::default(),
+            angles: SolidAngles::Signed,
+            solver: Solver::Automatic,
+        }
+    }
+
+    /// The same with another side at a wall; nothing happens if there is no such wall.
+    #[must_use]
+    pub fn side(mut self, wall: usize, side: Side) -> Self {
+        if let Some(slot) = self.sides.get_mut(wall) {
+            *slot = side;
+        }
+        self
+    }
+
+    /// The same with walls to which fluid sticks.
+    #[must_use]
+    pub fn sticking(mut self) -> Self {
+        for side in &mut self.sides {
+            side.sticks = true;
+        }
+        self
+    }
+
+    /// The same with another criterion.
+    #[must_use]
+    pub fn remeshing(mut self, remeshing: Remeshing) -> Self {
+        self.remeshing = remeshing;
+        self
+    }
+
+    pub(crate) fn check(&self, walls: usize) -> Result<(), CoupledError> {
+        self.fluid.check()?;
+        if self.sides.len() != walls {
+            let sides = self.sides.len();
+            return Err(CoupledError::Sides { sides, walls });
+        }
+        for (wall, side) in self.sides.iter().enumerate() {
+            side.check(wall)?;
+        }
+        match self.remeshing.strain {
+            Some(strain) if strain.is_nan() || strain < 0.0 => Err(CoupledError::BadNumber {
+                what: "the strain for remeshing",
+                value: strain,
+                valid: "at least 0",
+            }),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Saving and resuming.
+
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::pores::{PRESSED, Places, Pores};
+use crate::coupled::system::{Clock, check};
+use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use crate::flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
+use crate::grains::{ContactLaw, GrainSystem};
+
+/// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
+/// keeps every bit of a number.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct State {
+    grains: crate::grains::State,
+    fluid: Fluid,
+    sides: Vec<Side>,
+    remeshing: Remeshing,
+    angles: SolidAngles,
+    solver: Solver,
+    /// Where the mesh was made; it is made again there.
+    places: Places,
+    clock: Clock,
+}
+
+impl CoupledSystem {
+    /// What must be kept to resume.
+    #[must_use]
+    pub fn save(&self) -> State {
+        let setup = &self.setup;
+        State {
+            grains: self.grains.save(),
+            fluid: setup.fluid,
+            sides: setup.sides.clone(),
+            remeshing: setup.remeshing,
+            angles: setup.angles,
+            solver: setup.solver,
+            places: self.pores.places.clone(),
+            clock: self.clock.clone(),
+        }
+    }
+
+    /// Goes on from a saved state with the same contact laws, conductances by hydraulic radii.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together.
+    pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, CoupledError> {
+        Self::resume_with_law(state, laws, Box::new(HydraulicRadius::default()))
+    }
+
+    /// The same with the law for the conductances that the saved run had.
+    ///
+    /// # Errors
+    /// As [`CoupledSystem::resume`].
+    pub fn resume_with_law(
+        state: State,
+        laws: Vec<Box<dyn ContactLaw>>,
+        law: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        let grains = GrainSystem::resume(state.grains, laws)?;
+        let setup = FlowSetup {
+            fluid: state.fluid,
+            sides: state.sides,
+            remeshing: state.remeshing,
+            angles: state.angles,
+            solver: state.solver,
+        };
+        check(&grains, &setup)?;
+        let bad = |problem: &str| CoupledError::BadState {
+            problem: problem.to_string(),
+        };
+        let (places, clock) = (state.places, state.clock);
+        if places.centres.len() != grains.grains().len()
+            || places.walls.len() != grains.walls().len()
+        {
+            return Err(bad("the mesh is that of other grains or walls"));
+        }
+        let now = [grains.time(), clock.storage_step];
+        let radii = grains.grains().radii();
+        let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
+        let cells = pores.geometry.volumes().len();
+        if [&clock.volumes, &clock.rates, &clock.pressures]
+            .iter()
+            .any(|c| c.len() != cells)
+        {
+            return Err(bad("columns of the pores differ in length from the mesh"));
+        }
+        Ok(Self {
+            grains,
+            setup,
+            law,
+            pores,
+            clock,
+            evaluated: false,
+            inflows: None,
+        })
+    }
+}

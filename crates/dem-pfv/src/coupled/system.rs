@@ -1,0 +1,392 @@
+//! The coupled system: made, stepped, meshed anew.
+
+use crate::coupled::error::number;
+use crate::coupled::limit::{Mode, StepLimit, combined, strongest_drag};
+use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
+use crate::coupled::transfer::transferred;
+use crate::coupled::{CoupledError, FlowSetup, Side, Vector, condition};
+use crate::flow::{Conductance, HydraulicRadius, Storage};
+use crate::grains::GrainSystem;
+
+/// Grains that move, and the fluid in the pores between them.
+///
+/// ```text
+/// M dv/dt = F_contacts + W + S p,     G p = −dV/dt + Q
+/// ```
+///
+/// A step finds the contacts' forces, then the pressures from the rates at which pores' volumes changed in the step
+/// before, then moves the grains; the pressures are implicit, the motion explicit. Results are the same bit for bit on
+/// any number of threads. Source: Catalano 2012, Eqs. (4.5), (4.8), §4.6 to §4.9.
+///
+/// The fluid's forces take the place of the grains' external forces, and of the walls'. Leave the non-viscous damping
+/// of the grains at zero: the fluid damps.
+pub struct CoupledSystem {
+    pub(crate) grains: GrainSystem,
+    pub(crate) setup: FlowSetup,
+    pub(crate) law: Box<dyn Conductance>,
+    pub(crate) pores: Pores,
+    pub(crate) clock: Clock,
+    /// Whether contacts were found where the grains are now.
+    pub(crate) evaluated: bool,
+    /// Flux into the pores through every wall at the last step, m³/s, if it is measured; none before the first.
+    pub(crate) inflows: Option<Vec<f64>>,
+}
+
+/// What is remembered from step to step.
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
+pub(crate) struct Clock {
+    /// Volumes of the cells where grains are now, m³.
+    pub volumes: Vec<f64>,
+    /// Rates at which they changed in the last step, m³/s; none before the first.
+    pub rates: Vec<f64>,
+    /// Pressures of the last step, Pa.
+    pub pressures: Vec<f64>,
+    /// Strain summed since the mesh was made.
+    pub strain: f64,
+    /// Steps since then.
+    pub age: u64,
+    /// Meshes made.
+    pub meshes: u64,
+    /// The last step, s; none before the first.
+    pub last_step: Option<f64>,
+    /// Step for which a fluid that gives way was factorised, s.
+    pub storage_step: f64,
+    /// Mode of strongest drag, and whether it is that of this mesh.
+    pub mode: Mode,
+    pub fresh: bool,
+}
+
+impl CoupledSystem {
+    /// Fills the box of the grains with fluid, conductances by hydraulic radii.
+    ///
+    /// # Errors
+    /// A viscosity or a bulk modulus that is not positive; conditions that mean nothing; periodic axes, meshes of
+    /// triangles, walls that are no box; grains that overlap or reach into a wall by more than a tenth of their
+    /// radius; stiff fluid without a given pressure. All name the grain, the wall or the cell.
+    pub fn new(grains: GrainSystem, setup: FlowSetup) -> Result<Self, CoupledError> {
+        Self::with_law(grains, setup, Box::new(HydraulicRadius::default()))
+    }
+
+    /// The same with a law for the conductances of throats.
+    ///
+    /// # Errors
+    /// As [`CoupledSystem::new`].
+    pub fn with_law(
+        grains: GrainSystem,
+        setup: FlowSetup,
+        law: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        check(&grains, &setup)?;
+        let places = Places::of(&grains);
+        let storage_step = 0.1 * grains.critical_step();
+        let radii = grains.grains().radii();
+        let pores = Pores::new(
+            places,
+            radii,
+            &setup,
+            &*law,
+            [grains.time(), storage_step],
+            GIVEN,
+        )?;
+        let cells = pores.geometry.volumes().len();
+        let clock = Clock {
+            volumes: pores.geometry.volumes().to_vec(),
+            rates: vec![0.0; cells],
+            pressures: vec![0.0; cells],
+            strain: 0.0,
+            age: 0,
+            meshes: 1,
+            last_step: None,
+            storage_step,
+            mode: Mode::default(),
+            fresh: false,
+        };
+        Ok(Self {
+            grains,
+            setup,
+            law,
+            pores,
+            clock,
+            evaluated: false,
+            inflows: None,
+        })
+    }
+
+    fn evaluate(&mut self) -> Result<(), CoupledError> {
+        if !self.evaluated {
+            self.grains.evaluate()?;
+            self.evaluated = true;
+        }
+        Ok(())
+    }
+
+    /// Makes a step (s).
+    ///
+    /// # Errors
+    /// [`CoupledError::StepTooLarge`] above [`CoupledSystem::step_limit`]; nothing is moved then. What
+    /// [`CoupledSystem::step_unchecked`] may refuse.
+    pub fn step(&mut self, step: f64) -> Result<(), CoupledError> {
+        number("the step", step, "positive and finite", step > 0.0)?;
+        self.evaluate()?;
+        self.store(step)?;
+        let limit = self.limit_here()?;
+        if step > limit.step {
+            return Err(CoupledError::StepTooLarge {
+                step,
+                limit: limit.step,
+                elastic: limit.elastic,
+                viscous: limit.viscous,
+                grain: limit.grain,
+            });
+        }
+        self.step_unchecked(step)
+    }
+
+    /// Makes a step (s) without asking whether it is stable.
+    ///
+    /// # Errors
+    /// A step that is not positive; grains that flew away, that overlap or reach into walls by more than half their
+    /// radius when pores are made anew; a system that cannot be solved.
+    pub fn step_unchecked(&mut self, step: f64) -> Result<(), CoupledError> {
+        number("the step", step, "positive and finite", step > 0.0)?;
+        self.evaluate()?;
+        // Volumes changed, and fluid gave way, over the last step.
+        self.store(self.clock.last_step.unwrap_or(step))?;
+        self.press()?;
+        let before = Places::of(&self.grains);
+        self.evaluated = false;
+        self.grains.integrate_unchecked(step)?;
+        let here = Places::of(&self.grains);
+        self.clock.last_step = Some(step);
+        let strain = self.measure_rates(&here, step);
+        self.clock.strain += strain;
+        self.clock.age += 1;
+        if self.setup.remeshing.due(self.clock.strain, self.clock.age) {
+            self.rebuild(here.clone())?;
+            self.clock.volumes = self.pores.volumes(&before);
+            self.measure_rates(&here, step);
+        }
+        Ok(())
+    }
+
+    /// Steps at a share `safety` of the limit until a time (s) is reached; tells how many steps it took.
+    ///
+    /// # Errors
+    /// As [`CoupledSystem::step`]; a share that is not between 0 and 1.
+    pub fn run_to(&mut self, time: f64, safety: f64) -> Result<u64, CoupledError> {
+        number(
+            "the share of the limit",
+            safety,
+            "in (0, 1]",
+            safety > 0.0 && safety <= 1.0,
+        )?;
+        let mut steps = 0;
+        while self.time() < time {
+            let step = safety * self.step_limit()?.step;
+            self.step_unchecked(step.min(time - self.time()).max(1e-3 * step))?;
+            steps += 1;
+        }
+        Ok(steps)
+    }
+
+    /// Largest stable step where the grains are now, from contacts and drag together:
+    ///
+    /// ```text
+    /// λ_max Δt / 2 + ω_max² Δt² / 4 < 1
+    /// ```
+    ///
+    /// λ by power iterations once per mesh, plus a bound for what acts between neighbours, ω by a bound that is found anew every hundred steps. Walls that follow a
+    /// servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it moved alone and is too
+    /// long by a factor of three to six for narrow gradings.
+    ///
+    /// # Errors
+    /// A system that cannot be solved.
+    pub fn step_limit(&mut self) -> Result<StepLimit, CoupledError> {
+        self.evaluate()?;
+        let mut limit = self.limit_here()?;
+        if self.setup.fluid.bulk_modulus.is_some() {
+            // A stiffer answer in a longer step: halve the distance to what holds for the last one.
+            for _ in 0..6 {
+                if limit.step >= self.clock.storage_step
+                    && limit.step < 1.1 * self.clock.storage_step
+                {
+                    break;
+                }
+                self.store((limit.step * self.clock.storage_step).sqrt())?;
+                limit = self.limit_here()?;
+            }
+            limit.step = limit.step.min(self.clock.storage_step);
+        }
+        Ok(limit)
+    }
+
+    fn limit_here(&mut self) -> Result<StepLimit, CoupledError> {
+        if !self.clock.fresh {
+            let mode = std::mem::take(&mut self.clock.mode);
+            self.clock.mode = strongest_drag(&self.grains, &mut self.pores, mode)?;
+            self.clock.fresh = true;
+        }
+        let mode = &self.clock.mode;
+        let (mut rate, mut grain) = (mode.rate, mode.grain);
+        if let Some(edges) = &self.pores.edges {
+            let (more, there) = edges.rate(&self.grains, &self.setup.fluid);
+            grain = if more > rate { there } else { grain };
+            rate += more;
+        }
+        Ok(combined(self.grains.current_limit(), rate, grain))
+    }
+
+    /// Pressures of the rates of now, and the fluid's forces on grains and walls.
+    fn press(&mut self) -> Result<(), CoupledError> {
+        if self.setup.sides.iter().any(Side::varies) {
+            self.pores.refresh(&self.setup, self.grains.time());
+        }
+        let (pores, clock) = (&mut self.pores, &mut self.clock);
+        pores.system.start_from(&clock.pressures)?;
+        let (boundary, rates) = (&pores.boundary, &clock.rates);
+        let pressures = pores.system.step(boundary, rates, &clock.pressures)?;
+        if let Some(inflows) = &mut self.inflows {
+            let influx = pores
+                .system
+                .influx(boundary, rates, &clock.pressures, &pressures);
+            *inflows = condition::inflows(&self.setup.sides, &pores.geometry, &influx);
+        }
+        clock.pressures = pressures;
+        let forces = pores.forces.apply(&clock.pressures);
+        let (on_grains, on_walls) = forces.split_at(self.grains.grains().len());
+        let lift = -self.setup.fluid.density * self.grains.gravity();
+        let radii = self.grains.grains().radii();
+        let buoyancy: Vec<_> = radii.iter().map(|r| lift * sphere(*r)).collect();
+        for ((external, f), b) in self
+            .grains
+            .external_forces_mut()
+            .iter_mut()
+            .zip(on_grains)
+            .zip(buoyancy)
+        {
+            *external = f + b;
+        }
+        for (wall, f) in self.grains.walls_mut().iter_mut().zip(on_walls) {
+            wall.external_force = *f;
+        }
+        if let Some(edges) = &pores.edges {
+            let loads = edges.apply(&self.grains, &self.setup.fluid);
+            add(self.grains.external_forces_mut(), &loads.forces);
+            self.grains
+                .external_torques_mut()
+                .copy_from_slice(&loads.torques);
+            for (wall, f) in self.grains.walls_mut().iter_mut().zip(&loads.walls) {
+                wall.external_force += f;
+            }
+        }
+        Ok(())
+    }
+
+    /// Prepares a fluid that gives way for a step (s).
+    fn store(&mut self, step: f64) -> Result<(), CoupledError> {
+        if let Some(bulk_modulus) = self.setup.fluid.bulk_modulus
+            && step != self.clock.storage_step
+        {
+            self.pores
+                .system
+                .set_storage(Storage { bulk_modulus, step })?;
+            self.clock.storage_step = step;
+            self.clock.fresh = false;
+        }
+        Ok(())
+    }
+
+    /// Volumes of now and their rates over the last step (s); tells the largest strain of a pore.
+    fn measure_rates(&mut self, here: &Places, step: f64) -> f64 {
+        let volumes = self.pores.volumes(here);
+        let clock = &mut self.clock;
+        let mut largest = 0.0_f64;
+        for ((rate, new), old) in clock.rates.iter_mut().zip(&volumes).zip(&clock.volumes) {
+            *rate = (new - old) / step;
+            largest = largest.max(((new - old) / old).abs());
+        }
+        clock.volumes = volumes;
+        largest
+    }
+
+    /// Makes the mesh anew where the grains are; rates are left to the caller.
+    fn rebuild(&mut self, places: Places) -> Result<(), CoupledError> {
+        let now = [self.grains.time(), self.clock.storage_step];
+        let radii = self.grains.grains().radii();
+        let pores = Pores::new(places, radii, &self.setup, &*self.law, now, PRESSED)?;
+        let clock = &mut self.clock;
+        clock.pressures = transferred(&self.pores, &clock.pressures, &pores);
+        clock.volumes = pores.geometry.volumes().to_vec();
+        clock.rates = vec![0.0; clock.volumes.len()];
+        (clock.strain, clock.age, clock.fresh) = (0.0, 0, false);
+        clock.meshes += 1;
+        self.pores = pores;
+        Ok(())
+    }
+
+    /// Makes the mesh anew now: after grains or walls were moved through [`CoupledSystem::grains_mut`]. The motion from
+    /// outside counts for no pressure.
+    ///
+    /// # Errors
+    /// Grains that overlap or reach into walls by more than half their radius.
+    pub fn remesh(&mut self) -> Result<(), CoupledError> {
+        self.rebuild(Places::of(&self.grains))
+    }
+
+    /// Sets what is given at a wall. Another value costs nothing; another kind of condition makes a new matrix, another
+    /// grip new throats.
+    ///
+    /// # Errors
+    /// A wall that is not there, a condition that means nothing, a stiff fluid without a given pressure; the old
+    /// condition stays then.
+    pub fn set_side(&mut self, wall: usize, side: Side) -> Result<(), CoupledError> {
+        side.check(wall)?;
+        let Some(slot) = self.setup.sides.get_mut(wall) else {
+            let problem = "is at no wall: there are six".to_string();
+            return Err(CoupledError::BadCondition { wall, problem });
+        };
+        let old = std::mem::replace(slot, side.clone());
+        let done = if old.like(&side) {
+            self.pores.refresh(&self.setup, self.grains.time());
+            Ok(())
+        } else if old.sticks == side.sticks {
+            let (time, step) = (self.grains.time(), self.clock.storage_step);
+            self.clock.fresh = false;
+            self.pores.reassemble(&self.setup, &*self.law, time, step)
+        } else {
+            self.remesh()
+        };
+        if done.is_err() {
+            self.setup.sides[wall] = old;
+        }
+        done
+    }
+
+    /// Time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.grains.time()
+    }
+}
+
+fn add(to: &mut [Vector], more: &[Vector]) {
+    for (to, more) in to.iter_mut().zip(more) {
+        *to += more;
+    }
+}
+
+/// Volume of a sphere, m³.
+pub(crate) fn sphere(radius: f64) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
+}
+
+pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
+    if !grains.meshes().is_empty() {
+        let meshes = grains.meshes().len();
+        return Err(CoupledError::Meshes { meshes });
+    }
+    if let Some(axis) = grains.period().iter().position(Option::is_some) {
+        return Err(CoupledError::Periodic { axis });
+    }
+    setup.check(grains.walls().len())
+}

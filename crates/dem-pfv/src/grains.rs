@@ -1,0 +1,79 @@
+//! Discrete elements: spheres that touch each other, walls and meshes, moved by their contact forces.
+//!
+//! m dv/dt = ΣF, J dω/dt = ΣM with forces from small overlaps, integrated by a leap-frog (Catalano 2012, ch. 2).
+//! Dry, or with any force from outside: nothing here knows of a fluid.
+//!
+//! * [`Setup`] of [`Grain`]s, [`Wall`]s and [`Mesh`]es; [`GrainSystem`] steps it, [`Grains`] are its columns.
+//! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:
+//!   [`register_law!`](crate::register_law), [`contact_law`].
+//! * [`Control`]: walls at a velocity, a stress or a rate of strain, and free pistons.
+//! * [`Cloud`], [`rain`], [`Growth`], [`settle`]: samples.
+//! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
+//!   measures.
+//! * [`State`]: saved, and resumed to the same bits. [`GrainError`]: what is refused, by the grain's number.
+//!
+//! ```
+//! use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
+//!
+//! // A ball of 1 kg and k = 10⁵ N/m lies on the floor, after a while of damping.
+//! let density = 0.75 / (std::f64::consts::PI * 0.1_f64.powi(3));
+//! let ball = Grain::new([0.0, 0.0, 0.1], 0.1, density);
+//! let law = LinearElastic::new(1e6, 0.5, 0.3);
+//! let floor = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
+//! let setup = Setup::new(vec![ball], law).walls([floor]).gravity([0.0, 0.0, -9.81]).damping(0.3);
+//! let mut system = GrainSystem::new(setup)?;
+//! let step = 0.5 * system.critical_step();
+//! for _ in 0..2000 {
+//!     system.step(step)?;
+//! }
+//! let overlap = 0.1 - system.grains().positions()[0].z;
+//! assert!((overlap - 9.81 / 1e5).abs() < 1e-12); // m g / k
+//! # Ok::<(), dem_pfv::grains::GrainError>(())
+//! ```
+
+mod access;
+mod cloud;
+mod columns;
+mod error;
+mod grid;
+mod growth;
+mod hertz_mindlin;
+mod law;
+mod linear;
+mod measure;
+mod mesh;
+mod motion;
+mod overlaps;
+mod rest;
+mod rolling;
+mod setup;
+mod space;
+mod stability;
+mod state;
+mod step_limits;
+mod strain;
+mod system;
+mod table;
+mod touch;
+mod unrest;
+mod wall;
+
+pub use cloud::{Cloud, rain, uniform_radii};
+pub use columns::Grains;
+pub use error::GrainError;
+pub use growth::{Growth, Target, settle};
+pub use hertz_mindlin::HertzMindlin;
+pub use law::{Contact, ContactLaw, MEMORY, Stiffness, contact_law, contact_laws, require};
+pub use linear::LinearElastic;
+pub use measure::{Partner, Touch};
+pub use mesh::Mesh;
+pub use rolling::RollingResistance;
+pub use setup::{Grain, Period, Setup};
+pub use state::State;
+pub use strain::strains;
+pub use system::GrainSystem;
+pub use unrest::Unrest;
+pub use wall::{Control, Wall};
+
+/// A vector in space, SI units of whatever it holds.
+pub type Vector = nalgebra::Vector3<f64>;

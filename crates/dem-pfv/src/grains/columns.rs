@@ -1,0 +1,166 @@
+//! The grains of a system, a column for each quantity.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::grains::{Grain, Vector};
+
+/// Columns of the grains, all of the same length and order.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Grains {
+    pub(crate) position: Vec<Vector>,
+    pub(crate) velocity: Vec<Vector>,
+    pub(crate) spin: Vec<Vector>,
+    /// Quaternions (w, x, y, z).
+    pub(crate) orientation: Vec<[f64; 4]>,
+    pub(crate) radius: Vec<f64>,
+    pub(crate) density: Vec<f64>,
+    pub(crate) mass: Vec<f64>,
+    pub(crate) held: Vec<bool>,
+    pub(crate) contact_force: Vec<Vector>,
+    pub(crate) contact_torque: Vec<Vector>,
+    pub(crate) external_force: Vec<Vector>,
+    pub(crate) external_torque: Vec<Vector>,
+}
+
+/// J / (m R²) of a homogeneous sphere.
+pub(crate) const INERTIA: f64 = 0.4;
+
+impl Grains {
+    pub(crate) fn new(grains: &[Grain]) -> Self {
+        let n = grains.len();
+        let mut columns = Self {
+            position: grains.iter().map(|g| g.position).collect(),
+            velocity: grains.iter().map(|g| g.velocity).collect(),
+            spin: grains.iter().map(|g| g.spin).collect(),
+            orientation: vec![[1.0, 0.0, 0.0, 0.0]; n],
+            radius: grains.iter().map(|g| g.radius).collect(),
+            density: grains.iter().map(|g| g.density).collect(),
+            mass: vec![0.0; n],
+            held: grains.iter().map(|g| g.held).collect(),
+            contact_force: vec![Vector::zeros(); n],
+            contact_torque: vec![Vector::zeros(); n],
+            external_force: vec![Vector::zeros(); n],
+            external_torque: vec![Vector::zeros(); n],
+        };
+        columns.weigh();
+        columns
+    }
+
+    /// m = (4/3) π ρ R³.
+    pub(crate) fn weigh(&mut self) {
+        for (i, mass) in self.mass.iter_mut().enumerate() {
+            *mass = 4.0 / 3.0 * PI * self.density[i] * self.radius[i].powi(3);
+        }
+    }
+
+    /// Whether all columns have the same length.
+    pub(crate) fn fits(&self) -> bool {
+        let n = self.position.len();
+        let vectors = [
+            &self.velocity,
+            &self.spin,
+            &self.contact_force,
+            &self.contact_torque,
+            &self.external_force,
+            &self.external_torque,
+        ];
+        vectors.iter().all(|c| c.len() == n)
+            && self.orientation.len() == n
+            && self.held.len() == n
+            && [&self.radius, &self.density, &self.mass]
+                .iter()
+                .all(|c| c.len() == n)
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Centres, m.
+    #[must_use]
+    pub fn positions(&self) -> &[Vector] {
+        &self.position
+    }
+
+    /// Velocities, m/s; half a step behind the positions while a system steps.
+    #[must_use]
+    pub fn velocities(&self) -> &[Vector] {
+        &self.velocity
+    }
+
+    /// Angular velocities, rad/s.
+    #[must_use]
+    pub fn spins(&self) -> &[Vector] {
+        &self.spin
+    }
+
+    /// Orientations, unit quaternions (w, x, y, z) from the start to now.
+    #[must_use]
+    pub fn orientations(&self) -> &[[f64; 4]] {
+        &self.orientation
+    }
+
+    /// Radii R, m.
+    #[must_use]
+    pub fn radii(&self) -> &[f64] {
+        &self.radius
+    }
+
+    /// Masses, kg.
+    #[must_use]
+    pub fn masses(&self) -> &[f64] {
+        &self.mass
+    }
+
+    /// Moment of inertia J = (2/5) m R² of a grain, kg m².
+    #[must_use]
+    pub fn inertia(&self, grain: usize) -> f64 {
+        INERTIA * self.mass[grain] * self.radius[grain].powi(2)
+    }
+
+    /// Which grains keep their velocity whatever acts on them.
+    #[must_use]
+    pub fn held(&self) -> &[bool] {
+        &self.held
+    }
+
+    /// Sums of the contact forces at the last evaluation, N.
+    #[must_use]
+    pub fn contact_forces(&self) -> &[Vector] {
+        &self.contact_force
+    }
+
+    /// Sums of the moments of contacts at the last evaluation, N m.
+    #[must_use]
+    pub fn contact_torques(&self) -> &[Vector] {
+        &self.contact_torque
+    }
+
+    /// Forces from outside, N.
+    #[must_use]
+    pub fn external_forces(&self) -> &[Vector] {
+        &self.external_force
+    }
+
+    /// Moments from outside, N m.
+    #[must_use]
+    pub fn external_torques(&self) -> &[Vector] {
+        &self.external_torque
+    }
+
+    /// Volume of all grains Σ (4/3) π R³, m³.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.radius.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
+    }
+}

@@ -1,0 +1,197 @@
+//! What a contact law is.
+
+use std::fmt::Debug;
+
+use serde_json::Value as Json;
+
+use crate::Entry;
+use crate::grains::{GrainError, Vector};
+use crate::registry::{built, entries};
+
+/// How many numbers a law may remember per contact.
+pub const MEMORY: usize = 8;
+
+/// A contact of a grain, the first, with a second body: another grain, a wall or a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// Unit normal n from the second body to the first. Source: Catalano 2012, Eq. (2.4).
+    pub normal: Vector,
+    /// Depth of the overlap, −δ_c ≥ 0, m. Source: Catalano 2012, Eqs. (2.6), (2.7).
+    pub overlap: f64,
+    /// Velocity of the first body relative to the second at the contact point, m/s.
+    pub velocity: Vector,
+    /// Angular velocity of the first body relative to the second, rad/s.
+    pub spin: Vector,
+    /// Radii, m; a wall and a triangle have an infinite one.
+    pub radius: [f64; 2],
+    /// Masses, kg; a wall and a triangle have an infinite one.
+    pub mass: [f64; 2],
+    /// Time since the last evaluation, s.
+    pub step: f64,
+    /// What the law wrote here at the last evaluation; zeros in a new contact.
+    pub memory: [f64; MEMORY],
+    /// For the law to write: force on the first body, N; its opposite acts on the second.
+    pub force: Vector,
+    /// For the law to write: moment on the first body besides that of the force, N m; its opposite
+    /// acts on the second.
+    pub couple: Vector,
+    pub(crate) turn: Turn,
+}
+
+/// How the contact frame turned since the last evaluation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Turn {
+    /// n_old × n_new.
+    pub axis: Vector,
+    /// n_old · n_new.
+    pub cosine: f64,
+    /// θ = ½ Δt n · (ω_A + ω_B), rad.
+    pub twist: f64,
+}
+
+impl Contact {
+    /// A tangential vector of the last evaluation, turned with the contact: from the old normal to the new
+    /// one, then by θ = ½ Δt n · (ω_A + ω_B) about it. Both turns keep its length.
+    #[must_use]
+    pub fn carried(&self, vector: Vector) -> Vector {
+        let Turn {
+            axis,
+            cosine,
+            twist,
+        } = self.turn;
+        let tilted = if cosine > -0.5 {
+            vector * cosine + axis.cross(&vector) + axis * (axis.dot(&vector) / (1.0 + cosine))
+        } else {
+            return Vector::zeros(); // it jumped to the other side
+        };
+        let half = 0.5 * twist;
+        let square = half * half;
+        let turned =
+            (tilted * (1.0 - square) + self.normal.cross(&tilted) * twist) / (1.0 + square);
+        self.tangential(turned)
+    }
+
+    /// v − (v · n) n.
+    #[must_use]
+    pub fn tangential(&self, vector: Vector) -> Vector {
+        vector - self.normal * vector.dot(&self.normal)
+    }
+
+    /// m* = m₁ m₂ / (m₁ + m₂), kg; the grain's own mass at a wall.
+    #[must_use]
+    pub fn reduced_mass(&self) -> f64 {
+        1.0 / (1.0 / self.mass[0] + 1.0 / self.mass[1])
+    }
+
+    /// R* = R₁ R₂ / (R₁ + R₂), m; the grain's own radius at a wall.
+    #[must_use]
+    pub fn reduced_radius(&self) -> f64 {
+        reduced(self.radius)
+    }
+
+    /// Three remembered numbers from `first` on.
+    #[must_use]
+    pub fn remembered(&self, first: usize) -> Vector {
+        Vector::new(
+            self.memory[first],
+            self.memory[first + 1],
+            self.memory[first + 2],
+        )
+    }
+
+    /// Remembers three numbers from `first` on.
+    pub fn remember(&mut self, first: usize, vector: Vector) {
+        self.memory[first..first + 3].copy_from_slice(vector.as_slice());
+    }
+}
+
+/// R₁ R₂ / (R₁ + R₂).
+pub(crate) fn reduced(radius: [f64; 2]) -> f64 {
+    1.0 / (1.0 / radius[0] + 1.0 / radius[1])
+}
+
+/// Stiffnesses of one contact, for the critical step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stiffness {
+    /// ∂F_n/∂δ, N/m.
+    pub normal: f64,
+    /// ∂F_s/∂u_s while nothing slides, N/m.
+    pub tangential: f64,
+    /// ∂M/∂θ of the rolling resistance, N m.
+    pub rolling: f64,
+    /// Ratio ζ of the dashpots to critical damping.
+    pub damping: f64,
+}
+
+/// A contact law: forces from overlaps, velocities and what is remembered of each contact.
+///
+/// One call answers many contacts, so that laws cost no virtual call per contact. The answer to a
+/// contact must depend on nothing but that contact: batches differ from one number of threads to another.
+pub trait ContactLaw: Debug + Send + Sync {
+    /// Whether the parameters make sense.
+    ///
+    /// # Errors
+    /// [`GrainError::BadLaw`] with the parameter and its value.
+    fn check(&self) -> Result<(), GrainError>;
+
+    /// Names of the numbers that are remembered per contact, at most [`MEMORY`].
+    fn memory(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Writes `force`, `couple` and `memory` of every contact.
+    fn respond(&self, contacts: &mut [Contact]);
+
+    /// Stiffnesses of a contact of bodies of these radii (m, infinite for walls) at this overlap (m).
+    fn stiffness(&self, radius: [f64; 2], overlap: f64) -> Stiffness;
+}
+
+inventory::collect!(Entry<dyn ContactLaw>);
+
+/// Every contact law registered in this binary, sorted by name.
+#[must_use]
+pub fn contact_laws() -> Vec<&'static Entry<dyn ContactLaw>> {
+    entries()
+}
+
+/// The contact law of that name with these parameters (a JSON object, SI units).
+///
+/// # Errors
+/// No law or two of that name; an unknown or missing parameter; a value out of range.
+///
+/// ```
+/// use dem_pfv::grains::contact_law;
+/// use serde_json::json;
+///
+/// let table = json!({ "modulus": 15e6, "stiffness_ratio": 0.5, "friction": 0.577 });
+/// let law = contact_law("linear-elastic", &table)?;
+/// assert_eq!(law.stiffness([0.1, 0.1], 0.0).normal, 1.5e6);
+/// # Ok::<(), dem_pfv::grains::GrainError>(())
+/// ```
+pub fn contact_law(name: &str, parameters: &Json) -> Result<Box<dyn ContactLaw>, GrainError> {
+    let law = built::<dyn ContactLaw>("contact law", name, parameters)?;
+    law.check()?;
+    Ok(law)
+}
+
+/// Checks a parameter of a law.
+///
+/// # Errors
+/// [`GrainError::BadLaw`] unless `fine`.
+pub fn require(
+    law: &'static str,
+    what: &'static str,
+    value: f64,
+    valid: &'static str,
+    fine: bool,
+) -> Result<(), GrainError> {
+    if fine && value.is_finite() {
+        return Ok(());
+    }
+    Err(GrainError::BadLaw {
+        law,
+        what,
+        value,
+        valid,
+    })
+}

@@ -1,0 +1,255 @@
+//! What is measured: energies, the unbalanced force ratio, stresses, porosity.
+
+use nalgebra::Matrix3;
+
+use crate::grains::table::Slot;
+use crate::grains::{GrainError, GrainSystem, Vector};
+
+/// The second body of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Partner {
+    /// A grain.
+    Grain(usize),
+    /// A wall.
+    Wall(usize),
+    /// A triangle of a mesh.
+    Triangle {
+        /// The mesh.
+        mesh: usize,
+        /// The triangle.
+        triangle: usize,
+    },
+}
+
+/// A contact as it was at the last evaluation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// The first body, a grain.
+    pub grain: usize,
+    /// The second body.
+    pub partner: Partner,
+    /// Unit normal from the second body to the first.
+    pub normal: Vector,
+    /// Depth of the overlap, m.
+    pub overlap: f64,
+    /// Contact point, in the middle of the overlap, m.
+    pub point: Vector,
+    /// Force on the first body, N.
+    pub force: Vector,
+}
+
+impl GrainSystem {
+    /// All contacts of the last evaluation.
+    pub fn contacts(&self) -> impl Iterator<Item = Touch> {
+        let parts = 0..self.table.ends.len();
+        parts.flat_map(move |part| {
+            let slots = self.table.slots[self.table.part(part)].iter();
+            slots.filter(|s| s.active).map(move |s| self.touch(part, s))
+        })
+    }
+
+    fn touch(&self, part: usize, slot: &Slot) -> Touch {
+        let grain = slot.first as usize;
+        let second = slot.second as usize;
+        let walls = self.walls.len();
+        let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
+        Touch {
+            grain,
+            partner: if part == 0 {
+                Partner::Grain(second)
+            } else if part <= walls {
+                Partner::Wall(part - 1)
+            } else {
+                Partner::Triangle {
+                    mesh: part - 1 - walls,
+                    triangle: second,
+                }
+            },
+            normal: slot.normal,
+            overlap: slot.overlap,
+            point: self.grains.position[grain] - slot.normal * arm,
+            force: slot.force,
+        }
+    }
+
+    /// Σ ½ m v² + ½ J ω², J, with the velocities in the middle of the last step.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let g = &self.grains;
+        let one = |i: usize| {
+            let shift = g.mass[i] * g.velocity[i].norm_squared();
+            0.5 * (shift + g.inertia(i) * g.spin[i].norm_squared())
+        };
+        (0..g.len()).map(one).sum()
+    }
+
+    /// λ, the mean resultant force on a grain over the mean contact force; infinite without contacts. Held grains do
+    /// not count. Source: Catalano 2012, Eq. (2.16), with the norms inside the sums, without which both vanish.
+    #[must_use]
+    pub fn unbalanced_force(&self) -> f64 {
+        match self.mean_forces() {
+            (_, 0.0) => f64::INFINITY,
+            (resultant, contact) => resultant / contact,
+        }
+    }
+
+    /// Contacts per grain, those between grains counted for both.
+    #[must_use]
+    pub fn coordination(&self) -> f64 {
+        let pairs = self.table.part(0);
+        let weight = |k: usize| if pairs.contains(&k) { 2.0 } else { 1.0 };
+        let slots = self.table.slots.iter().enumerate();
+        let touching = slots.filter(|(_, s)| s.active).map(|(k, _)| weight(k));
+        touching.sum::<f64>() / self.grains.len() as f64
+    }
+
+    /// Σ_c l n ⊗ F, J, over the contacts of a grain.
+    fn moment(&self, grain: usize) -> Matrix3<f64> {
+        let mut sum = Matrix3::zeros();
+        for (slot, _) in self.table.of(grain).filter(|(slot, _)| slot.active) {
+            let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
+            sum += slot.normal * slot.force.transpose() * arm;
+        }
+        sum
+    }
+
+    /// Mean stress in each grain, Pa, positive in compression: σ = −(1/V) Σ_c (x^C − x) ⊗ F^c with the grain's
+    /// volume V. Source: Catalano 2012, Eqs. (2.17), (2.18), with the other sign.
+    #[must_use]
+    pub fn grain_stresses(&self) -> Vec<Matrix3<f64>> {
+        let volume = |i: usize| 4.0 / 3.0 * std::f64::consts::PI * self.grains.radius[i].powi(3);
+        (0..self.grains.len())
+            .map(|i| self.moment(i) / volume(i))
+            .collect()
+    }
+
+    /// Love–Weber stress of all contacts in a volume (m³), Pa, positive in compression: (1/V) Σ_grains Σ_c l n ⊗ F.
+    #[must_use]
+    pub fn stress(&self, volume: f64) -> Matrix3<f64> {
+        let mut sum = Matrix3::zeros();
+        for grain in 0..self.grains.len() {
+            sum += self.moment(grain);
+        }
+        sum / volume
+    }
+
+    /// Length of the box along an axis, m: the period, or the distance of the two walls that face each other.
+    fn length(&self, axis: usize) -> Option<f64> {
+        if let Some([from, to]) = self.period[axis] {
+            return Some(to - from);
+        }
+        let facing = |sign: f64| {
+            let found = self.walls.iter().find(|w| w.axis() == Some((axis, sign)));
+            found.map(|w| w.point[axis])
+        };
+        Some(facing(-1.0)? - facing(1.0)?)
+    }
+
+    /// Lengths of the box between walls along the axes and periods, m, if it is closed.
+    #[must_use]
+    pub fn box_lengths(&self) -> Option<[f64; 3]> {
+        Some([self.length(0)?, self.length(1)?, self.length(2)?])
+    }
+
+    /// Area of the box across an axis, m².
+    ///
+    /// # Errors
+    /// If the box is not closed.
+    pub fn section(&self, axis: usize) -> Result<f64, GrainError> {
+        let lengths = self.box_lengths();
+        let lengths = lengths.ok_or(GrainError::NoArea { wall: 2 * axis })?;
+        Ok(lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3])
+    }
+
+    /// Normal component of the contact forces that cross a plane normal to an axis, over the plane's area (Pa),
+    /// positive in compression: the effective stress σ'. Grains belong to the side of their centres.
+    ///
+    /// # Errors
+    /// If the box is not closed.
+    pub fn effective_stress(&self, axis: usize, at: f64) -> Result<f64, GrainError> {
+        let above = |grain: usize| self.grains().positions()[grain][axis] >= at;
+        let mut force = 0.0;
+        for touch in self.contacts() {
+            let first = above(touch.grain);
+            let second = match touch.partner {
+                Partner::Grain(other) => above(other),
+                Partner::Wall(wall) => {
+                    let wall = &self.walls()[wall];
+                    match wall.normal[axis].abs() > 0.5 {
+                        true => wall.point[axis] >= at,
+                        false => first,
+                    }
+                }
+                Partner::Triangle { .. } => first,
+            };
+            if first != second {
+                force += if first {
+                    touch.force[axis]
+                } else {
+                    -touch.force[axis]
+                };
+            }
+        }
+        Ok(force / self.section(axis)?)
+    }
+
+    /// Volume of the box, m³, if it is closed.
+    #[must_use]
+    pub fn box_volume(&self) -> Option<f64> {
+        Some(self.box_lengths()?.iter().product())
+    }
+
+    /// n = 1 − Σ (4/3) π R³ / V of the box. Source: Catalano 2012, Eq. (1.1).
+    #[must_use]
+    pub fn porosity(&self) -> Option<f64> {
+        Some(1.0 - self.grains.volume() / self.box_volume()?)
+    }
+
+    pub(crate) fn height(&self, wall: usize) -> Result<f64, GrainError> {
+        let axis = self.walls[wall].axis().map(|(axis, _)| axis);
+        let length = axis.and_then(|axis| self.length(axis));
+        length.ok_or(GrainError::NoArea { wall })
+    }
+
+    /// Area of a wall, m²: the given one, or that between the box's other walls.
+    ///
+    /// # Errors
+    /// If it is not given and the box is not closed along the other two axes.
+    pub fn wall_area(&self, wall: usize) -> Result<f64, GrainError> {
+        let none = GrainError::NoArea { wall };
+        let Some(w) = self.walls.get(wall) else {
+            return Err(none);
+        };
+        if let Some(area) = w.area {
+            return Ok(area);
+        }
+        let (axis, _) = w.axis().ok_or_else(|| none.clone())?;
+        let sides = [(axis + 1) % 3, (axis + 2) % 3].map(|side| self.length(side));
+        match sides {
+            [Some(a), Some(b)] => Ok(a * b),
+            _ => Err(none),
+        }
+    }
+
+    /// Normal stress at a wall, Pa, positive in compression: the push of grains and fluid over its area.
+    ///
+    /// # Errors
+    /// As [`GrainSystem::wall_area`].
+    pub fn wall_stress(&self, wall: usize) -> Result<f64, GrainError> {
+        Ok(self.walls[wall].push() / self.wall_area(wall)?)
+    }
+
+    /// Mean normal stress, Pa: of all walls, or where there are periods that of [`GrainSystem::stress`] in the box.
+    ///
+    /// # Errors
+    /// If the box is not closed.
+    pub fn mean_stress(&self) -> Result<f64, GrainError> {
+        let volume = self.box_volume().ok_or(GrainError::NoArea { wall: 0 })?;
+        if self.period.iter().any(Option::is_some) {
+            return Ok(self.stress(volume).trace() / 3.0);
+        }
+        let stresses = (0..self.walls.len()).map(|w| self.wall_stress(w));
+        let sum: f64 = stresses.sum::<Result<f64, _>>()?;
+        Ok(sum / self.walls.len() as f64)
+    }
+}

@@ -1,0 +1,159 @@
+//! What a system is made of.
+
+use serde::{Deserialize, Serialize};
+
+use crate::grains::{ContactLaw, GrainError, Mesh, Vector, Wall};
+
+/// A sphere at the start.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Grain {
+    /// Centre, m.
+    pub position: Vector,
+    /// Velocity, m/s.
+    pub velocity: Vector,
+    /// Angular velocity, rad/s.
+    pub spin: Vector,
+    /// Radius R, m.
+    pub radius: f64,
+    /// Density ρ_s, kg/m³.
+    pub density: f64,
+    /// Whether it keeps its velocity whatever acts on it.
+    pub held: bool,
+}
+
+impl Grain {
+    /// At rest; radius in m, density in kg/m³.
+    #[must_use]
+    pub fn new(position: [f64; 3], radius: f64, density: f64) -> Self {
+        Self {
+            position: position.into(),
+            velocity: Vector::zeros(),
+            spin: Vector::zeros(),
+            radius,
+            density,
+            held: false,
+        }
+    }
+
+    /// The same with a velocity, m/s.
+    #[must_use]
+    pub fn moving(mut self, velocity: [f64; 3]) -> Self {
+        self.velocity = velocity.into();
+        self
+    }
+
+    /// The same with an angular velocity, rad/s.
+    #[must_use]
+    pub fn spinning(mut self, spin: [f64; 3]) -> Self {
+        self.spin = spin.into();
+        self
+    }
+
+    /// Names what is not a number a grain can have.
+    pub(crate) fn check(&self, grain: usize) -> Result<(), GrainError> {
+        for (what, value) in [("radius", self.radius), ("density", self.density)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(GrainError::NotPositive { grain, what, value });
+            }
+        }
+        for (what, value) in [
+            ("position", self.position),
+            ("velocity", self.velocity),
+            ("angular velocity", self.spin),
+        ] {
+            finite(grain, what, &value)?;
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn finite(grain: usize, what: &'static str, v: &Vector) -> Result<(), GrainError> {
+    if v.iter().all(|x| x.is_finite()) {
+        return Ok(());
+    }
+    Err(GrainError::NotFinite {
+        grain,
+        what,
+        value: (*v).into(),
+    })
+}
+
+/// Lower and upper end (m) of each axis along which the box repeats itself.
+pub type Period = [Option<[f64; 2]>; 3];
+
+/// Everything a [`crate::grains::GrainSystem`] starts from.
+#[derive(Debug, Default)]
+pub struct Setup {
+    /// The grains.
+    pub grains: Vec<Grain>,
+    /// Contact laws; the first is that of grains with each other, walls and meshes name theirs by number.
+    pub laws: Vec<Box<dyn ContactLaw>>,
+    /// Planes.
+    pub walls: Vec<Wall>,
+    /// Surfaces of triangles.
+    pub meshes: Vec<Mesh>,
+    /// Axes along which the box repeats itself.
+    pub period: Period,
+    /// Gravity, m/s².
+    pub gravity: Vector,
+    /// Coefficient D_a of non-viscous damping, at least 0 and below 1. Source: Catalano 2012, Eq. (2.15).
+    pub damping: f64,
+    /// Skin of the lists of neighbours, m; `None` takes a fifth of the mean radius.
+    pub skin: Option<f64>,
+}
+
+impl Setup {
+    /// Grains that follow one law, without walls, gravity or damping.
+    #[must_use]
+    pub fn new(grains: Vec<Grain>, law: impl ContactLaw + 'static) -> Self {
+        Self {
+            grains,
+            laws: vec![Box::new(law)],
+            ..Self::default()
+        }
+    }
+
+    /// Adds a law; its number is one more than that of the last.
+    #[must_use]
+    pub fn law(mut self, law: impl ContactLaw + 'static) -> Self {
+        self.laws.push(Box::new(law));
+        self
+    }
+
+    /// Adds walls.
+    #[must_use]
+    pub fn walls(mut self, walls: impl IntoIterator<Item = Wall>) -> Self {
+        self.walls.extend(walls);
+        self
+    }
+
+    /// Adds a mesh.
+    #[must_use]
+    pub fn mesh(mut self, mesh: Mesh) -> Self {
+        self.meshes.push(mesh);
+        self
+    }
+
+    /// Repeats the box along an axis, from and to in m.
+    #[must_use]
+    pub fn periodic(mut self, axis: usize, from: f64, to: f64) -> Self {
+        if let Some(slot) = self.period.get_mut(axis) {
+            *slot = Some([from, to]);
+        }
+        self
+    }
+
+    /// Sets gravity, m/s².
+    #[must_use]
+    pub fn gravity(mut self, gravity: [f64; 3]) -> Self {
+        self.gravity = gravity.into();
+        self
+    }
+
+    /// Sets the coefficient of non-viscous damping.
+    #[must_use]
+    pub fn damping(mut self, damping: f64) -> Self {
+        self.damping = damping;
+        self
+    }
+}

@@ -1,0 +1,317 @@
+//! The system: made, evaluated, integrated.
+
+use crate::grains::setup::{Period, finite};
+use crate::grains::stability::{CHECKED_EVERY, Limit, critical};
+use crate::grains::table::{Bodies, Table};
+use crate::grains::touch::View;
+use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector, Wall, space};
+
+/// Grains with their walls, meshes and contacts.
+///
+/// A step is [`GrainSystem::evaluate`] (contacts and their forces where the grains are) and
+/// [`GrainSystem::integrate`] (velocities, then positions). Results are the same bit for bit on any number of
+/// threads: a contact is computed once, and each grain sums its own contacts in the order of their numbers.
+#[derive(Debug)]
+pub struct GrainSystem {
+    pub(crate) grains: Grains,
+    pub(crate) laws: Vec<Box<dyn ContactLaw>>,
+    pub(crate) walls: Vec<Wall>,
+    pub(crate) meshes: Vec<Mesh>,
+    pub(crate) period: Period,
+    pub(crate) gravity: Vector,
+    pub(crate) damping: f64,
+    pub(crate) skin: f64,
+    pub(crate) time: f64,
+    pub(crate) steps: u64,
+    /// Motion since the last evaluation, s.
+    pub(crate) last_step: f64,
+    pub(crate) limit: Option<Limit>,
+    /// Step at which the limit is found anew.
+    pub(crate) limit_due: u64,
+    pub(crate) table: Table,
+    pub(crate) renewals: u64,
+}
+
+impl GrainSystem {
+    /// Checks everything and finds the first contacts.
+    ///
+    /// # Errors
+    /// No grains; radii and densities that are not positive, places that are not finite; laws out of range;
+    /// grains that overlap by more than a tenth of the smaller radius, or that reach so far into a wall or a
+    /// triangle, or are beyond a wall; periods that are too short; walls and meshes that are none. All name
+    /// the grain and the value.
+    pub fn new(setup: Setup) -> Result<Self, GrainError> {
+        for (number, grain) in setup.grains.iter().enumerate() {
+            grain.check(number)?;
+        }
+        let grains = Grains::new(&setup.grains);
+        let mean = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
+        let mut system = Self {
+            grains,
+            laws: setup.laws,
+            walls: setup.walls,
+            meshes: setup.meshes,
+            period: setup.period,
+            gravity: setup.gravity,
+            damping: setup.damping,
+            skin: setup.skin.unwrap_or(0.2 * mean),
+            time: 0.0,
+            steps: 0,
+            last_step: 0.0,
+            limit: None,
+            limit_due: 0,
+            table: Table::default(),
+            renewals: 0,
+        };
+        system.check()?;
+        system.renew();
+        system.check_overlaps()?;
+        Ok(system)
+    }
+
+    /// What must hold at the start and after a resumption.
+    pub(crate) fn check(&self) -> Result<(), GrainError> {
+        let most = 1 << 26;
+        let grains = self.grains.len();
+        if grains == 0 {
+            return Err(GrainError::NoGrains);
+        }
+        if grains > most {
+            return Err(GrainError::TooMany { grains, most });
+        }
+        number("skin", self.skin, "positive", self.skin > 0.0)?;
+        let fine = (0.0..1.0).contains(&self.damping);
+        number("damping", self.damping, "at least 0 and below 1", fine)?;
+        let gravity = self.gravity.norm();
+        number("gravity", gravity, "finite", true)?;
+        self.check_laws()?;
+        let largest = self.grains.radius.iter().copied().fold(0.0, f64::max);
+        space::check(&self.period, 2.0 * largest + self.skin)?;
+        for (w, wall) in self.walls.iter().enumerate() {
+            wall.check(w)?;
+            for (axis, ends) in self.period.iter().enumerate() {
+                if ends.is_some() && wall.normal[axis] != 0.0 {
+                    let problem = format!("is turned towards axis {axis}, which is periodic");
+                    return Err(GrainError::BadWall { wall: w, problem });
+                }
+            }
+        }
+        for (m, mesh) in self.meshes.iter().enumerate() {
+            mesh.check(m)?;
+        }
+        for (grain, position) in self.grains.position.iter().enumerate() {
+            for (axis, ends) in self.period.iter().enumerate() {
+                let value = position[axis];
+                if let Some([from, to]) = *ends
+                    && !(from..=to).contains(&value)
+                {
+                    return Err(GrainError::OutsidePeriod {
+                        grain,
+                        axis,
+                        value,
+                        from,
+                        to,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_laws(&self) -> Result<(), GrainError> {
+        let laws = self.laws.len();
+        for (number, law) in self.laws.iter().enumerate() {
+            law.check()?;
+            let wanted = law.memory().len();
+            if wanted > MEMORY {
+                return Err(GrainError::Memory {
+                    law: number,
+                    wanted,
+                    room: MEMORY,
+                });
+            }
+        }
+        let walls = self.walls.iter().map(|w| w.law).enumerate();
+        let meshes = self.meshes.iter().map(|m| m.law).enumerate();
+        let named = std::iter::once(("grain", (0, 0)));
+        let named = named.chain(walls.map(|w| ("wall", w)));
+        for (what, (number, law)) in named.chain(meshes.map(|m| ("mesh", m))) {
+            if law >= laws {
+                return Err(GrainError::NoLaw {
+                    what,
+                    number,
+                    law,
+                    laws,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn bodies(&self) -> Bodies<'_> {
+        Bodies {
+            grains: &self.grains,
+            walls: &self.walls,
+            meshes: &self.meshes,
+            period: &self.period,
+        }
+    }
+
+    pub(crate) fn renew(&mut self) {
+        let mut table = std::mem::take(&mut self.table);
+        table.renew(self.bodies(), self.skin);
+        self.table = table;
+        self.renewals += 1;
+    }
+
+    /// Finds the contacts where the grains are now and computes their forces.
+    ///
+    /// A second call without a motion between changes nothing.
+    ///
+    /// # Errors
+    /// [`GrainError::NotFinite`] with the grain that flew away.
+    pub fn evaluate(&mut self) -> Result<(), GrainError> {
+        for (grain, position) in self.grains.position.iter().enumerate() {
+            finite(grain, "position", position)?;
+        }
+        if self.table.expired(self.bodies(), self.skin) {
+            self.renew();
+        }
+        let Self {
+            grains,
+            laws,
+            walls,
+            meshes,
+            table,
+            ..
+        } = self;
+        let view = View {
+            grains,
+            period: &self.period,
+            step: self.last_step,
+        };
+        let (pairs, mut rest) = table.slots.split_at_mut(table.ends[0]);
+        view.pairs(pairs, &*laws[0]);
+        let mut taken = table.ends[0];
+        let mut ends = table.ends[1..].iter();
+        for (wall, &end) in walls.iter_mut().zip(ends.by_ref()) {
+            let (slots, after) = rest.split_at_mut(end - taken);
+            (rest, taken) = (after, end);
+            view.wall(slots, wall, &*laws[wall.law]);
+            let active = slots.iter().filter(|s| s.active);
+            let zero = (Vector::zeros(), 0.0);
+            let law = &laws[wall.law];
+            (wall.force, wall.stiffness) = active.fold(zero, |(force, stiffness), s| {
+                let radius = [grains.radius[s.first as usize], f64::INFINITY];
+                let more = if wall.is_servo() {
+                    law.stiffness(radius, s.overlap).normal
+                } else {
+                    0.0
+                };
+                (force - s.force, stiffness + more)
+            });
+        }
+        for (mesh, &end) in meshes.iter_mut().zip(ends) {
+            let (slots, after) = rest.split_at_mut(end - taken);
+            (rest, taken) = (after, end);
+            view.mesh(slots, mesh, &*laws[mesh.law]);
+            (mesh.force, mesh.torque) = (Vector::zeros(), Vector::zeros());
+            for slot in slots.iter().filter(|s| s.active) {
+                let grain = slot.first as usize;
+                let lever = grains.radius[grain] - 0.5 * slot.overlap;
+                let arm = grains.position[grain] - slot.normal * lever - mesh.centre;
+                mesh.force -= slot.force;
+                mesh.torque += slot.torque[1] - arm.cross(&slot.force);
+            }
+        }
+        self.last_step = 0.0;
+        self.gather();
+        Ok(())
+    }
+
+    /// One step (s): evaluation, then integration.
+    ///
+    /// # Errors
+    /// As [`GrainSystem::evaluate`] and [`GrainSystem::integrate`].
+    pub fn step(&mut self, step: f64) -> Result<(), GrainError> {
+        self.evaluate()?;
+        self.integrate(step)
+    }
+
+    /// Velocities and positions after a step (s) under the forces of the last evaluation, gravity and the
+    /// external forces: the leap-frog of Catalano 2012, Eqs. (2.1) to (2.3).
+    ///
+    /// # Errors
+    /// [`GrainError::StepTooLarge`] above [`GrainSystem::critical_step`], which is computed anew every hundred
+    /// steps; nothing is moved then. A step that is not positive and finite. A pressed wall of unknown area.
+    pub fn integrate(&mut self, step: f64) -> Result<(), GrainError> {
+        number("step", step, "positive", step > 0.0)?;
+        let limit = self.fresh_limit();
+        if step > limit.step {
+            return Err(GrainError::StepTooLarge {
+                step,
+                critical: limit.step,
+                grain: limit.grain,
+            });
+        }
+        self.integrate_unchecked(step)
+    }
+
+    /// The same without asking for the critical step: for those who know a better limit.
+    ///
+    /// # Errors
+    /// A pressed wall of unknown area, a step too short to move the clock, [`GrainError::TooDeep`]; nothing is moved
+    /// then.
+    pub fn integrate_unchecked(&mut self, step: f64) -> Result<(), GrainError> {
+        let moves = self.time + step > self.time;
+        number("step", step, "long enough to move the clock", moves)?;
+        self.check_depths()?;
+        self.steer_walls(step)?;
+        self.advance_grains(step);
+        for wall in &mut self.walls {
+            wall.point += wall.velocity * step;
+        }
+        for mesh in &mut self.meshes {
+            mesh.advance(step);
+        }
+        self.last_step = step;
+        self.time += step;
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// The critical step as it was found at most a hundred steps ago, s.
+    pub fn current_limit(&mut self) -> f64 {
+        self.fresh_limit().step
+    }
+
+    fn fresh_limit(&mut self) -> Limit {
+        let limit = match self.limit {
+            Some(limit) if self.steps < self.limit_due => limit,
+            _ => {
+                self.limit_due = self.steps + CHECKED_EVERY;
+                critical(
+                    &self.grains,
+                    &self.table,
+                    &self.walls,
+                    &self.meshes,
+                    &self.laws,
+                )
+            }
+        };
+        self.limit = Some(limit);
+        limit
+    }
+}
+
+pub(crate) fn number(
+    what: &'static str,
+    value: f64,
+    valid: &'static str,
+    fine: bool,
+) -> Result<(), GrainError> {
+    if fine && value.is_finite() {
+        return Ok(());
+    }
+    Err(GrainError::BadNumber { what, value, valid })
+}

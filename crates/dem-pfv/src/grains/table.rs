@@ -1,0 +1,282 @@
+//! The table of neighbours: pairs, grains at walls, grains at triangles, and what contacts remember.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::grains::grid::Grid;
+use crate::grains::law::MEMORY;
+use crate::grains::mesh::nearest;
+use crate::grains::setup::Period;
+use crate::grains::space::separation;
+use crate::grains::{Grains, Mesh, Vector, Wall};
+
+/// Two bodies that are near each other.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub(crate) struct Slot {
+    pub first: u32,
+    /// A grain, or a triangle, or nothing at a wall.
+    pub second: u32,
+    /// Whether they touch.
+    pub active: bool,
+    pub overlap: f64,
+    pub normal: Vector,
+    pub memory: [f64; MEMORY],
+    /// On the first.
+    pub force: Vector,
+    /// On the first and on the second.
+    pub torque: [Vector; 2],
+}
+
+impl Slot {
+    fn new(first: u32, second: u32) -> Self {
+        Self {
+            first,
+            second,
+            active: false,
+            overlap: 0.0,
+            normal: Vector::zeros(),
+            memory: [0.0; MEMORY],
+            force: Vector::zeros(),
+            torque: [Vector::zeros(); 2],
+        }
+    }
+
+    fn key(&self) -> (u32, u32) {
+        (self.first, self.second)
+    }
+}
+
+/// All slots: pairs first, then wall by wall, then mesh by mesh, each part in the order of the grains' numbers.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub(crate) struct Table {
+    pub slots: Vec<Slot>,
+    /// Ends of the parts.
+    pub ends: Vec<usize>,
+    /// For each grain, where its entries start.
+    #[serde(skip)]
+    offsets: Vec<u32>,
+    /// Slots of each grain, twice their number plus the side.
+    #[serde(skip)]
+    entries: Vec<u32>,
+    /// Where everything was when the table was made.
+    #[serde(skip)]
+    then: Then,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Then {
+    positions: Vec<Vector>,
+    radii: Vec<f64>,
+    walls: Vec<Vector>,
+    vertices: Vec<Vec<Vector>>,
+}
+
+/// What the table is made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Bodies<'a> {
+    pub grains: &'a Grains,
+    pub walls: &'a [Wall],
+    pub meshes: &'a [Mesh],
+    pub period: &'a Period,
+}
+
+/// Grains per task when lists are made.
+const TASK: usize = 256;
+
+impl Table {
+    pub fn part(&self, number: usize) -> Range<usize> {
+        let from = if number == 0 {
+            0
+        } else {
+            self.ends[number - 1]
+        };
+        from..self.ends[number]
+    }
+
+    /// Slots of a grain with the side it has in each: 0 for the first body, 1 for the second.
+    pub fn of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
+        let range = self.offsets[grain] as usize..self.offsets[grain + 1] as usize;
+        self.entries[range].iter().map(|&entry| {
+            let slot = &self.slots[(entry >> 1) as usize];
+            (slot, (entry & 1) as usize)
+        })
+    }
+
+    /// Only what touches; enough to go on from.
+    pub fn touching(&self) -> Self {
+        let mut kept = Self::default();
+        for part in 0..self.ends.len() {
+            let slots = &self.slots[self.part(part)];
+            kept.slots.extend(slots.iter().filter(|s| s.active));
+            kept.ends.push(kept.slots.len());
+        }
+        kept
+    }
+
+    /// Whether something may have come near that is not in the table.
+    pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
+        let (then, grains) = (&self.then, bodies.grains);
+        if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {
+            return true;
+        }
+        let half = 0.5 * skin;
+        let moved = |wall: &Wall, point: &Vector| (wall.point - point).dot(&wall.normal).abs();
+        let mut walls = bodies.walls.iter().zip(&then.walls);
+        if walls.any(|(wall, point)| moved(wall, point) > half) {
+            return true;
+        }
+        for (mesh, old) in bodies.meshes.iter().zip(&then.vertices) {
+            let mut vertices = mesh.vertices.iter().zip(old);
+            if vertices.any(|(new, old)| (new - old).norm_squared() > half * half) {
+                return true;
+            }
+        }
+        let left = |i: usize| {
+            let room = half - (grains.radius[i] - then.radii[i]);
+            let way = separation(&grains.position[i], &then.positions[i], bodies.period);
+            room < 0.0 || way.norm_squared() > room * room
+        };
+        (0..grains.len())
+            .into_par_iter()
+            .with_min_len(2048)
+            .any(left)
+    }
+
+    /// Makes the table anew; what touches keeps its memory.
+    pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
+        let Bodies {
+            grains,
+            walls,
+            meshes,
+            period,
+        } = bodies;
+        let largest = grains.radius.iter().copied().fold(0.0, f64::max);
+        let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
+        let mut slots = pairs(grains, &grid, period, skin);
+        let mut ends = vec![slots.len()];
+        for wall in walls {
+            let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
+            slots.extend(
+                (0..grains.len())
+                    .filter(near)
+                    .map(|i| Slot::new(i as u32, 0)),
+            );
+            ends.push(slots.len());
+        }
+        for mesh in meshes {
+            slots.extend(triangles(grains, &grid, mesh, largest, skin));
+            ends.push(slots.len());
+        }
+        let old = std::mem::take(&mut self.slots);
+        let old_ends = std::mem::replace(&mut self.ends, ends);
+        self.slots = slots;
+        self.carry(&old, &old_ends);
+        self.index(grains.len());
+        self.then = Then {
+            positions: grains.position.clone(),
+            radii: grains.radius.clone(),
+            walls: walls.iter().map(|w| w.point).collect(),
+            vertices: meshes.iter().map(|m| m.vertices.clone()).collect(),
+        };
+    }
+
+    /// Both tables are sorted, so one walk along them finds what is in both.
+    fn carry(&mut self, old: &[Slot], old_ends: &[usize]) {
+        let mut from = 0;
+        for (part, &to) in old_ends.iter().enumerate().take(self.ends.len()) {
+            let range = self.part(part);
+            let mut new = self.slots[range].iter_mut().peekable();
+            for slot in old[from..to].iter().filter(|s| s.active) {
+                while new.next_if(|n| n.key() < slot.key()).is_some() {}
+                if let Some(n) = new.next_if(|n| n.key() == slot.key()) {
+                    *n = *slot;
+                }
+            }
+            from = to;
+        }
+    }
+
+    fn index(&mut self, grains: usize) {
+        let pairs = self.part(0).end;
+        let mut offsets = vec![0_u32; grains + 1];
+        for (k, slot) in self.slots.iter().enumerate() {
+            offsets[slot.first as usize + 1] += 1;
+            if k < pairs {
+                offsets[slot.second as usize + 1] += 1;
+            }
+        }
+        for i in 0..grains {
+            offsets[i + 1] += offsets[i];
+        }
+        let mut next = offsets.clone();
+        let mut entries = vec![0; offsets[grains] as usize];
+        let mut put = |grain: u32, entry: usize| {
+            let at = &mut next[grain as usize];
+            entries[*at as usize] = entry as u32;
+            *at += 1;
+        };
+        for (k, slot) in self.slots.iter().enumerate() {
+            put(slot.first, 2 * k);
+            if k < pairs {
+                put(slot.second, 2 * k + 1);
+            }
+        }
+        self.offsets = offsets;
+        self.entries = entries;
+    }
+}
+
+fn pairs(grains: &Grains, grid: &Grid, period: &Period, skin: f64) -> Vec<Slot> {
+    let n = grains.len();
+    let tasks: Vec<Vec<Slot>> = (0..n.div_ceil(TASK))
+        .into_par_iter()
+        .map(|task| {
+            let mut slots = Vec::with_capacity(8 * TASK);
+            let mut partners = Vec::new();
+            for i in task * TASK..n.min((task + 1) * TASK) {
+                let (at, radius) = (grains.position[i], grains.radius[i] + skin);
+                partners.clear();
+                grid.around(&at, |j| {
+                    let reach = radius + grains.radius[j as usize];
+                    let apart = || separation(&at, &grains.position[j as usize], period);
+                    if j as usize > i && apart().norm_squared() < reach * reach {
+                        partners.push(j);
+                    }
+                });
+                partners.sort_unstable();
+                slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
+            }
+            slots
+        })
+        .collect();
+    tasks.concat()
+}
+
+fn triangles(
+    grains: &Grains,
+    grid: &Grid,
+    mesh: &Mesh,
+    largest: f64,
+    skin: f64,
+) -> impl Iterator<Item = Slot> {
+    let found = (0..mesh.triangles.len()).into_par_iter().map(|t| {
+        let corners = mesh.corners(t);
+        let reach = Vector::repeat(largest + skin);
+        let low = corners[0].inf(&corners[1]).inf(&corners[2]) - reach;
+        let high = corners[0].sup(&corners[1]).sup(&corners[2]) + reach;
+        let mut near = Vec::new();
+        grid.within(&low, &high, |i| {
+            let at = &grains.position[i as usize];
+            let reach = grains.radius[i as usize] + skin;
+            if (nearest(at, corners) - at).norm_squared() < reach * reach {
+                near.push((i, t as u32));
+            }
+        });
+        near
+    });
+    let mut keys = found.collect::<Vec<_>>().concat();
+    keys.sort_unstable();
+    keys.into_iter().map(|(i, t)| Slot::new(i, t))
+}

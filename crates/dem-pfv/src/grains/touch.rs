@@ -1,0 +1,268 @@
+//! From positions to contact forces.
+
+use rayon::prelude::*;
+
+use crate::grains::law::Turn;
+use crate::grains::mesh::nearest;
+use crate::grains::setup::Period;
+use crate::grains::space::separation;
+use crate::grains::table::Slot;
+use crate::grains::{Contact, ContactLaw, Grains, Mesh, Vector, Wall};
+
+/// Slots that one call of a law answers at most.
+const BATCH: usize = 128;
+
+/// Grains as the second body of a contact sees them.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub grains: &'a Grains,
+    pub period: &'a Period,
+    /// Time since the last evaluation, s.
+    pub step: f64,
+}
+
+/// What a grain leans on: a plane or a point of a triangle.
+struct Touched {
+    normal: Vector,
+    overlap: f64,
+    velocity: Vector,
+    spin: Vector,
+}
+
+impl View<'_> {
+    /// Forces between grains.
+    pub fn pairs(&self, slots: &mut [Slot], law: &dyn ContactLaw) {
+        sweep(slots, law, |slot| self.pair(slot));
+    }
+
+    /// Forces at a wall.
+    pub fn wall(&self, slots: &mut [Slot], wall: &Wall, law: &dyn ContactLaw) {
+        sweep(slots, law, |slot| {
+            let grain = slot.first as usize;
+            let gap = wall.distance(&self.grains.position[grain]) - self.grains.radius[grain];
+            let surface = Touched {
+                normal: wall.normal,
+                overlap: -gap,
+                velocity: wall.velocity,
+                spin: Vector::zeros(),
+            };
+            (gap < 0.0).then(|| self.against(slot, &surface))
+        });
+    }
+
+    /// Forces at a mesh.
+    pub fn mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
+        slots
+            .par_chunk_by_mut(|a, b| a.first == b.first)
+            .for_each(|group| self.at_triangles(group, mesh, law));
+    }
+
+    fn pair(&self, slot: &Slot) -> Option<Contact> {
+        let (a, b) = (slot.first as usize, slot.second as usize);
+        let g = self.grains;
+        let apart = separation(&g.position[a], &g.position[b], self.period);
+        let reach = g.radius[a] + g.radius[b];
+        let square = apart.norm_squared();
+        if square >= reach * reach {
+            return None;
+        }
+        let distance = square.sqrt();
+        // Equal centres have no direction; any one does.
+        let normal = if distance > 0.0 {
+            apart / distance
+        } else {
+            Vector::x()
+        };
+        let overlap = reach - distance;
+        let lever = [g.radius[a], g.radius[b]].map(|r| r - 0.5 * overlap);
+        let rolling = g.spin[a] * lever[0] + g.spin[b] * lever[1];
+        let velocity = g.velocity[a] - g.velocity[b] - rolling.cross(&normal);
+        let twist = 0.5 * self.step * normal.dot(&(g.spin[a] + g.spin[b]));
+        Some(self.contact(
+            slot,
+            normal,
+            overlap,
+            velocity,
+            g.spin[a] - g.spin[b],
+            twist,
+            [g.radius[b], g.mass[b]],
+        ))
+    }
+
+    fn against(&self, slot: &Slot, surface: &Touched) -> Contact {
+        let a = slot.first as usize;
+        let g = self.grains;
+        let lever = g.radius[a] - 0.5 * surface.overlap;
+        let rolling = g.spin[a] * lever;
+        let velocity = g.velocity[a] - surface.velocity - rolling.cross(&surface.normal);
+        let twist = 0.5 * self.step * surface.normal.dot(&(g.spin[a] + surface.spin));
+        self.contact(
+            slot,
+            surface.normal,
+            surface.overlap,
+            velocity,
+            g.spin[a] - surface.spin,
+            twist,
+            [f64::INFINITY; 2],
+        )
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "they are the fields of a contact"
+    )]
+    fn contact(
+        &self,
+        slot: &Slot,
+        normal: Vector,
+        overlap: f64,
+        velocity: Vector,
+        spin: Vector,
+        twist: f64,
+        [radius, mass]: [f64; 2],
+    ) -> Contact {
+        let a = slot.first as usize;
+        let (memory, turn) = if slot.active {
+            let turn = Turn {
+                axis: slot.normal.cross(&normal),
+                cosine: slot.normal.dot(&normal),
+                twist,
+            };
+            (slot.memory, turn)
+        } else {
+            ([0.0; crate::grains::MEMORY], Turn::default())
+        };
+        Contact {
+            normal,
+            overlap,
+            velocity,
+            spin,
+            radius: [self.grains.radius[a], radius],
+            mass: [self.grains.mass[a], mass],
+            step: self.step,
+            memory,
+            force: Vector::zeros(),
+            couple: Vector::zeros(),
+            turn,
+        }
+    }
+
+    /// Triangles that share an edge or a corner would count one contact several times: only local minima of
+    /// the distance count, and the lowest number among equals.
+    fn at_triangles(&self, group: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
+        let grain = group[0].first as usize;
+        let (at, radius) = (&self.grains.position[grain], self.grains.radius[grain]);
+        let near: Vec<(usize, Vector, f64)> = group
+            .iter()
+            .enumerate()
+            .filter_map(|(k, slot)| {
+                let point = nearest(at, mesh.corners(slot.second as usize));
+                let distance = (at - point).norm();
+                (distance < radius).then_some((k, point, distance))
+            })
+            .collect();
+        let same = 1e-7 * radius;
+        let counts = |&(k, point, distance): &(usize, Vector, f64)| {
+            !near.iter().any(|&(other, _, nearer)| {
+                // Their order is total, so that the first of a chain always stays.
+                let before = nearer < distance || (nearer == distance && other < k);
+                let corners = mesh.corners(group[other].second as usize);
+                before && (nearest(&point, corners) - point).norm() <= same
+            })
+        };
+        let kept: Vec<_> = near.iter().copied().filter(counts).collect();
+        hand_over(group, &kept, at);
+        let mut batch: Vec<Contact> = kept
+            .iter()
+            .map(|&(k, point, distance)| {
+                let normal = if distance > 0.0 {
+                    (at - point) / distance
+                } else {
+                    let [a, b, c] = mesh.corners(group[k].second as usize);
+                    (b - a).cross(&(c - a)).normalize()
+                };
+                let surface = Touched {
+                    normal,
+                    overlap: radius - distance,
+                    velocity: mesh.velocity_at(&point),
+                    spin: mesh.spin,
+                };
+                self.against(&group[k], &surface)
+            })
+            .collect();
+        for slot in group.iter_mut() {
+            slot.active = false;
+        }
+        law.respond(&mut batch);
+        for ((k, ..), contact) in kept.iter().zip(&batch) {
+            settle(&mut group[*k], contact);
+        }
+    }
+}
+
+/// A grain that rolls or slides from one triangle to the next keeps what the contact remembers.
+fn hand_over(group: &mut [Slot], kept: &[(usize, Vector, f64)], at: &Vector) {
+    for &(k, point, _) in kept {
+        if group[k].active {
+            continue;
+        }
+        let normal = at - point;
+        let left = |&j: &usize| group[j].active && !kept.iter().any(|&(other, ..)| other == j);
+        let along = |j: usize| group[j].normal.dot(&normal);
+        let from = (0..group.len())
+            .filter(left)
+            .max_by(|&i, &j| along(i).total_cmp(&along(j)));
+        if let Some(from) = from.filter(|&j| along(j) > 0.5 * normal.norm()) {
+            group[k] = Slot {
+                first: group[k].first,
+                second: group[k].second,
+                ..group[from]
+            };
+            group[from].active = false;
+        }
+    }
+}
+
+fn sweep(
+    slots: &mut [Slot],
+    law: &dyn ContactLaw,
+    touch: impl Fn(&Slot) -> Option<Contact> + Sync,
+) {
+    let room = || (Vec::with_capacity(BATCH), Vec::with_capacity(BATCH));
+    let tasks = slots.par_chunks_mut(BATCH).with_min_len(4);
+    tasks.for_each_init(room, |(batch, places), chunk| {
+        batch.clear();
+        places.clear();
+        for (k, slot) in chunk.iter_mut().enumerate() {
+            if let Some(contact) = touch(slot) {
+                batch.push(contact);
+                places.push(k);
+            } else {
+                slot.active = false;
+            }
+        }
+        law.respond(batch);
+        for (contact, &k) in batch.iter().zip(places.iter()) {
+            settle(&mut chunk[k], contact);
+        }
+    });
+}
+
+/// Writes an answered contact back, with M = (x_C − x) × F for both bodies.
+fn settle(slot: &mut Slot, contact: &Contact) {
+    let turning = contact.normal.cross(&contact.force);
+    let lever = contact.radius.map(|r| r - 0.5 * contact.overlap);
+    slot.active = true;
+    slot.overlap = contact.overlap;
+    slot.normal = contact.normal;
+    slot.memory = contact.memory;
+    slot.force = contact.force;
+    slot.torque = [
+        contact.couple - turning * lever[0],
+        if lever[1].is_finite() {
+            -turning * lever[1] - contact.couple
+        } else {
+            -contact.couple
+        },
+    ];
+}

@@ -1,0 +1,211 @@
+//! Plane walls and what moves them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::grains::{GrainError, Vector};
+
+/// What moves a wall along its normal.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub enum Control {
+    /// Nothing but its velocity, which may be zero.
+    Velocity,
+    /// A servo that holds a normal stress: δ = (σ A − F) / k_w with the grains' stiffness k_w at the wall, limited to
+    /// v_max Δt, filtered to D = (1 − s) δ + 0.8 D_old with s = 0.25. Source: the triaxial controller of YADE.
+    Stress {
+        /// σ, Pa, positive in compression.
+        stress: f64,
+        /// v_max, m/s.
+        largest_speed: f64,
+    },
+    /// A rate of strain between this wall and the one that faces it: the velocity relaxes towards ½ ε̇ H by a hundredth
+    /// per step. Give it to both walls.
+    StrainRate {
+        /// ε̇, 1/s, positive when the walls approach.
+        rate: f64,
+    },
+    /// A body of its own: M dv/dt = σ A − F, with the non-viscous damping of the grains.
+    Piston {
+        /// σ, Pa, positive in compression.
+        stress: f64,
+        /// M, kg; of the order of 2 to 20 % of the sample's mass.
+        mass: f64,
+    },
+}
+
+/// A plane with grains on the side of its normal.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Wall {
+    /// A point of it, m.
+    pub point: Vector,
+    /// Unit normal towards the grains.
+    pub normal: Vector,
+    /// Velocity, m/s; its part along the wall drags grains along.
+    pub velocity: Vector,
+    /// Number of its contact law.
+    pub law: usize,
+    /// What moves it.
+    pub control: Control,
+    /// Area, m²; `None` is that between the walls and periods along the other two axes.
+    pub area: Option<f64>,
+    /// Force besides that of the grains, N: that of a fluid.
+    pub external_force: Vector,
+    pub(crate) force: Vector,
+    pub(crate) stiffness: f64,
+    pub(crate) filtered: f64,
+}
+
+/// s and the share of the last displacement in [`Control::Stress`].
+const FILTER: [f64; 2] = [0.25, 0.8];
+/// How fast [`Control::StrainRate`] relaxes, per step.
+const RELAXATION: f64 = 0.01;
+
+impl Wall {
+    /// A wall at rest through a point (m) with a normal towards the grains, which is made a unit vector.
+    #[must_use]
+    pub fn new(point: [f64; 3], normal: [f64; 3]) -> Self {
+        let normal = Vector::from(normal);
+        Self {
+            point: point.into(),
+            normal: normal / normal.norm(),
+            velocity: Vector::zeros(),
+            law: 0,
+            control: Control::Velocity,
+            area: None,
+            external_force: Vector::zeros(),
+            force: Vector::zeros(),
+            stiffness: 0.0,
+            filtered: 0.0,
+        }
+    }
+
+    /// The six walls of a box between two corners, m: x₋, x₊, y₋, y₊, z₋, z₊.
+    #[must_use]
+    pub fn cuboid(low: [f64; 3], high: [f64; 3]) -> [Wall; 6] {
+        std::array::from_fn(|w| {
+            let mut normal = [0.0; 3];
+            normal[w / 2] = if w % 2 == 0 { 1.0 } else { -1.0 };
+            Wall::new(if w % 2 == 0 { low } else { high }, normal)
+        })
+    }
+
+    /// The same with another law.
+    #[must_use]
+    pub fn with_law(mut self, law: usize) -> Self {
+        self.law = law;
+        self
+    }
+
+    /// The same with a control.
+    #[must_use]
+    pub fn with_control(mut self, control: Control) -> Self {
+        self.control = control;
+        self
+    }
+
+    /// Force of the grains on it, N.
+    #[must_use]
+    pub fn force(&self) -> Vector {
+        self.force
+    }
+
+    /// Signed distance of a point, m.
+    #[must_use]
+    pub fn distance(&self, point: &Vector) -> f64 {
+        (point - self.point).dot(&self.normal)
+    }
+
+    /// Force with which grains and fluid push it outward, N.
+    #[must_use]
+    pub fn push(&self) -> f64 {
+        -(self.force + self.external_force).dot(&self.normal)
+    }
+
+    /// The axis and the sign of its normal, if it is along one.
+    pub(crate) fn axis(&self) -> Option<(usize, f64)> {
+        let axis = self.normal.iamax();
+        let sign = self.normal[axis].signum();
+        let off = (self.normal * sign - Vector::ith(axis, 1.0)).amax();
+        (off < 1e-12).then_some((axis, sign))
+    }
+
+    pub(crate) fn check(&self, wall: usize) -> Result<(), GrainError> {
+        let problem = |problem: String| Err(GrainError::BadWall { wall, problem });
+        let vectors = [self.point, self.normal, self.velocity, self.external_force];
+        if vectors.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
+            return problem(
+                "has a point, a normal, a velocity or a force that is not finite".into(),
+            );
+        }
+        if (self.normal.norm() - 1.0).abs() > 1e-9 {
+            return problem(format!(
+                "has the normal {:?}, which is not of length 1",
+                self.normal.as_slice()
+            ));
+        }
+        let numbers: &[(&str, f64, bool)] = match self.control {
+            Control::Velocity => &[],
+            Control::Stress {
+                stress,
+                largest_speed,
+            } => &[
+                ("stress", stress, true),
+                ("largest speed", largest_speed, largest_speed > 0.0),
+            ],
+            Control::StrainRate { rate } => &[("rate of strain", rate, true)],
+            Control::Piston { stress, mass } => {
+                &[("stress", stress, true), ("mass", mass, mass > 0.0)]
+            }
+        };
+        for &(what, value, fine) in numbers {
+            if !fine || !value.is_finite() {
+                return problem(format!("has the {what} {value}"));
+            }
+        }
+        match self.area {
+            Some(area) if !(area > 0.0 && area.is_finite()) => {
+                problem(format!("has the area {area} m²"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether its control needs the stiffness of its contacts.
+    pub(crate) fn is_servo(&self) -> bool {
+        matches!(self.control, Control::Stress { .. })
+    }
+
+    /// Sets the velocity along the normal for the coming step (s): `area` in m², `height` to the facing wall in m.
+    pub(crate) fn steer(&mut self, step: f64, area: f64, height: f64, damping: f64) {
+        let old = self.velocity.dot(&self.normal);
+        let new = match self.control {
+            Control::Velocity => return,
+            Control::Stress {
+                stress,
+                largest_speed,
+            } => {
+                let most = largest_speed * step;
+                let lack = stress * area - self.push();
+                let wanted = if self.stiffness > 0.0 {
+                    (lack / self.stiffness).clamp(-most, most)
+                } else {
+                    most * sign(lack)
+                };
+                let filtered = (1.0 - FILTER[0]) * wanted + FILTER[1] * self.filtered;
+                self.filtered = filtered.clamp(-most, most);
+                self.filtered / step
+            }
+            Control::StrainRate { rate } => old + RELAXATION * (0.5 * rate * height - old),
+            Control::Piston { stress, mass } => {
+                let force = stress * area - self.push();
+                let middle = old + 0.5 * force / mass * step;
+                old + (force - damping * force.abs() * sign(middle)) / mass * step
+            }
+        };
+        self.velocity += self.normal * (new - old);
+    }
+}
+
+/// −1, 0 or 1.
+pub(crate) fn sign(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.signum() }
+}

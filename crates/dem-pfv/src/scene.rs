@@ -1,0 +1,89 @@
+//! Scenes of grains: read, assembled, run, measured and written.
+//!
+//! A scene is a TOML text with a table `[grains]`. It knows of no particles of a fluid, and carries no column of
+//! theirs.
+//!
+//! 1. [`read`] turns a [`scene_text::Source`] into a [`Loaded`] scene ([`Scene`] and its tables), or into all its mistakes
+//!    with their places; [`is_grain_scene`] tells such scenes from those of particles.
+//! 2. [`examine`] tells what it is made of without preparing its grains.
+//! 3. [`run()`] prepares the grains and lets `sph-run` drive them: it steps, measures ([`Probe`]), writes and compares ([`Reference`]);
+//!    [`assemble`] alone gives the [`Model`].
+//! 4. [`Summary`] is what a run leaves; [`DemError`] what keeps it from its end, with the grain at fault ([`Failure`]).
+//!
+//! ```
+//! let text = r#"
+//! title = "A ball on the floor"
+//! [run]
+//! end = "0.2 s"
+//! [grains]
+//! count = 1
+//! radius = ["10 cm", "10 cm"]
+//! density = "2.6 g/cm^3"
+//! gravity = [0, 0, "-9.81 m/s^2"]
+//! [grains.contact.linear-elastic]
+//! modulus = "1 MPa"
+//! stiffness_ratio = 0.5
+//! friction = 0.5
+//! [start.cloud]
+//! [box]
+//! low = [0, 0, 0]
+//! high = [0.3, 0.3, 0.3]
+//! "#;
+//! let source = scene_text::Source::new(text, "ball.toml", &[]);
+//! let loaded = dem_pfv::scene::read(source).expect("a scene");
+//! let model = dem_pfv::scene::assemble(&loaded, &mut |_| {})?.model;
+//! assert_eq!(model.grains().grains().radii(), [0.1]);
+//!
+//! let source = scene_text::Source::new(&text.replace("friction", "fricton"), "ball.toml", &[]);
+//! let (_, mistakes) = dem_pfv::scene::read(source).unwrap_err();
+//! let told: Vec<_> = mistakes.iter().map(|m| m.to_string()).collect();
+//! assert!(told.iter().any(|m| m.contains("did you mean `friction`?")), "{told:?}");
+//! # Ok::<(), dem_pfv::scene::DemError>(())
+//! ```
+
+mod assemble;
+mod at_fault;
+mod check;
+mod checkpoint;
+mod columns;
+mod compare;
+mod error;
+mod examine;
+mod fields;
+mod foreseen;
+mod frames;
+mod highest_point;
+mod laws;
+mod level;
+mod measure;
+mod model;
+mod names;
+mod origin;
+mod prepare;
+mod read;
+mod recorded;
+mod run;
+mod scaling;
+mod schema;
+mod subject;
+mod summary;
+mod tables;
+mod walls;
+
+pub use assemble::{Assembled, assemble};
+pub use compare::Compared;
+pub use error::{DemError, Failure};
+pub use examine::{Examination, examine};
+pub use foreseen::Cost;
+pub use model::{Load, Made, Model, Saved};
+pub use origin::Origin;
+pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};
+pub use run::{identity, run};
+pub use schema::editor_schema;
+pub use subject::DiscreteElements;
+pub use summary::{PluginInForce, Summary};
+pub use tables::{
+    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,
+    Plugins, Probe, Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple,
+    Wall, WaveLoad,
+};

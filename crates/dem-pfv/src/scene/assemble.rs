@@ -1,0 +1,152 @@
+//! From a scene to the system at the start of its preparation, and from there to the start of the run.
+
+use crate::coupled::{Condition, CoupledError, CoupledSystem, FlowSetup, Remeshing, Side, Wave};
+use crate::grains::{GrainError, GrainSystem};
+use crate::scene::error::DemError;
+use crate::scene::laws::{Laws, throats};
+use crate::scene::model::{Load, Model};
+use crate::scene::names::{BOX, planes};
+use crate::scene::origin::Origin;
+use crate::scene::prepare;
+use crate::scene::read::Loaded;
+use crate::scene::recorded;
+use crate::scene::tables::{self, Scene};
+use crate::scene::walls::{FAR, control};
+
+/// A scene ready to run.
+pub struct Assembled {
+    /// The system.
+    pub model: Model,
+    /// What measurements refer to.
+    pub origin: Origin,
+    /// Loads that change.
+    pub loads: Vec<Load>,
+}
+
+/// Puts a scene together and prepares its grains; tells what it does.
+///
+/// # Errors
+/// What the scene asks for and cannot be, by its key.
+pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled, DemError> {
+    let scene = &loaded.scene;
+    let laws = Laws::of(scene)?;
+    let mut grains = prepare::grains(loaded, laws, tell)?;
+    let mut origin = Origin::of(scene, &grains);
+    if let Some(test) = &scene.oedometer {
+        tell("loading the dry packing slowly");
+        origin.dry_strain = Some(prepare::dry_strain(scene, test, &grains)?);
+    }
+    run_controls(scene, &mut grains);
+    let damping = grains.set_damping(scene.run.damping);
+    damping.map_err(|e| DemError::at("run.damping", e))?;
+    grains.restart_clock();
+    let model = match &scene.fluid {
+        None => Model::Dry(Box::new(grains)),
+        Some(fluid) => {
+            let setup = flow(loaded, fluid)?;
+            let system = CoupledSystem::with_law(grains, setup, throats(scene)?);
+            let system = system.map_err(|e| DemError::at(key_of(&e), e))?;
+            if scene.oedometer.is_some() {
+                let mobility = system.mobility(2).map_err(|e| DemError::at("fluid", e))?;
+                origin.mobility = Some(mobility);
+            }
+            Model::Wet(Box::new(system))
+        }
+    };
+    let loads = loads(scene);
+    Ok(Assembled {
+        model,
+        origin,
+        loads,
+    })
+}
+
+/// The key that is most likely at fault.
+fn key_of(error: &CoupledError) -> &'static str {
+    match error {
+        CoupledError::Grains(GrainError::NoGrains) => "grains",
+        CoupledError::Grains(_) | CoupledError::Mesh(_) => "start",
+        _ => "fluid",
+    }
+}
+
+/// Loads that change with time.
+pub fn loads(scene: &Scene) -> Vec<Load> {
+    let names = planes(scene);
+    let all = names.iter().enumerate().filter_map(|(wall, name)| {
+        let piston = scene.wall.get(name)?.piston?;
+        Some(Load { wall, piston })
+    });
+    all.filter(Load::varies).collect()
+}
+
+/// What moves the walls in the run.
+fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
+    let mass: f64 = grains.grains().masses().iter().sum();
+    for (number, name) in planes(scene).iter().enumerate() {
+        let Some(table) = scene.wall.get(name) else {
+            continue;
+        };
+        let wall = &mut grains.walls_mut()[number];
+        if table.removed {
+            // Out of reach: the system keeps its walls.
+            let away = wall.normal * FAR;
+            wall.point -= away;
+        }
+        wall.velocity = table.velocity.unwrap_or_default().into();
+        wall.control = control(table, mass, |p| p.stress);
+    }
+    for (number, name) in crate::scene::names::surfaces(scene).iter().enumerate() {
+        if let Some(table) = scene.wall.get(name) {
+            let velocity = table.velocity.unwrap_or_default().into();
+            let spin = table.spin.unwrap_or_default().into();
+            // The numbers are finite: the schema saw them.
+            let _ = grains.steer_mesh(number, velocity, spin);
+        }
+    }
+}
+
+/// The fluid and its conditions.
+fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
+    let mut given = crate::coupled::Fluid::new(fluid.viscosity, fluid.density);
+    given.bulk_modulus = fluid.bulk_modulus;
+    given.shear = fluid.shear;
+    given.lubrication = fluid.lubrication.map(|l| crate::coupled::Lubrication {
+        roughness: l.roughness,
+        range: l.range,
+    });
+    let mut setup = FlowSetup::new(given).remeshing(Remeshing {
+        strain: Some(fluid.remesh_strain),
+        most_steps: fluid.remesh_steps,
+    });
+    for (number, name) in BOX.iter().enumerate() {
+        if let Some(table) = loaded.scene.wall.get(*name) {
+            setup = setup.side(number, side(loaded, name, table)?);
+        }
+    }
+    Ok(setup)
+}
+
+fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<Side, DemError> {
+    let wave = |w: &tables::WaveLoad| Wave {
+        axis: w.axis.number(),
+        crest: w.crest,
+        half_length: w.half_length,
+        amplitude: w.amplitude,
+        ramp: w.ramp,
+        period: w.period,
+    };
+    let condition = match (table.pressure, table.inflow, &table.wave) {
+        (Some(pressure), ..) => Condition::Pressure(pressure),
+        (_, Some(speed), _) => Condition::Inflow(speed),
+        (.., Some(load)) => Condition::Wave(wave(load)),
+        _ => match &table.recorded {
+            Some(load) => Condition::Recorded(recorded::read(&loaded.source, name, load)?),
+            None => Condition::Closed,
+        },
+    };
+    Ok(Side {
+        condition,
+        sticks: table.sticks,
+    })
+}

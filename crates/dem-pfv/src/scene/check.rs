@@ -1,0 +1,180 @@
+//! What a schema cannot say of a scene: names that must exist, tables that exclude each other.
+
+mod measurements;
+mod start;
+mod walls;
+
+use std::collections::BTreeMap;
+
+use scene_text::{SceneProblem, Source, suggestion};
+
+use crate::scene::error::DemError;
+use crate::scene::laws::{Laws, throats};
+use crate::scene::names::BOX;
+use crate::scene::tables::{Probe, Reference, Scene};
+
+/// Everything that is wrong.
+pub fn scene(
+    scene: &Scene,
+    probes: &BTreeMap<String, Probe>,
+    references: &BTreeMap<String, Reference>,
+    source: &Source,
+) -> Vec<SceneProblem> {
+    let mut found = Vec::new();
+    for problems in [Laws::of(scene).err(), throats(scene).err()]
+        .into_iter()
+        .flatten()
+    {
+        if let DemError::Scene(problems) = problems {
+            found.extend(problems);
+        }
+    }
+    start::start(scene, &mut found);
+    start::boxed(scene, &mut found);
+    for (name, wall) in &scene.wall {
+        walls::wall(scene, name, wall, &mut found);
+    }
+    fluid(scene, &mut found);
+    oedometer(scene, &mut found);
+    for (name, probe) in probes {
+        measurements::probe(scene, name, probe, &mut found);
+    }
+    for (name, reference) in references {
+        measurements::reference(scene, probes, name, reference, &mut found);
+    }
+    files(scene, references, source, &mut found);
+    output(scene, &mut found);
+    found
+}
+
+fn add(found: &mut Vec<SceneProblem>, path: impl Into<String>, message: impl Into<String>) {
+    found.push(SceneProblem::new(path, message));
+}
+
+fn fluid(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    let Some(fluid) = &scene.fluid else { return };
+    let Some(given) = &scene.r#box else {
+        return add(found, "fluid", "the fluid fills a box: `[box]` is missing");
+    };
+    if let Some(axis) = given.periodic.first() {
+        let message = format!("the fluid needs six walls, and the box is periodic along {axis:?}");
+        add(found, "box.periodic", message.to_lowercase());
+    }
+    if !given.open.is_empty() {
+        add(
+            found,
+            "box.open",
+            "the fluid needs six walls: give a wall a `pressure` instead",
+        );
+    }
+    for (name, wall) in &scene.wall {
+        if !BOX.contains(&name.as_str()) {
+            add(
+                found,
+                format!("wall.{name}"),
+                "the fluid knows the six walls of the box only",
+            );
+        }
+        if wall.removed {
+            add(
+                found,
+                format!("wall.{name}.removed"),
+                "the fluid needs six walls",
+            );
+        }
+    }
+    let pressed = scene
+        .wall
+        .values()
+        .any(|w| w.pressure.is_some() || w.wave.is_some() || w.recorded.is_some());
+    if !pressed && fluid.bulk_modulus.is_none() {
+        let message = "no wall has a `pressure`, a `wave` or what was `recorded`: pressures would be known but for a constant; give one, \
+                       or a `bulk_modulus`";
+        add(found, "fluid", message);
+    }
+}
+
+fn oedometer(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    let Some(test) = &scene.oedometer else { return };
+    let wall = scene.wall.get(&test.wall);
+    match wall.and_then(|w| w.piston.as_ref()) {
+        None => {
+            let pistons = scene.wall.iter().filter(|(_, w)| w.piston.is_some());
+            let near = suggestion(&test.wall, pistons.map(|(n, _)| n.as_str()));
+            add(
+                found,
+                "oedometer.wall",
+                format!("there is no piston `{}`{near}", test.wall),
+            );
+        }
+        Some(piston) if piston.prepared.is_none() => {
+            let message = "`prepared` is missing: the load is the step from it to `stress`";
+            add(found, format!("wall.{}.piston", test.wall), message);
+        }
+        Some(_) => {}
+    }
+    if scene.fluid.is_none() {
+        add(found, "oedometer", "needs a `[fluid]`");
+    }
+    if scene.start.settle.is_none_or(|tolerance| tolerance >= 1.0) {
+        add(
+            found,
+            "start",
+            "an oedometer test starts from rest: give `settle` below 1",
+        );
+    }
+}
+
+fn files(
+    scene: &Scene,
+    references: &BTreeMap<String, Reference>,
+    source: &Source,
+    found: &mut Vec<SceneProblem>,
+) {
+    let start = scene
+        .start
+        .file
+        .iter()
+        .map(|f| ("start.file".to_string(), f));
+    let walls = scene
+        .wall
+        .iter()
+        .filter_map(|(name, wall)| Some((format!("wall.{name}.file"), wall.file.as_ref()?)));
+    let compared = references
+        .iter()
+        .filter_map(|(name, reference)| match reference {
+            Reference::Scaling { file, .. } | Reference::Curve { file, .. } => {
+                Some((format!("reference.{name}.file"), file))
+            }
+            _ => None,
+        });
+    let recorded = scene.wall.iter().filter_map(|(name, wall)| {
+        let load = wall.recorded.as_ref()?;
+        Some((format!("wall.{name}.recorded.file"), &load.file))
+    });
+    for (key, file) in start.chain(walls).chain(recorded).chain(compared) {
+        if let Err(problem) = source.resolve(&key, file) {
+            add(found, key, problem.to_string());
+        }
+    }
+}
+
+fn output(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    if let Some(colours) = &scene.output.picture_range {
+        found.extend(colours.falling("output.picture_range"));
+    }
+    let wet = scene.fluid.is_some();
+    let names = || crate::scene::fields::names(wet);
+    let pictures = scene.output.picture.iter().enumerate();
+    let pictures = pictures.map(|(k, field)| (format!("output.picture[{k}]"), field));
+    let coloured = scene.output.picture_range.iter().flat_map(|r| r.fields());
+    let coloured = coloured.map(|field| (format!("output.picture_range.{field}"), field));
+    for (path, field) in pictures.chain(coloured) {
+        if !names().any(|n| n == field) {
+            let near = suggestion(field, names());
+            let known = names().collect::<Vec<_>>().join(", ");
+            let message = format!("there is no field `{field}`{near} (there are: {known})");
+            add(found, path, message);
+        }
+    }
+}

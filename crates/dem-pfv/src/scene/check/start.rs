@@ -1,0 +1,159 @@
+//! Mistakes of the start: its way, numbers and sizes of grains, the box.
+
+use scene_text::{SceneProblem, suggestion};
+
+use super::add;
+use crate::scene::names::{BOX, planes};
+use crate::scene::tables::Scene;
+
+/// What is wrong with the start.
+pub fn start(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    ways(scene, found);
+    numbers_and_sizes(scene, found);
+    room(scene, found);
+}
+
+/// How the grains get their places: one way of several.
+fn ways(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    let s = &scene.start;
+    let ways = [
+        ("cloud", s.cloud.is_some()),
+        ("grown", s.grown.is_some()),
+        ("rained", s.rained.is_some()),
+        ("lattice", s.lattice.is_some()),
+        ("file", s.file.is_some()),
+    ];
+    let given: Vec<_> = ways
+        .iter()
+        .filter(|(_, given)| *given)
+        .map(|(n, _)| *n)
+        .collect();
+    match given.as_slice() {
+        [] => add(
+            found,
+            "start",
+            "one of `cloud`, `grown`, `rained`, `lattice`, `file` is missing",
+        ),
+        [_] => {}
+        [.., last] => {
+            let told = given.join("`, `");
+            add(
+                found,
+                format!("start.{last}"),
+                format!("only one of `{told}` can be given"),
+            );
+        }
+    }
+}
+
+/// How many grains there are and how large, unless the start says it.
+fn numbers_and_sizes(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    let s = &scene.start;
+    let by_height = s.rained.as_ref().is_some_and(|r| r.height.is_some());
+    let counted = (s.cloud.is_some() || s.grown.is_some() || s.rained.is_some()) && !by_height;
+    match (counted, scene.grains.count) {
+        (true, None) => add(found, "grains", "`count` is missing"),
+        (false, Some(_)) => add(
+            found,
+            "grains.count",
+            "the start says how many grains there are: leave it out",
+        ),
+        _ => {}
+    }
+    if s.unit.is_some() && s.file.is_none() {
+        add(
+            found,
+            "start.unit",
+            "this is the unit of the numbers in a `file`",
+        );
+    }
+    match (s.file.is_some(), scene.grains.radius) {
+        (false, None) => add(
+            found,
+            "grains",
+            "`radius` is missing: the smallest and the largest",
+        ),
+        (true, Some(_)) => add(
+            found,
+            "grains.radius",
+            "the file has the radii: leave it out",
+        ),
+        (_, Some([low, _])) if low <= 0.0 => {
+            add(
+                found,
+                "grains.radius",
+                format!("must be more than 0 m, found {low}"),
+            );
+        }
+        (_, Some([low, high])) if low > high => {
+            add(
+                found,
+                "grains.radius",
+                format!("{low} m to {high} m: the smallest comes first"),
+            );
+        }
+        _ => {}
+    }
+    if let Some(grown) = &s.grown
+        && grown.stress.is_some() == grown.porosity.is_some()
+    {
+        add(
+            found,
+            "start.grown",
+            "either `stress` or `porosity` is needed",
+        );
+    }
+}
+
+/// The room that the grains start in.
+fn room(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    let s = &scene.start;
+    let needs_box = s.grown.is_some() || s.rained.is_some() || s.lattice.is_some();
+    let corners = s
+        .cloud
+        .as_ref()
+        .is_some_and(|c| c.low.is_some() && c.high.is_some());
+    if scene.r#box.is_none() && (needs_box || (s.cloud.is_some() && !corners)) {
+        add(
+            found,
+            "start",
+            "these grains fill a box: `[box]` is missing",
+        );
+    }
+    if s.headroom.is_some() && !planes(scene).iter().any(|p| p == "top") {
+        add(
+            found,
+            "start.headroom",
+            "there is no wall `top` to be moved",
+        );
+    }
+    if s.headroom.is_some() && s.settle.is_none() && s.rained.is_none() {
+        add(
+            found,
+            "start.headroom",
+            "the grains must come to rest first: give `settle`",
+        );
+    }
+}
+
+/// What is wrong with the box.
+pub fn boxed(scene: &Scene, found: &mut Vec<SceneProblem>) {
+    let Some(given) = &scene.r#box else { return };
+    for axis in 0..3 {
+        let (low, high) = (given.low[axis], given.high[axis]);
+        if low >= high {
+            let message = format!("must be above the lower corner: {high} m is not above {low} m");
+            add(found, format!("box.high[{axis}]"), message);
+        }
+    }
+    for (k, name) in given.open.iter().enumerate() {
+        if !BOX.contains(&name.as_str()) {
+            let near = suggestion(name, BOX);
+            let message = format!(
+                "there is no wall `{name}` of a box{near} (there are: {})",
+                BOX.join(", ")
+            );
+            add(found, format!("box.open[{k}]"), message);
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Everything a run needs to go on bit for bit.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sph_run::{SavedState, save_state};
+
+use crate::scene::error::DemError;
+use crate::scene::model::Saved;
+use crate::scene::origin::Origin;
+
+/// How far a run has come.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Progress {
+    /// Rows of the series written.
+    pub rows: u64,
+    /// Time of the last row, s.
+    pub last_row: Option<f64>,
+    /// Time of the last output of fields, s.
+    pub last_output: Option<f64>,
+    /// Bytes of the series.
+    pub series: u64,
+    /// Outputs of fields made.
+    pub outputs: u64,
+    /// Frames in the list for ParaView.
+    pub frames: usize,
+    /// Checkpoints made.
+    pub checkpoints: u64,
+    /// Ranges of the colours of pictures.
+    #[serde(default)]
+    pub colours: sph_io::ColourRanges,
+    /// The last step, s.
+    pub dt: f64,
+    /// Steps by what limited them.
+    pub limited: std::collections::BTreeMap<String, u64>,
+    /// Wall-clock time so far, s. Kept beside the state, which has the same bits in equal runs.
+    #[serde(skip)]
+    pub wall_seconds: f64,
+    /// That of the preparation, s.
+    #[serde(skip)]
+    pub preparation_seconds: f64,
+}
+
+/// The state itself.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct Kept {
+    /// The system.
+    pub model: Saved,
+    /// What measurements refer to.
+    pub origin: Origin,
+    /// How far it has come.
+    pub progress: Progress,
+}
+
+/// Writes a checkpoint; `scene` tells later whether it is one of the same scene.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn save(kept: &Kept, scene: &str, path: &Path) -> Result<(), DemError> {
+    let meta = serde_json::json!({
+        "method": "grains",
+        "scene": scene,
+        "wall_seconds": kept.progress.wall_seconds,
+        "preparation_seconds": kept.progress.preparation_seconds,
+    });
+    Ok(save_state(path, meta, kept)?)
+}
+
+/// Reads a checkpoint; with `changed` also one of another scene.
+///
+/// # Errors
+/// A file that cannot be read; one of another scene or of particles.
+pub fn load(scene: &str, changed: bool, path: &Path) -> Result<Kept, DemError> {
+    let saved = SavedState::load(path)?;
+    let refused = |why: &str| DemError::Resume(format!("{}: {why}", path.display()));
+    if saved.meta["method"] != "grains" {
+        return Err(refused("it is the checkpoint of a scene of particles"));
+    }
+    if saved.meta["scene"] != scene && !changed {
+        return Err(refused(
+            "the scene has changed since; --changed goes on all the same, or start without --resume",
+        ));
+    }
+    let mut kept: Kept = saved.state().map_err(|e| refused(&e))?;
+    let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
+    kept.progress.wall_seconds = seconds("wall_seconds");
+    kept.progress.preparation_seconds = seconds("preparation_seconds");
+    Ok(kept)
+}

@@ -1,0 +1,120 @@
+//! Fields of grains, for pictures and files.
+
+use crate::grains::{GrainSystem, Partner};
+use crate::scene::model::Model;
+use crate::scene::origin::Origin;
+
+/// Fields of every system: name and unit.
+const DRY: [(&str, &str); 5] = [
+    ("radius", "m"),
+    ("speed", "m/s"),
+    ("stress", "Pa"),
+    ("displacement", "m"),
+    ("contacts", ""),
+];
+/// Those that a fluid adds.
+const WET: [(&str, &str); 2] = [("pore_pressure", "Pa"), ("fluid_force", "N")];
+
+/// Names of the fields of a system.
+pub fn names(wet: bool) -> impl Iterator<Item = &'static str> {
+    let more = if wet { WET.len() } else { 0 };
+    DRY.iter().chain(&WET[..more]).map(|(name, _)| *name)
+}
+
+/// Unit of a field.
+pub fn unit(name: &str) -> &'static str {
+    let found = DRY.iter().chain(&WET).find(|(n, _)| *n == name);
+    found.map_or("", |(_, unit)| unit)
+}
+
+/// One number per grain; zeros for a name that is none.
+pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
+    let system = model.grains();
+    let grains = system.grains();
+    match name {
+        "radius" => grains.radii().to_vec(),
+        "speed" => grains.velocities().iter().map(|v| v.norm()).collect(),
+        // A third of the trace: the mean stress in the grain.
+        "stress" => system
+            .grain_stresses()
+            .iter()
+            .map(|s| s.trace() / 3.0)
+            .collect(),
+        "displacement" => displacements(system, origin)
+            .iter()
+            .map(|u| length(*u))
+            .collect(),
+        "contacts" => contacts(system),
+        "pore_pressure" => pore_pressures(model),
+        "fluid_force" => fluid_forces(model),
+        _ => vec![0.0; grains.len()],
+    }
+}
+
+fn length(u: [f64; 3]) -> f64 {
+    u.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Displacements since the start, m; those across the ends of a periodic axis by the nearest image.
+pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
+    let period = system.period();
+    let from = |(x, start): (&crate::grains::Vector, &[f64; 3])| {
+        std::array::from_fn(|k| {
+            let shift = x[k] - start[k];
+            match period[k] {
+                Some([low, high]) => shift - (shift / (high - low)).round() * (high - low),
+                None => shift,
+            }
+        })
+    };
+    system
+        .grains()
+        .positions()
+        .iter()
+        .zip(&origin.positions)
+        .map(from)
+        .collect()
+}
+
+fn contacts(system: &GrainSystem) -> Vec<f64> {
+    let mut count = vec![0.0; system.grains().len()];
+    for touch in system.contacts() {
+        count[touch.grain] += 1.0;
+        if let Partner::Grain(other) = touch.partner {
+            count[other] += 1.0;
+        }
+    }
+    count
+}
+
+/// Mean pressure of the pores around each grain, by their volumes, Pa.
+fn pore_pressures(model: &Model) -> Vec<f64> {
+    let mut sums = vec![[0.0; 2]; model.grains().grains().len()];
+    if let Some(system) = model.wet() {
+        let cells = system.pores().mesh().cells().iter();
+        for ((cell, p), volume) in cells.zip(system.pressures()).zip(system.volumes()) {
+            for vertex in cell.vertices() {
+                if let crate::triangulation::Vertex::Sphere(k) = vertex {
+                    sums[k][0] += p * volume;
+                    sums[k][1] += volume;
+                }
+            }
+        }
+    }
+    sums.iter()
+        .map(|[pv, v]| if *v > 0.0 { pv / v } else { 0.0 })
+        .collect()
+}
+
+/// Sizes of the fluid's forces, buoyancy apart, N.
+fn fluid_forces(model: &Model) -> Vec<f64> {
+    let system = model.grains();
+    let grains = system.grains();
+    let Some(wet) = model.wet() else {
+        return vec![0.0; grains.len()];
+    };
+    let lift = system.gravity() * wet.setup().fluid.density;
+    let volume = |r: &f64| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
+    let all = grains.external_forces().iter().zip(grains.radii());
+    all.map(|(f, r)| (f + lift * volume(r)).norm()).collect()
+}

@@ -1,0 +1,251 @@
+//! Spheres, contacts, pores and throats as files for ParaView, and pictures of spheres.
+
+use std::path::Path;
+
+use sph_io::{Cells, FieldData, Picture, Piece, View};
+
+use crate::grains::{GrainSystem, Partner};
+use crate::scene::error::DemError;
+use crate::scene::fields::{displacements, names, unit, values};
+use crate::scene::model::Model;
+use crate::scene::names::FAR_ENOUGH;
+use crate::scene::origin::Origin;
+use crate::triangulation::Vertex;
+
+/// Everything at one time: `spheres`, `contacts`, and with a fluid `pores` and `throats`.
+pub fn pieces(model: &Model, origin: &Origin) -> Vec<Piece<'static>> {
+    let mut all = vec![spheres(model, origin), contacts(model.grains())];
+    if model.wet().is_some() {
+        all.extend([pores(model), throats(model)].into_iter().flatten());
+    }
+    all
+}
+
+fn points(system: &GrainSystem) -> Vec<[f64; 3]> {
+    system
+        .grains()
+        .positions()
+        .iter()
+        .map(|x| [x.x, x.y, x.z])
+        .collect()
+}
+
+/// One point per grain; scale glyphs by `radius`.
+fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
+    let system = model.grains();
+    let vector = |name: &'static str, unit: &'static str, all: Vec<f64>| {
+        FieldData::tensor(name, unit, 3, all)
+    };
+    let velocity = system
+        .grains()
+        .velocities()
+        .iter()
+        .flat_map(|v| [v.x, v.y, v.z]);
+    let spin = system.grains().spins().iter().flat_map(|v| [v.x, v.y, v.z]);
+    let mut fields = vec![
+        vector("velocity", "m/s", velocity.collect()),
+        vector("spin", "1/s", spin.collect()),
+        vector("shift", "m", displacements(system, origin).concat()),
+    ];
+    for name in names(model.wet().is_some()) {
+        fields.push(FieldData::scalar(
+            name,
+            unit(name),
+            values(name, model, origin),
+        ));
+    }
+    fields.push(FieldData::integer(
+        "grain",
+        (0..system.grains().len() as u32).collect::<Vec<_>>(),
+    ));
+    Piece {
+        name: "spheres".into(),
+        points: points(system).into(),
+        cells: Cells::Vertices,
+        fields,
+    }
+}
+
+/// A line from centre to centre, or from the centre to the wall; the size of the force on it.
+fn contacts(system: &GrainSystem) -> Piece<'static> {
+    let mut ends = Vec::new();
+    let (mut normal, mut shear, mut wall) = (Vec::new(), Vec::new(), Vec::new());
+    let all = system.grains();
+    for touch in system.contacts() {
+        let from = all.positions()[touch.grain];
+        // The nearest image, which lies across the end of a periodic axis or does not.
+        let to = match touch.partner {
+            Partner::Grain(other) => {
+                from - touch.normal
+                    * (all.radii()[touch.grain] + all.radii()[other] - touch.overlap)
+            }
+            _ => touch.point,
+        };
+        ends.extend([[from.x, from.y, from.z], [to.x, to.y, to.z]]);
+        let along = touch.force.dot(&touch.normal);
+        normal.push(along);
+        shear.push((touch.force - touch.normal * along).norm());
+        wall.push(u32::from(!matches!(touch.partner, Partner::Grain(_))));
+    }
+    let lines: Vec<[u32; 2]> = (0..ends.len() as u32 / 2)
+        .map(|k| [2 * k, 2 * k + 1])
+        .collect();
+    Piece {
+        name: "contacts".into(),
+        points: ends.into(),
+        cells: Cells::Segments(lines.into()),
+        fields: vec![
+            FieldData::scalar("normal_force", "N", normal).at_cells(),
+            FieldData::scalar("shear_force", "N", shear).at_cells(),
+            FieldData::integer("at_wall", wall).at_cells(),
+        ],
+    }
+}
+
+/// Tetrahedra between four grains; a vertex that is a wall is put on it, below the mean of the grains.
+fn pores(model: &Model) -> Option<Piece<'static>> {
+    let system = model.wet()?;
+    let mesh = system.pores().mesh();
+    let mut places = points(model.grains());
+    let mut cells = Vec::new();
+    for cell in mesh.cells() {
+        let vertices = cell.vertices();
+        let centres = vertices.iter().filter_map(|v| match v {
+            Vertex::Sphere(k) => Some(mesh.spheres()[*k].centre),
+            Vertex::Wall(_) => None,
+        });
+        let count = (4 - cell.walls()).max(1) as f64;
+        let mean = centres.sum::<crate::grains::Vector>() / count;
+        cells.push(vertices.map(|v| match v {
+            Vertex::Sphere(k) => k as u32,
+            Vertex::Wall(w) => {
+                let wall = &mesh.walls()[w];
+                let foot = mean - wall.normal * wall.distance(mean);
+                places.push([foot.x, foot.y, foot.z]);
+                places.len() as u32 - 1
+            }
+        }));
+    }
+    let rates = system.volume_rates().iter().zip(system.volumes());
+    let rates: Vec<f64> = rates.map(|(rate, volume)| rate / volume).collect();
+    let voids = system.pores().void_volumes().to_vec();
+    Some(Piece {
+        name: "pores".into(),
+        points: places.into(),
+        cells: Cells::Tetrahedra(cells.into()),
+        fields: vec![
+            FieldData::scalar("pressure", "Pa", system.pressures().to_vec()).at_cells(),
+            FieldData::scalar("volume", "m³", system.volumes().to_vec()).at_cells(),
+            FieldData::scalar("void", "m³", voids).at_cells(),
+            FieldData::scalar("strain_rate", "1/s", rates).at_cells(),
+        ],
+    })
+}
+
+/// A line between the places of two pores, with what the throat between them lets through.
+fn throats(model: &Model) -> Option<Piece<'static>> {
+    let system = model.wet()?;
+    let places: Vec<[f64; 3]> = system
+        .pore_places()
+        .iter()
+        .map(|x| [x.x, x.y, x.z])
+        .collect();
+    let all = system.pores().throats();
+    let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
+    let difference = all.iter().map(|t| {
+        let [i, j] = t.cells;
+        system.pressures()[i] - system.pressures()[j]
+    });
+    let radius = all
+        .iter()
+        .map(|t| t.hydraulic_radius())
+        .map(|r| if r.is_finite() { r } else { 0.0 });
+    Some(Piece {
+        name: "throats".into(),
+        points: places.into(),
+        cells: Cells::Segments(lines.into()),
+        fields: vec![
+            FieldData::scalar("pressure_difference", "Pa", difference.collect::<Vec<_>>())
+                .at_cells(),
+            FieldData::scalar("hydraulic_radius", "m", radius.collect::<Vec<_>>()).at_cells(),
+            FieldData::scalar(
+                "fluid_area",
+                "m²",
+                all.iter().map(|t| t.fluid_area).collect::<Vec<_>>(),
+            )
+            .at_cells(),
+        ],
+    })
+}
+
+/// A picture of the spheres seen along y, coloured by a field; a grain may be ringed.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn picture(
+    model: &Model,
+    origin: &Origin,
+    field: &str,
+    range: Option<[f64; 2]>,
+    title: &str,
+    ring: Option<[f64; 3]>,
+    path: &Path,
+) -> Result<(), DemError> {
+    let system = model.grains();
+    let points = points(system);
+    let values = values(field, model, origin);
+    let diameters: Vec<f64> = system.grains().radii().iter().map(|r| 2.0 * r).collect();
+    let label = match unit(field) {
+        "" => field.replace('_', " "),
+        unit => format!("{} [{unit}]", field.replace('_', " ")),
+    };
+    let walls = walls(system, &points);
+    let picture = Picture {
+        title,
+        time: Some(system.time()),
+        label: &label,
+        diameter: origin.diameter,
+        diameters: &diameters,
+        walls: &walls,
+        view: View::Front,
+        range,
+        ring,
+        ..Picture::of(&points, &values)
+    };
+    Ok(picture.save(path)?)
+}
+
+/// Walls across x and z as lines around what there is.
+fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
+    let largest = system.grains().radii().iter().copied().fold(0.0, f64::max);
+    let ends = |axis: usize| {
+        let all = points.iter().map(|p| p[axis]).filter(|x| x.is_finite());
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+            (l.min(x), h.max(x))
+        });
+        let near = system
+            .walls()
+            .iter()
+            .filter(|w| w.normal[axis].abs() > 0.99 && w.point[axis].abs() < FAR_ENOUGH);
+        near.map(|w| w.point[axis])
+            .fold((low - largest, high + largest), |(l, h), x| {
+                (l.min(x), h.max(x))
+            })
+    };
+    let (x, z) = (ends(0), ends(2));
+    let standing = |w: &crate::grains::Wall| w.normal.y.abs() < 0.01 && w.point.amax() < FAR_ENOUGH;
+    let line = |w: &crate::grains::Wall| {
+        let p = w.point;
+        match w.normal.x.abs() > w.normal.z.abs() {
+            // z = p.z + s n_x, x = p.x − s n_z: a point at each end of the picture.
+            true => [z.0, z.1].map(|at| [p.x - (at - p.z) * w.normal.z / w.normal.x, 0.0, at]),
+            false => [x.0, x.1].map(|at| [at, 0.0, p.z - (at - p.x) * w.normal.x / w.normal.z]),
+        }
+    };
+    system
+        .walls()
+        .iter()
+        .filter(|w| standing(w))
+        .map(line)
+        .collect()
+}

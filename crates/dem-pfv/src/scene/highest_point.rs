@@ -1,0 +1,10 @@
+//! How high grains reach.
+
+use crate::grains::GrainSystem;
+
+/// The highest point of a grain, m.
+pub fn highest(system: &GrainSystem) -> f64 {
+    let grains = system.grains();
+    let tops = grains.positions().iter().zip(grains.radii());
+    tops.map(|(x, r)| x.z + r).fold(f64::NEG_INFINITY, f64::max)
+}

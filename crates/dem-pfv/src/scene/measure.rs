@@ -1,0 +1,212 @@
+//! What probes measure.
+
+use std::f64::consts::PI;
+
+use crate::grains::{GrainSystem, Vector, Wall};
+use crate::scene::fields::displacements;
+use crate::scene::highest_point::highest;
+use crate::scene::level::level;
+use crate::scene::model::Model;
+use crate::scene::names::planes;
+use crate::scene::origin::Origin;
+use crate::scene::tables::{Probe, Scene};
+
+/// Unit of what a probe measures.
+pub fn unit(probe: &Probe) -> &'static str {
+    match probe {
+        Probe::Stress { .. } | Probe::EffectiveStress { .. } | Probe::Deviator { .. } => "Pa",
+        Probe::Amplitude { .. } => "Pa",
+        Probe::Flux { .. } => "m³/s",
+        Probe::Permeability { .. } => "m²",
+        Probe::Pressure { over: None, .. } => "Pa",
+        Probe::Top {} | Probe::Settlement {} => "m",
+        Probe::Level { .. } | Probe::Displacement { .. } => "m",
+        _ => "",
+    }
+}
+
+/// What a probe measures now; not a number where there is nothing to measure.
+pub fn value(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> f64 {
+    measured(probe, scene, model, origin).unwrap_or(f64::NAN)
+}
+
+fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Option<f64> {
+    let grains = model.grains();
+    let wall = |name: &str| {
+        let number = planes(scene).iter().position(|p| p == name)?;
+        Some((number, grains.walls().get(number)?))
+    };
+    match probe {
+        Probe::Stress { wall: name } => grains.wall_stress(wall(name)?.0).ok(),
+        Probe::Borne { wall: name } => {
+            let weight = buoyant_weight(model);
+            let wall: &Wall = wall(name)?.1;
+            (weight > 0.0).then(|| -wall.force().dot(&wall.normal) / weight)
+        }
+        Probe::Carried {} => {
+            let (wet, weight) = (model.wet()?, buoyant_weight(model));
+            let up = -grains.gravity().normalize();
+            (weight > 0.0).then(|| wet.drag().dot(&up) / weight)
+        }
+        Probe::Pressure {
+            axis,
+            from,
+            to,
+            over,
+        } => {
+            let pressure = model.wet()?.layer_pressure(axis.number(), *from, *to)?;
+            Some(pressure / over.unwrap_or(1.0))
+        }
+        Probe::Gradient {
+            axis,
+            from,
+            to,
+            between,
+        } => {
+            let [left, right] = between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+            gradient(model, axis.number(), [*from, *to], [left, right])
+        }
+        Probe::EffectiveStress { axis, at } => grains.effective_stress(axis.number(), *at).ok(),
+        Probe::Strain { axis } => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some(-(now[axis.number()] / start[axis.number()]).ln())
+        }
+        Probe::VolumetricStrain {} => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
+        }
+        Probe::Deviator { axis } => deviator(grains, axis.number()),
+        Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
+        Probe::Top {} => Some(highest(grains)),
+        Probe::Level { axis, from, to } => {
+            let room = scene.r#box.as_ref()?;
+            level(grains, [room.low, room.high], axis.number(), [*from, *to])
+        }
+        Probe::Settlement {} => {
+            let heights = displacements(grains, origin);
+            let sum: f64 = heights.iter().map(|u| u[2]).sum();
+            Some(-sum / heights.len() as f64)
+        }
+        Probe::Consolidation {} => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some((start[2] - now[2]) / start[2] / origin.dry_strain?)
+        }
+        Probe::RunOut { axis, length } => Some((deposit(grains, axis.number()) - length) / length),
+        Probe::Displacement { axis, low, high } => {
+            let inside = |x: &[f64; 3]| (0..3).all(|k| (low[k]..=high[k]).contains(&x[k]));
+            let all = displacements(grains, origin);
+            let moved = all.iter().zip(&origin.positions).filter(|(_, x)| inside(x));
+            let (sum, count) = moved.fold((0.0, 0), |(s, n), (u, _)| (s + u[axis.number()], n + 1));
+            (count > 0).then(|| sum / f64::from(count))
+        }
+        Probe::Flux { wall: name } => model.wet()?.inflow(wall(name)?.0),
+        Probe::Permeability { axis } => {
+            let wet = model.wet()?;
+            Some(wet.setup().fluid.viscosity * wet.mobility(axis.number()).ok()?)
+        }
+        Probe::Amplitude { wall: name } => {
+            let wave = scene.wall.get(name)?.wave.as_ref()?;
+            Some(wave.amplitude + wave.ramp * grains.time())
+        }
+    }
+}
+
+/// Size of the weight of the grains less buoyancy, N; the weight itself where there is no fluid.
+pub fn buoyant_weight(model: &Model) -> f64 {
+    match model {
+        Model::Wet(system) => system.buoyant_weight().norm(),
+        Model::Dry(system) => {
+            system.gravity().norm() * system.grains().masses().iter().sum::<f64>()
+        }
+    }
+}
+
+/// Slope −dp/dx of the pores in a part of the box, by least squares and volumes, over (ρ_s − ρ_f) g (1 − n) of the layer.
+fn gradient(
+    model: &Model,
+    axis: usize,
+    [from, to]: [f64; 2],
+    [left, right]: [f64; 2],
+) -> Option<f64> {
+    let system = model.wet()?;
+    let inside = |x: &Vector| (from..to).contains(&x[axis]) && (left..=right).contains(&x.x);
+    let grains = model.grains();
+    let solid: f64 = grains.grains().radii().iter().map(|r| sphere(*r)).sum();
+    let weight = buoyant_weight(model) / solid * (1.0 - porosity(grains, axis, from, to)?);
+    let slope = system.gradient(axis, inside)?;
+    (weight > 0.0).then(|| slope / weight)
+}
+
+fn deviator(grains: &GrainSystem, axis: usize) -> Option<f64> {
+    let mut sums = [0.0; 2];
+    for wall in 0..6 {
+        let stress = grains.wall_stress(wall).ok()?;
+        match wall / 2 == axis {
+            true => sums[0] += 0.5 * stress,
+            false => sums[1] += 0.25 * stress,
+        }
+    }
+    Some(sums[0] - sums[1])
+}
+
+fn sphere(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * radius.powi(3)
+}
+
+/// Volume of a sphere on the lower side of a plane, m³; `up` is the plane's distance from the centre.
+fn below(radius: f64, up: f64) -> f64 {
+    let h = (up + radius).clamp(0.0, 2.0 * radius);
+    PI * h * h * (radius - h / 3.0)
+}
+
+/// Porosity between two planes across an axis of a closed box.
+fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64> {
+    let lengths = grains.box_lengths()?;
+    let area = lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3];
+    let all = grains.grains();
+    let parts = all.positions().iter().zip(all.radii());
+    let solid: f64 = parts
+        .map(|(x, r)| below(*r, to - x[axis]) - below(*r, from - x[axis]))
+        .sum();
+    Some(1.0 - solid / (area * (to - from)))
+}
+
+/// How far a deposit goes on along an axis from where it begins, m: to the first slice of two diameters that holds less
+/// than a layer of grains would with six tenths of its places taken.
+fn deposit(grains: &GrainSystem, axis: usize) -> f64 {
+    let all = grains.grains();
+    let diameter = 2.0 * all.radii().iter().sum::<f64>() / all.len() as f64;
+    let slice = 2.0 * diameter;
+    let across = if axis == 0 { 1 } else { 0 };
+    let width = match grains.period()[across] {
+        Some([low, high]) => high - low,
+        None => {
+            let ends = all
+                .positions()
+                .iter()
+                .zip(all.radii())
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, r)| {
+                    (low.min(x[across] - r), high.max(x[across] + r))
+                });
+            ends.1 - ends.0
+        }
+    };
+    let begin = grains.walls().iter().find(|w| w.normal[axis] > 0.5);
+    let begin = begin.map_or(0.0, |w| w.point[axis]);
+    let mut volumes: Vec<f64> = Vec::new();
+    for (x, r) in all.positions().iter().zip(all.radii()) {
+        let place = (x[axis] - begin) / slice;
+        // Beyond ten thousand slices nothing belongs to a deposit.
+        if !(0.0..1e4).contains(&place) {
+            continue;
+        }
+        let k = place as usize;
+        if volumes.len() <= k {
+            volumes.resize(k + 1, 0.0);
+        }
+        volumes[k] += sphere(*r);
+    }
+    let layer = 0.6 * slice * width * diameter;
+    let thin = volumes.iter().position(|v| *v < layer);
+    thin.unwrap_or(volumes.len()) as f64 * slice
+}

@@ -1,0 +1,199 @@
+//! The system of a scene: grains alone, or grains in a fluid.
+
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::{CoupledError, CoupledSystem};
+use crate::flow::Conductance;
+use crate::grains::{ContactLaw, Control, GrainSystem};
+use crate::scene::error::{Failure, grain_of};
+use crate::scene::tables::Piston;
+
+/// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
+const MOTION_SHARE: f64 = 0.1;
+
+/// Grains alone, or in a fluid.
+pub enum Model {
+    /// Dry.
+    Dry(Box<GrainSystem>),
+    /// Coupled to the flow in the pores.
+    Wet(Box<CoupledSystem>),
+}
+
+/// What must be kept of it.
+#[derive(Debug, Deserialize, Serialize)]
+pub enum Saved {
+    /// Dry.
+    Dry(Box<crate::grains::State>),
+    /// Coupled.
+    Wet(Box<crate::coupled::State>),
+}
+
+/// A step that was made.
+#[derive(Clone, Copy, Debug)]
+pub struct Made {
+    /// Its length, s.
+    pub step: f64,
+    /// What limited it.
+    pub limiter: &'static str,
+}
+
+/// The load of a piston that changes.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Number of the wall.
+    pub wall: usize,
+    /// σ(t).
+    pub piston: Piston,
+}
+
+impl Load {
+    /// σ at a time (s), Pa.
+    fn stress(&self, time: f64) -> f64 {
+        let p = &self.piston;
+        let swing = p.period.map_or(0.0, |period| {
+            p.amplitude * (2.0 * std::f64::consts::PI * time / period).sin()
+        });
+        p.stress + p.ramp * time + swing
+    }
+
+    /// Whether it changes at all.
+    pub fn varies(&self) -> bool {
+        self.piston.ramp != 0.0 || self.piston.amplitude != 0.0
+    }
+}
+
+impl Model {
+    /// The grains.
+    #[must_use]
+    pub fn grains(&self) -> &GrainSystem {
+        match self {
+            Self::Dry(system) => system,
+            Self::Wet(system) => system.grains(),
+        }
+    }
+
+    fn grains_mut(&mut self) -> &mut GrainSystem {
+        match self {
+            Self::Dry(system) => system,
+            Self::Wet(system) => system.grains_mut(),
+        }
+    }
+
+    /// The coupled system, if there is a fluid.
+    #[must_use]
+    pub fn wet(&self) -> Option<&CoupledSystem> {
+        match self {
+            Self::Dry(_) => None,
+            Self::Wet(system) => Some(system),
+        }
+    }
+
+    /// Lets every step measure what flows through walls, if there is a fluid.
+    pub fn measure_inflow(&mut self) {
+        if let Self::Wet(system) = self {
+            system.measure_inflow();
+        }
+    }
+
+    /// Sets the loads of the time that is now.
+    pub fn apply(&mut self, loads: &[Load]) {
+        for load in loads {
+            let stress = load.stress(self.grains().time());
+            if let Some(wall) = self.grains_mut().walls_mut().get_mut(load.wall)
+                && let Control::Piston { mass, .. } = wall.control
+            {
+                wall.control = Control::Piston { stress, mass };
+            }
+        }
+    }
+
+    /// One step of a share `safety` of the largest stable one, but not beyond `end` (s).
+    ///
+    /// # Errors
+    /// What went wrong, with the grain, the wall or the cell.
+    pub fn advance(&mut self, safety: f64, end: f64) -> Result<Made, Box<Failure>> {
+        let made = self.try_advance(safety, end);
+        made.map_err(|error| Box::new(self.failure(error)))
+    }
+
+    fn try_advance(&mut self, safety: f64, end: f64) -> Result<Made, CoupledError> {
+        let left = (end - self.grains().time()).max(0.0);
+        // The last step is shortened, but not to nothing.
+        let cut = |step: f64| {
+            if left < step {
+                left.max(1e-3 * step)
+            } else {
+                step
+            }
+        };
+        let motion = |grains: &GrainSystem| grains.motion_limit(MOTION_SHARE);
+        match self {
+            Self::Dry(system) => {
+                let (contacts, motion) = (safety * system.current_limit(), motion(system));
+                let step = cut(contacts.min(motion));
+                system.step(step)?;
+                let limiter = if motion < contacts {
+                    "motion"
+                } else {
+                    "contacts"
+                };
+                Ok(Made { step, limiter })
+            }
+            Self::Wet(system) => {
+                let limit = system.step_limit()?;
+                let (stable, motion) = (safety * limit.step, motion(system.grains()));
+                let step = cut(stable.min(motion));
+                system.step_unchecked(step)?;
+                let limiter = if motion < stable {
+                    "motion"
+                } else if limit.elastic < limit.viscous {
+                    "contacts"
+                } else {
+                    "drag"
+                };
+                Ok(Made { step, limiter })
+            }
+        }
+    }
+
+    fn failure(&self, error: CoupledError) -> Failure {
+        let grains = self.grains();
+        let grain = grain_of(&error);
+        let position = grain.and_then(|k| grains.grains().positions().get(k));
+        Failure {
+            time: grains.time(),
+            step: grains.steps(),
+            position: position.map(|x| [x.x, x.y, x.z]),
+            grain,
+            error,
+            named: String::new(),
+        }
+    }
+
+    /// What must be kept to go on bit for bit.
+    #[must_use]
+    pub fn save(&self) -> Saved {
+        match self {
+            Self::Dry(system) => Saved::Dry(Box::new(system.save())),
+            Self::Wet(system) => Saved::Wet(Box::new(system.save())),
+        }
+    }
+
+    /// Goes on from what was kept, with the laws of the scene.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together.
+    pub fn resume(
+        saved: Saved,
+        laws: Vec<Box<dyn ContactLaw>>,
+        throats: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        Ok(match saved {
+            Saved::Dry(state) => Self::Dry(Box::new(GrainSystem::resume(*state, laws)?)),
+            Saved::Wet(state) => {
+                let system = CoupledSystem::resume_with_law(*state, laws, throats)?;
+                Self::Wet(Box::new(system))
+            }
+        })
+    }
+}

@@ -1,0 +1,315 @@
+//! Grains at the start: placed, grown, rained, settled.
+
+use std::f64::consts::PI;
+
+use crate::grains::{
+    Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, settle, uniform_radii,
+};
+use crate::scene::at_fault::{at_start, named, rows};
+use crate::scene::error::DemError;
+use crate::scene::highest_point::highest;
+use crate::scene::laws::Laws;
+use crate::scene::names::planes;
+use crate::scene::read::Loaded;
+use crate::scene::tables::{Lattice, Oedometer, Scene};
+use crate::scene::walls::{FAR, control, setup};
+
+/// Porosity at which a poured bed is expected to lie.
+pub(crate) const POURED: f64 = 0.4;
+/// Share of the box that grains fill before they grow.
+const BEFORE_GROWTH: f64 = 0.25;
+
+/// The grains of a scene, prepared, with the laws of the run.
+///
+/// # Errors
+/// What cannot be placed, grown or settled.
+pub fn grains(
+    loaded: &Loaded,
+    mut laws: Laws,
+    tell: &mut dyn FnMut(&str),
+) -> Result<GrainSystem, DemError> {
+    let scene = &loaded.scene;
+    let placed = place(loaded)?;
+    let prepared = laws.prepared.take();
+    let mut setup = setup(loaded, placed, laws)?;
+    let top = planes(scene).iter().position(|p| p == "top");
+    let poured = scene.start.rained.is_some();
+    if let (true, Some(top)) = (poured, top) {
+        setup.walls[top].point.z += FAR;
+    }
+    let mut run_law = None;
+    if let Some(law) = prepared {
+        run_law = Some(std::mem::replace(&mut setup.laws[0], law));
+    }
+    let told = |e: GrainError| at_start(loaded, e);
+    let mut system = GrainSystem::new(setup).map_err(told)?;
+    if let Some(grown) = &scene.start.grown {
+        let target = match (grown.stress, grown.porosity) {
+            (Some(stress), _) => Target::Stress(stress),
+            (None, Some(porosity)) => Target::Porosity(porosity),
+            (None, None) => return Err(DemError::at("start.grown", "has no target")),
+        };
+        tell("growing the grains");
+        let growth = Growth {
+            target,
+            fast: grown.fast,
+            slow: grown.slow,
+            safety: scene.start.safety,
+            tolerance: grown.tolerance,
+            most_steps: scene.start.most_steps,
+        };
+        // Under its own weight a heap would press on the floor before there is a packing.
+        let gravity = system.gravity();
+        system.set_gravity(Default::default());
+        let steps = growth.run(&mut system);
+        system.set_gravity(gravity);
+        let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
+        tell(&format!("grown in {steps} steps{}", porosity(&system)));
+    }
+    settled(loaded, &mut system, tell)?;
+    if let Some(law) = run_law {
+        system.replace_law(0, law).map_err(told)?;
+    }
+    lower_the_top(scene, &mut system, top)?;
+    Ok(system)
+}
+
+fn porosity(system: &GrainSystem) -> String {
+    match system.porosity() {
+        Some(n) => format!(", porosity {n:.4}"),
+        None => String::new(),
+    }
+}
+
+/// Lets the grains come to rest under gravity and the prepared stress of pistons; in a fluid under their buoyant weight, as
+/// if they were laid down slowly there.
+fn settled(
+    loaded: &Loaded,
+    system: &mut GrainSystem,
+    tell: &mut dyn FnMut(&str),
+) -> Result<(), DemError> {
+    let scene = &loaded.scene;
+    let poured = scene.start.rained.as_ref().map(|_| 1e-2);
+    let Some(tolerance) = scene.start.settle.or(poured) else {
+        return Ok(());
+    };
+    if tolerance >= 1.0 {
+        tell(&format!(
+            "`start.settle` is {tolerance}, and 1 is free fall: the grains start as they are"
+        ));
+        return Ok(());
+    }
+    tell("letting the grains settle");
+    let mass: f64 = system.grains().masses().iter().sum();
+    for (number, name) in planes(scene).iter().enumerate() {
+        if let Some(table) = scene.wall.get(name)
+            && table.piston.is_some()
+        {
+            let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
+            system.walls_mut()[number].control = before;
+        }
+    }
+    let gravity = system.gravity();
+    if let Some(fluid) = &scene.fluid {
+        system.set_gravity(gravity * (1.0 - fluid.density / scene.grains.density));
+    }
+    let steps = settle(
+        system,
+        scene.start.safety,
+        tolerance,
+        scene.start.most_steps,
+    );
+    system.set_gravity(gravity);
+    let steps = steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
+    tell(&format!("settled in {steps} steps"));
+    Ok(())
+}
+
+/// Puts the top of the box above the grains, or finds that they fit under it.
+fn lower_the_top(
+    scene: &Scene,
+    system: &mut GrainSystem,
+    top: Option<usize>,
+) -> Result<(), DemError> {
+    let (Some(top), Some(given)) = (top, &scene.r#box) else {
+        return Ok(());
+    };
+    let highest = highest(system);
+    let at = match scene.start.headroom {
+        Some(room) => highest + room,
+        None if scene.start.rained.is_some() => given.high[2],
+        None => return Ok(()),
+    };
+    if highest > at {
+        let message = format!(
+            "the grains lie {highest} m high, above the top of the box: give `start.headroom`"
+        );
+        return Err(DemError::at("box.high", message));
+    }
+    system.walls_mut()[top].point.z = at;
+    Ok(())
+}
+
+/// Volume of spheres, m³.
+pub(crate) fn volume(radii: &[f64]) -> f64 {
+    radii.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
+}
+
+/// Grains at their first places.
+fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
+    let scene = &loaded.scene;
+    let (start, seed) = (&scene.start, scene.grains.seed);
+    let told = |e: GrainError| DemError::at("start", e);
+    let density = scene.grains.density;
+    if let Some(file) = &start.file {
+        return from_file(loaded, file);
+    }
+    let [small, large] = scene.grains.radius.unwrap_or_default();
+    let draw = |count: usize| uniform_radii(count, small, large, seed);
+    let (low, high) = match &scene.r#box {
+        Some(b) => (b.low, b.high),
+        None => Default::default(),
+    };
+    let size: [f64; 3] = std::array::from_fn(|k| high[k] - low[k]);
+    let count = scene.grains.count.unwrap_or_default();
+    if let Some(lattice) = &start.lattice {
+        return lattice_of(scene, lattice, low, size);
+    }
+    if let Some(rained) = &start.rained {
+        let mean = volume(&draw(10_000)) / 1e4;
+        let wanted = rained.height.map(|height| {
+            ((1.0 - POURED) * size[0] * size[1] * height / mean)
+                .round()
+                .max(1.0) as usize
+        });
+        let radii = draw(wanted.unwrap_or(count));
+        return rain(
+            low,
+            [high[0], high[1]],
+            &radii,
+            density,
+            rained.porosity,
+            seed,
+        )
+        .map_err(told);
+    }
+    let mut radii = draw(count);
+    let mut cloud = Cloud::new(low, high);
+    match &start.cloud {
+        Some(part) => cloud = Cloud::new(part.low.unwrap_or(low), part.high.unwrap_or(high)),
+        None => {
+            let room = BEFORE_GROWTH * size.iter().product::<f64>();
+            let factor = (room / volume(&radii)).cbrt();
+            radii.iter_mut().for_each(|r| *r *= factor);
+        }
+    }
+    if let Some(b) = scene
+        .r#box
+        .as_ref()
+        .filter(|_| start.cloud.as_ref().is_none_or(|c| c.low.is_none()))
+    {
+        for axis in &b.periodic {
+            cloud = cloud.periodic(axis.number());
+        }
+    }
+    let places = cloud.place(&radii, seed).map_err(told)?;
+    let grains = places.iter().zip(&radii);
+    Ok(grains
+        .map(|(x, r)| Grain::new((*x).into(), *r, density))
+        .collect())
+}
+
+fn lattice_of(
+    scene: &Scene,
+    lattice: &Lattice,
+    low: [f64; 3],
+    size: [f64; 3],
+) -> Result<Vec<Grain>, DemError> {
+    let [nx, ny, nz] = lattice.count.map(|n| n as usize);
+    let [small, large] = scene.grains.radius.unwrap_or_default();
+    let (count, seed) = (nx * ny * nz, scene.grains.seed);
+    let radii = uniform_radii(count, small, large, seed);
+    // Even numbers, drawn as radii are.
+    let shifts = uniform_radii(
+        3 * count,
+        -lattice.jitter,
+        lattice.jitter,
+        seed.wrapping_add(1),
+    );
+    let grain = |k: usize| {
+        let cell = [k % nx, k / nx % ny, k / (nx * ny)];
+        let at = std::array::from_fn(|axis| {
+            let step = size[axis] / f64::from(lattice.count[axis]);
+            low[axis] + step * (cell[axis] as f64 + 0.5 + shifts[3 * k + axis])
+        });
+        Grain::new(at, radii[k], scene.grains.density)
+    };
+    Ok((0..count).map(grain).collect())
+}
+
+pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
+    let key = "start.file";
+    let path = loaded.source.resolve(key, file);
+    let path = path.map_err(|e| DemError::at(key, e))?;
+    let told = |why: String| DemError::at(key, format!("`{}`: {why}", path.display()));
+    let text = scene_text::read_text(&path).map_err(told)?;
+    let unit = loaded.scene.start.unit.as_deref();
+    let factor = unit.map_or(Ok(1.0), |unit| scene_text::unit_factor(unit, "m"));
+    let factor = factor.map_err(|why| DemError::at("start.unit", why))?;
+    let mut grains = Vec::new();
+    for (line, row) in rows(&text) {
+        let words = row
+            .split(|c: char| c == ',' || c.is_whitespace())
+            .filter(|w| !w.is_empty());
+        let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
+        match numbers.as_deref() {
+            Ok([x, y, z, r]) => {
+                let at = [x, y, z].map(|c| factor * c);
+                grains.push(Grain::new(at, factor * r, loaded.scene.grains.density))
+            }
+            Ok(other) => {
+                return Err(told(format!(
+                    "line {line}: expected x y z r, found {} numbers",
+                    other.len()
+                )));
+            }
+            Err(_) => {
+                return Err(told(format!(
+                    "line {line}: expected x y z r, found `{row}`"
+                )));
+            }
+        }
+    }
+    match grains.is_empty() {
+        true => Err(told("holds no spheres".into())),
+        false => Ok(grains),
+    }
+}
+
+/// Strain of the box along z under the load of an oedometer when it comes dry and in parts that settle.
+///
+/// # Errors
+/// What does not settle.
+pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Result<f64, DemError> {
+    let key = "oedometer";
+    let told = |e: GrainError| DemError::at(key, e);
+    let laws = Laws::of(scene)?.all;
+    let mut dry = GrainSystem::resume(grains.save(), laws).map_err(told)?;
+    let wall = planes(scene).iter().position(|p| *p == test.wall);
+    let piston = scene.wall.get(&test.wall).and_then(|w| w.piston.as_ref());
+    let (Some(wall), Some(piston)) = (wall, piston) else {
+        return Err(DemError::at(key, "has no piston"));
+    };
+    let height = |s: &GrainSystem| s.box_lengths().map_or(f64::NAN, |l| l[2]);
+    let before = piston.prepared.unwrap_or(piston.stress);
+    let mass = piston.mass_share * grains.grains().masses().iter().sum::<f64>();
+    let (safety, most) = (0.8, scene.start.most_steps);
+    for part in 1..=test.parts {
+        let share = f64::from(part) / f64::from(test.parts);
+        let stress = before + (piston.stress - before) * share;
+        dry.walls_mut()[wall].control = crate::grains::Control::Piston { stress, mass };
+        settle(&mut dry, safety, 1e-4, most).map_err(told)?;
+    }
+    settle(&mut dry, safety, 1e-6, most).map_err(told)?;
+    Ok((height(grains) - height(&dry)) / height(grains))
+}

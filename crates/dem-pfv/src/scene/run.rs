@@ -1,0 +1,392 @@
+//! Grains as a model that is run.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
+
+use sph_run::{
+    BAD_STATE, BAD_STATE_PICTURE, Books, Frames, Identity, Now, Outlay, RunOptions, SERIES,
+    Schedule, Start, Status, Watch, next_multiple,
+};
+
+use crate::coupled::CoupledError;
+use crate::scene::assemble::{Assembled, assemble, loads};
+use crate::scene::at_fault;
+use crate::scene::checkpoint::{self, Kept, Progress};
+use crate::scene::columns::{headings, row};
+use crate::scene::compare;
+use crate::scene::error::{DemError, Failure};
+use crate::scene::examine::plugins;
+use crate::scene::fields::values;
+use crate::scene::frames;
+use crate::scene::laws::{Laws, throats};
+use crate::scene::model::Model;
+use crate::scene::read::Loaded;
+use crate::scene::summary::Summary;
+use crate::scene::tables::Probe;
+
+/// Version of the form of the summary.
+const SCHEMA_VERSION: u32 = 1;
+
+/// Identity of the checkpoints of a scene.
+#[must_use]
+pub fn identity(loaded: &Loaded) -> Identity {
+    Identity::of_text(loaded.table.to_string())
+}
+
+/// Runs a scene. Nothing is written before its grains are ready.
+///
+/// # Errors
+/// Mistakes of the scene, files that cannot be written, a step that failed.
+pub fn run(
+    loaded: &Loaded,
+    options: &RunOptions,
+    observer: &mut Watch<'_>,
+) -> Result<Summary, DemError> {
+    loaded.check_files()?;
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = options.threads {
+        pool = pool.num_threads(threads);
+    }
+    let pool = pool.build().map_err(|e| DemError::Threads {
+        threads: options.threads.unwrap_or(0),
+        reason: e.to_string(),
+    })?;
+    let (run, output) = (&loaded.scene.run, &loaded.scene.output);
+    let schedule = Schedule {
+        rows: output.series_interval(run.end),
+        hits_outputs: false,
+        checkpoints: run.checkpoint_every.unwrap_or(run.end / 10.0),
+        max_steps: run.max_steps,
+        capped: Status::Done,
+        ..Schedule::every(output.interval(run.end), run.end)
+    };
+    let outlay = Outlay {
+        vtk: !output.no_vtk,
+        pictures: output.picture.clone(),
+        digits: 6,
+        animation: Some(output.animation.unwrap_or(10.0)).filter(|speed| *speed > 0.0),
+        folders: output
+            .picture
+            .first()
+            .map(|_| "pictures")
+            .into_iter()
+            .collect(),
+    };
+    pool.install(|| {
+        let mut running = Running::new(loaded, options, observer)?;
+        let summary = sph_run::run(&mut running, options, &schedule, outlay, observer)?;
+        summary.ok_or_else(|| DemError::Resume("there is no summary of the run".into()))
+    })
+}
+
+struct Running<'a> {
+    loaded: &'a Loaded,
+    options: &'a RunOptions,
+    /// The grains, once they are prepared or come from a checkpoint.
+    parts: Option<Assembled>,
+    progress: Progress,
+    /// Bound that limited the last step.
+    limiter: &'static str,
+}
+
+impl<'a> Running<'a> {
+    fn new(
+        loaded: &'a Loaded,
+        options: &'a RunOptions,
+        observer: &mut Watch<'_>,
+    ) -> Result<Self, DemError> {
+        let mut running = Running {
+            loaded,
+            options,
+            parts: None,
+            progress: Progress::default(),
+            limiter: "none",
+        };
+        if options.start == Start::Afresh {
+            let begun = Instant::now();
+            running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
+            running.progress.preparation_seconds = begun.elapsed().as_secs_f64();
+            running.progress.wall_seconds = running.progress.preparation_seconds;
+        }
+        Ok(running)
+    }
+
+    fn parts(&self) -> Result<&Assembled, DemError> {
+        let none = || DemError::Resume("there are no grains yet".into());
+        self.parts.as_ref().ok_or_else(none)
+    }
+
+    /// Grains of a checkpoint, with the laws of the scene.
+    fn resume(&mut self, changed: bool, own: &Path) -> Result<(), DemError> {
+        let scene = &self.loaded.scene;
+        let kept = checkpoint::load(&self.options.identity.scene, changed, own)?;
+        let laws = Laws::of(scene)?.all;
+        let model = Model::resume(kept.model, laws, throats(scene)?);
+        self.parts = Some(Assembled {
+            model: model.map_err(|e| DemError::Resume(e.to_string()))?,
+            origin: kept.origin,
+            loads: loads(scene),
+        });
+        self.progress = kept.progress;
+        Ok(())
+    }
+
+    fn now(&self) -> Result<Now, DemError> {
+        let grains = self.parts()?.model.grains();
+        Ok(Now {
+            time: grains.time(),
+            steps: grains.steps(),
+            dt: self.progress.dt,
+            limiter: self.limiter,
+            size: grains.grains().len(),
+        })
+    }
+}
+
+impl sph_run::Model for Running<'_> {
+    type Error = DemError;
+    type Summary = Summary;
+
+    fn begin(&mut self, start: &Start, own: &Path, _: &mut Watch<'_>) -> Result<Books, DemError> {
+        match start {
+            Start::Afresh => {}
+            Start::Resumed | Start::Changed => self.resume(*start == Start::Changed, own)?,
+            Start::From(_) => {
+                let why = "grains go on from the checkpoint of their own run alone";
+                return Err(DemError::Resume(why.into()));
+            }
+        }
+        let mut probes = self.loaded.probes.values();
+        if let Some(parts) = &mut self.parts
+            && probes.any(|p| matches!(p, Probe::Flux { .. }))
+        {
+            parts.model.measure_inflow();
+        }
+        let progress = &self.progress;
+        let end = self.loaded.scene.run.end;
+        let interval = self.loaded.scene.output.interval(end);
+        Ok(Books {
+            time: self.parts()?.model.grains().time(),
+            rows: progress.rows,
+            last_row: progress.last_row,
+            series: progress.series,
+            outputs: progress.frames,
+            next_output: next_multiple(interval, end, progress.last_output.unwrap_or(-1.0)),
+            checkpoints: progress.checkpoints.saturating_sub(1),
+            colours: progress.colours.clone(),
+            wall_seconds: progress.wall_seconds,
+            output_seconds: 0.0,
+        })
+    }
+
+    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<Now, DemError> {
+        let before = self.now()?;
+        if let Some(parts) = self.parts.as_mut().filter(|_| before.time < limit) {
+            parts.model.apply(&parts.loads);
+            let made = parts.model.advance(self.loaded.scene.run.safety, limit)?;
+            self.progress.dt = made.step;
+            self.limiter = made.limiter;
+            let limited = self.progress.limited.entry(made.limiter.to_string());
+            *limited.or_default() += 1;
+        }
+        self.now()
+    }
+
+    fn columns(&self) -> Vec<(String, String)> {
+        let columns = headings(self.loaded).into_iter();
+        columns.map(|(name, unit)| (name, unit.into())).collect()
+    }
+
+    fn row(&mut self, _: &mut Watch<'_>) -> Result<Vec<f64>, DemError> {
+        let parts = self.parts()?;
+        Ok(row(
+            self.loaded,
+            &parts.model,
+            &parts.origin,
+            self.progress.dt,
+        ))
+    }
+
+    fn show(
+        &mut self,
+        frames: Option<&mut Frames>,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), DemError> {
+        let Assembled { model, origin, .. } = self.parts()?;
+        let (time, scene) = (model.grains().time(), &self.loaded.scene);
+        if let Some(frames) = frames {
+            if frames.lists() {
+                frames.add(time, frames::pieces(model, origin), 1)?;
+            }
+            for field in &scene.output.picture {
+                let range = scene.output.picture_range.as_ref();
+                let given = range.and_then(|all| all.of(field));
+                let range = given.or_else(|| {
+                    let seen = frames.colours.of(field, &values(field, model, origin))?;
+                    if seen.1 {
+                        observer.message(&format!(
+                            "note: the range of colours of `{field}` is wider from t = {time:.4} s on; \
+                             `output.picture_range` fixes it"
+                        ));
+                    }
+                    Some(seen.0)
+                });
+                let path = frames.picture(field);
+                frames::picture(model, origin, field, range, &scene.title, None, &path)?;
+            }
+        }
+        self.progress.last_output = Some(time);
+        Ok(())
+    }
+
+    fn save(&mut self, books: &Books, own: &Path) -> Result<(), DemError> {
+        let scene = &self.loaded.scene;
+        let (end, last) = (scene.run.end, self.progress.last_output);
+        let progress = &mut self.progress;
+        progress.rows = books.rows;
+        progress.last_row = books.last_row;
+        progress.series = books.series;
+        let begun = |time: f64| (time / scene.output.interval(end)).floor() as u64 + 1;
+        progress.outputs = last.map_or(0, begun);
+        progress.frames = books.outputs;
+        // The last state is no checkpoint of those that are due.
+        if books.time < end && books.checkpoints > 0 {
+            progress.checkpoints = books.checkpoints + 1;
+        }
+        progress.colours.clone_from(&books.colours);
+        progress.wall_seconds = books.wall_seconds;
+        let progress = progress.clone();
+        let parts = self.parts()?;
+        let kept = Kept {
+            model: parts.model.save(),
+            origin: parts.origin.clone(),
+            progress,
+        };
+        checkpoint::save(&kept, &self.options.identity.scene, own)
+    }
+
+    fn conclude(
+        &mut self,
+        ended: Result<Status, &mut DemError>,
+        books: &Books,
+        observer: &mut Watch<'_>,
+    ) -> Result<Option<Summary>, DemError> {
+        match ended {
+            Ok(status) => self.summary(status, Vec::new(), books).map(Some),
+            Err(DemError::Failed(failure)) => {
+                self.draw_the_bad_state(failure, observer)?;
+                let warnings = vec![failure.to_string()];
+                self.summary(Status::Failed, warnings, books).map(Some)
+            }
+            Err(_) => Ok(None),
+        }
+    }
+}
+
+impl Running<'_> {
+    /// The last state in files, and a picture with the grain at fault, whose name the failure learns.
+    fn draw_the_bad_state(
+        &self,
+        failure: &mut Failure,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), DemError> {
+        if let CoupledError::Grains(error) = &failure.error {
+            failure.named = at_fault::named(self.loaded, error);
+        }
+        let Assembled { model, origin, .. } = self.parts()?;
+        let out = &self.options.out;
+        let title = format!("{}: failed", self.loaded.scene.title);
+        let drawn = frames::picture(
+            model,
+            origin,
+            "speed",
+            None,
+            &title,
+            failure.position,
+            &out.join(BAD_STATE_PICTURE),
+        );
+        let spheres = frames::pieces(model, origin).into_iter().next();
+        let saved = spheres.map_or(Ok(()), |piece| {
+            let time = model.grains().time();
+            Ok(sph_io::write_vtu(out.join(BAD_STATE), &piece, time)?)
+        });
+        // The failure itself matters more than what could not be written about it.
+        for problem in [drawn, saved].into_iter().filter_map(Result::err) {
+            observer.message(&format!("note: {problem}"));
+        }
+        Ok(())
+    }
+
+    fn summary(
+        &self,
+        status: Status,
+        warnings: Vec<String>,
+        books: &Books,
+    ) -> Result<Summary, DemError> {
+        let parts = self.parts()?;
+        let model = &parts.model;
+        let grains = model.grains();
+        let steps = grains.steps();
+        let wall = books.wall_seconds;
+        let stepping = wall - self.progress.preparation_seconds;
+        let count = grains.grains().len();
+        let limited = self.progress.limited.iter();
+        let errors = match status {
+            Status::Failed => BTreeMap::new(),
+            _ => compare::errors(self.loaded, &parts.origin, &self.options.out.join(SERIES))?,
+        };
+        let finite = |x: f64| x.is_finite().then_some(x);
+        Ok(Summary {
+            schema_version: SCHEMA_VERSION,
+            scene: self.loaded.scene.title.clone(),
+            method: "grains",
+            status,
+            version: env!("CARGO_PKG_VERSION"),
+            plugins: plugins(&self.loaded.scene),
+            grains: count,
+            cells: model.wet().map(|w| w.pressures().len()),
+            meshes: model.wet().map(|w| w.meshes()),
+            coordination: grains.coordination(),
+            porosity: grains.porosity(),
+            unbalanced_force: finite(grains.unbalanced_force()),
+            steps,
+            simulated_seconds: grains.time(),
+            wall_seconds: wall,
+            preparation_seconds: self.progress.preparation_seconds,
+            threads: rayon::current_num_threads(),
+            grain_steps_per_second: if stepping > 0.0 {
+                count as f64 * steps as f64 / stepping
+            } else {
+                0.0
+            },
+            dt_limiters: limited
+                .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
+                .collect(),
+            derived: derived(parts),
+            errors,
+            warnings,
+        })
+    }
+}
+
+/// Measurements before the run.
+fn derived(parts: &Assembled) -> BTreeMap<String, f64> {
+    let origin = &parts.origin;
+    let all = [
+        ("mean diameter [m]", Some(origin.diameter)),
+        ("highest grain at the start [m]", Some(origin.top)),
+        ("load [Pa]", origin.load),
+        ("dry strain", origin.dry_strain),
+        ("mobility [m²/(Pa s)]", origin.mobility),
+        (
+            "oedometric modulus [Pa]",
+            origin.load.zip(origin.dry_strain).map(|(l, e)| l / e),
+        ),
+        ("consolidation coefficient [m²/s]", origin.consolidation()),
+    ];
+    let known = all
+        .into_iter()
+        .filter_map(|(name, value)| Some((name.to_string(), value?)));
+    known.collect()
+}

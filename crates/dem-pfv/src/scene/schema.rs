@@ -1,0 +1,90 @@
+//! The JSON schema of scenes of grains.
+
+use scene_text::for_editors;
+use serde_json::{Map, Value as Json, json};
+
+use crate::Entry;
+use crate::flow::conductances;
+use crate::grains::contact_laws;
+use crate::scene::tables::{Probe, Reference, Scene};
+
+/// The schema of what is the scene's own; tables of plugins, probes and references are open in it.
+pub(crate) fn of_scene() -> Json {
+    schemars::schema_for!(Scene).to_value()
+}
+
+/// The schema for editors, with the plugins of this binary. Numbers may also be strings with a unit.
+#[must_use]
+pub fn editor_schema() -> Json {
+    let mut root = of_scene();
+    let mut shared = Map::new();
+    let (laws, throats) = (described(contact_laws()), described(conductances()));
+    for owner in ["Grains", "Start", "Box", "Wall"] {
+        let place = format!("/$defs/{owner}/properties/contact");
+        plugins(root.pointer_mut(&place), &laws, &mut shared);
+    }
+    plugins(
+        root.pointer_mut("/$defs/Fluid/properties/conductance"),
+        &throats,
+        &mut shared,
+    );
+    tagged(
+        &mut root,
+        "probe",
+        schemars::schema_for!(Probe).to_value(),
+        &mut shared,
+    );
+    tagged(
+        &mut root,
+        "reference",
+        schemars::schema_for!(Reference).to_value(),
+        &mut shared,
+    );
+    if let Some(defs) = root.get_mut("$defs").and_then(Json::as_object_mut) {
+        defs.extend(shared);
+    }
+    root["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    root["title"] = json!("Scene of grains");
+    for_editors(&mut root);
+    root
+}
+
+/// Names, descriptions and schemas of laws.
+fn described<L: ?Sized>(entries: Vec<&Entry<L>>) -> Vec<(&'static str, String, Json)> {
+    let told = |e: &Entry<L>| (e.name, format!("{}. {}", e.summary, e.source), (e.schema)());
+    entries.into_iter().map(told).collect()
+}
+
+/// Plugins as the keys of a table.
+fn plugins(place: Option<&mut Json>, all: &[(&str, String, Json)], shared: &mut Map<String, Json>) {
+    let Some(place) = place else { return };
+    let mut properties = Map::new();
+    for (name, text, schema) in all {
+        let mut schema = schema.clone();
+        lift(&mut schema, shared);
+        schema["description"] = json!(text);
+        properties.insert((*name).to_string(), schema);
+    }
+    place["properties"] = Json::Object(properties);
+    place["additionalProperties"] = json!(false);
+    place["maxProperties"] = json!(1);
+}
+
+/// Alternatives that the key `kind` tells apart.
+fn tagged(root: &mut Json, key: &str, mut all: Json, shared: &mut Map<String, Json>) {
+    lift(&mut all, shared);
+    if let Some(place) = root.pointer_mut(&format!("/properties/{key}")) {
+        place["additionalProperties"] = json!({ "oneOf": all["oneOf"] });
+    }
+}
+
+/// Moves definitions to those of the whole.
+fn lift(schema: &mut Json, shared: &mut Map<String, Json>) {
+    let Some(object) = schema.as_object_mut() else {
+        return;
+    };
+    object.remove("$schema");
+    if let Some(Json::Object(own)) = object.remove("$defs") {
+        shared.extend(own);
+    }
+}

@@ -1,0 +1,24 @@
+//! Axes by name.
+
+use sph_derive::parameters;
+
+/// An axis.
+#[parameters(crate: crate::reexport)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// From left to right.
+    #[default]
+    X,
+    /// From front to back.
+    Y,
+    /// Upwards.
+    Z,
+}
+
+impl Axis {
+    /// 0, 1 or 2.
+    #[must_use]
+    pub fn number(self) -> usize {
+        self as usize
+    }
+}

@@ -1,0 +1,129 @@
+//! The tables `[grains]` and `[start]`: which grains, and where they come from.
+
+use sph_derive::parameters;
+
+use super::{AnyPlugins, Plugins, Triple};
+
+/// The grains and the law of their contacts.
+#[parameters(crate: crate::reexport)]
+pub struct Grains {
+    /// How many; not with a file, a lattice or a filled box.
+    #[parameter(min: 1, max: 10_000_000)]
+    pub count: Option<usize>,
+    /// Smallest and largest radius, m; drawn evenly from between them. Not with a file.
+    #[schemars(inner(range(min = 0.0)))]
+    #[parameter(unit: "m", quantity: "spacing")]
+    pub radius: Option<[f64; 2]>,
+    /// Density ρ_s, kg/m³.
+    #[parameter(unit: "kg/m³", above: 0.0)]
+    pub density: f64,
+    /// Another number draws other grains.
+    #[parameter(default: 1)]
+    pub seed: u64,
+    /// Gravity, m/s²; none if left out.
+    #[parameter(unit: "m/s²")]
+    pub gravity: Option<Triple>,
+    /// The law of contacts, `[grains.contact.LAW]`.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub contact: Plugins,
+    /// Skin of the lists of neighbours, m; a fifth of the mean radius if left out.
+    #[parameter(unit: "m", above: 0.0)]
+    pub skin: Option<f64>,
+}
+
+/// Where the grains are at the start, and how they were prepared: exactly one of `cloud`, `grown`, `rained`, `lattice`
+/// and `file`. The clock of the run starts when they are ready.
+#[parameters(crate: crate::reexport)]
+pub struct Start {
+    /// At random without touching.
+    pub cloud: Option<Cloud>,
+    /// A cloud in the box whose radii grow until a stress or a porosity is reached.
+    pub grown: Option<Grown>,
+    /// A cloud above the floor of the box that falls and comes to rest.
+    pub rained: Option<Rained>,
+    /// Rows and layers.
+    pub lattice: Option<Lattice>,
+    /// A text file with x, y, z and r in each line; lines with # are comments.
+    pub file: Option<String>,
+    /// Unit of the numbers in the `file`, such as "mm"; metres if left out.
+    pub unit: Option<String>,
+    /// The law of contacts between grains during the preparation, `[start.contact.LAW]`; that of the run if left out. Less
+    /// friction makes a denser packing.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub contact: Plugins,
+    /// Coefficient of non-viscous damping during the preparation.
+    #[parameter(default: 0.2, unit: "1", min: 0.0, below: 1.0)]
+    pub damping: f64,
+    /// Share of the largest stable step during the preparation.
+    #[parameter(default: 0.6, unit: "1", above: 0.0, max: 1.0, quantity: "safety factor")]
+    pub safety: f64,
+    /// Tolerance to which the grains come to rest, drained, before the run starts: under gravity, in a fluid under their
+    /// buoyant weight, and the `prepared` stress of pistons. At rest are grains whose mean resultant force is below this
+    /// share of the mean contact force F, which contacts carry one by one, and whose mean |v| + R|ω| is below this share of
+    /// √(F R/m). They are left as they are if this is left out, or is 1 (free fall) or more.
+    #[parameter(unit: "1", above: 0.0)]
+    pub settle: Option<f64>,
+    /// Most steps of a preparation.
+    #[parameter(default: 2_000_000, min: 1)]
+    pub most_steps: u64,
+    /// Distance of the top of the box above the highest grain once they have settled, m; the top stays where `box` has it
+    /// if this is left out.
+    #[parameter(unit: "m", min: 0.0)]
+    pub headroom: Option<f64>,
+}
+
+/// At random without touching, in the box or in a part of it.
+#[parameters(crate: crate::reexport)]
+pub struct Cloud {
+    /// Lower corner, m; that of the box if left out.
+    #[parameter(unit: "m")]
+    pub low: Option<Triple>,
+    /// Upper corner, m.
+    #[parameter(unit: "m")]
+    pub high: Option<Triple>,
+}
+
+/// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter
+/// of the box.
+#[parameters(crate: crate::reexport)]
+pub struct Grown {
+    /// Mean stress of the walls, Pa.
+    #[parameter(unit: "Pa", above: 0.0)]
+    pub stress: Option<f64>,
+    /// Porosity.
+    #[parameter(unit: "1", above: 0.0, below: 1.0)]
+    pub porosity: Option<f64>,
+    /// Largest factor of the radii in ten steps before the stress was first reached.
+    #[parameter(default: 1.0 + 2e4 / 15e6, unit: "1", above: 1.0)]
+    pub fast: f64,
+    /// The same afterwards.
+    #[parameter(default: 1.0 + 2e3 / 15e6, unit: "1", above: 1.0)]
+    pub slow: f64,
+    /// Unbalanced force ratio and relative distance from the stress at which it ends.
+    #[parameter(default: 1e-3, unit: "1", above: 0.0)]
+    pub tolerance: f64,
+}
+
+/// Dry pluviation.
+#[parameters(crate: crate::reexport)]
+pub struct Rained {
+    /// Porosity of the cloud before it falls.
+    #[parameter(default: 0.68, unit: "1", above: 0.0, below: 1.0)]
+    pub porosity: f64,
+    /// Height that the bed shall have once it lies, m, instead of a `count`: taken with a porosity of 0.4.
+    #[parameter(unit: "m", above: 0.0)]
+    pub height: Option<f64>,
+}
+
+/// Rows and layers that fill the box, each grain a little off its place.
+#[parameters(crate: crate::reexport)]
+pub struct Lattice {
+    /// Grains along x, y and z.
+    #[schemars(inner(range(min = 1, max = 1000)))]
+    pub count: [u32; 3],
+    /// Largest displacement along an axis, in terms of the distance of rows.
+    #[parameter(default, unit: "1", min: 0.0, below: 0.5)]
+    pub jitter: f64,
+}

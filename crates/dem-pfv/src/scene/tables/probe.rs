@@ -1,0 +1,137 @@
+//! What a table `[probe.NAME]` says.
+
+use sph_derive::parameters;
+
+use super::{Axis, Triple};
+
+/// A measurement; the key `kind` says which.
+#[parameters(crate: crate::reexport)]
+#[serde(tag = "kind")]
+pub enum Probe {
+    /// Total normal stress on a wall, Pa: that of the grains and that of the fluid.
+    Stress {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// What a wall bears over the buoyant weight of all grains: contacts alone, not the fluid.
+    Borne {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// What the fluid bears of the buoyant weight of all grains: the sum of its forces without buoyancy.
+    Carried {},
+    /// Mean pressure of a layer of pores, Pa.
+    Pressure {
+        /// Axis across the layer.
+        axis: Axis,
+        /// Its begin, m.
+        #[parameter(unit: "m")]
+        from: f64,
+        /// Its end, m.
+        #[parameter(unit: "m")]
+        to: f64,
+        /// Pressure by which it is divided, Pa.
+        #[parameter(unit: "Pa", above: 0.0)]
+        over: Option<f64>,
+    },
+    /// −dp/dx of a layer over the buoyant weight of the grains in it, per volume: 1 where nothing is left of the effective
+    /// stress (page §5.21, Eq. 6.28).
+    Gradient {
+        /// Axis across the layer.
+        axis: Axis,
+        /// Its begin, m.
+        #[parameter(unit: "m")]
+        from: f64,
+        /// Its end, m.
+        #[parameter(unit: "m")]
+        to: f64,
+        /// Part of the box along x in which it is taken, m; all of it if left out.
+        #[parameter(unit: "m")]
+        between: Option<[f64; 2]>,
+    },
+    /// Normal contact force across a plane over its area, Pa: the effective stress.
+    EffectiveStress {
+        /// Axis across the plane.
+        axis: Axis,
+        /// Where it is, m.
+        #[parameter(unit: "m")]
+        at: f64,
+    },
+    /// Logarithmic strain of the box along an axis since the start, positive in compression.
+    Strain {
+        /// The axis.
+        axis: Axis,
+    },
+    /// Logarithmic strain of the volume of the box since the start, positive in dilation.
+    VolumetricStrain {},
+    /// Stress of the two walls across an axis less that of the others, Pa.
+    Deviator {
+        /// The axis.
+        axis: Axis,
+    },
+    /// Porosity of a layer, grains cut by its planes.
+    Porosity {
+        /// Axis across the layer.
+        axis: Axis,
+        /// Its begin, m.
+        #[parameter(unit: "m")]
+        from: f64,
+        /// Its end, m.
+        #[parameter(unit: "m")]
+        to: f64,
+    },
+    /// Highest point of a grain, m.
+    Top {},
+    /// Mean height of the bed's surface in a strip, m: of the grains as seen from above, and of the floor between them. Water
+    /// of another scene follows it (`[wall.NAME.motion.levels]` there).
+    Level {
+        /// Axis along which the strip is cut out, x or y.
+        #[parameter(default)]
+        axis: Axis,
+        /// Its begin, m.
+        #[parameter(unit: "m")]
+        from: f64,
+        /// Its end, m.
+        #[parameter(unit: "m")]
+        to: f64,
+    },
+    /// How much lower the mean height of the grains is than at the start, m.
+    Settlement {},
+    /// Share of the final dry strain that is reached, with `[oedometer]`.
+    Consolidation {},
+    /// (L − L₀)/L₀ of a deposit: L is where it is first thinner than a grain, so grains that roll on ahead do not count.
+    RunOut {
+        /// Axis along which it spreads.
+        axis: Axis,
+        /// L₀, m.
+        #[parameter(unit: "m", above: 0.0)]
+        length: f64,
+    },
+    /// Mean displacement since the start of the grains that were in a part of the space, m.
+    Displacement {
+        /// Axis along which it is taken.
+        axis: Axis,
+        /// Lower corner of that part, m.
+        #[parameter(unit: "m")]
+        low: Triple,
+        /// Upper corner, m.
+        #[parameter(unit: "m")]
+        high: Triple,
+    },
+    /// What flows into the pores through a wall, m³/s, negative if out of them, at the last step.
+    Flux {
+        /// Name of a wall of the box.
+        wall: String,
+    },
+    /// Permeability κ of the packing along an axis, m²: κ = µ Q L/(A Δp) with a pressure Δp between the two walls across the
+    /// axis, others closed, and the grains held, whatever the scene gives at its walls. Every row solves for it.
+    Permeability {
+        /// The axis.
+        axis: Axis,
+    },
+    /// Pressure amplitude of the wave on a wall, Pa, without its swing.
+    Amplitude {
+        /// Name of the wall.
+        wall: String,
+    },
+}

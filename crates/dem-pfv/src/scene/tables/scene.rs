@@ -1,0 +1,73 @@
+//! A whole scene of grains.
+
+use std::collections::BTreeMap;
+
+use sph_derive::parameters;
+
+use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
+
+/// Which grains, between which walls, in which fluid, for how long, and what is written.
+#[parameters(crate: crate::reexport)]
+pub struct Scene {
+    /// One line that says what the scene is, with its publication.
+    pub title: String,
+    /// What the scene shows and what to look at.
+    pub description: Option<String>,
+    /// How long the scene runs and how carefully.
+    pub run: Run,
+    /// The grains and the law of their contacts.
+    pub grains: Grains,
+    /// Where they are at the start, and how they were prepared.
+    pub start: Start,
+    /// A box of six walls, `left`, `right`, `front`, `back`, `bottom`, `top`.
+    pub r#box: Option<Box>,
+    /// Walls by name, `[wall.NAME]`: more about those of the box, further planes, and surfaces of triangles.
+    #[parameter(default)]
+    pub wall: BTreeMap<String, Wall>,
+    /// The fluid in the pores; dry if left out.
+    pub fluid: Option<Fluid>,
+    /// Makes an oedometer test of it.
+    pub oedometer: Option<Oedometer>,
+    /// Measurements by name, `[probe.NAME]`; `kind` says of what, the other keys are its parameters.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub probe: Plugins,
+    /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub reference: Plugins,
+    /// What is written and when.
+    #[parameter(default)]
+    pub output: Output,
+}
+
+/// How long the scene runs and how carefully.
+#[parameters(crate: crate::reexport)]
+pub struct Run {
+    /// Simulated time at which the run ends, s, counted from the end of the preparation.
+    #[parameter(unit: "s", above: 0.0)]
+    pub end: f64,
+    /// Share of the largest stable step.
+    #[parameter(default: 0.8, unit: "1", above: 0.0, max: 1.0, quantity: "safety factor")]
+    pub safety: f64,
+    /// Coefficient of non-viscous damping D_a; leave it at zero where a fluid damps. Catalano 2012, Eq. (2.15).
+    #[parameter(default, unit: "1", min: 0.0, below: 1.0)]
+    pub damping: f64,
+    /// Largest number of steps; no limit if left out.
+    #[parameter(min: 1)]
+    pub max_steps: Option<u64>,
+    /// Simulated time between checkpoints, s; a tenth of `end` if left out.
+    #[parameter(unit: "s", above: 0.0)]
+    pub checkpoint_every: Option<f64>,
+}
+
+/// A sudden load on a piston, and what its answer is measured with: the strain under the same load when it comes
+/// slowly and dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
+#[parameters(crate: crate::reexport)]
+pub struct Oedometer {
+    /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.
+    pub wall: String,
+    /// Parts in which the dry load comes, each left to settle.
+    #[parameter(default: 40, min: 1, max: 1000)]
+    pub parts: u32,
+}

@@ -1,0 +1,168 @@
+//! The tables `[box]` and `[wall.NAME]`.
+
+use sph_derive::parameters;
+
+use super::{AnyPlugins, Axis, Plugins, Triple};
+
+/// A box of six walls, `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z).
+#[parameters(crate: crate::reexport)]
+pub struct Box {
+    /// Lower corner, m.
+    #[parameter(unit: "m")]
+    pub low: Triple,
+    /// Upper corner, m.
+    #[parameter(unit: "m")]
+    pub high: Triple,
+    /// Axes along which it repeats itself instead of having two walls.
+    #[parameter(default)]
+    pub periodic: Vec<Axis>,
+    /// Walls that it does not have.
+    #[parameter(default)]
+    pub open: Vec<String>,
+    /// The law of contacts with its walls, `[box.contact.LAW]`; that of the grains if left out.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub contact: Plugins,
+}
+
+/// What more there is to a wall of the box; or a plane with `point` and `normal`; or a surface of triangles from a
+/// `file`.
+#[parameters(crate: crate::reexport)]
+pub struct Wall {
+    /// A point of the plane, m.
+    #[parameter(default, unit: "m")]
+    pub point: Option<Triple>,
+    /// Its normal, towards the grains, of any length.
+    #[parameter(default)]
+    pub normal: Option<Triple>,
+    /// An STL file.
+    #[parameter(default)]
+    pub file: Option<String>,
+    /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
+    #[parameter(default)]
+    pub unit: Option<String>,
+    /// Factor on the coordinates of the `file`, instead of a unit.
+    #[parameter(default, unit: "1", above: 0.0)]
+    pub scale: Option<f64>,
+    /// Shift of what is in the `file`, after it is scaled, m.
+    #[parameter(default, unit: "m")]
+    pub translate: Option<Triple>,
+    /// Velocity, m/s.
+    #[parameter(default, unit: "m/s")]
+    pub velocity: Option<Triple>,
+    /// Angular velocity of a surface of triangles about `point`, rad/s.
+    #[parameter(default, unit: "1/s")]
+    pub spin: Option<Triple>,
+    /// The law of contacts with it, `[wall.NAME.contact.LAW]`.
+    #[schemars(with = "AnyPlugins")]
+    #[parameter(default)]
+    pub contact: Plugins,
+    /// Lets it move freely along its normal under a load.
+    #[parameter(default)]
+    pub piston: Option<Piston>,
+    /// Holds a stress.
+    #[parameter(default)]
+    pub servo: Option<Servo>,
+    /// Rate of strain between this wall and the one that faces it, 1/s, positive when they approach; give it to both.
+    #[parameter(default, unit: "1/s")]
+    pub strain_rate: Option<f64>,
+    /// Whether it is there during the preparation only: a gate.
+    #[parameter(default)]
+    pub removed: bool,
+    /// Pressure of the fluid there, Pa.
+    #[parameter(default, unit: "Pa")]
+    pub pressure: Option<f64>,
+    /// Even inflow of fluid, m/s; negative lets it out.
+    #[parameter(default, unit: "m/s")]
+    pub inflow: Option<f64>,
+    /// Pressure of waves.
+    #[parameter(default)]
+    pub wave: Option<WaveLoad>,
+    /// Pressure from a table, such as the series of a scene with a free surface.
+    #[parameter(default)]
+    pub recorded: Option<RecordedLoad>,
+    /// Whether fluid sticks to it.
+    #[parameter(default)]
+    pub sticks: bool,
+}
+
+/// A wall that is a body: M dv/dt = σ A − F. σ = stress + ramp · t + amplitude · sin(2π t / period).
+#[parameters(crate: crate::reexport)]
+pub struct Piston {
+    /// Stress σ from outside, Pa, positive in compression.
+    #[parameter(unit: "Pa")]
+    pub stress: f64,
+    /// Stress while the grains settle before the run, Pa; the same if left out.
+    #[parameter(unit: "Pa")]
+    pub prepared: Option<f64>,
+    /// Its mass over that of the grains.
+    #[parameter(default: 0.05, unit: "1", above: 0.0)]
+    pub mass_share: f64,
+    /// Growth of the stress, Pa/s.
+    #[parameter(default, unit: "Pa/s")]
+    pub ramp: f64,
+    /// Amplitude of a stress that swings, Pa.
+    #[parameter(default, unit: "Pa")]
+    pub amplitude: f64,
+    /// Its period, s.
+    #[parameter(unit: "s", above: 0.0)]
+    pub period: Option<f64>,
+}
+
+/// A wall that is moved so that it bears a stress.
+#[parameters(crate: crate::reexport)]
+pub struct Servo {
+    /// Stress, Pa, positive in compression.
+    #[parameter(unit: "Pa")]
+    pub stress: f64,
+    /// Largest speed, m/s.
+    #[parameter(unit: "m/s", above: 0.0)]
+    pub speed: f64,
+}
+
+/// p = (amplitude + ramp · t) cos(π (x − crest) / half_length), times sin(2π t / period) if there is one. Catalano 2012,
+/// §6.3.2 and §6.4.
+#[parameters(crate: crate::reexport)]
+pub struct WaveLoad {
+    /// Axis along which it runs.
+    #[parameter(default)]
+    pub axis: Axis,
+    /// Place of the crest, m.
+    #[parameter(default, unit: "m")]
+    pub crest: f64,
+    /// Half the length of the wave, m.
+    #[parameter(unit: "m", above: 0.0)]
+    pub half_length: f64,
+    /// Amplitude of the pressure at the start, Pa.
+    #[parameter(default, unit: "Pa")]
+    pub amplitude: f64,
+    /// Growth of the amplitude, Pa/s.
+    #[parameter(default, unit: "Pa/s")]
+    pub ramp: f64,
+    /// Period, s; the load stands still if left out.
+    #[parameter(unit: "s", above: 0.0)]
+    pub period: Option<f64>,
+}
+
+/// p(x, t) less `less`, linear between places and rows, constant before the first and after the last. The pressure is
+/// piezometric: take off that of still water.
+#[parameters(crate: crate::reexport)]
+pub struct RecordedLoad {
+    /// A table with a column `time` (s) and one of pressures (Pa) for each place: `series.csv` of `sph run`, for example.
+    pub file: String,
+    /// Axis along which the places are.
+    #[parameter(default)]
+    pub axis: Axis,
+    /// Where the pressures were taken, m.
+    #[schemars(extend("minItems" = 1))]
+    #[parameter(unit: "m")]
+    pub places: Vec<f64>,
+    /// The columns of these places.
+    pub columns: Vec<String>,
+    /// Time of the table at which the run starts, s.
+    #[parameter(default, unit: "s")]
+    pub start: f64,
+    /// What is taken off all pressures, Pa.
+    #[parameter(default, unit: "Pa")]
+    pub less: f64,
+}

@@ -1,0 +1,215 @@
+//! Insertion of spheres one by one: locate, carve, fill (Bowyer 1981, Watson 1981).
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+
+use crate::triangulation::TriangulationError;
+use crate::triangulation::bootstrap::Cells;
+use crate::triangulation::predicates::{GHOST, Predicates};
+
+/// No neighbour yet.
+const NONE: u32 = u32::MAX;
+
+/// A triangulation that grows. Neighbour i of a cell is the one across the facet without vertex i.
+pub struct Builder<'a> {
+    predicates: &'a Predicates,
+    pub cells: Vec<[u32; 4]>,
+    pub neighbours: Vec<[u32; 4]>,
+    /// Places of cells that are no more.
+    free: Vec<u32>,
+    /// 2n for cells in conflict with sphere n of the insertion, 2n + 1 for those tested without.
+    marks: Vec<u32>,
+    stamp: u32,
+    /// Where the next walk begins.
+    last: u32,
+    carved: Vec<u32>,
+    /// Facets between a carved cell and one that stays: cell, place of the vertex opposite, neighbour.
+    rim: Vec<(u32, usize, u32)>,
+    /// Edges of the rim: both vertices, the new cell, the place of the vertex opposite.
+    edges: Vec<((u32, u32), u32, usize)>,
+}
+
+impl<'a> Builder<'a> {
+    pub fn new(predicates: &'a Predicates, cells: Cells) -> Self {
+        let mut neighbours = vec![[NONE; 4]; cells.len()];
+        let mut open = HashMap::new();
+        for (c, cell) in cells.iter().enumerate() {
+            for i in 0..4 {
+                let mut facet = *cell;
+                facet[i] = cell[3];
+                let mut facet = [facet[0], facet[1], facet[2]];
+                facet.sort_unstable();
+                if let Some((other, j)) = open.remove(&facet) {
+                    neighbours[c][i] = other as u32;
+                    let back: &mut [u32; 4] = &mut neighbours[other];
+                    back[j] = c as u32;
+                } else {
+                    open.insert(facet, (c, i));
+                }
+            }
+        }
+        debug_assert!(open.is_empty(), "the first cells are closed");
+        Self {
+            predicates,
+            marks: vec![0; cells.len()],
+            cells,
+            neighbours,
+            free: Vec::new(),
+            stamp: 0,
+            last: 0,
+            carved: Vec::new(),
+            rim: Vec::new(),
+            edges: Vec::new(),
+        }
+    }
+
+    /// True for places whose cell is no more.
+    pub fn vacant(&self) -> Vec<bool> {
+        let mut vacant = vec![false; self.cells.len()];
+        for c in &self.free {
+            vacant[*c as usize] = true;
+        }
+        vacant
+    }
+
+    /// Adds a sphere.
+    ///
+    /// # Errors
+    /// It is hidden by those that are there.
+    pub fn insert(&mut self, e: u32) -> Result<(), TriangulationError> {
+        let start = walk(self.predicates, &self.cells, &self.neighbours, self.last, e);
+        if !self.conflict(start, e) {
+            return Err(TriangulationError::Hidden { sphere: e as usize });
+        }
+        self.carve(start, e);
+        self.fill(e);
+        Ok(())
+    }
+
+    /// A sphere in the plane of a facet of the hull is in conflict with the cell behind it if it is
+    /// with the cell before it.
+    fn conflict(&self, c: u32, e: u32) -> bool {
+        let cell = self.cells[c as usize];
+        self.predicates.conflict(cell, e).unwrap_or_else(|| {
+            let ghost = cell.iter().position(|v| *v == GHOST).unwrap_or(0);
+            let before = self.neighbours[c as usize][ghost];
+            let before = self.cells[before as usize];
+            self.predicates.conflict(before, e).unwrap_or(false)
+        })
+    }
+
+    fn carve(&mut self, start: u32, e: u32) {
+        self.stamp += 1;
+        let (hit, miss) = (2 * self.stamp, 2 * self.stamp + 1);
+        self.carved.clear();
+        self.rim.clear();
+        self.carved.push(start);
+        self.marks[start as usize] = hit;
+        let mut next = 0;
+        while let Some(&c) = self.carved.get(next) {
+            next += 1;
+            for i in 0..4 {
+                let n = self.neighbours[c as usize][i];
+                let mark = self.marks[n as usize];
+                if mark == hit {
+                    continue;
+                }
+                if mark != miss && self.conflict(n, e) {
+                    self.marks[n as usize] = hit;
+                    self.carved.push(n);
+                } else {
+                    self.marks[n as usize] = miss;
+                    self.rim.push((c, i, n));
+                }
+            }
+        }
+    }
+
+    fn fill(&mut self, e: u32) {
+        self.edges.clear();
+        for f in 0..self.rim.len() {
+            let (c, i, n) = self.rim[f];
+            let mut cell = self.cells[c as usize];
+            cell[i] = e;
+            let new = self.place(cell);
+            self.neighbours[new as usize][i] = n;
+            let back = &mut self.neighbours[n as usize];
+            if let Some(j) = back.iter().position(|b| *b == c) {
+                back[j] = new;
+            }
+            for j in (0..4).filter(|j| *j != i) {
+                let mut rest = (0..4).filter(|k| *k != i && *k != j).map(|k| cell[k]);
+                let (a, b) = (rest.next().unwrap_or(NONE), rest.next().unwrap_or(NONE));
+                self.edges.push(((a.min(b), a.max(b)), new, j));
+            }
+        }
+        self.edges.sort_unstable();
+        for pair in self.edges.chunks_exact(2) {
+            let ((key, a, i), (other, b, j)) = (pair[0], pair[1]);
+            debug_assert_eq!(key, other, "the rim of a cavity is closed");
+            self.neighbours[a as usize][i] = b;
+            self.neighbours[b as usize][j] = a;
+        }
+        // Only now, so that no new cell has taken the place of one that a neighbour still names.
+        self.free.append(&mut self.carved);
+    }
+
+    fn place(&mut self, cell: [u32; 4]) -> u32 {
+        let place = match self.free.pop() {
+            Some(c) => {
+                self.cells[c as usize] = cell;
+                self.neighbours[c as usize] = [NONE; 4];
+                self.marks[c as usize] = 0;
+                c
+            }
+            None => {
+                self.cells.push(cell);
+                self.neighbours.push([NONE; 4]);
+                self.marks.push(0);
+                (self.cells.len() - 1) as u32
+            }
+        };
+        self.last = place;
+        place
+    }
+}
+
+/// Walks from a cell to one that holds the centre of `e`, or to one behind the hull that sees it.
+/// Every step crosses a facet that separates; in a regular triangulation such walks end.
+fn walk(
+    predicates: &Predicates,
+    cells: &[[u32; 4]],
+    neighbours: &[[u32; 4]],
+    start: u32,
+    e: u32,
+) -> u32 {
+    let mut here = start as usize;
+    if let Some(ghost) = cells[here].iter().position(|v| *v == GHOST) {
+        here = neighbours[here][ghost] as usize;
+    }
+    let mut from = NONE;
+    loop {
+        let cell = cells[here];
+        let beyond = (0..4).find(|&i| {
+            if neighbours[here][i] == from {
+                return false;
+            }
+            let others = std::array::from_fn(|k| cell[if k < i { k } else { k + 1 }]);
+            let side = predicates.side(others, e);
+            // With e in place of vertex i, O has the sign (−1)^(i + 3) of that of the others and e.
+            side == if i % 2 == 1 {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            }
+        });
+        let Some(i) = beyond else {
+            return here as u32;
+        };
+        from = here as u32;
+        here = neighbours[here][i] as usize;
+        if cells[here].contains(&GHOST) {
+            return here as u32;
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! The finished triangulation: cells, facets, neighbours, power centres.
+
+use nalgebra::Vector3;
+
+use crate::triangulation::bootstrap;
+use crate::triangulation::build::Builder;
+use crate::triangulation::order::insertion_order;
+use crate::triangulation::predicates::{GHOST, Predicates};
+use crate::triangulation::{Sphere, TriangulationError, Wall};
+
+/// A vertex of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Vertex {
+    /// The sphere with this number.
+    Sphere(usize),
+    /// The wall with this number, a vertex at infinity.
+    Wall(usize),
+}
+
+/// Marks the numbers of walls.
+const WALL: u32 = 1 << 31;
+const NONE: u32 = u32::MAX;
+
+/// A tetrahedron of four spheres; with one to three walls in their place, a prism, a wedge or a corner.
+///
+/// The determinant (x₁ − x₀) × (x₂ − x₀) · (x₃ − x₀) of four spheres is negative: seen from vertex 3,
+/// the vertices 0, 1, 2 go counterclockwise. With x − x₀ replaced by −n for walls this holds for all cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    vertices: [u32; 4],
+    neighbours: [u32; 4],
+}
+
+impl Cell {
+    /// Its vertices.
+    #[must_use]
+    pub fn vertices(&self) -> [Vertex; 4] {
+        self.vertices.map(|v| {
+            if v & WALL == 0 {
+                Vertex::Sphere(v as usize)
+            } else {
+                Vertex::Wall((v & !WALL) as usize)
+            }
+        })
+    }
+
+    /// The cell across the facet that lacks vertex `i`; none across the hull and in the corner of a room.
+    #[must_use]
+    pub fn neighbour(&self, i: usize) -> Option<usize> {
+        (self.neighbours[i] != NONE).then_some(self.neighbours[i] as usize)
+    }
+
+    /// How many of its vertices are walls, 0 to 3.
+    #[must_use]
+    pub fn walls(&self) -> usize {
+        self.vertices.iter().filter(|v| **v & WALL != 0).count()
+    }
+}
+
+/// A triangle between two cells, of three vertices of which two at most are walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Facet {
+    /// The cells on both sides, the lower number first.
+    pub cells: [usize; 2],
+    /// Which vertex of the first cell is opposite.
+    pub opposite: usize,
+    /// Its vertices, in the order in which the first cell has them.
+    pub vertices: [Vertex; 3],
+}
+
+/// The regular triangulation of spheres.
+#[derive(Clone, Debug)]
+pub struct Triangulation {
+    spheres: Vec<Sphere>,
+    walls: Vec<Wall>,
+    cells: Vec<Cell>,
+    /// Cells of sphere k: `incident[first[k]..first[k + 1]]`; walls follow the spheres.
+    first: Vec<usize>,
+    incident: Vec<u32>,
+}
+
+impl Triangulation {
+    /// Triangulates the convex hull of the centres of at least four spheres.
+    ///
+    /// # Errors
+    /// Bad numbers, equal centres, hidden spheres, centres in one plane: [`TriangulationError`].
+    pub fn of_spheres(spheres: &[Sphere]) -> Result<Self, TriangulationError> {
+        checked(spheres, &[], 4)?;
+        let predicates = Predicates::new(spheres, &[]);
+        let (done, cells) = bootstrap::four_spheres(&predicates, spheres)?;
+        let mut builder = Builder::new(&predicates, cells);
+        for e in insertion_order(spheres) {
+            if !done.contains(&e) {
+                builder.insert(e)?;
+            }
+        }
+        Self::finished(spheres, &[], &builder)
+    }
+
+    /// Triangulates the room between walls that holds at least one sphere. Walls make a convex room,
+    /// in whose corners three meet.
+    ///
+    /// # Errors
+    /// Bad numbers, equal centres, hidden spheres, centres on or behind a wall, walls that leave a way
+    /// out or have no part in the room: [`TriangulationError`].
+    pub fn within(spheres: &[Sphere], walls: &[Wall]) -> Result<Self, TriangulationError> {
+        if walls.is_empty() {
+            return Self::of_spheres(spheres);
+        }
+        checked(spheres, walls, 1)?;
+        let predicates = Predicates::new(spheres, walls);
+        let order = insertion_order(spheres);
+        let cells = bootstrap::room(&predicates, walls, spheres.len(), order[0])?;
+        let mut builder = Builder::new(&predicates, cells);
+        for e in &order[1..] {
+            builder.insert(*e)?;
+        }
+        Self::finished(spheres, walls, &builder)
+    }
+
+    /// Leaves out vacant places and what is behind the hull.
+    fn finished(
+        spheres: &[Sphere],
+        walls: &[Wall],
+        builder: &Builder,
+    ) -> Result<Self, TriangulationError> {
+        let vacant = builder.vacant();
+        let mut number = vec![NONE; vacant.len()];
+        let mut count = 0;
+        for (c, cell) in builder.cells.iter().enumerate() {
+            if !vacant[c] && !cell.contains(&GHOST) {
+                number[c] = count;
+                count += 1;
+            }
+        }
+        let vertex = |v: u32| match v as usize {
+            v if v < spheres.len() => v as u32,
+            v => (v - spheres.len()) as u32 | WALL,
+        };
+        let kept = (0..vacant.len()).filter(|c| number[*c] != NONE);
+        let cells: Vec<_> = kept
+            .map(|c| Cell {
+                vertices: builder.cells[c].map(vertex),
+                neighbours: builder.neighbours[c].map(|n| number[n as usize]),
+            })
+            .collect();
+        let (first, incident) = incidence(&cells, spheres.len(), walls.len());
+        if let Some(sphere) = (0..spheres.len()).find(|k| first[*k] == first[k + 1]) {
+            return Err(TriangulationError::Hidden { sphere });
+        }
+        Ok(Self {
+            spheres: spheres.to_vec(),
+            walls: walls.to_vec(),
+            cells,
+            first,
+            incident,
+        })
+    }
+
+    /// The spheres, in the order given.
+    #[must_use]
+    pub fn spheres(&self) -> &[Sphere] {
+        &self.spheres
+    }
+
+    /// The walls, in the order given.
+    #[must_use]
+    pub fn walls(&self) -> &[Wall] {
+        &self.walls
+    }
+
+    /// All cells.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// The numbers of the cells around a vertex, ascending.
+    #[must_use]
+    pub fn cells_around(&self, vertex: Vertex) -> &[u32] {
+        let k = match vertex {
+            Vertex::Sphere(k) => k,
+            Vertex::Wall(w) => self.spheres.len() + w,
+        };
+        &self.incident[self.first[k]..self.first[k + 1]]
+    }
+
+    /// Facets between two cells, each once, in the order of their first cells.
+    pub fn facets(&self) -> impl Iterator<Item = Facet> + '_ {
+        let cells = self.cells.iter().enumerate();
+        cells.flat_map(|(c, cell)| {
+            (0..4).filter_map(move |i| {
+                let n = cell.neighbour(i).filter(|n| *n > c)?;
+                let v = cell.vertices();
+                Some(Facet {
+                    cells: [c, n],
+                    opposite: i,
+                    vertices: std::array::from_fn(|k| v[if k < i { k } else { k + 1 }]),
+                })
+            })
+        })
+    }
+
+    /// The point of equal power to the four vertices of a cell, m; on every wall of the cell:
+    ///
+    /// ```text
+    /// (x_k − x₀) · (P − x₀) = ½ (|x_k − x₀|² − R_k² + R₀²),     n_w · (P − x₀) = c_w − n_w · x₀
+    /// ```
+    ///
+    /// solved by Cramer's rule. Source: Catalano 2012, §3.1; the wall's row is the limit of a tangent
+    /// sphere of infinite radius.
+    #[must_use]
+    pub fn power_centre(&self, cell: usize) -> Vector3<f64> {
+        let vertices = self.cells[cell].vertices();
+        let sphere = |v: &Vertex| match v {
+            Vertex::Sphere(k) => Some(&self.spheres[*k]),
+            Vertex::Wall(_) => None,
+        };
+        let base = vertices
+            .iter()
+            .position(|v| sphere(v).is_some())
+            .unwrap_or(0);
+        let Some(s0) = sphere(&vertices[base]) else {
+            return Vector3::repeat(f64::NAN);
+        };
+        let row = |v: &Vertex| match v {
+            Vertex::Sphere(k) => {
+                let s = &self.spheres[*k];
+                let d = s.centre - s0.centre;
+                let weights = (s0.radius - s.radius) * (s0.radius + s.radius);
+                (d, 0.5 * (d.norm_squared() + weights))
+            }
+            Vertex::Wall(w) => {
+                let wall = &self.walls[*w];
+                (wall.normal, -wall.distance(s0.centre))
+            }
+        };
+        let [(d1, b1), (d2, b2), (d3, b3)] = std::array::from_fn(|k| {
+            let k = if k < base { k } else { k + 1 };
+            row(&vertices[k])
+        });
+        let c = d2.cross(&d3);
+        s0.centre + (b1 * c + b2 * d3.cross(&d1) + b3 * d1.cross(&d2)) / d1.dot(&c)
+    }
+}
+
+/// Cells around each sphere and wall.
+fn incidence(cells: &[Cell], spheres: usize, walls: usize) -> (Vec<usize>, Vec<u32>) {
+    let place = |v: u32| {
+        if v & WALL == 0 {
+            v as usize
+        } else {
+            spheres + (v & !WALL) as usize
+        }
+    };
+    let mut first = vec![0; spheres + walls + 1];
+    for v in cells.iter().flat_map(|c| c.vertices) {
+        first[place(v) + 1] += 1;
+    }
+    for k in 0..spheres + walls {
+        first[k + 1] += first[k];
+    }
+    let mut next = first.clone();
+    let mut incident = vec![0; 4 * cells.len()];
+    for (c, cell) in cells.iter().enumerate() {
+        for v in cell.vertices {
+            incident[next[place(v)]] = c as u32;
+            next[place(v)] += 1;
+        }
+    }
+    (first, incident)
+}
+
+/// Refuses what has no triangulation, before it is tried.
+fn checked(spheres: &[Sphere], walls: &[Wall], needed: usize) -> Result<(), TriangulationError> {
+    if spheres.len() < needed {
+        return Err(TriangulationError::TooFew {
+            spheres: spheres.len(),
+            needed,
+        });
+    }
+    for (wall, w) in walls.iter().enumerate() {
+        let unit = (w.normal.norm() - 1.0).abs() < 1e-9;
+        if !unit || !w.offset.is_finite() {
+            return Err(TriangulationError::BadWall {
+                wall,
+                normal: w.normal.into(),
+                offset: w.offset,
+            });
+        }
+    }
+    for (sphere, s) in spheres.iter().enumerate() {
+        let finite = s.centre.iter().all(|x| x.is_finite()) && s.radius.is_finite();
+        if !finite || s.radius < 0.0 {
+            return Err(TriangulationError::BadSphere {
+                sphere,
+                centre: s.centre.into(),
+                radius: s.radius,
+            });
+        }
+        let distances = walls.iter().map(|w| w.distance(s.centre)).enumerate();
+        if let Some((wall, distance)) = distances.into_iter().find(|(_, d)| *d <= 0.0) {
+            return Err(TriangulationError::Outside {
+                sphere,
+                wall,
+                distance,
+            });
+        }
+    }
+    distinct(spheres)
+}
+
+/// Refuses equal centres.
+fn distinct(spheres: &[Sphere]) -> Result<(), TriangulationError> {
+    // Adding zero makes −0 and 0 equal.
+    let key = |k: &usize| <[f64; 3]>::from(spheres[*k].centre).map(|x| (x + 0.0).to_bits());
+    let mut order: Vec<_> = (0..spheres.len()).collect();
+    order.sort_unstable_by_key(|k| (key(k), *k));
+    match order.windows(2).find(|pair| key(&pair[0]) == key(&pair[1])) {
+        Some(pair) => Err(TriangulationError::Duplicate {
+            first: pair[0],
+            second: pair[1],
+            centre: spheres[pair[0]].centre.into(),
+        }),
+        None => Ok(()),
+    }
+}

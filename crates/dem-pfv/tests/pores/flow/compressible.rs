@@ -1,0 +1,103 @@
+//! Fluid that gives way.
+
+use dem_pfv::flow::{Boundary, FlowSystem, Grip, SolidAngles, Solver, Storage};
+
+use crate::flow::{BOX200, drop_along_y, geometry, hydraulic, spheres};
+
+/// A closed box takes what is pumped in by its pressure alone: K Q Δt / V_void on the mean, without a given pressure.
+#[test]
+fn a_closed_box_stores_what_is_pumped_in() {
+    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let mut boundary = Boundary::closed(&geometry);
+    boundary.source(17, 1e-3);
+    let storage = Storage {
+        bulk_modulus: 1e3,
+        step: 0.5,
+    };
+    let mut system = FlowSystem::compressible(
+        &geometry,
+        &boundary,
+        &hydraulic(),
+        1.0,
+        storage,
+        Solver::Direct,
+    )
+    .expect("a system");
+    let mut pressures = vec![5.0; geometry.volumes().len()];
+    for _ in 0..3 {
+        pressures = system.step(&boundary, &[], &pressures).expect("pressures");
+    }
+    let void: f64 = geometry.void_volumes().iter().sum();
+    let mean: f64 = pressures
+        .iter()
+        .zip(geometry.void_volumes())
+        .map(|(p, v)| p * v)
+        .sum::<f64>()
+        / void;
+    let exact = 5.0 + 3.0 * 1e3 * 1e-3 * 0.5 / void;
+    assert!((mean / exact - 1.0).abs() < 1e-9, "{mean} of {exact} Pa");
+}
+
+/// From rest, pressures rise step by step to those of the incompressible fluid, and none beyond; a long step is as
+/// good as infinitely many.
+#[test]
+fn pressures_diffuse_to_the_steady_ones() {
+    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let boundary = drop_along_y(&geometry);
+    let mut steady =
+        FlowSystem::new(&geometry, &boundary, &hydraulic(), 1.0, Solver::Direct).expect("a system");
+    let steady = steady.solve(&boundary, &[]).expect("pressures");
+    // Diffusivity κ K/(µ n) is about 0.08 m²/s: 1 s goes a third of the way through the box.
+    let storage = Storage {
+        bulk_modulus: 1e3,
+        step: 1.0,
+    };
+    let mut system = FlowSystem::compressible(
+        &geometry,
+        &boundary,
+        &hydraulic(),
+        1.0,
+        storage,
+        Solver::Direct,
+    )
+    .expect("a system");
+    let mut pressures = vec![0.0; steady.len()];
+    let mut distance = vec![];
+    for _ in 0..200 {
+        let next = system.step(&boundary, &[], &pressures).expect("pressures");
+        assert!(
+            next.iter().zip(&pressures).all(|(a, b)| a >= &(b - 1e-12)),
+            "pressures rise"
+        );
+        pressures = next;
+        let largest = pressures
+            .iter()
+            .zip(&steady)
+            .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        distance.push(largest);
+    }
+    println!(
+        "distance {:.3} after 1 s, {:.1e} after 200 s",
+        distance[0], distance[199]
+    );
+    assert!(
+        distance[0] > 0.1 && distance[199] < 1e-9,
+        "{} and {:e}",
+        distance[0],
+        distance[199]
+    );
+    system
+        .set_storage(Storage {
+            bulk_modulus: 1e3,
+            step: 1e12,
+        })
+        .expect("numbers");
+    let once = system
+        .step(&boundary, &[], &vec![0.0; steady.len()])
+        .expect("pressures");
+    let largest = once
+        .iter()
+        .zip(&steady)
+        .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    assert!(largest < 1e-9, "{largest:e} Pa");
+}

@@ -1,0 +1,86 @@
+//! Geometry against identities, flow against closed forms, YADE and an independent prototype.
+
+mod compressible;
+mod cubic;
+mod partition;
+mod random_packings;
+mod refusals;
+mod solid_angles;
+mod systems;
+
+use dem_pfv::flow::{
+    Boundary, Conductance, FlowSystem, Forces, Grip, HydraulicRadius, PoreGeometry, SolidAngles,
+    Solver,
+};
+use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
+
+const BOX25: &str = include_str!("../../packings/box25.txt");
+const BOX200: &str = include_str!("../../packings/box200.txt");
+const BOX1000: &str = include_str!("../../packings/box1000_mono.txt");
+
+/// Lines of numbers.
+fn table(text: &str) -> Vec<Vec<f64>> {
+    let lines = text.lines().filter(|l| !l.starts_with('#'));
+    let numbers = |l: &str| {
+        l.split_whitespace()
+            .map(|w| w.parse().expect("a number"))
+            .collect()
+    };
+    lines.map(numbers).collect()
+}
+
+fn spheres(text: &str) -> Vec<Sphere> {
+    table(text)
+        .iter()
+        .map(|n| Sphere::new([n[0], n[1], n[2]], n[3]))
+        .collect()
+}
+
+/// No-slip or slip on the four lateral walls; the ends y₋, y₊ let fluid through and stick as the laterals do.
+fn geometry(spheres: &[Sphere], grip: Grip, angles: SolidAngles) -> PoreGeometry {
+    let mesh = Triangulation::within(spheres, &Wall::cuboid([0.0; 3], [1.0; 3])).expect("cells");
+    PoreGeometry::new(mesh, &[grip; 6], angles).expect("pores")
+}
+
+/// p = 0 at y = 0 and 1 Pa at y = 1.
+fn drop_along_y(geometry: &PoreGeometry) -> Boundary {
+    let mut boundary = Boundary::closed(geometry);
+    boundary.pressure(geometry, 2, |_| Some(0.0));
+    boundary.pressure(geometry, 3, |_| Some(1.0));
+    boundary
+}
+
+/// What a permeameter shows of a unit cube with µ = 1 Pa s.
+struct Permeameter {
+    /// Permeability κ = µ Q l / (Δp S), m².
+    kappa: f64,
+    /// Relative difference of what flows in and out.
+    leak: f64,
+    pressures: Vec<f64>,
+    forces: Forces,
+}
+
+fn permeameter(geometry: &PoreGeometry, law: &dyn Conductance) -> Permeameter {
+    let boundary = drop_along_y(geometry);
+    let mut system =
+        FlowSystem::new(geometry, &boundary, law, 1.0, Solver::Direct).expect("a system");
+    let pressures = system.solve(&boundary, &[]).expect("pressures");
+    let [low, high] = [2, 3].map(|w| system.inflow(geometry, w, &pressures));
+    Permeameter {
+        kappa: high,
+        leak: (low + high).abs() / high,
+        forces: Forces::new(geometry, &pressures),
+        pressures,
+    }
+}
+
+/// Force along y on all spheres and on the lateral walls.
+fn sum_along_y(p: &Permeameter) -> f64 {
+    let f = &p.forces;
+    let spheres = f.pressure.iter().chain(&f.viscous);
+    spheres.chain(&f.wall_viscous).map(|f| f.y).sum()
+}
+
+fn hydraulic() -> HydraulicRadius {
+    HydraulicRadius::default()
+}

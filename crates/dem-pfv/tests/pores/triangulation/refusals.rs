@@ -1,0 +1,142 @@
+//! What has no triangulation is named.
+
+use dem_pfv::triangulation::{Sphere, Triangulation, TriangulationError as Error, Wall};
+
+use crate::triangulation::{lattice, random_spheres};
+
+fn unit_box() -> [Wall; 6] {
+    Wall::cuboid([0.0; 3], [1.0; 3])
+}
+
+#[test]
+fn equal_centres_are_named() {
+    let mut spheres = lattice(4, 0.25);
+    spheres.push(Sphere {
+        radius: 0.01,
+        ..spheres[17]
+    });
+    let error = Triangulation::within(&spheres, &unit_box()).expect_err("equal");
+    assert!(
+        matches!(
+            error,
+            Error::Duplicate {
+                first: 17,
+                second: 64,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert!(
+        error
+            .to_string()
+            .contains("spheres 17 and 64 have the same centre")
+    );
+    let zeros = [
+        Sphere::new([0.0, 0.5, 0.5], 0.1),
+        Sphere::new([-0.0, 0.5, 0.5], 0.1),
+    ];
+    let walls = Wall::cuboid([-1.0; 3], [1.0; 3]);
+    assert!(matches!(
+        Triangulation::within(&zeros, &walls),
+        Err(Error::Duplicate { .. })
+    ));
+}
+
+/// Whether the small sphere comes first or last.
+#[test]
+fn a_hidden_sphere_is_named() {
+    let big = Sphere::new([0.5; 3], 0.3);
+    let small = Sphere::new([0.55, 0.5, 0.5], 0.05);
+    for (spheres, hidden) in [([big, small], 1), ([small, big], 0)] {
+        let error = Triangulation::within(&spheres, &unit_box()).expect_err("hidden");
+        assert_eq!(error, Error::Hidden { sphere: hidden });
+    }
+}
+
+#[test]
+fn a_centre_on_or_behind_a_wall_is_named() {
+    for x in [1.0, 1.2] {
+        let spheres = [Sphere::new([0.5; 3], 0.1), Sphere::new([x, 0.5, 0.5], 0.1)];
+        let error = Triangulation::within(&spheres, &unit_box()).expect_err("outside");
+        assert_eq!(
+            error,
+            Error::Outside {
+                sphere: 1,
+                wall: 1,
+                distance: 1.0 - x
+            }
+        );
+    }
+}
+
+#[test]
+fn spheres_in_a_plane_need_walls() {
+    let spheres: Vec<_> = lattice(3, 0.3)
+        .into_iter()
+        .filter(|s| s.centre.z < 0.2)
+        .collect();
+    assert_eq!(
+        Triangulation::of_spheres(&spheres).expect_err("flat"),
+        Error::Flat
+    );
+    assert!(Triangulation::within(&spheres, &unit_box()).is_ok());
+    let line: Vec<_> = (0..5)
+        .map(|i| Sphere::new([f64::from(i) / 7.0, 0.1, 0.2], 0.01))
+        .collect();
+    assert_eq!(
+        Triangulation::of_spheres(&line).expect_err("flat"),
+        Error::Flat
+    );
+    let few = Triangulation::of_spheres(&spheres[..3]).expect_err("few");
+    assert_eq!(
+        few,
+        Error::TooFew {
+            spheres: 3,
+            needed: 4
+        }
+    );
+    assert!(matches!(
+        Triangulation::within(&[], &unit_box()),
+        Err(Error::TooFew { .. })
+    ));
+}
+
+#[test]
+fn numbers_that_are_none_are_named() {
+    let mut spheres = random_spheres(10, 1);
+    spheres[3].radius = -0.1;
+    assert!(matches!(
+        Triangulation::of_spheres(&spheres),
+        Err(Error::BadSphere { sphere: 3, .. })
+    ));
+    spheres[3].radius = 0.1;
+    spheres[5].centre.y = f64::NAN;
+    assert!(matches!(
+        Triangulation::of_spheres(&spheres),
+        Err(Error::BadSphere { sphere: 5, .. })
+    ));
+    let mut walls = unit_box();
+    walls[2].normal *= 2.0;
+    let error = Triangulation::within(&random_spheres(10, 1), &walls);
+    assert!(matches!(error, Err(Error::BadWall { wall: 2, .. })));
+}
+
+#[test]
+fn walls_that_close_no_room_are_named() {
+    let spheres = [Sphere::new([0.5; 3], 0.1)];
+    let open = Triangulation::within(&spheres, &unit_box()[..5]).expect_err("open");
+    assert!(matches!(open, Error::Open { .. }), "{open}");
+    let floor = Triangulation::within(&spheres, &unit_box()[4..5]).expect_err("open");
+    assert!(matches!(floor, Error::Open { .. }), "{floor}");
+    let mut walls = unit_box().to_vec();
+    walls.push(Wall::through([0.0, 0.0, -1.0], [0.0, 0.1, 1.0]));
+    let idle = Triangulation::within(&spheres, &walls).expect_err("idle");
+    assert_eq!(idle, Error::IdleWall { wall: 6 });
+    let sides = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+    let tip = |n: [f64; 2]| Wall::through([0.5, 0.5, 1.0], [n[0], n[1], -1.0]);
+    let mut pyramid: Vec<_> = sides.into_iter().map(tip).collect();
+    pyramid.push(unit_box()[4]);
+    let error = Triangulation::within(&spheres, &pyramid).expect_err("four walls in a point");
+    assert!(matches!(error, Error::FourWallsMeet { .. }), "{error}");
+}

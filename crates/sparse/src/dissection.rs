@@ -1,0 +1,141 @@
+//! An order of elimination from places: nested dissection by bisection of coordinates.
+
+use nalgebra::Vector3;
+
+use crate::UpperTriangle;
+use crate::vertex_cover::Joins;
+
+/// Parts that are not cut further.
+const SMALL: usize = 8;
+
+/// Unknowns in the order of their elimination: both halves of a cut across the longest axis, each ordered so, then the
+/// fewest unknowns that touch all that join the halves. Parts of eight and the fewest unknowns fill a sixth less than parts
+/// of 48 and the unknowns of one half (5,000 spheres); minimum degree fills a third to a half more than the latter.
+/// Source: George 1973; cuts by coordinates instead of a grid's lines.
+pub fn nested_dissection(matrix: &UpperTriangle, places: &[Vector3<f64>]) -> Vec<u32> {
+    let mut cutter = Cutter {
+        neighbours: neighbours(matrix),
+        places,
+        side: vec![0; places.len()],
+        number: vec![0; places.len()],
+        mark: 0,
+        order: Vec::with_capacity(places.len()),
+    };
+    cutter.cut((0..places.len() as u32).collect());
+    cutter.order
+}
+
+struct Cutter<'a> {
+    neighbours: (Vec<u32>, Vec<u32>),
+    places: &'a [Vector3<f64>],
+    /// Number of the half in which an unknown was last.
+    side: Vec<u32>,
+    /// Number of an unknown among those of the upper half at the cut.
+    number: Vec<u32>,
+    mark: u32,
+    order: Vec<u32>,
+}
+
+impl Cutter<'_> {
+    fn cut(&mut self, mut part: Vec<u32>) {
+        if part.len() <= SMALL {
+            self.order.extend(part);
+            return;
+        }
+        let at = |u: &u32| self.places[*u as usize];
+        let low = part
+            .iter()
+            .map(at)
+            .reduce(|a, b| a.inf(&b))
+            .unwrap_or_default();
+        let high = part
+            .iter()
+            .map(at)
+            .reduce(|a, b| a.sup(&b))
+            .unwrap_or_default();
+        let axis = (high - low).imax();
+        let middle = part.len() / 2;
+        part.select_nth_unstable_by(middle, |a, b| {
+            at(a)[axis].total_cmp(&at(b)[axis]).then(a.cmp(b))
+        });
+        let upper = part.split_off(middle);
+        self.mark += 1;
+        let mark = self.mark;
+        upper.iter().for_each(|u| self.side[*u as usize] = mark);
+        part.iter().for_each(|u| self.side[*u as usize] = mark + 1);
+        self.mark += 1;
+        let between = self.between(&part, mark);
+        between.iter().for_each(|u| self.side[*u as usize] = 0);
+        let inside = |u: &u32| self.side[*u as usize] != 0;
+        let [lower, upper] = [part, upper].map(|half| half.into_iter().filter(inside).collect());
+        self.cut(lower);
+        self.cut(upper);
+        self.order.extend(between);
+    }
+
+    /// The fewest unknowns without which nothing joins the lower half to the upper one of a mark, ascending.
+    fn between(&mut self, lower: &[u32], mark: u32) -> Vec<u32> {
+        let (starts, list) = (&self.neighbours.0, &self.neighbours.1);
+        let (mut left, mut right, mut joins) = (Vec::new(), Vec::new(), Joins::default());
+        for &u in lower {
+            let range = starts[u as usize] as usize..starts[u as usize + 1] as usize;
+            let over = list[range]
+                .iter()
+                .filter(|v| self.side[**v as usize] == mark);
+            let before = joins.list.len();
+            for &v in over {
+                let number = &mut self.number[v as usize];
+                if right.get(*number as usize) != Some(&v) {
+                    *number = right.len() as u32;
+                    right.push(v);
+                }
+                joins.list.push(*number);
+            }
+            if joins.list.len() > before {
+                left.push(u);
+                joins.starts.push(before as u32);
+            }
+        }
+        joins.starts.push(joins.list.len() as u32);
+        let [of_left, of_right] = joins.cover(right.len());
+        let kept = |ends: &[u32], kept: &[bool]| {
+            let all = ends.iter().zip(kept).filter(|(_, kept)| **kept);
+            all.map(|(u, _)| *u).collect::<Vec<_>>()
+        };
+        let mut cover = kept(&left, &of_left);
+        cover.extend(kept(&right, &of_right));
+        cover.sort_unstable();
+        cover
+    }
+}
+
+/// Starts and lists of the neighbours of every unknown.
+fn neighbours(matrix: &UpperTriangle) -> (Vec<u32>, Vec<u32>) {
+    let n = matrix.len();
+    let mut starts = vec![0_u32; n + 1];
+    let entries = || {
+        (0..n).flat_map(|c| {
+            let range = matrix.starts[c] as usize..matrix.starts[c + 1] as usize;
+            matrix.rows[range]
+                .iter()
+                .map(move |r| (*r as usize, c))
+                .filter(|(r, c)| r != c)
+        })
+    };
+    for (r, c) in entries() {
+        starts[r + 1] += 1;
+        starts[c + 1] += 1;
+    }
+    for k in 0..n {
+        starts[k + 1] += starts[k];
+    }
+    let mut next = starts.clone();
+    let mut list = vec![0; starts[n] as usize];
+    for (r, c) in entries() {
+        for (a, b) in [(r, c), (c, r)] {
+            list[next[a] as usize] = b as u32;
+            next[a] += 1;
+        }
+    }
+    (starts, list)
+}

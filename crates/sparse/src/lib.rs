@@ -1,0 +1,22 @@
+//! Sparse symmetric positive definite systems A x = b.
+//!
+//! * [`UpperTriangle`]: a matrix by its columns.
+//! * [`Cholesky`]: A = L Lᵀ by faer, in an [`Order`] of elimination that is kept while only values change;
+//!   [`nested_dissection`] makes one from places.
+//! * [`conjugate_gradient`]: iterations from a first guess.
+//! * [`SparseError`]: what cannot be solved.
+#![doc = include_str!("../README.md")]
+
+mod cholesky;
+mod conjugate_gradient;
+mod dissection;
+mod error;
+mod matrix;
+mod substitution;
+mod vertex_cover;
+
+pub use cholesky::{Cholesky, Order};
+pub use conjugate_gradient::conjugate_gradient;
+pub use dissection::nested_dissection;
+pub use error::SparseError;
+pub use matrix::UpperTriangle;

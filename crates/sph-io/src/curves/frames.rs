@@ -1,0 +1,146 @@
+//! The frames of a run.
+
+use std::path::{Path, PathBuf};
+
+use crate::curves::{DrawError, Snapshot};
+use crate::{Cells, Piece};
+
+/// One frame: its time and its files.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Simulated time, s.
+    pub time: f64,
+    /// File of the particles.
+    pub particles: PathBuf,
+    /// File of the walls, if there are any.
+    pub walls: Option<PathBuf>,
+}
+
+/// All frames of a run in the order of their times.
+#[derive(Clone, Debug)]
+pub struct Frames {
+    /// The frames, at least one.
+    entries: Vec<Entry>,
+    /// Spacing of the particles at the start, m.
+    spacing: f64,
+}
+
+/// Most frames that a range of colours looks at.
+const FRAMES: usize = 20;
+
+/// Particles whose nearest neighbour is looked for.
+const SAMPLED: usize = 200;
+
+impl Frames {
+    /// Those that `fields.pvd` of a folder lists.
+    ///
+    /// # Errors
+    /// If there are none, or the list or the first frame cannot be read.
+    pub fn of(folder: &Path) -> Result<Self, DrawError> {
+        let mut entries: Vec<Entry> = Vec::new();
+        for listed in crate::list_pvd(folder.join("fields.pvd"))? {
+            let walls = listed.name == "walls";
+            match entries.iter_mut().find(|e| e.time == listed.time) {
+                Some(entry) if walls => entry.walls = Some(listed.path),
+                Some(_) => {}
+                None if walls => {}
+                None => entries.push(Entry {
+                    time: listed.time,
+                    particles: listed.path,
+                    walls: None,
+                }),
+            }
+        }
+        entries.sort_by(|a, b| a.time.total_cmp(&b.time));
+        let first = entries.first();
+        let first = first.ok_or_else(|| DrawError::NoFrames(folder.to_path_buf()))?;
+        let (piece, _) = crate::read_piece(&first.particles)?;
+        let spacing = spacing(&piece.points);
+        Ok(Frames { entries, spacing })
+    }
+
+    /// All of them.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// How far particles are apart at the start, m: the median distance to the nearest one.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// The frame nearest to a time (s), or the last one.
+    pub fn at(&self, time: Option<f64>) -> &Entry {
+        let last = &self.entries[self.entries.len() - 1];
+        let Some(time) = time else { return last };
+        let apart = |e: &&Entry| (e.time - time).abs();
+        let nearest = self.entries.iter();
+        nearest
+            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+            .unwrap_or(last)
+    }
+
+    /// The range of colours of a field that suits all frames, or twenty of them if there are more: round numbers that hold
+    /// 98 % of the values.
+    ///
+    /// # Errors
+    /// A field that was not written, a file that cannot be read.
+    pub fn range(&self, field: &str) -> Result<Option<[f64; 2]>, DrawError> {
+        let every = self.entries.len().div_ceil(FRAMES).max(1);
+        let mut values = Vec::new();
+        // From the last one back, which is the one most asked for.
+        for entry in self.entries.iter().rev().step_by(every) {
+            values.extend(self.read(entry)?.column(field)?.values);
+        }
+        let range = crate::ColourRanges::default().of(field, &values);
+        Ok(range.map(|(range, _)| range))
+    }
+
+    /// Reads a frame.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read(&self, entry: &Entry) -> Result<Snapshot, DrawError> {
+        let (piece, time) = crate::read_piece(&entry.particles)?;
+        let walls = match &entry.walls {
+            Some(path) => drawn(&crate::read_piece(path)?.0, self.spacing),
+            None => Vec::new(),
+        };
+        Ok(Snapshot::new(piece, time, walls, self.spacing))
+    }
+}
+
+/// The segments of walls in the plane. One whose ends are a period apart is drawn at neither side.
+fn drawn(piece: &Piece<'_>, spacing: f64) -> Vec<[[f64; 3]; 2]> {
+    let Cells::Segments(ends) = &piece.cells else {
+        return Vec::new();
+    };
+    let all = ends.iter().map(|e| e.map(|k| piece.points[k as usize]));
+    all.filter(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]) < 3.0 * spacing)
+        .collect()
+}
+
+/// The median of the distances to the nearest point, m.
+fn spacing(points: &[[f64; 3]]) -> f64 {
+    let step = points.len().div_ceil(SAMPLED).max(1);
+    let mut nearest: Vec<f64> = Vec::new();
+    for (k, x) in points.iter().enumerate().step_by(step) {
+        let apart = |(j, r): (usize, &[f64; 3])| match j == k {
+            true => f64::INFINITY,
+            false => (0..3).map(|i| (r[i] - x[i]).powi(2)).sum(),
+        };
+        nearest.push(
+            points
+                .iter()
+                .enumerate()
+                .map(apart)
+                .fold(f64::INFINITY, f64::min),
+        );
+    }
+    nearest.sort_by(f64::total_cmp);
+    let middle = nearest.get(nearest.len() / 2).copied().unwrap_or(1.0);
+    match middle.is_finite() && middle > 0.0 {
+        true => middle.sqrt(),
+        false => 1.0,
+    }
+}

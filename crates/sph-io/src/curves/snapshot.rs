@@ -1,0 +1,155 @@
+//! One frame with its columns.
+
+use crate::curves::{Cloud, DrawError};
+use crate::{FieldValues, Location, Picture, Piece, View};
+
+/// Particles at one time.
+pub struct Snapshot {
+    piece: Piece<'static>,
+    /// Simulated time, s.
+    pub time: f64,
+    /// Walls in the plane, by their ends, m.
+    pub walls: Vec<[[f64; 3]; 2]>,
+    /// How far particles were apart at the start, m.
+    pub spacing: f64,
+}
+
+/// One number per particle.
+pub struct Column {
+    /// What was asked for, with spaces and its unit: `velocity x [m/s]`.
+    pub label: String,
+    /// Unit.
+    pub unit: String,
+    /// The numbers.
+    pub values: Vec<f64>,
+}
+
+impl Snapshot {
+    pub(crate) fn new(
+        piece: Piece<'static>,
+        time: f64,
+        walls: Vec<[[f64; 3]; 2]>,
+        spacing: f64,
+    ) -> Self {
+        Snapshot {
+            piece,
+            time,
+            walls,
+            spacing,
+        }
+    }
+
+    /// Where the particles are, m.
+    pub fn points(&self) -> &[[f64; 3]] {
+        &self.piece.points
+    }
+
+    /// The particles sorted for values between them.
+    pub fn cloud(&self) -> Cloud<'_> {
+        Cloud::new(self.points(), self.spacing)
+    }
+
+    /// Who is who.
+    ///
+    /// # Errors
+    /// If identities were not written.
+    pub fn identities(&self) -> Result<Vec<u32>, DrawError> {
+        match &self.field("identity")?.data {
+            FieldValues::U32(v) => Ok(v.to_vec()),
+            _ => Err(self.missing("identity")),
+        }
+    }
+
+    /// The three components of the velocity, m/s, particle after particle.
+    ///
+    /// # Errors
+    /// If the velocity was not written.
+    pub fn velocity(&self) -> Result<Vec<f64>, DrawError> {
+        let field = self.field("velocity")?;
+        match field.components {
+            3 => Ok(reals(&field.data)),
+            _ => Err(self.missing("velocity")),
+        }
+    }
+
+    /// A field, of vectors and tensors the length; or a component of it, `velocity.x` or `strain.4`. `speed` is there
+    /// wherever the velocity is.
+    ///
+    /// # Errors
+    /// If no such field was written, or it has no such component.
+    pub fn column(&self, asked: &str) -> Result<Column, DrawError> {
+        let (name, component) = match asked.split_once('.') {
+            Some((name, component)) => (name, Some(component)),
+            None => (asked, None),
+        };
+        let field = match (name, self.field(name)) {
+            ("speed", Err(_)) => self.field("velocity"),
+            (_, found) => found,
+        }?;
+        let all = reals(&field.data);
+        let per = field.components;
+        let one = |component: &str| {
+            let axis = ["x", "y", "z"].iter().position(|a| *a == component);
+            let place = axis.or_else(|| component.parse().ok());
+            place.filter(|k| *k < per).ok_or(DrawError::NoComponent {
+                name: name.into(),
+                components: per,
+                component: component.into(),
+            })
+        };
+        let values = match component.map(one).transpose()? {
+            Some(k) => all.chunks(per).map(|c| c[k]).collect(),
+            None if per == 1 => all,
+            None => all
+                .chunks(per)
+                .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
+                .collect(),
+        };
+        let (unit, name) = (field.unit.to_string(), asked.replace(['_', '.'], " "));
+        let label = match unit.as_str() {
+            "1" | "" => name,
+            unit => format!("{name} [{unit}]"),
+        };
+        Ok(Column {
+            label,
+            unit,
+            values,
+        })
+    }
+
+    fn field(&self, name: &str) -> Result<&crate::FieldData<'static>, DrawError> {
+        let mut at_points = self.piece.fields.iter();
+        at_points
+            .find(|f| f.name == name && f.location == Location::Point)
+            .ok_or_else(|| self.missing(name))
+    }
+
+    fn missing(&self, name: &str) -> DrawError {
+        let known: Vec<&str> = self.piece.fields.iter().map(|f| f.name.as_ref()).collect();
+        DrawError::NoField {
+            name: name.into(),
+            known: known.join(", "),
+        }
+    }
+
+    /// The picture of points with values between the walls, to be completed.
+    pub(crate) fn picture<'a>(&'a self, points: &'a [[f64; 3]], values: &'a [f64]) -> Picture<'a> {
+        let planar = self.points().iter().all(|p| p[2] == 0.0);
+        Picture {
+            time: Some(self.time),
+            diameter: self.spacing,
+            walls: &self.walls,
+            view: if planar { View::Plane } else { View::Front },
+            ..Picture::of(points, values)
+        }
+    }
+}
+
+/// A column as reals.
+fn reals(values: &FieldValues<'_>) -> Vec<f64> {
+    match values {
+        FieldValues::F64(v) => v.to_vec(),
+        FieldValues::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
+        FieldValues::I64(v) => v.iter().map(|x| *x as f64).collect(),
+    }
+}

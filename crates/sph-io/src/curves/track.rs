@@ -1,0 +1,131 @@
+//! Where single particles have been.
+
+use std::path::Path;
+
+use crate::curves::{DrawError, Frames, Snapshot};
+
+/// The places of a particle, frame by frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// Who it is.
+    pub identity: u32,
+    /// Time (s) and place (m) in every frame that has it.
+    pub places: Vec<(f64, [f64; 3])>,
+}
+
+/// The tracks of particles through all frames, in the order in which they are named.
+///
+/// # Errors
+/// A frame that cannot be read, an identity that no frame has.
+pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>, DrawError> {
+    let start = |&identity: &u32| Track {
+        identity,
+        places: Vec::new(),
+    };
+    let mut all: Vec<Track> = identities.iter().map(start).collect();
+    for entry in frames.entries() {
+        let snapshot = frames.read(entry)?;
+        for (identity, place) in snapshot.identities()?.iter().zip(snapshot.points()) {
+            // Few are followed: a list is as good as a map.
+            for track in all.iter_mut().filter(|t| t.identity == *identity) {
+                track.places.push((snapshot.time, *place));
+            }
+        }
+    }
+    match all.iter().find(|t| t.places.is_empty()) {
+        Some(lost) => Err(DrawError::NoParticle(lost.identity)),
+        None => Ok(all),
+    }
+}
+
+/// The identity of the particle that is nearest to a place (m).
+///
+/// # Errors
+/// If identities were not written, or there is no particle.
+pub fn nearest(snapshot: &Snapshot, place: [f64; 3]) -> Result<u32, DrawError> {
+    let identities = snapshot.identities()?;
+    let apart = |r: &[f64; 3]| (0..3).map(|k| (r[k] - place[k]).powi(2)).sum::<f64>();
+    let all = snapshot.points().iter().map(apart).zip(identities);
+    let found = all.min_by(|a, b| a.0.total_cmp(&b.0));
+    found
+        .map(|(_, identity)| identity)
+        .ok_or_else(|| DrawError::Unfit("there is no particle".into()))
+}
+
+/// `count` identities, evenly spread over those of a frame.
+///
+/// # Errors
+/// If identities were not written.
+pub fn evenly(snapshot: &Snapshot, count: usize) -> Result<Vec<u32>, DrawError> {
+    let mut all = snapshot.identities()?;
+    all.sort_unstable();
+    let count = count.min(all.len());
+    Ok((0..count)
+        .map(|k| all[(2 * k + 1) * all.len() / (2 * count)])
+        .collect())
+}
+
+/// Draws tracks over a field of the last frame into a picture, `.png`, and writes a table beside it.
+///
+/// # Errors
+/// A field that was not written, a file that cannot be.
+pub fn draw_tracks(
+    frames: &Frames,
+    tracks: &[Track],
+    field: &str,
+    path: &Path,
+) -> Result<(), DrawError> {
+    let snapshot = frames.read(frames.at(None))?;
+    let column = snapshot.column(field)?;
+    let along = tracks.iter().flat_map(|t| t.places.iter().map(|(_, x)| x));
+    let half = extent(along.chain(snapshot.points())).map(|side| 0.5 * side);
+    let lines: Vec<Vec<[f64; 3]>> = tracks.iter().flat_map(|t| unbroken(t, half)).collect();
+    let picture = crate::Picture {
+        label: &column.label,
+        lines: &lines,
+        range: frames.range(field)?,
+        ..snapshot.picture(snapshot.points(), &column.values)
+    };
+    picture.save(path)?;
+    let rows = tracks.iter().flat_map(|t| {
+        let row =
+            |(time, [x, y, z]): &(f64, [f64; 3])| vec![f64::from(t.identity), *time, *x, *y, *z];
+        t.places.iter().map(row)
+    });
+    let columns = [
+        ("identity", "1"),
+        ("time", "s"),
+        ("x", "m"),
+        ("y", "m"),
+        ("z", "m"),
+    ];
+    let rows: Vec<Vec<f64>> = rows.collect();
+    Ok(crate::write_table(
+        path.with_extension("csv"),
+        columns,
+        &rows,
+    )?)
+}
+
+/// The pieces of a track between jumps across a periodic border: steps longer than half of everything along an axis.
+fn unbroken(track: &Track, longest: [f64; 3]) -> Vec<Vec<[f64; 3]>> {
+    let mut pieces: Vec<Vec<[f64; 3]>> = Vec::new();
+    for (_, place) in &track.places {
+        let near = |before: &[f64; 3]| (0..3).all(|k| (before[k] - place[k]).abs() <= longest[k]);
+        match pieces.last_mut() {
+            Some(piece) if piece.last().is_some_and(near) => piece.push(*place),
+            _ => pieces.push(vec![*place]),
+        }
+    }
+    pieces
+}
+
+/// The sides of the box around points, m.
+fn extent<'p>(points: impl Iterator<Item = &'p [f64; 3]> + Clone) -> [f64; 3] {
+    [0, 1, 2].map(|k| {
+        let along = points.clone().map(|p| p[k]).filter(|x| x.is_finite());
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let (lo, hi) = along.fold(ends, |(lo, hi), x| (lo.min(x), hi.max(x)));
+        (hi - lo).max(0.0)
+    })
+}

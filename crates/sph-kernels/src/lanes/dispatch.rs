@@ -1,0 +1,107 @@
+//! The widest lanes of the processor at hand, found when the program runs.
+
+use std::sync::atomic::{AtomicU8, Ordering};
+
+use crate::lanes::{Lane, Lanes};
+
+/// How many numbers stand side by side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Width {
+    /// 2: what every processor has.
+    Two,
+    /// 4: AVX2.
+    Four,
+    /// 8: AVX-512.
+    Eight,
+}
+
+impl Width {
+    /// As a number.
+    pub fn lanes(self) -> usize {
+        match self {
+            Width::Two => 2,
+            Width::Four => 4,
+            Width::Eight => 8,
+        }
+    }
+}
+
+/// 0 for the widest there is, else the most lanes that are allowed.
+static ALLOWED: AtomicU8 = AtomicU8::new(0);
+
+/// Allows no more lanes than these from now on; `None` allows what the processor has. For tests: results do not depend
+/// on it, to the bit.
+pub fn force_width(most: Option<Width>) {
+    let most = most.map_or(0, |w| w.lanes() as u8);
+    ALLOWED.store(most, Ordering::Relaxed);
+}
+
+/// The width that [`dispatch`] takes.
+pub fn width() -> Width {
+    let allowed = match ALLOWED.load(Ordering::Relaxed) {
+        2 => Width::Two,
+        4 => Width::Four,
+        _ => Width::Eight,
+    };
+    allowed.min(processor())
+}
+
+/// What is to be run with lanes of some width.
+pub trait Body {
+    /// What it returns.
+    type Output;
+    /// Runs it; `#[inline(always)]`, as is all that it calls.
+    fn call<L: Lane>(self) -> Self::Output;
+}
+
+#[cfg(target_arch = "x86_64")]
+fn processor() -> Width {
+    let eight = is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl");
+    match (eight, is_x86_feature_detected!("avx2")) {
+        (true, true) => Width::Eight,
+        (false, true) => Width::Four,
+        _ => Width::Two,
+    }
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn processor() -> Width {
+    Width::Two
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
+fn with_avx512<B: Body>(body: B) -> B::Output {
+    body.call::<Lanes<8>>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn with_avx2<B: Body>(body: B) -> B::Output {
+    body.call::<Lanes<4>>()
+}
+
+/// Runs a body with the widest lanes that the processor has.
+#[inline]
+pub fn dispatch<B: Body>(body: B) -> B::Output {
+    dispatch_at(width(), body)
+}
+
+/// Runs a body with lanes of a width, or the widest that the processor has if that is less.
+#[inline]
+#[allow(
+    unsafe_code,
+    reason = "functions for instructions that the processor may not have; it has been asked"
+)]
+pub fn dispatch_at<B: Body>(width: Width, body: B) -> B::Output {
+    #[cfg(target_arch = "x86_64")]
+    match width.min(processor()) {
+        // SAFETY: `processor` says `Eight` and `Four` only where it found the instructions.
+        Width::Eight => return unsafe { with_avx512(body) },
+        Width::Four => return unsafe { with_avx2(body) },
+        Width::Two => {}
+    }
+    body.call::<Lanes<2>>()
+}

@@ -1,0 +1,52 @@
+//! Smoothers and shifting.
+
+use sph_contribution::{Contribution, Offer, Setting, contribution_kind};
+use sph_core::Work;
+use sph_neighbours::Interaction;
+
+use crate::diffusion::diffusion_limit::{DiffusionLimit, fastest};
+use crate::diffusion::{Accelerated, MeanAcceleration};
+
+contribution_kind!(
+    /// A smoother that a scene may name: a density diffusion that damps the chequerboard mode of pressure.
+    pub SmootherEntry, "smoother", One, "density diffusion against pressure noise",
+    .ordered(70).works(Work::Smoothing)
+);
+
+contribution_kind!(
+    /// A shifting scheme that a scene may name. The last of its stages writes
+    /// [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
+    pub ShiftingEntry, "shifting", One, "what keeps particles evenly spread",
+    .ordered(90).works(Work::Shifting)
+);
+
+/// A smoother by its term, which adds dρ/dt to [`Rates::scalar`](sph_neighbours::Rates).
+pub struct Smoothing<const D: usize> {
+    /// The term.
+    pub term: Box<dyn Interaction<D>>,
+    /// Strength δ: the diffusivity of the density over h c.
+    pub strength: f64,
+    /// Which accelerations the term takes the mean of, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if it does.
+    pub accelerated: Option<Accelerated>,
+    /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
+    /// step.
+    pub of_pressures: bool,
+}
+
+impl<const D: usize> Smoothing<D> {
+    /// Offers the term, the mean of accelerations, the bound up to which it evens out instead of overshooting, and a remedy.
+    pub fn offer(self, setting: &Setting<'_, D>, offer: &mut Offer<D>) {
+        let laws = setting.laws;
+        offer.terms.push(self.term);
+        offer.changes_density = true;
+        if !(setting.pressure_ahead && self.of_pressures) {
+            offer
+                .limiters
+                .extend(DiffusionLimit::of(self.strength, laws));
+        }
+        if let Some(of) = self.accelerated {
+            offer.hook(MeanAcceleration::new(of, fastest(laws)));
+        }
+        offer.remedy = Some(format!("lower the strength in {}", offer.path));
+    }
+}

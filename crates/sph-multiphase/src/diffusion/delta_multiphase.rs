@@ -1,0 +1,257 @@
+//! The δ-SPH smoother for several phases.
+
+use sph_core::{Access, StepError, Vect, fields, parameters, plugin};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+    splat,
+};
+
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_rheology::state::Laws;
+
+use crate::diffusion::per_phase::PerPhase;
+use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
+
+/// dρ_a/dt += 2 δ h c_a ρ₀_a/γ_a [Σ_b V_b (β_a − β_b) F_ab − Σ_s (β_a − β_s)/d_s |∇γ_as|], β = ρ/ρ₀,
+/// over neighbours of all phases and over walls.
+///
+/// Symbols: δ number; h smoothing length (m); c, ρ₀ speed of sound (m/s) and density (kg/m³) of the
+/// phase at rest; F = w'/r; d distance from an element (m), not below δr/2. A neighbour of another
+/// phase counts as one of the own phase that is compressed as much. A wall point or element has
+/// the β at which the own phase has the wall's pressure, and a point the volume V_a of whoever
+/// looks at it; without `walls` a hydrostatic density has a source at a bottom.
+///
+/// Limits: as printed, a hydrostatic density has a source of about δ ρ₀ g/c at a free surface, and
+/// across an interface, where β has a kink at rest, because ρ₀g/(ρ₀c²) jumps unless c is the same: two
+/// layers at rest have 6 to 8 % too much pressure between them. `balance = "hydrostatic"` takes
+/// ½[ρ_a(g − A_a) + ρ_b(g − A_b)]·r_ab/(ρ₀_a c_a²) from every difference, A the
+/// [mean acceleration](crate::diffusion::MeanAcceleration), as the Brezzi–Pitkäranta smoother does,
+/// and nothing is left to diffuse at rest. The volume that a pair of phases exchanges balances only
+/// if c is the same.
+///
+/// Source: Krimi et al. 2018, Eq. 30–31; c of the own phase and the walls are ours.
+///
+/// ```toml
+/// [smoother.delta-msph]
+/// strength = 0.1
+/// balance = "hydrostatic"
+/// ```
+#[plugin(SmootherEntry [2, 3], "delta-msph", "diffusion of the relative density, across interfaces and at walls",
+    source: "Krimi et al. 2018, Eq. 30–31")]
+#[derive(Copy)]
+pub struct DeltaMultiphase {
+    /// Strength δ.
+    #[parameter(default: 0.1, unit: "1", min: 0.0, max: 1.0, source: "Krimi et al. 2018: 0.1")]
+    pub strength: f64,
+    /// Whether walls count.
+    #[parameter(default: true, source: "ours")]
+    pub walls: bool,
+    /// What is not to be diffused.
+    #[parameter(default, source: "ours; literal: Krimi et al. 2018, Eq. 30")]
+    pub balance: Balance,
+    /// Whether the hydrostatic balance has the mean acceleration A. Left out: where all walls move, and where the fluid falls
+    /// without any.
+    #[parameter(default, source: "ours")]
+    pub accelerations: Option<bool>,
+}
+
+/// What is not to be diffused.
+#[parameters]
+pub enum Balance {
+    /// The compression of a fluid at rest or in an accelerated frame.
+    #[default]
+    Hydrostatic,
+    /// Nothing: as printed.
+    Literal,
+}
+
+impl DeltaMultiphase {
+    fn accelerated(&self) -> Option<Accelerated> {
+        let hydrostatic = self.balance == Balance::Hydrostatic;
+        (hydrostatic && self.accelerations == Some(true)).then_some(Accelerated::Sweep)
+    }
+}
+
+impl<const D: usize> Contribution<D> for DeltaMultiphase {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        self.accelerations.get_or_insert(setting.carried);
+        let laws = setting.laws;
+        let smoothing = Smoothing {
+            term: Box::new(DeltaTerm {
+                smoother: *self,
+                density: PerPhase::of(laws, |law| law.reference().density),
+                sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
+                laws: laws.clone(),
+            }),
+            strength: self.strength,
+            accelerated: self.accelerated(),
+            of_pressures: false,
+        };
+        smoothing.offer(setting, offer);
+        Ok(())
+    }
+}
+
+/// The term of [`DeltaMultiphase`].
+pub struct DeltaTerm {
+    smoother: DeltaMultiphase,
+    density: PerPhase,
+    sound_speed: PerPhase,
+    laws: Laws,
+}
+
+impl DeltaTerm {
+    /// β of every phase at given pressures: entry k n + i for phase k and place i of n.
+    fn compressions(&self, pressure: &[f64]) -> Vec<f64> {
+        let of = |law: &dyn sph_rheology::state::BoundState, p: &f64| {
+            law.density(*p) / law.reference().density
+        };
+        let each = self.laws.iter();
+        each.flat_map(|law| pressure.iter().map(move |p| of(&**law, p)))
+            .collect()
+    }
+}
+
+impl<const D: usize> PairTerm<D> for DeltaTerm {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "δ-SPH smoother for several phases".into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::DENSITY)
+            .both(fields::VOLUME)
+            .and(self.density.access())
+            .and(match self.smoother.accelerated() {
+                Some(_) => Access::none().both(fields::MEAN_ACCELERATION),
+                None => Access::none(),
+            })
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        let points = &world.walls.points;
+        let elements = &world.walls.elements;
+        let beside_walls = |pressure: &[f64]| match self.smoother.walls {
+            true => self.compressions(pressure),
+            false => Vec::new(),
+        };
+        Ok(Bound {
+            term: self,
+            density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            phase: self.density.column(world)?,
+            wall_share: &points.share,
+            at_points: beside_walls(&points.pressure),
+            at_elements: beside_walls(&elements.pressure),
+            normals: &elements.normal,
+            gravity: match self.smoother.balance {
+                Balance::Hydrostatic => world.gravity,
+                Balance::Literal => Vect::zeros(),
+            },
+            acceleration: match self.smoother.accelerated() {
+                Some(_) => Some(world.free.get(fields::MEAN_ACCELERATION)?),
+                None => None,
+            },
+            nearest: 0.5 * world.spacing,
+            weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
+        })
+    }
+}
+
+/// [`DeltaTerm`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    term: &'a DeltaTerm,
+    density: &'a [f64],
+    volume: &'a [f64],
+    phase: Option<&'a [u32]>,
+    wall_share: &'a [f64],
+    /// β of every phase at the points' pressures; empty where walls do not count.
+    at_points: Vec<f64>,
+    at_elements: Vec<f64>,
+    normals: &'a [Vect<D>],
+    gravity: Vect<D>,
+    acceleration: Option<&'a [Vect<D>]>,
+    nearest: f64,
+    weight: f64,
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// ∇p of what is left alone, Pa/m.
+    fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
+        (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
+    }
+}
+
+/// The own values of a particle.
+#[derive(Clone, Copy)]
+pub struct Own<const D: usize, L> {
+    compression: L,
+    /// ∇p at rest, Pa/m.
+    at_rest: [L; D],
+    /// 1/(ρ₀c²).
+    compressibility: L,
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
+    type Own<L: Lane> = Own<D, L>;
+    type Sum<L: Lane> = L;
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let [compression, compressibility] = all.each(|i| {
+            let phase = self.phase.map_or(0, |p| p[i]);
+            let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
+            [self.density[i] / rest, 1.0 / (rest * c * c)]
+        });
+        Own {
+            compression,
+            at_rest: all.each(|i| self.at_rest(i, self.density[i]).into()),
+            compressibility,
+        }
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let phase = self.phase.map_or(0, |p| p[j]);
+        let compression = L::splat(self.density[j] / self.term.density.at(phase));
+        let mut mean = splat::<D, L>(&self.at_rest(j, self.density[j]));
+        for (mean, own) in mean.iter_mut().zip(own.at_rest) {
+            *mean = (own + *mean) * L::splat(0.5);
+        }
+        let at_rest = dot(&mean, &pair.separation) * own.compressibility;
+        *sum += L::splat(self.volume[j]) * (own.compression - compression - at_rest) * pair.factor;
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let own = self.own::<f64>(Particles::one(i));
+        let own_at_rest = Vect::from(own.at_rest);
+        let phase = self.phase.map_or(0, |p| p[i]);
+        if !self.at_points.is_empty() {
+            for (v, pair) in at.wall.pairs() {
+                let there = self.at_points[phase as usize * self.wall_share.len() + v];
+                let weight = self.wall_share[v] * self.volume[i];
+                let at_rest = own_at_rest.dot(&pair.separation) * own.compressibility;
+                sum += weight * (own.compression - there - at_rest) * pair.factor;
+            }
+        }
+        if !self.at_elements.is_empty() {
+            for contact in at.contacts {
+                let s = contact.element as usize;
+                let there = self.at_elements[phase as usize * self.normals.len() + s];
+                let apart = contact.distance.max(self.nearest);
+                let slope = (own.compression - there) / apart;
+                let at_rest = own_at_rest.dot(&self.normals[s]) * own.compressibility;
+                sum -= (slope - at_rest) * contact.gradient.norm();
+            }
+        }
+        let scale = self.term.density.at(phase) * self.term.sound_speed.at(phase);
+        rates.scalar += self.weight * scale * sum * at.inverse_renormalisation;
+    }
+}

@@ -1,0 +1,212 @@
+//! The δ-SPH smoother.
+
+use sph_core::{
+    Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, plugin,
+};
+use sph_neighbours::{
+    Around, BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Values,
+    World, dot, unlike, walk_into,
+};
+
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+
+use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::per_phase::PerPhase;
+use crate::diffusion::{SmootherEntry, Smoothing};
+
+/// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
+/// of the same phase.
+///
+/// Symbols: δ number; h smoothing length (m); c speed of sound of the phase at rest (m/s); F = w'/r.
+/// In the `renormalised` form ∇ρ is the gradient that is exact for linear densities, so that the
+/// hydrostatic one is left alone also where the support is cut; it costs one more walk. The `plain`
+/// form has no ∇ρ: at a free surface a hydrostatic density then has a source of about δ ρ₀ g/c.
+/// Neighbours of other phases do not count, as in Fourtakas & Rogers (2016), so each phase sees the interface as a free
+/// surface; [`DeltaMultiphase`](crate::diffusion::DeltaMultiphase) looks across.
+///
+/// Source: Molteni & Colagrossi 2009 (plain); Antuono et al. 2010 (renormalised).
+///
+/// ```toml
+/// [smoother.delta-sph]
+/// form = "renormalised"
+/// strength = 0.1
+/// ```
+#[plugin(SmootherEntry [2, 3], "delta-sph", "density diffusion within each phase",
+    source: "Molteni & Colagrossi 2009; Antuono et al. 2010")]
+#[derive(Copy)]
+pub struct DeltaSph {
+    /// Strength δ.
+    #[parameter(default: 0.1, unit: "1", min: 0.0, max: 1.0, source: "Antuono et al. 2010: 0.1")]
+    pub strength: f64,
+    /// With or without the gradients of the density.
+    #[parameter(default: DeltaForm::Renormalised, source: "Molteni & Colagrossi 2009; Antuono et al. 2010")]
+    pub form: DeltaForm,
+}
+
+/// The forms of [`DeltaSph`].
+#[parameters]
+pub enum DeltaForm {
+    /// Differences of density.
+    Plain,
+    /// Differences from the linear density.
+    #[default]
+    Renormalised,
+}
+
+impl<const D: usize> Contribution<D> for DeltaSph {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if self.form == DeltaForm::Renormalised {
+            offer.stage(DensityGradient);
+        }
+        let smoothing = Smoothing {
+            term: Box::new(DeltaTerm {
+                smoother: *self,
+                sound_speed: PerPhase::of(setting.laws, |law| law.reference().sound_speed),
+            }),
+            strength: self.strength,
+            accelerated: None,
+            of_pressures: false,
+        };
+        smoothing.offer(setting, offer);
+        Ok(())
+    }
+}
+
+/// Renormalised gradient of the density within the phase.
+pub const DENSITY_GRADIENT: Field<Vector> = Field::new(
+    "density_gradient",
+    "kg/m⁴",
+    "gradient of the density within the phase, exact for linear densities",
+);
+
+/// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours
+/// span no volume.
+struct DensityGradient;
+
+impl Declares for DensityGradient {
+    fn name(&self) -> String {
+        "density gradient".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .both(fields::DENSITY)
+            .both(fields::VOLUME)
+            .where_there(fields::PHASE)
+            .writes(DENSITY_GRADIENT)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for DensityGradient {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut gradients = world.free.take(DENSITY_GRADIENT)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let phase = world.free.get(fields::PHASE).ok();
+        let gradient = |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            linear_exact(&around.rows.free, volume, |j| {
+                let same = phase.is_none_or(|p| p[i] == p[j]);
+                same.then(|| density[j] - density[i])
+            })
+        };
+        walk_into(world, Values::Gradient, |_| true, &mut gradients, gradient)?;
+        Ok(world.free.put(DENSITY_GRADIENT, gradients)?)
+    }
+}
+
+/// The term of [`DeltaSph`].
+pub struct DeltaTerm {
+    smoother: DeltaSph,
+    sound_speed: PerPhase,
+}
+
+impl<const D: usize> PairTerm<D> for DeltaTerm {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "δ-SPH smoother".into()
+    }
+
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .both(fields::DENSITY)
+            .neighbours(fields::VOLUME)
+            .and(self.sound_speed.access());
+        match self.smoother.form {
+            DeltaForm::Plain => access,
+            DeltaForm::Renormalised => access.both(DENSITY_GRADIENT),
+        }
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        Ok(Bound {
+            density: world.free.get(fields::DENSITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            gradient: match self.smoother.form {
+                DeltaForm::Plain => None,
+                DeltaForm::Renormalised => Some(world.free.get(DENSITY_GRADIENT)?),
+            },
+            phase: self.sound_speed.column(world)?,
+            sound_speed: &self.sound_speed,
+            weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
+        })
+    }
+}
+
+/// [`DeltaTerm`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    density: &'a [f64],
+    volume: &'a [f64],
+    gradient: Option<&'a [Vect<D>]>,
+    phase: Option<&'a [u32]>,
+    sound_speed: &'a PerPhase,
+    weight: f64,
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
+    /// Density, its gradient, phase.
+    type Own<L: Lane> = (L, [L; D], L);
+    type Sum<L: Lane> = L;
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        let gradient = match self.gradient {
+            Some(gradient) => all.vectors(gradient),
+            None => [L::splat(0.0); D],
+        };
+        (all.numbers(self.density), gradient, all.phases(self.phase))
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let zero = L::splat(0.0);
+        let linear = match self.gradient {
+            Some(g) => {
+                let mut both = own.1;
+                for k in 0..D {
+                    both[k] = L::splat(0.5) * (both[k] + L::splat(g[j][k]));
+                }
+                dot(&both, &pair.separation)
+            }
+            None => zero,
+        };
+        let rise = own.0 - L::splat(self.density[j]) - linear;
+        let mut more = L::splat(self.volume[j]) * rise * pair.factor;
+        if let Some(phase) = self.phase {
+            more = unlike(own.2, phase[j]).where_positive(zero, more);
+        }
+        *sum += more;
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let c = self
+            .sound_speed
+            .at(self.phase.map_or(0, |p| p[at.particle]));
+        rates.scalar += self.weight * c * sum * at.inverse_renormalisation;
+    }
+}

@@ -1,0 +1,77 @@
+//! What shifts change of density sums next to walls that scale the kernel.
+
+use sph_core::{Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot, pair_term, splat,
+};
+
+/// dρ/dt −= m_a Σ_b s_a s_b [(s_a − s_b)·∇w_ab + w_ab (σ_a + σ_b)], b = a included, with σ = s·∇ln s of the shift velocity:
+/// the change of ρ = K + m Σ s_a s_b w by a shift, which [`ShiftTransport`](crate::diffusion::ShiftTransport) takes back with γ where walls
+/// do not scale the kernel. Within reach of a free surface no density is taken up. Ours.
+#[derive(Clone, Copy, Debug)]
+pub struct ShiftedSum;
+
+/// [`ShiftedSum`] with its columns.
+#[pair_term(ShiftedSum, "shifted density sum")]
+pub struct Bound<'a, const D: usize> {
+    #[both(fields::SHIFT_VELOCITY)]
+    shift: &'a [Vect<D>],
+    #[here(fields::EMPTINESS)]
+    emptiness: &'a [f64],
+    #[here(fields::MASS)]
+    mass: &'a [f64],
+    #[where_there(fields::SCALE_SLOPE)]
+    slope: Option<&'a [Vect<D>]>,
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// s·∇ln s of a particle, 1/s.
+    #[inline(always)]
+    fn scale_rate(&self, i: usize) -> f64 {
+        self.slope.map_or(0.0, |g| g[i].dot(&self.shift[i]))
+    }
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    const SCALED: bool = true;
+    /// Shift velocity and its part along ∇ ln s.
+    type Own<L: Lane> = ([L; D], L);
+    type Sum<L: Lane> = L;
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+        let [along] = all.each(|i| [self.scale_rate(i)]);
+        (all.vectors(self.shift), along)
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let other = dot(&splat(&self.shift[j]), &pair.separation);
+        *sum += (dot(&own.0, &pair.separation) - other) * pair.factor;
+    }
+
+    #[inline(always)]
+    fn pair_at_walls<L: Lane>(
+        &self,
+        own: &Self::Own<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        *sum += pair.value * (own.1 + L::splat(self.scale_rate(j)));
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        if self.emptiness[i] == 0.0 {
+            return;
+        }
+        if let Some(scale) = at.scale {
+            sum += 2.0 * scale.own_value() * self.scale_rate(i);
+        }
+        rates.scalar -= self.mass[i] * sum;
+    }
+}

@@ -1,0 +1,143 @@
+//! Preconditioned conjugate gradients.
+
+use sph_core::{Vect, plugin};
+
+use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::memory::Vectors;
+use crate::linear::vector::{add, scale_and_add};
+use crate::linear::{
+    Keeps, LinearSolver, LinearSolverEntry, Memories, Memory, Operator, Preconditioner, Report,
+    SolveError,
+};
+
+/// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
+///
+/// With scalar entries all components share one set of search directions. Little memory, any
+/// dimension; the number of iterations grows with √(νΔt)/δr and with contrasts of viscosity.
+///
+/// ```toml
+/// [linear-solver.conjugate-gradient]
+/// preconditioner = "incomplete-diagonal"
+/// ```
+#[plugin(LinearSolverEntry [2, 3], "conjugate-gradient",
+    "preconditioned conjugate gradients: little memory, best where steps are moderate or in 3D",
+    source: "Hestenes & Stiefel 1952")]
+#[derive(Clone)]
+pub struct ConjugateGradient {
+    /// What shortens the iteration.
+    #[parameter(default, source: "docs/validation/implicit.md: iterations against contrast")]
+    pub preconditioner: Preconditioner,
+    /// Relative residual |b − A x| / |b| at which it ends.
+    #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
+    pub tolerance: f64,
+    /// Iterations after which it gives up; the step is then tried again with half its length.
+    #[parameter(default: ITERATIONS, unit: "1", min: 1, source: "ours")]
+    pub iterations: usize,
+    /// Vectors and factors of solves before, kept for their memory.
+    #[serde(skip)]
+    pub memories: Memories,
+}
+
+/// Iterations after which it gives up, unless a scene says otherwise.
+pub(crate) const ITERATIONS: usize = 2000;
+const METHOD: &str = "conjugate gradients";
+/// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
+const PREPARE: usize = 3;
+
+impl<const D: usize> LinearSolver<D> for ConjugateGradient
+where
+    Memories: Keeps<D>,
+{
+    fn solve(
+        &mut self,
+        operator: &dyn Operator<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+    ) -> Result<Report, SolveError> {
+        self.solve_roughly(operator, right, x, 0.0)
+    }
+
+    fn wants_entries(&self, _: &dyn Operator<D>) -> bool {
+        self.preconditioner.factorises()
+    }
+
+    fn solve_roughly(
+        &mut self,
+        operator: &dyn Operator<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+        enough: f64,
+    ) -> Result<Report, SolveError> {
+        let tolerance = Tolerance {
+            residual: self.tolerance.max(enough),
+            iterations: self.iterations,
+        };
+        let memory = self.memories.memory();
+        iterate(self.preconditioner, tolerance, memory, (operator, right, x))
+    }
+}
+
+/// Solves A x = b, starting from x, in the memory of solves before.
+///
+/// # Errors
+/// If x is not what was asked for.
+pub(crate) fn iterate<const D: usize>(
+    preconditioner: Preconditioner,
+    tolerance: Tolerance,
+    memory: &mut Memory<D>,
+    (operator, right, x): (&dyn Operator<D>, &[Vect<D>], &mut [Vect<D>]),
+) -> Result<Report, SolveError> {
+    let Memory {
+        history,
+        vectors,
+        factors,
+        halves,
+    } = memory;
+    let mut watch = Watch::new(METHOD, tolerance, operator, right, history)?;
+    let Vectors {
+        r,
+        z,
+        direction,
+        image,
+    } = vectors;
+    operator.residual(right, x, r);
+    if let Some(residual) = watch.reached(operator.norm(r))? {
+        return Ok(watch.report(residual, size_of_val(&r[..])));
+    }
+    let precondition = preconditioner.bind(operator, METHOD, factors);
+    if !operator.all(precondition.is_ok()) {
+        return Err(precondition.err().unwrap_or_else(|| watch.not_positive()));
+    }
+    let precondition = precondition?;
+    let bytes = 4 * size_of_val(&r[..]) + precondition.bytes();
+    z.resize(r.len(), Vect::zeros());
+    precondition.apply(r, z);
+    direction.clone_from(z);
+    direction.resize(operator.columns(), Vect::zeros());
+    image.resize(r.len(), Vect::zeros());
+    let mut slope = operator.inner(r, z);
+    let (mut prepared, mut halves) = (None, Some(halves));
+    loop {
+        if watch.iterations() == PREPARE {
+            prepared = halves.take().and_then(|halves| operator.prepared(halves));
+        }
+        match &prepared {
+            Some(prepared) => prepared.multiply(direction, image),
+            None => operator.apply(direction, image),
+        }
+        let curvature = operator.inner(direction, image);
+        if curvature <= 0.0 || slope <= 0.0 {
+            return Err(watch.not_positive());
+        }
+        let length = slope / curvature;
+        add(x, length, direction);
+        add(r, -length, image);
+        if let Some(residual) = watch.reached(operator.norm(r))? {
+            return Ok(watch.report(residual, bytes));
+        }
+        precondition.apply(r, z);
+        let next = operator.inner(r, z);
+        scale_and_add(&mut direction[..z.len()], next / slope, z);
+        slope = next;
+    }
+}

@@ -1,0 +1,107 @@
+//! What a solver needs to know of a system.
+
+use sph_core::Vect;
+use sph_neighbours::inner;
+
+use crate::linear::{Diagonal, Halved, Halves, Matrix, SolveError};
+
+/// A symmetric operator on vectors of particles, with or without a matrix behind it.
+///
+/// Rows are those of particles of one's own. Columns are the same particles and, after them, copies of particles
+/// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives copies the values
+/// of their owners, [`total`](Operator::total) adds what all owners of rows have summed. A [`Matrix`] has no copies.
+pub trait Operator<const D: usize>: Sync {
+    /// Rows: particles of one's own.
+    fn rows(&self) -> usize;
+
+    /// Columns: the rows, then the copies.
+    fn columns(&self) -> usize {
+        self.rows()
+    }
+
+    /// Gives the copies, x\[rows..columns\], the values of their owners.
+    fn import(&self, _x: &mut [Vect<D>]) {}
+
+    /// The sum over the owners of all rows of what each has summed over its own; the same bits for everybody.
+    fn total(&self, part: f64) -> f64 {
+        part
+    }
+
+    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits for everybody.
+    fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
+        let rows = self.rows();
+        self.total(inner(&x[..rows], &y[..rows]))
+    }
+
+    /// Whether it holds for all who share the operator; everybody must ask.
+    fn all(&self, holds: bool) -> bool {
+        holds
+    }
+
+    /// Whether all rows and what couples them are here.
+    fn is_whole(&self) -> bool {
+        self.columns() == self.rows()
+    }
+
+    /// y = A x; x has a value for every column, y for every row.
+    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
+
+    /// The same operator in a form that is worth its making where many products are asked for; none where there is no such form.
+    fn prepared<'a>(&'a self, _memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
+        None
+    }
+
+    /// Its diagonal, for preconditioners; none where nobody knows it.
+    fn diagonal(&self) -> Option<Diagonal<'_, D>> {
+        self.assembled().map(|matrix| matrix.entries.diagonal())
+    }
+
+    /// Largest ratio of what couples a row to others to what is left of its diagonal, as
+    /// [`Matrix::stiffness`](crate::linear::Matrix::stiffness); none where nobody knows it.
+    fn stiffness(&self) -> Option<f64> {
+        self.assembled().map(Matrix::stiffness)
+    }
+
+    /// The entries between rows of one's own, for preconditioners and factorisations; none where nobody can write
+    /// them down, which may be done when it is asked for.
+    fn assembled(&self) -> Option<&Matrix<D>> {
+        None
+    }
+}
+
+impl<const D: usize> dyn Operator<D> + '_ {
+    /// y = A x, for an x whose copies may be of an earlier iteration.
+    pub(crate) fn apply(&self, x: &mut [Vect<D>], y: &mut [Vect<D>]) {
+        self.import(x);
+        self.multiply(x, y);
+    }
+
+    /// |x| over all rows.
+    pub(crate) fn norm(&self, x: &[Vect<D>]) -> f64 {
+        self.inner(x, x).sqrt()
+    }
+
+    /// r = b − A x.
+    pub(crate) fn residual(&self, right: &[Vect<D>], x: &[Vect<D>], r: &mut Vec<Vect<D>>) {
+        r.resize(right.len(), Vect::zeros());
+        if self.columns() == self.rows() {
+            self.multiply(x, r);
+        } else {
+            let mut x = x.to_vec();
+            x.resize(self.columns(), Vect::zeros());
+            self.apply(&mut x, r);
+        }
+        r.iter_mut().zip(right).for_each(|(r, b)| *r = b - *r);
+    }
+
+    /// The whole matrix.
+    ///
+    /// # Errors
+    /// If it is not written down, or some of it is with the owners of copies.
+    pub(crate) fn whole(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
+        let whole = self.assembled().filter(|_| self.is_whole());
+        whole.ok_or_else(|| SolveError::NotWhole {
+            method: method.into(),
+        })
+    }
+}

@@ -1,0 +1,148 @@
+//! Preconditioners of the iterative solvers.
+
+use rayon::prelude::*;
+use sph_core::{Vect, parameters};
+
+use crate::linear::incomplete::Incomplete;
+use crate::linear::matrix::{Entries, ROWS};
+use crate::linear::{Block, Diagonal, Entry, Operator, SolveError};
+
+/// z ≈ A⁻¹ r.
+#[parameters]
+pub enum Preconditioner {
+    /// z = r.
+    None,
+    /// Division by the diagonal.
+    Jacobi,
+    /// Division by the diagonal blocks; for scalar entries the same as `jacobi`.
+    BlockJacobi,
+    /// A triangular factorisation that changes the diagonal only (simplified incomplete Cholesky);
+    /// two serial sweeps per iteration.
+    #[default]
+    IncompleteDiagonal,
+    /// A triangular factorisation without fill; fewer iterations for more work to make it.
+    IncompleteCholesky,
+}
+
+/// A preconditioner of one matrix.
+pub(crate) enum Bound<'s, const D: usize> {
+    Nothing,
+    Scalar(&'s [f64]),
+    Block(&'s [Block<D>]),
+    IncompleteScalar(&'s Incomplete<f64, f32>),
+    IncompleteBlock(&'s Incomplete<Block<D>, [[f32; D]; D]>),
+}
+
+/// What preconditioners are made of.
+#[derive(Default)]
+pub(crate) struct Factors<const D: usize> {
+    scalar: Vec<f64>,
+    block: Vec<Block<D>>,
+    incomplete_scalar: Incomplete<f64, f32>,
+    incomplete_block: Incomplete<Block<D>, [[f32; D]; D]>,
+}
+
+impl Preconditioner {
+    /// Whether it is made of the entries of a matrix, and not of its diagonal alone.
+    pub fn factorises(self) -> bool {
+        matches!(
+            self,
+            Preconditioner::IncompleteDiagonal | Preconditioner::IncompleteCholesky
+        )
+    }
+
+    /// # Errors
+    /// If a pivot is not positive.
+    pub(crate) fn bind<'s, const D: usize>(
+        self,
+        operator: &dyn Operator<D>,
+        method: &'static str,
+        factors: &'s mut Factors<D>,
+    ) -> Result<Bound<'s, D>, SolveError> {
+        if self == Preconditioner::None {
+            return Ok(Bound::Nothing);
+        }
+        let missing = || SolveError::NotWhole {
+            method: method.into(),
+        };
+        let failed = |row| SolveError::NotPositive {
+            method: method.into(),
+            row,
+        };
+        if !self.factorises() {
+            let diagonal = operator.diagonal().ok_or_else(missing)?;
+            let bound = match diagonal {
+                Diagonal::Scalar(all) => {
+                    inverted::<D, _>(&mut factors.scalar, all, |d| *d).map(Bound::Scalar)
+                }
+                Diagonal::Block(all) if self == Preconditioner::Jacobi => {
+                    inverted::<D, _>(&mut factors.block, all, Entry::<D>::diagonal)
+                        .map(Bound::Block)
+                }
+                Diagonal::Block(all) => {
+                    inverted::<D, _>(&mut factors.block, all, |d| *d).map(Bound::Block)
+                }
+            };
+            return bound.map_err(failed);
+        }
+        let matrix = operator.assembled().ok_or_else(missing)?;
+        let quick = self == Preconditioner::IncompleteDiagonal;
+        Ok(match &matrix.entries {
+            Entries::Scalar(values) => {
+                let factor = &mut factors.incomplete_scalar;
+                let filled = factor.refill::<D>(&matrix.pattern, values, quick);
+                filled.map_err(failed)?;
+                Bound::IncompleteScalar(factor)
+            }
+            Entries::Block(values) => {
+                let factor = &mut factors.incomplete_block;
+                let filled = factor.refill::<D>(&matrix.pattern, values, quick);
+                filled.map_err(failed)?;
+                Bound::IncompleteBlock(factor)
+            }
+        })
+    }
+}
+
+/// The inverses of parts of the diagonal, or the first row that has none.
+fn inverted<'s, const D: usize, E: Entry<D>>(
+    inverse: &'s mut Vec<E>,
+    diagonal: &[E],
+    part: impl Fn(&E) -> E,
+) -> Result<&'s [E], usize> {
+    inverse.clear();
+    for (i, d) in diagonal.iter().enumerate() {
+        inverse.push(part(d).inverted().ok_or(i)?);
+    }
+    Ok(inverse)
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// Memory that it takes.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Bound::Nothing => 0,
+            Bound::Scalar(inverse) => size_of_val(*inverse),
+            Bound::Block(inverse) => size_of_val(*inverse),
+            Bound::IncompleteScalar(factor) => factor.bytes(),
+            Bound::IncompleteBlock(factor) => factor.bytes(),
+        }
+    }
+
+    /// z ≈ A⁻¹ r.
+    pub fn apply(&self, r: &[Vect<D>], z: &mut [Vect<D>]) {
+        match self {
+            Bound::Nothing => z.copy_from_slice(r),
+            Bound::Scalar(inverse) => each(inverse, r, z),
+            Bound::Block(inverse) => each(inverse, r, z),
+            Bound::IncompleteScalar(factor) => factor.solve(r, z),
+            Bound::IncompleteBlock(factor) => factor.solve(r, z),
+        }
+    }
+}
+
+fn each<const D: usize, E: Entry<D>>(inverse: &[E], r: &[Vect<D>], z: &mut [Vect<D>]) {
+    let rows = z.par_iter_mut().zip(r).zip(inverse);
+    rows.with_min_len(ROWS)
+        .for_each(|((z, r), d)| *z = d.apply(r));
+}

@@ -1,0 +1,60 @@
+//! What a linear solver is.
+
+use sph_core::{Vect, contract};
+
+use crate::linear::{Operator, SolveError};
+
+/// What a solve took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Who solved.
+    pub method: &'static str,
+    /// Iterations; for a factorisation those that were spent before it was tried, 0 if it was the first.
+    pub iterations: usize,
+    /// |b − A x| / |b|.
+    pub residual: f64,
+    /// Most bytes held at a time besides matrix, right-hand side and solution: factors, preconditioner, search directions.
+    pub bytes: usize,
+}
+
+/// Solves symmetric positive definite systems.
+pub trait LinearSolver<const D: usize>: Send {
+    /// Solves A x = b, starting from x; right and x have a value for every row.
+    ///
+    /// # Errors
+    /// If x is not what was asked for; it is then no better than a start for another solver.
+    fn solve(
+        &mut self,
+        operator: &dyn Operator<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+    ) -> Result<Report, SolveError>;
+
+    /// The same within an outer iteration: a relative residual of `enough` will do, where stopping
+    /// early saves work.
+    ///
+    /// # Errors
+    /// As [`solve`](LinearSolver::solve).
+    fn solve_roughly(
+        &mut self,
+        operator: &dyn Operator<D>,
+        right: &[Vect<D>],
+        x: &mut [Vect<D>],
+        _enough: f64,
+    ) -> Result<Report, SolveError> {
+        self.solve(operator, right, x)
+    }
+
+    /// Whether it asks for the entries of an operator in any case, and not for products and the diagonal alone.
+    fn wants_entries(&self, _operator: &dyn Operator<D>) -> bool {
+        true
+    }
+}
+
+contract!(
+    /// A linear solver that a scene may name.
+    pub LinearSolverEntry, "linear-solver", One, "what solves sparse systems", LinearSolver<D>,
+    .by_default("automatic").idle(
+        "nothing in this scene is solved for: take this table out, or add `[implicit-viscosity.backward-euler]`"
+    )
+);

@@ -1,0 +1,13 @@
+//! Pressure from the end of the step.
+//!
+//! * [`ImplicitPressure`] is the plugin, `[pressure.implicit]`, of the kind that
+//!   [`PressureScheme`](crate::PressureScheme) is.
+
+mod bodies;
+mod implicit;
+mod limit;
+mod stage;
+mod system;
+
+pub use implicit::ImplicitPressure;
+pub use limit::FlowLimit;

@@ -1,0 +1,257 @@
+//! The stage that solves for the pressure.
+
+use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields};
+use sph_neighbours::{Interaction, World, interactions, lattice_sum};
+use sph_rheology::state::BoundState;
+
+use crate::PressureStage;
+use crate::linear::{Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, ParticleMatrix};
+use crate::pressure::bodies::give_way;
+use crate::pressure::system::{Couplings, Part, Room as ClusterRoom};
+use crate::{Acting, FREE_SURFACE, Place};
+
+const NAME: &str = "implicit pressure";
+
+/// Density over that at rest at which a law is asked for its largest tension.
+const TORN: f64 = 0.5;
+
+/// Applies the equations of state, and solves for the pressure of the end of the step.
+pub(crate) struct SolvePressure<const D: usize> {
+    state: PressureStage,
+    /// The rate at which the density falls.
+    dilatation: [Box<dyn Interaction<D>>; 1],
+    surfaces: bool,
+    /// The lowest pressure of every law, Pa.
+    floors: Vec<f64>,
+    solver: Automatic,
+    room: Room<D>,
+}
+
+/// Share of the density that the density constant has to make up for at a surface: the first row lacks some 0.3 of its support,
+/// beside walls and between phases sums are off by 0.02.
+const OPEN: f64 = 0.15;
+
+/// What a solve fills anew, kept for its memory.
+struct Room<const D: usize> {
+    rate: Vec<f64>,
+    /// The sweep sums accelerations, too; nobody reads them.
+    unused: Vec<Vect<D>>,
+    parts: Vec<Part>,
+    assembly: Assembly<f64, 1>,
+    pressure: Vec<Vect<1>>,
+    rooms: Pool<ClusterRoom>,
+}
+
+impl<const D: usize> SolvePressure<D> {
+    pub fn new(acting: Acting<D>, solver: Automatic) -> Self {
+        let floor = |law: &dyn BoundState| {
+            let mut pressure = [0.0];
+            law.pressure(&[TORN * law.reference().density], &mut pressure);
+            pressure[0]
+        };
+        SolvePressure {
+            floors: acting.state.laws.iter().map(|law| floor(&**law)).collect(),
+            state: acting.state,
+            dilatation: [acting.dilatation],
+            surfaces: acting.surfaces,
+            solver,
+            room: Room {
+                rate: Vec::new(),
+                unused: Vec::new(),
+                parts: Vec::new(),
+                assembly: Assembly::default(),
+                pressure: Vec::new(),
+                rooms: Pool::default(),
+            },
+        }
+    }
+}
+
+impl<const D: usize> Declares for SolvePressure<D> {
+    fn name(&self) -> String {
+        NAME.into()
+    }
+    fn access(&self) -> Access {
+        let access = self.state.access().and(self.dilatation[0].access());
+        let access = access
+            .both(fields::POSITION)
+            .both(fields::VOLUME)
+            .both(fields::DENSITY)
+            // A solve starts from the pressure of the step before.
+            .remembers(fields::PRESSURE)
+            .where_there(fields::DENSITY_CONSTANT)
+            .where_there(fields::RENORMALISATION)
+            .where_there(fields::PHASE);
+        match self.surfaces {
+            true => access.here(FREE_SURFACE),
+            false => access,
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let x = &mut self.room.pressure;
+        x.clear();
+        x.extend(
+            world
+                .free
+                .get(fields::PRESSURE)?
+                .iter()
+                .map(|p| Vect::from([*p])),
+        );
+        self.state.run(world)?;
+        // Later a resumed run would be asked what one that went on was not.
+        if !self.surfaces && world.time <= 0.0 {
+            refuse_surfaces(world)?;
+        }
+        match world.dt > 0.0 && world.dt.is_finite() {
+            true => self.solve(world),
+            false => Ok(()),
+        }
+    }
+    fn bytes(&self) -> usize {
+        let Assembly {
+            pattern, values, ..
+        } = &self.room.assembly;
+        size_of_val(&pattern.starts[..])
+            + size_of_val(&pattern.columns[..])
+            + size_of_val(&values.diagonal[..])
+            + size_of_val(&values.others[..])
+            + size_of_val(&self.room.pressure[..])
+    }
+}
+
+impl<const D: usize> SolvePressure<D> {
+    fn solve(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        self.diverge(world)?;
+        self.fill_parts(world)?;
+        let space = world.space()?;
+        let Room {
+            parts,
+            assembly,
+            pressure: x,
+            rooms,
+            ..
+        } = &mut self.room;
+        let rooms = &*rooms;
+        let system = Couplings {
+            owned: space.owned(),
+            volume: world.free.get(fields::VOLUME)?,
+            density: world.free.get(fields::DENSITY)?,
+            gamma: world.free.get(fields::RENORMALISATION).ok(),
+            parts,
+            gravity: world.gravity,
+            squared_step: world.dt * world.dt,
+            full: full_support(world),
+        };
+        assembly.fill_wanted(
+            world,
+            |i| system.is_own(i),
+            |rows, cluster| system.add(cluster, rows, rooms),
+            |rows, others| others.for_each(|_| Couplings::<D>::add_other(rows)),
+        )?;
+        let values = std::mem::take(&mut assembly.values);
+        let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
+        let sources = &mut assembly.sources;
+        let base = ParticleMatrix::new(&matrix, &space, None);
+        let solved = match world.walls.bodies.is_empty() {
+            true => self.solver.solve(&base, sources, x),
+            false => {
+                let vectors = give_way(world, &base, sources, x)?;
+                let operator = LowRank {
+                    base: &base,
+                    vectors: &vectors,
+                    sign: 1.0,
+                };
+                self.solver.solve(&operator, sources, x)
+            }
+        };
+        if let Entries::Scalar(values) = matrix.entries {
+            assembly.values = values;
+        }
+        solved.map_err(|e| StepError::Stage {
+            stage: NAME.into(),
+            reason: e.to_string(),
+        })?;
+        self.spread(world)
+    }
+
+    /// D{u} of all particles.
+    fn diverge(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let Room { rate, unused, .. } = &mut self.room;
+        let n = world.free.len();
+        rate.clear();
+        rate.resize(n, 0.0);
+        unused.resize(n, Vect::zeros());
+        interactions(world, &self.dilatation, unused, Some(rate))
+    }
+
+    /// What every row has of its own.
+    fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let free = &world.free;
+        let volume = free.get(fields::VOLUME)?;
+        let density = free.get(fields::DENSITY)?;
+        let pressure = free.get(fields::PRESSURE)?;
+        let gamma = free.get(fields::RENORMALISATION).ok();
+        let phase = free.get(fields::PHASE).ok();
+        let surface = match self.surfaces {
+            true => Some(free.get(FREE_SURFACE)?),
+            false => None,
+        };
+        let row = world.gravity.norm() * world.spacing;
+        let Room { parts, rate, .. } = &mut self.room;
+        parts.clear();
+        parts.extend((0..volume.len()).map(|i| {
+            let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
+            let gamma = gamma.map_or(1.0, |g| g[i]);
+            let size = volume[i] * gamma;
+            let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
+            let compliance = size / stiffness;
+            Part {
+                compliance,
+                source: compliance * pressure[i] - world.dt * size * rate[i],
+                // A row of fluid at the most: a density that is noise has no say.
+                outside: pressure[i].clamp(0.0, row * density[i]),
+                open: surface.is_some_and(|s| s[i] >= Place::Near.number()),
+            }
+        }));
+        Ok(())
+    }
+
+    /// The solution to its column; a law's largest tension is that of the solution, too.
+    fn spread(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut pressure = world.free.take(fields::PRESSURE)?;
+        let phase = world.free.get(fields::PHASE).ok();
+        for (i, (p, x)) in pressure.iter_mut().zip(&self.room.pressure).enumerate() {
+            *p = x[0].max(self.floors[phase.map_or(0, |k| k[i] as usize)]);
+        }
+        Ok(world.free.put(fields::PRESSURE, pressure)?)
+    }
+}
+
+/// Σ 2V|F| on the lattice, 1/m².
+fn full_support<const D: usize>(world: &World<D>) -> f64 {
+    2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor)
+}
+
+/// Refuses supports that lack fluid where nobody says what free surfaces are: their pressure would float.
+fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
+    let (Ok(constant), Ok(density)) = (
+        world.free.get(fields::DENSITY_CONSTANT),
+        world.free.get(fields::DENSITY),
+    ) else {
+        return Ok(());
+    };
+    let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;
+    match constant.iter().zip(density).filter(lacks).count() {
+        0 => Ok(()),
+        some => Err(StepError::Stage {
+            stage: NAME.into(),
+            reason: format!(
+                "{some} particles are at a free surface, and the scene does not say what that is: add \
+                 `[surface.cone-test]`"
+            ),
+        }),
+    }
+}

@@ -1,0 +1,44 @@
+//! Friction of fluids: viscous operators, solved for or not, and viscosities of eddies.
+//!
+//! * [`ViscousOperator`] is a kind of plugin: [`Morris`], [`MonaghanGingold`], [`EspanolRevenga`], [`HuAdamsViscosity`],
+//!   [`KrimiViscosity`]. [`PairFriction`] is what most of them are made of, [`Coupling`] the same as rows of a matrix.
+//! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
+//! * Eddy viscosities ([`EddyViscosityEntry`]) are added to the viscosity of the laws; none is in this crate.
+
+mod contract;
+mod coupling;
+mod eddy_viscosity;
+mod espanol_revenga;
+mod friction;
+mod friction_operator;
+mod friction_system;
+mod giving_way;
+mod held_back;
+mod hu_adams_viscosity;
+mod implicit;
+mod interface_distance;
+mod krimi_viscosity;
+mod monaghan_gingold;
+mod morris;
+mod solves;
+mod start;
+mod viscosity_source;
+mod viscous_limit;
+
+pub use contract::{Viscosity, ViscousOperator, ViscousOperatorEntry};
+pub use coupling::{BoundCoupling, Coupling, CouplingRow, WithCoupling};
+pub use eddy_viscosity::EddyViscosityEntry;
+pub use espanol_revenga::{EspanolRevenga, WithTransposed};
+pub use friction::{Across, Choice, OnLattice, PairFriction, PairOperator, ViscousTerm, WallTerm};
+pub use friction_operator::{FrictionEntry, FrictionOperator};
+pub use friction_system::FrictionSystem;
+pub use held_back::HeldBack;
+pub use hu_adams_viscosity::HuAdamsViscosity;
+pub use implicit::{ImplicitViscosity, Lagged};
+pub use interface_distance::INTERFACE_DISTANCE;
+pub use krimi_viscosity::{KrimiViscosity, Strength};
+pub use monaghan_gingold::MonaghanGingold;
+pub use morris::{FirstDifferences, Morris, MorrisTerm};
+pub use solves::{OuterSolves, Solves};
+pub use viscosity_source::{BoundViscosity, Layers, OwnViscosity, ViscositySource, Within};
+pub use viscous_limit::ViscousLimit;

@@ -1,0 +1,305 @@
+//! Viscous operators as sums over pairs, and their friction at walls.
+
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Contacts, Elements, Lane, LanePair, Neighbourhood, Pair, PairSum, PairTerm,
+    Particles, Rates, World, add_scaled, dot, minus, scaled, splat, vector,
+};
+
+use crate::viscosity::{BoundViscosity, OwnViscosity, ViscositySource};
+
+mod choice;
+mod coupling;
+mod walls;
+
+pub use choice::{Across, Choice, OnLattice, PairOperator, WallTerm};
+
+/// A viscous operator as a sum over pairs: the force on a per volume is
+/// 1/γ_a Σ_b θ_b η̄_ab f(V_a, V_b, u_ab, r_ab), plus the wall's.
+pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
+    /// Name in plans.
+    const NAME: &'static str;
+    /// Whether a sheared layer's response depends on its direction: else β is not looked at.
+    const DIRECTIONAL: bool = true;
+    /// Whether any part of the force is along the relative velocity: else α is not looked at.
+    const EVEN: bool = true;
+    /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r, from the volumes here and there, r² and F.
+    fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
+    /// f, 1/m² times the relative velocity u_ab, of several particles.
+    #[inline(always)]
+    fn forces<L: Lane>(
+        self,
+        volume: L,
+        there: L,
+        relative: &[L; D],
+        pair: &LanePair<D, L>,
+    ) -> [L; D] {
+        let [even, along] = self.strengths(volume, there, pair.distance2, pair.factor);
+        let mut force = scaled(*relative, even);
+        if Self::DIRECTIONAL {
+            let along = along * dot(relative, &pair.separation);
+            add_scaled(&mut force, &pair.separation, along);
+        }
+        force
+    }
+    /// ½ t·f(t) of several particles: what a unit velocity along t gives.
+    #[inline(always)]
+    fn shears<L: Lane>(self, volume: L, there: L, along: &[L; D], pair: &LanePair<D, L>) -> L {
+        let half = L::splat(0.5);
+        match Self::DIRECTIONAL {
+            true => half * dot(&self.forces(volume, there, along, pair), along),
+            false => half * self.strengths(volume, there, pair.distance2, pair.factor)[0],
+        }
+    }
+    /// f of one particle.
+    #[inline(always)]
+    fn force(self, volume: f64, there: f64, relative: &Vect<D>, pair: &Pair<D>) -> Vect<D> {
+        let force = self.forces(volume, there, &splat(relative), &pair.into());
+        vector(&force, 0)
+    }
+    /// ½ t·f(t) of one particle.
+    #[inline(always)]
+    fn shear(self, volume: f64, there: f64, along: &Vect<D>, pair: &Pair<D>) -> f64 {
+        self.shears(volume, there, &splat(along), &pair.into())
+    }
+    /// η̄ of pairs with one neighbour; that of the source.
+    #[inline(always)]
+    fn means<L: Lane>(
+        self,
+        viscosity: &BoundViscosity<'_>,
+        here: &OwnViscosity<L>,
+        j: usize,
+        _: [L; 2],
+    ) -> L {
+        viscosity.means(here, j)
+    }
+    /// Factor of the literal friction on an element, from the volumes of particle and element.
+    #[inline(always)]
+    fn at_element(self, _volume: f64, _there: f64) -> f64 {
+        1.0
+    }
+}
+
+/// The term of a pair formula with a source of viscosities.
+#[derive(Clone, Copy, Debug)]
+pub struct ViscousTerm<F>(pub F, pub ViscositySource, pub Choice);
+
+impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
+    type Bound<'a> = Bound<'a, D, F>;
+
+    fn name(&self) -> String {
+        F::NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::VELOCITY)
+            .both(fields::VOLUME)
+            .both(fields::DENSITY)
+            .here(fields::MASS)
+            .where_there(fields::WALL_FRICTION)
+            .and(self.1.access())
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
+        let points = &world.walls.points;
+        Ok(Bound {
+            friction: self.0,
+            velocity: world.free.get(fields::VELOCITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            density: world.free.get(fields::DENSITY)?,
+            mass: world.free.get(fields::MASS)?,
+            viscosity: self.1.bind(world)?,
+            wall_velocity: &points.viscous_velocity,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+            wall_grip: &points.grip,
+            wall_slip: &points.slip,
+            wall_friction: match world.walls.elements.wall_function.is_empty() {
+                true => &[],
+                false => world.free.get(fields::WALL_FRICTION)?,
+            },
+            elements: &world.walls.elements,
+            contacts: &world.walls.contacts,
+            rubs: rubs(world),
+            open: open(world),
+            corrected: self.2.wall_term == WallTerm::Corrected,
+            scale: self.2.on_lattice.scale(self.0, world),
+            spacing: world.spacing,
+        })
+    }
+}
+
+/// Numbers of the walls that fluid passes.
+fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
+    let mut open: Vec<u32> = world.walls.passed.iter().map(|p| p.wall).collect();
+    open.dedup();
+    open
+}
+
+/// Whether the fluid rubs any wall: all may be free-slip.
+fn rubs<const D: usize>(world: &World<D>) -> bool {
+    let elements = &world.walls.elements;
+    let mut grips = world.walls.points.grip.iter().chain(&elements.grip);
+    grips.any(|grip| *grip != 0.0) || elements.wall_function.contains(&true)
+}
+
+/// [`ViscousTerm`] with its columns.
+pub struct Bound<'a, const D: usize, F> {
+    friction: F,
+    velocity: &'a [Vect<D>],
+    volume: &'a [f64],
+    density: &'a [f64],
+    mass: &'a [f64],
+    viscosity: BoundViscosity<'a>,
+    wall_velocity: &'a [Vect<D>],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+    wall_grip: &'a [f64],
+    wall_slip: &'a [(f64, Vect<D>)],
+    /// Of wall functions; empty where no wall has one.
+    wall_friction: &'a [f64],
+    elements: &'a Elements<D>,
+    contacts: &'a Contacts<D>,
+    /// Whether any wall does: else no wall is looked at.
+    rubs: bool,
+    /// Walls that fluid passes: nothing of them is corrected.
+    open: Vec<u32>,
+    corrected: bool,
+    scale: f64,
+    spacing: f64,
+}
+
+/// The particle's own values.
+#[derive(Clone, Copy)]
+pub struct Here<const D: usize> {
+    velocity: Vect<D>,
+    viscosity: OwnViscosity<f64>,
+    volume: f64,
+    /// V/m, which a formulation may keep apart from 1/ρ.
+    specific_volume: f64,
+    /// Shear stress of a wall function over the speed along the wall.
+    wall_friction: f64,
+    /// Unit vector along the slip past the nearest wall.
+    along: Vect<D>,
+    /// Normal and distance of the nearest element, where the wall term is to be corrected.
+    nearest: Option<(Vect<D>, f64)>,
+}
+
+/// The own values of particles in lanes.
+#[derive(Clone, Copy)]
+pub struct Own<const D: usize, L> {
+    velocity: [L; D],
+    viscosity: OwnViscosity<L>,
+    volume: L,
+    density: L,
+    along: [L; D],
+    /// Whether any has an element at which the wall term is to be corrected.
+    near: bool,
+}
+
+/// Sums of one particle.
+#[derive(Clone, Copy)]
+pub struct Sum<const D: usize> {
+    /// Σ θ η̄ f.
+    force: Vect<D>,
+    /// Σ θ ½ t·f(t) r_ab; of V F r_ab where the direction does not matter.
+    discrete: Vect<D>,
+    /// 2 Σ η u_t/δr |∇γ_as|.
+    flux: Vect<D>,
+    /// Σ ∇γ_as.
+    gradient: Vect<D>,
+}
+
+impl<const D: usize> Sum<D> {
+    /// Of free neighbours.
+    #[inline(always)]
+    fn of([force, discrete]: [[f64; D]; 2]) -> Self {
+        Sum {
+            force: force.into(),
+            discrete: discrete.into(),
+            flux: Vect::zeros(),
+            gradient: Vect::zeros(),
+        }
+    }
+}
+
+impl<const D: usize, F: PairFriction<D>> PairSum<D> for Bound<'_, D, F> {
+    type Own<L: Lane> = Own<D, L>;
+    /// Σ θ η̄ f and Σ θ ½ t·f(t) r_ab of free neighbours.
+    type Sum<L: Lane> = [[L; D]; 2];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let (mut along, mut near) = ([L::splat(0.0); D], false);
+        if self.rubs && self.corrected {
+            along = all.each(|i| {
+                let nearest = self.nearest(i);
+                near |= nearest.is_some();
+                self.slip(i, nearest.as_ref()).into()
+            });
+        }
+        Own {
+            velocity: all.vectors(self.velocity),
+            viscosity: self.viscosity.own(all),
+            volume: all.numbers(self.volume),
+            density: all.numbers(self.density),
+            along,
+            near,
+        }
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(
+        &self,
+        own: &Own<D, L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        [force, discrete]: &mut [[L; D]; 2],
+    ) {
+        let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
+        let densities = [own.density, density];
+        let mean = self
+            .friction
+            .means(&self.viscosity, &own.viscosity, j, densities);
+        let relative = minus(&own.velocity, &self.velocity[j]);
+        let of_pair = self.friction.forces(own.volume, volume, &relative, pair);
+        add_scaled(force, &of_pair, mean);
+        if own.near {
+            let shear = self.friction.shears(own.volume, volume, &own.along, pair);
+            add_scaled(discrete, &pair.separation, shear);
+        }
+    }
+}
+
+impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for Bound<'_, D, F> {
+    #[inline(always)]
+    fn finish(&self, sum: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let here = self.here(at.particle);
+        let mut sum = Sum::of(sum);
+        if self.rubs {
+            for (v, pair) in at.wall.pairs() {
+                let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
+                let rubbing = self.rubbing(v, &pair);
+                let relative = here.velocity - self.wall_velocity[v];
+                let force = self.friction.force(here.volume, volume, &relative, &pair);
+                sum.force += force * (rubbing * here.viscosity.eta);
+                let shear = self.friction.shear(here.volume, volume, &here.along, &pair);
+                sum.discrete += pair.separation * (share * shear);
+            }
+            for contact in at.contacts {
+                let s = contact.element as usize;
+                let normal = &self.elements.normal[s];
+                let relative = here.velocity - self.elements.velocity[s];
+                let tangential = relative - normal * relative.dot(normal);
+                sum.flux += tangential * self.weight(&here, &contact);
+                if !self.is_open(contact.element) {
+                    sum.gradient += contact.gradient;
+                }
+            }
+        }
+        let total = sum.force - sum.flux * self.correction(&here, &sum);
+        let scale = self.scale * at.inverse_renormalisation * here.specific_volume;
+        rates.acceleration += total * scale;
+    }
+}

@@ -1,0 +1,192 @@
+//! Operators that are no matrices: products without entries, rows in two hands.
+
+use std::sync::{Barrier, Mutex};
+
+use sph_core::Vect;
+use sph_multiphase::linear::{
+    Automatic, Bicgstab, Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Operator,
+    Pattern, Preconditioner, SolveError,
+};
+
+use crate::systems::{apart, dense, right};
+
+/// Rows of one hand.
+const ROWS: usize = 40;
+const DIAGONAL: f64 = 2.1;
+
+/// What two hands tell each other: the ends of their parts, and sums.
+struct Board {
+    barrier: Barrier,
+    ends: Mutex<[[Vect<2>; 2]; 2]>,
+    sums: Mutex<[f64; 2]>,
+}
+
+/// Half of a ring of particles, each coupled to the next; two guests stand for the ends of the other half.
+struct Half<'b> {
+    rank: usize,
+    board: &'b Board,
+    own: Option<Matrix<2>>,
+}
+
+impl Operator<2> for Half<'_> {
+    fn rows(&self) -> usize {
+        ROWS
+    }
+
+    fn columns(&self) -> usize {
+        ROWS + 2
+    }
+
+    fn import(&self, x: &mut [Vect<2>]) {
+        self.board.ends.lock().expect("ends")[self.rank] = [x[0], x[ROWS - 1]];
+        self.board.barrier.wait();
+        let [first, last] = self.board.ends.lock().expect("ends")[1 - self.rank];
+        (x[ROWS], x[ROWS + 1]) = (last, first);
+        self.board.barrier.wait();
+    }
+
+    fn total(&self, part: f64) -> f64 {
+        self.board.sums.lock().expect("sums")[self.rank] = part;
+        self.board.barrier.wait();
+        let [a, b] = *self.board.sums.lock().expect("sums");
+        self.board.barrier.wait();
+        a + b
+    }
+
+    fn multiply(&self, x: &[Vect<2>], y: &mut [Vect<2>]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            let before = if i == 0 { x[ROWS] } else { x[i - 1] };
+            let after = if i + 1 == ROWS { x[ROWS + 1] } else { x[i + 1] };
+            *y = x[i] * DIAGONAL - before - after;
+        }
+    }
+
+    fn assembled(&self) -> Option<&Matrix<2>> {
+        self.own.as_ref()
+    }
+}
+
+/// The entries of a chain, or of a ring.
+fn chain(rows: u32, closed: bool) -> Matrix<2> {
+    let neighbours = |i: u32| {
+        let mut row: Vec<u32> = [i.checked_sub(1), (i + 1 < rows).then_some(i + 1)]
+            .into_iter()
+            .flatten()
+            .collect();
+        if closed && i == 0 {
+            row.push(rows - 1);
+        } else if closed && i + 1 == rows {
+            row.insert(0, 0);
+        }
+        row
+    };
+    let rows: Vec<_> = (0..rows).map(neighbours).collect();
+    let others = rows.iter().map(Vec::len).sum();
+    let entries = Entries::scalar(vec![DIAGONAL; rows.len()], vec![-1.0; others]);
+    Matrix::new(Pattern::from_rows(&rows), entries)
+}
+
+/// Solves with two hands at once; each half with its iterations.
+fn solved(
+    solver: impl Fn() -> Box<dyn LinearSolver<2>> + Sync,
+    assembled: bool,
+) -> (Vec<Vect<2>>, [usize; 2]) {
+    let board = Board {
+        barrier: Barrier::new(2),
+        ends: Mutex::new([[Vect::zeros(); 2]; 2]),
+        sums: Mutex::new([0.0; 2]),
+    };
+    let b = right(2 * ROWS);
+    let half = |rank: usize| {
+        let own = assembled.then(|| chain(ROWS as u32, false));
+        let half = Half {
+            rank,
+            board: &board,
+            own,
+        };
+        let mut x = vec![Vect::zeros(); ROWS];
+        let b = &b[rank * ROWS..(rank + 1) * ROWS];
+        let report = solver().solve(&half, b, &mut x).expect("a solution");
+        (x, report.iterations)
+    };
+    std::thread::scope(|threads| {
+        let other = threads.spawn(|| half(1));
+        let (mut x, mine) = half(0);
+        let (rest, theirs) = other.join().expect("the other half");
+        x.extend(rest);
+        (x, [mine, theirs])
+    })
+}
+
+#[test]
+fn two_hands_with_half_of_the_rows_each_find_the_solution_of_the_whole() {
+    let matrix = chain(2 * ROWS as u32, true);
+    let exact = dense(&matrix, &right(2 * ROWS));
+    let plain = ConjugateGradient {
+        preconditioner: Preconditioner::None,
+        tolerance: 1e-12,
+        ..ConjugateGradient::default()
+    };
+    let factored = ConjugateGradient {
+        preconditioner: Preconditioner::IncompleteCholesky,
+        ..plain.clone()
+    };
+    let bicgstab = Bicgstab {
+        preconditioner: Preconditioner::None,
+        tolerance: 1e-12,
+        ..Bicgstab::default()
+    };
+    let automatic = || Box::new(Automatic::default()) as Box<dyn LinearSolver<2>>;
+    let runs = [
+        ("plain", solved(|| Box::new(plain.clone()), false)),
+        (
+            "factored by halves",
+            solved(|| Box::new(factored.clone()), true),
+        ),
+        ("BiCGSTAB", solved(|| Box::new(bicgstab), false)),
+        ("automatic, no entries", solved(automatic, false)),
+        ("automatic, entries by halves", solved(automatic, true)),
+    ];
+    for (name, (x, iterations)) in &runs {
+        let error = apart(x, &exact);
+        assert!(error < 1e-6, "{name}: {error:e} from the dense solution");
+        assert_eq!(iterations[0], iterations[1], "{name}");
+    }
+    // The halves are factored exactly, so that only what couples them is left to iterate on.
+    assert!(
+        runs[1].1.1[0] < runs[0].1.1[0] / 3,
+        "{:?}",
+        [runs[1].1.1, runs[0].1.1]
+    );
+}
+
+#[test]
+fn who_needs_entries_says_so_where_there_are_none() {
+    struct Twice;
+    impl Operator<2> for Twice {
+        fn rows(&self) -> usize {
+            3
+        }
+        fn multiply(&self, x: &[Vect<2>], y: &mut [Vect<2>]) {
+            y.iter_mut().zip(x).for_each(|(y, x)| *y = x * 2.0);
+        }
+    }
+    let b = right::<2>(3);
+    let mut x = vec![Vect::zeros(); 3];
+    let refused = |solved: Result<_, SolveError>| {
+        assert!(
+            matches!(solved, Err(SolveError::NotWhole { .. })),
+            "{solved:?}"
+        );
+    };
+    refused(Cholesky::default().solve(&Twice, &b, &mut x));
+    let jacobi = ConjugateGradient {
+        preconditioner: Preconditioner::Jacobi,
+        ..ConjugateGradient::default()
+    };
+    refused({ jacobi }.solve(&Twice, &b, &mut x));
+    Automatic::default()
+        .solve(&Twice, &b, &mut x)
+        .expect("a product is enough");
+    assert!(x.iter().zip(&b).all(|(x, b)| (x * 2.0 - b).norm() < 1e-7));
+}

@@ -1,0 +1,49 @@
+//! Decisions that all ranks take together.
+
+use sph_core::StepError;
+
+use crate::decomposition::{PartError, Parts};
+
+impl<const D: usize> Parts<D> {
+    /// Whether anybody says yes, if nobody has failed. Every message between ranks is preceded by this, so that a rank that fails
+    /// anywhere in a step reaches the others, who wait here.
+    ///
+    /// # Errors
+    /// If somebody has failed, on all ranks alike; messages that fail.
+    pub fn any(&mut self, failed: bool, yes: bool) -> Result<bool, PartError> {
+        self.link.any(failed, yes)
+    }
+
+    /// Goes on if nobody has failed.
+    ///
+    /// # Errors
+    /// As [`any`](Self::any).
+    pub fn all_well(&mut self) -> Result<(), PartError> {
+        self.any(false, false).map(|_| ())
+    }
+
+    /// Goes on if nobody has failed in what ranks have just done, in which some may have told the others already.
+    ///
+    /// # Errors
+    /// As [`any`](Self::any).
+    pub fn settle(&mut self, failed: bool) -> Result<(), PartError> {
+        self.link.settle(failed)
+    }
+
+    /// After a failure on any rank, on all ranks: tells those that do not know of it, and gives the cause that the first rank
+    /// has that knows one.
+    pub fn confess(&mut self, cause: StepError) -> StepError {
+        self.link.confess(cause)
+    }
+
+    /// The least of every value over all ranks.
+    ///
+    /// # Errors
+    /// As [`any`](Self::any).
+    pub fn least(&mut self, values: &mut [f64]) -> Result<(), PartError> {
+        values.iter_mut().for_each(|v| *v = -*v);
+        self.link.agree(false, values)?;
+        values.iter_mut().for_each(|v| *v = -*v);
+        Ok(())
+    }
+}

@@ -1,0 +1,56 @@
+//! What may go wrong between ranks, and how many particles they have.
+
+use serde::Serialize;
+use sph_core::{FieldError, StepError};
+use thiserror::Error;
+
+use crate::decomposition::{CutError, DecompositionError, TransportError};
+
+/// What keeps a rank from its part.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PartError {
+    /// The particles cannot be divided.
+    #[error(transparent)]
+    Particles(#[from] DecompositionError),
+    /// Messages fail.
+    #[error(transparent)]
+    Transport(#[from] TransportError),
+    /// A column is missing, or a message has another length.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// Another rank failed in this step.
+    #[error("another rank failed in this step")]
+    Elsewhere,
+}
+
+impl From<CutError> for PartError {
+    fn from(error: CutError) -> Self {
+        match error {
+            CutError::Particles(e) => PartError::Particles(e),
+            CutError::Transport(e) => PartError::Transport(e),
+        }
+    }
+}
+
+impl From<PartError> for StepError {
+    fn from(error: PartError) -> Self {
+        match error {
+            PartError::Field(e) => StepError::Field(e),
+            other => StepError::Stage {
+                stage: "ranks".into(),
+                reason: other.to_string(),
+            },
+        }
+    }
+}
+
+/// Particles of a rank.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Divided {
+    /// That it owns.
+    pub own: usize,
+    /// Copies of others'.
+    pub guests: usize,
+    /// Its own that others have copies of, each as often as it is sent.
+    pub sent: usize,
+}

@@ -1,0 +1,190 @@
+//! A paddle that lets go out what comes back to it.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use sph_boundary::{Course, SinePart};
+
+use crate::waves::Paddle;
+use crate::waves::superposition::Component;
+
+/// Within how many periods the paddle is led back to where it would be without waves that come back.
+const PERIODS: f64 = 10.0;
+
+/// Share of its reach at which a sight looks in the mean, ∫ q f dq/∫ f dq.
+pub(crate) const MEAN_WAY: f64 = 0.3;
+
+/// Absorption from the elevation at the paddle.
+///
+/// With X = ½ S sin ωt at the still level the water beside a paddle is higher by e₀ times what is a quarter of a period ahead of
+/// X, and by E X. A wave of the elevation η_r that comes back leaves through the paddle if this moves, besides what it makes, as
+///
+///   u' = −ω/(e₀ + i E) (η − η_made) ,   or   τ du'/dt + u' = −ω/e₀ (η − η_made),   τ = E/(ω e₀)
+///
+/// (Schäffer & Jakobsen 2003). Both are the same at the frequency of the peak, which is taken; in long waves ω/e₀ is √(g/d),
+/// as the absorption of Altomare et al. 2017 has it. Where E is negative (flaps) τ would be an advance: it is left out, and
+/// |E|/(2 e₀) of a wave comes back.
+#[derive(Clone, Debug)]
+pub(crate) struct Absorption {
+    /// η of the waves that are made, at the paddle, m.
+    made: Course,
+    /// η at time 0, which a course leaves out, m.
+    first: f64,
+    /// Still depth, m.
+    depth: f64,
+    /// ω/e₀, 1/s.
+    gain: f64,
+    /// τ, s.
+    lag: f64,
+    /// Time in which the paddle is led back, s.
+    back: f64,
+}
+
+impl Absorption {
+    /// For waves with their motion at the still level, tuned to a period; `least` is the least lag, s.
+    pub fn of(
+        paddle: Paddle,
+        waves: &[Component],
+        (ramp, period, least): (f64, f64, f64),
+        second: bool,
+        [depth, gravity]: [f64; 2],
+    ) -> Self {
+        let mut parts = Vec::new();
+        for w in waves {
+            let moved = w.amplitude / paddle.transfer(w.wavenumber, depth);
+            let sine = |amplitude: f64, phase: f64| SinePart {
+                amplitude,
+                frequency: w.frequency,
+                phase,
+            };
+            parts.push(sine(w.amplitude, w.phase + FRAC_PI_2));
+            let stays = paddle.near_field(w.frequency, depth, gravity);
+            parts.push(sine(moved * stays, w.phase));
+            if second {
+                // The bound wave of twice the frequency (Stokes).
+                parts.push(SinePart {
+                    amplitude: w.amplitude * w.amplitude * w.wavenumber * w.bound(depth),
+                    frequency: 2.0 * w.frequency,
+                    phase: 2.0 * w.phase + FRAC_PI_2,
+                });
+            }
+        }
+        let begins = |p: &SinePart| p.amplitude * p.phase.sin();
+        let first = match ramp > 0.0 {
+            true => 0.0,
+            false => parts.iter().map(begins).sum(),
+        };
+        let omega = TAU / period;
+        let leaves = paddle.transfer(crate::waves::wavenumber(omega, depth, gravity), depth);
+        let stays = paddle.near_field(omega, depth, gravity);
+        Absorption {
+            made: Course::Sum {
+                parts: parts.into(),
+                ramp,
+            },
+            first,
+            depth,
+            gain: omega / leaves,
+            lag: (stays / (omega * leaves)).max(least),
+            back: PERIODS * period,
+        }
+    }
+
+    /// Way and velocity besides what is prescribed, `dt` later: with the depth of the water before the paddle, none if there is
+    /// none.
+    pub fn next(
+        &self,
+        [way, velocity]: [f64; 2],
+        seen: Option<f64>,
+        time: f64,
+        dt: f64,
+    ) -> [f64; 2] {
+        let made = self.made.at(time).value + self.first;
+        let more = seen.map_or(0.0, |seen| seen - self.depth - made);
+        let aim = -self.gain * more - way / self.back;
+        let part = 1.0 - (-dt / self.lag).exp();
+        let velocity = velocity + (aim - velocity) * part;
+        [way + dt * velocity, velocity]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WATER: [f64; 2] = [0.5, 9.81];
+
+    /// What comes back of a wave of the amplitude 1 that runs against the paddle: with X = −H η/(iω) and
+    /// η = 2 + (i e₀ + E) X it is (1 − (e₀ + i E) H/ω)/(1 + (e₀ − i E) H/ω).
+    fn comes_back(paddle: Paddle, omega: f64, response: [f64; 2]) -> f64 {
+        let e0 = paddle.transfer(
+            crate::waves::wavenumber(omega, WATER[0], WATER[1]),
+            WATER[0],
+        );
+        let e = paddle.near_field(omega, WATER[0], WATER[1]);
+        let [re, im] = response.map(|h| h / omega);
+        let times = |e: f64| [e0 * re - e * im, e0 * im + e * re];
+        let ([a, b], [c, d]) = (times(e), times(-e));
+        ((1.0 - a).hypot(b)) / ((1.0 + c).hypot(d))
+    }
+
+    fn response(absorption: &Absorption, omega: f64) -> [f64; 2] {
+        let x = omega * absorption.lag;
+        let size = absorption.gain / (1.0 + x * x);
+        [size, -size * x]
+    }
+
+    #[test]
+    fn nothing_comes_back_to_a_piston_at_the_peak_and_less_than_with_a_gain_for_long_waves_beside_it()
+     {
+        let peak = TAU / 1.2;
+        let piston = Paddle::Piston;
+        let own = Absorption::of(piston, &[], (0.0, 1.2, 0.0), false, WATER);
+        let at = |omega: f64| comes_back(piston, omega, response(&own, omega));
+        assert!(at(peak) < 1e-12, "{}", at(peak));
+        let long = (WATER[1] / WATER[0]).sqrt();
+        for over in [0.8, 1.0, 1.25, 1.5] {
+            let simple = comes_back(piston, over * peak, [long, 0.0]);
+            let found = at(over * peak);
+            assert!(found < simple, "{over}: {found} {simple}");
+        }
+    }
+
+    /// Of a flap hinged at the floor E is negative here. Without the advance −E/(2 e₀) is left.
+    #[test]
+    fn a_flap_has_no_advance() {
+        let (peak, flap) = (TAU / 1.2, Paddle::Flap(0.0));
+        let own = Absorption::of(flap, &[], (0.0, 1.2, 0.0), false, WATER);
+        assert_eq!(own.lag, 0.0);
+        let e = flap.near_field(peak, WATER[0], WATER[1]);
+        let left = -0.5 * e * own.gain / peak;
+        let found = comes_back(flap, peak, response(&own, peak));
+        assert!(found > 0.99 * left && found <= left, "{found} {left}");
+    }
+
+    /// The water that a paddle makes, and nothing else, leaves it alone.
+    #[test]
+    fn a_paddle_alone_does_what_it_is_told() {
+        let wave = Component {
+            amplitude: 0.03,
+            frequency: 5.0,
+            wavenumber: crate::waves::wavenumber(5.0, WATER[0], WATER[1]),
+            phase: 0.4,
+        };
+        let period = TAU / 5.0;
+        let own = Absorption::of(Paddle::Piston, &[wave], (0.0, period, 0.0), true, WATER);
+        let made = |t: f64| own.made.at(t).value + own.first;
+        let mut state = [0.0; 2];
+        for n in 0..1000 {
+            let t = f64::from(n) * 1e-3;
+            state = own.next(state, Some(WATER[0] + made(t)), t, 1e-3);
+        }
+        assert!(state[0].abs() < 1e-12, "{state:?}");
+        // At the start the crest of first order is a cos φ, that of second order and E X come on top.
+        let first = 0.03 * 0.4_f64.cos();
+        assert!(
+            made(0.0) > first && made(0.0) < 1.5 * first,
+            "{}",
+            made(0.0)
+        );
+    }
+}

@@ -1,0 +1,381 @@
+//! From a scene to a flow that can be evaluated.
+
+use std::sync::Arc;
+
+use sph_boundary::Wall;
+use sph_contribution::integrators::Integrator;
+use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
+use sph_core::{Born, Role, Store, fields};
+use sph_multiphase::Formulation;
+use sph_neighbours::World;
+use sph_probes::{Probe, Solution};
+use sph_rheology::Rheology;
+use sph_rheology::state::{Laws, Lift, Lifted, Reference};
+use sph_scene::Scene;
+use sph_solver::setup::{Choices, Given, Planned, Planning, joined, shown};
+use sph_solver::step::{Nursery, Outlets, Swing, accounts};
+use sph_solver::{Flow, SolverError};
+
+use crate::setup::domain::{extent, height, pressure_at_rest};
+use crate::setup::field_error;
+use crate::setup::leaks::Leak;
+use crate::setup::output_fields::check_output_fields;
+use crate::setup::placement::Placed;
+use crate::setup::probe_setup;
+use crate::setup::relaxation::Relaxation;
+use crate::setup::room::Room;
+use crate::setup::shapes::Drawn;
+use crate::setup::share::Share;
+use crate::setup::soil_remarks::Ground;
+use crate::setup::sound::sound_speeds;
+use crate::setup::start::{Start, phases_of_bodies, start};
+use crate::setup::wall_speeds::speeds;
+use crate::setup::{lattices, movers, open_faces, swing};
+
+/// How far the fastest point of a wall goes within a step, over the spacing: two that meet close half a spacing.
+const WAY: f64 = 0.25;
+
+/// A flow with everything a run needs besides.
+pub struct Assembled<const D: usize> {
+    /// The system.
+    pub flow: Flow<D>,
+    /// The time stepping scheme.
+    pub integrator: Box<dyn Integrator>,
+    /// Probes by name.
+    pub probes: Vec<(String, Box<dyn Probe<D>>)>,
+    /// Solutions by the name of their reference.
+    pub solutions: Vec<(String, Box<dyn Solution<D>>)>,
+    /// Plugins with their parameters.
+    pub plugins: Vec<PluginInForce>,
+    /// Remarks for the summary.
+    pub warnings: Vec<String>,
+    /// Walls behind which fluid can get.
+    pub leaks: Vec<Leak<D>>,
+    /// What relaxing the first particles did, if it was asked for.
+    pub relaxation: Option<Relaxation>,
+    /// Extent of all bodies along gravity, m.
+    pub height: f64,
+    /// Pressure that all bodies above one another would have below them at rest, Pa.
+    pub pressure: f64,
+    /// Body that a particle came from, by its number.
+    pub body_of: Vec<u32>,
+}
+
+/// Builds the plugins, the particles and the plan of what a process begins with. Where this is a part of the flow, all ranks assemble together.
+///
+/// # Errors
+/// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
+pub(crate) fn assembled<const D: usize>(
+    scene: &Scene,
+    mut share: Share<D>,
+) -> Result<Assembled<D>, SolverError> {
+    let mut drawn = drawn_of::<D>(scene)?;
+    let mut choices = chosen::<D>(scene)?;
+    let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
+    movers::settle(scene, &mut drawn, &mut choices, &laws)?;
+    let speeds = wall_speeds(scene, &drawn, &laws)?;
+    let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
+    let room = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
+    let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
+    let (leaks, room) = (room.leaks, room.world);
+    let filled = (&room, placed.positions.as_slice(), &laws, &lift);
+    let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
+    warnings.extend(speeds.into_iter().chain(faces));
+    let mut ground = Ground::of(&choices.rheologies);
+    let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
+    let constant = constant_viscosities(scene, &choices.rheologies);
+    let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
+    let shown = shown(scene, &choices.probes);
+    let mut parts = choices.parts;
+    let entering = opened.as_ref().map(|o| o.entering()).unwrap_or_default();
+    parts.extend(opened.map(|opened| ("open-boundary", opened.boxed())));
+    open_faces::check_values(scene, &entering, &parts)?;
+    let (free, outlets) = filled_columns(scene, &*formulation, &parts, &placed)?;
+    let mut world = World { free, ..room };
+    let about = About {
+        scene,
+        formulation: &*formulation,
+        integrator: &*choices.integrator,
+        laws: &laws,
+        viscosities: &constant,
+        soils: &ground.soil,
+        walls: walls.as_deref(),
+        shown: &shown,
+    };
+    let planned = about.plan(&world, &mut parts)?;
+    ground.saturated = planned.offer.saturated;
+    world.transported = planned.transported.clone();
+    let given = Given {
+        walls,
+        laws,
+        kinematic_viscosities,
+        swing,
+        outlets,
+        density: formulation.diffused().evolved,
+    };
+    let mut flow = joined(world, planned, given);
+    show(scene, &shown, &choices.probes, &mut flow)?;
+    let columns = || parts.iter().flat_map(|(_, p)| p.columns());
+    let beginning = Start {
+        scene,
+        drawn: &drawn,
+        body_of: &placed.body,
+        initial: &choices.initial,
+        formulation: &*formulation,
+        columns: &columns().collect::<Vec<_>>(),
+    };
+    warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
+    let relaxation = start(&beginning, &share, &mut flow)?;
+    let (probes, integrator) = (&choices.probes, &*choices.integrator);
+    accounts::open(scene, probes, integrator, &*formulation, &mut flow)?;
+    flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
+    Ok(Assembled {
+        flow,
+        integrator: choices.integrator,
+        probes: choices.probes,
+        solutions: choices.solutions,
+        plugins: choices.in_force,
+        warnings,
+        leaks,
+        relaxation,
+        height: height(scene, &drawn.regions),
+        pressure: pressure_at_rest(scene, &drawn.regions),
+        body_of: placed.body,
+    })
+}
+
+/// Walls and bodies of a scene, if they fit into memory.
+fn drawn_of<const D: usize>(scene: &Scene) -> Result<Drawn<D>, SolverError> {
+    let drawn = Drawn::<D>::of(scene)?;
+    crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
+    Ok(drawn)
+}
+
+/// The plugins of a scene, with all probes ready.
+fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
+    let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
+    choices.probes.extend(field_error::probes(scene)?);
+    probe_setup::prepare(scene, &mut choices.probes)?;
+    Ok(choices)
+}
+
+/// What is odd about the places of the particles, which are brought into the box.
+fn remarks<const D: usize>(
+    scene: &Scene,
+    ground: &Ground,
+    placed: &Placed<D>,
+    flow: &mut Flow<D>,
+) -> Result<Vec<String>, SolverError> {
+    flow.know_exits(scene);
+    flow.world.wrap()?;
+    let mut all = ground.remarks(scene, flow)?;
+    all.extend(lattices::remarks(scene, flow, &placed.body)?);
+    Ok(all)
+}
+
+/// What newborn particles begin with, where some may come in.
+fn nursery<const D: usize>(
+    scene: &Scene,
+    formulation: Arc<dyn Formulation<D>>,
+    columns: Vec<OwnColumn<D>>,
+    flow: &Flow<D>,
+) -> Option<Nursery<D>> {
+    let some = !flow.gates.is_empty();
+    some.then(|| Nursery::new(scene, formulation, columns))
+}
+
+/// Refuses walls that are faster than sound in the slowest phase.
+fn wall_speeds<const D: usize>(
+    scene: &Scene,
+    drawn: &Drawn<D>,
+    laws: &Laws,
+) -> Result<Vec<String>, SolverError> {
+    let sounds = laws.iter().map(|law| law.reference().sound_speed);
+    let slowest = sounds.fold(f64::INFINITY, f64::min);
+    let found = speeds(scene, &drawn.walls, slowest, extent(&drawn.regions));
+    match found.refused.is_empty() {
+        true => Ok(found.remarks),
+        false => Err(SolverError::Scene(found.refused)),
+    }
+}
+
+/// What a plan is about, before there is one.
+struct About<'a, const D: usize> {
+    scene: &'a Scene,
+    formulation: &'a dyn Formulation<D>,
+    integrator: &'a dyn Integrator,
+    laws: &'a Laws,
+    viscosities: &'a [Option<f64>],
+    soils: &'a [bool],
+    walls: Option<&'a dyn Wall<D>>,
+    shown: &'a [String],
+}
+
+/// Whether a wall moves or slides.
+pub fn moves(wall: &sph_scene::Wall) -> bool {
+    wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
+}
+
+impl<const D: usize> About<'_, D> {
+    fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
+        let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
+        let diffused = self.formulation.diffused();
+        let coefficients = self.integrator.coefficients();
+        let moving = self.scene.wall.iter().find(|(_, wall)| moves(wall));
+        let setting = Setting {
+            laws: self.laws,
+            phases: &phases,
+            viscosities: self.viscosities,
+            soils: self.soils,
+            density: diffused.evolved,
+            summed: self.formulation.compressed().is_none(),
+            pressure_ahead: self.scene.choice("pressure").is_some(),
+            courant: coefficients.courant,
+            viscous: coefficients.viscous,
+            kicks_once: self.integrator.kicks_once(),
+            delayed_yield: self.scene.numerics.delayed_yield,
+            carried: movers::carried(self.scene),
+            moving_wall: moving.map(|(name, _)| name.as_str()),
+            world,
+        };
+        let planning = Planning {
+            scene: self.scene,
+            setting: &setting,
+            walls: self.walls,
+            diffused,
+            shown: self.shown,
+        };
+        let mut planned = planning.plan(parts)?;
+        planned.offer.limiter(ForceLimit {
+            coefficient: coefficients.force,
+        });
+        let mut walls = self.scene.wall.values();
+        if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
+            planned.offer.limiter(MotionLimit { share: WAY });
+        }
+        Ok(planned)
+    }
+}
+
+/// The columns that carry history, whoever brings them.
+fn state<const D: usize>(
+    scene: &Scene,
+    formulation: &dyn Formulation<D>,
+    parts: &[Part<D>],
+    particles: usize,
+) -> Result<Store<D>, SolverError> {
+    let mut free = Store::new(particles);
+    free.add(fields::POSITION, Role::State);
+    free.add(fields::VELOCITY, Role::State);
+    free.add(fields::MASS, Role::State);
+    free.add(fields::IDENTITY, Role::State);
+    if scene.phase.len() > 1 {
+        free.add(fields::PHASE, Role::State);
+    }
+    free.add(formulation.diffused().evolved.value, Role::State);
+    if let Some(compressed) = formulation.compressed() {
+        free.add(compressed.value, Role::State);
+    }
+    for column in parts.iter().flat_map(|(_, p)| p.columns()) {
+        if free.has(column.field.name) {
+            let name = column.field.name;
+            let why = format!("two plugins of this scene have a column `{name}`");
+            return Err(SolverError::at("", why));
+        }
+        free.add_any(column.field, Role::State);
+    }
+    Ok(free)
+}
+
+/// The columns that carry history, with places, identities and phases in them, and where particles leave.
+fn filled_columns<const D: usize>(
+    scene: &Scene,
+    formulation: &dyn Formulation<D>,
+    parts: &[Part<D>],
+    placed: &Placed<D>,
+) -> Result<(Store<D>, Outlets), SolverError> {
+    let mut free = state(scene, formulation, parts, placed.positions.len())?;
+    let outlets = Outlets::of(scene, (&placed.positions, &placed.body), &mut free)
+        .map_err(SolverError::Scene)?;
+    give_places(scene, &mut free, placed)?;
+    Ok((free, outlets))
+}
+
+/// Gives particles their places, identities and phases.
+fn give_places<const D: usize>(
+    scene: &Scene,
+    free: &mut Store<D>,
+    placed: &Placed<D>,
+) -> Result<(), SolverError> {
+    let count = free.len() as u32;
+    free.get_mut(fields::POSITION)?
+        .copy_from_slice(&placed.positions);
+    *free.get_mut(fields::IDENTITY)? = (0..count).collect();
+    if free.has(fields::PHASE.name) {
+        let phases: Vec<u32> = phases_of_bodies(scene);
+        let of = placed.body.iter().map(|body| phases[*body as usize]);
+        *free.get_mut(fields::PHASE)? = of.collect();
+    }
+    free.set_born(Born {
+        identities: count,
+        ..Born::default()
+    });
+    Ok(())
+}
+
+/// Keeps displacements where an output or a probe asks for them; refuses outputs of fields that there are none of.
+fn show<const D: usize>(
+    scene: &Scene,
+    shown: &[String],
+    probes: &[(String, Box<dyn Probe<D>>)],
+    flow: &mut Flow<D>,
+) -> Result<(), SolverError> {
+    let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
+    if moved || probes.iter().any(|(_, p)| p.needs().displacement) {
+        flow.world.free.add(fields::DISPLACEMENT, Role::State);
+    }
+    check_output_fields(scene, flow)
+}
+
+/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are
+/// open.
+fn bind_laws<const D: usize>(
+    scene: &Scene,
+    drawn: &Drawn<D>,
+    choices: &Choices<D>,
+) -> Result<(Laws, Option<Swing<D>>, Lift), SolverError> {
+    let swing = swing::of::<D>(scene)?;
+    let more = swing
+        .as_ref()
+        .map(|s| swing::head(s, scene, &drawn.regions));
+    let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
+    let speeds = sound_speeds(scene, (head + more.unwrap_or(0.0)).sqrt())?;
+    let phases = scene.phase.values().zip(speeds);
+    let reference = phases.map(|(phase, sound_speed)| Reference {
+        density: phase.density,
+        sound_speed,
+    });
+    let laws = choices.equations_of_state.iter().zip(reference);
+    let lift = Lift::default();
+    let laws = laws.map(|(eos, reference)| match choices.open.is_empty() {
+        true => eos.bind(reference),
+        false => Box::new(Lifted::new(eos.bind(reference), &lift)),
+    });
+    Ok((laws.collect(), swing, lift))
+}
+
+/// η/ρ₀ of every phase, m²/s.
+fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> {
+    let phases = scene.phase.values().zip(laws);
+    phases
+        .map(|(phase, law)| law.largest_viscosity() / phase.density)
+        .collect()
+}
+
+/// η/ρ₀ of every phase whose law has one viscosity, m²/s.
+fn constant_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<Option<f64>> {
+    let phases = scene.phase.values().zip(laws);
+    phases
+        .map(|(phase, law)| Some(law.uniform_viscosity()? / phase.density))
+        .collect()
+}

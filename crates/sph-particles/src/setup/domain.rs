@@ -1,0 +1,154 @@
+//! The box of a scene: from the scene, or around its walls and bodies.
+
+use sph_core::{Vect, bounds};
+use sph_neighbours::Domain;
+use sph_scene::{Region, Scene};
+use sph_solver::SolverError;
+
+use crate::setup::shapes::Drawn;
+
+/// Extent of all bodies along gravity, m.
+pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
+    extent_along_gravity(scene, regions.iter())
+}
+
+/// Σ ρ g H over the phases, H the extent of a phase's bodies along gravity, Pa; zero without gravity.
+pub fn pressure_at_rest<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
+    let of = |(name, phase): (&String, &sph_scene::Phase)| {
+        let bodies = scene.body.values().zip(regions);
+        let own = bodies.filter(|(body, _)| body.phase == *name);
+        phase.density * extent_along_gravity(scene, own.map(|(_, region)| region))
+    };
+    scene.gravity::<D>().norm() * scene.phase.iter().map(of).sum::<f64>()
+}
+
+fn extent_along_gravity<'a, const D: usize>(
+    scene: &Scene,
+    regions: impl Iterator<Item = &'a Region<D>>,
+) -> f64 {
+    let gravity = scene.gravity::<D>();
+    let Some(down) = gravity.try_normalize(0.0) else {
+        return 0.0;
+    };
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for region in regions {
+        let (lower, upper) = region.base.bounds();
+        for corner in 0..1 << D {
+            let along: f64 = (0..D)
+                .map(|k| {
+                    down[k]
+                        * if corner >> k & 1 == 0 {
+                            lower[k]
+                        } else {
+                            upper[k]
+                        }
+                })
+                .sum();
+            low = low.min(along);
+            high = high.max(along);
+        }
+    }
+    (high - low).max(0.0)
+}
+
+/// Largest extent of a body along an axis, m.
+pub fn extent<const D: usize>(regions: &[Region<D>]) -> f64 {
+    let of = |region: &Region<D>| {
+        let (low, high) = region.base.bounds();
+        (0..D).map(|k| high[k] - low[k]).fold(0.0, f64::max)
+    };
+    regions.iter().map(of).fold(0.0, f64::max)
+}
+
+/// Times at which the way of prescribed walls is looked at.
+const SAMPLES: usize = 1000;
+
+/// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
+fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &mut Domain<D>) {
+    for wall in drawn.walls.iter().filter(|w| w.motion.moves()) {
+        let [low, high] = bounds(wall.drawing.points::<D>());
+        for n in 0..=SAMPLES {
+            let map = wall
+                .motion
+                .pose(scene.run.end * n as f64 / SAMPLES as f64)
+                .map();
+            for corner in 0..1 << D {
+                let corner = std::array::from_fn(|k| {
+                    if corner >> k & 1 == 0 {
+                        low[k]
+                    } else {
+                        high[k]
+                    }
+                });
+                for (k, x) in map(corner)
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(_, x)| x.is_finite())
+                {
+                    domain.lower[k] = domain.lower[k].min(x - margin);
+                    domain.upper[k] = domain.upper[k].max(x + margin);
+                }
+            }
+        }
+    }
+}
+
+/// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
+pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
+    let mut lower = Vect::<D>::repeat(f64::INFINITY);
+    let mut upper = Vect::<D>::repeat(f64::NEG_INFINITY);
+    let mut include = |x: &[f64]| {
+        for k in 0..D.min(x.len()) {
+            lower[k] = lower[k].min(x[k]);
+            upper[k] = upper[k].max(x[k]);
+        }
+    };
+    for region in &drawn.regions {
+        let (low, high) = region.base.bounds();
+        include(&low);
+        include(&high);
+    }
+    if let Some((low, high)) = &drawn.bounds {
+        include(low);
+        include(high);
+    }
+    // Splashes rise over an open tank; without walls the flow may go far.
+    let room = match scene.wall.is_empty() {
+        true => 10.0,
+        false => 2.0,
+    };
+    let extent = (upper - lower).max();
+    let margin = Vect::repeat(room * extent);
+    let mut domain = Domain::open(lower - margin, upper + margin);
+    // So much at least on the way: where walls go less far, the box is what it is without.
+    sweep(scene, drawn, 0.5 * room * extent, &mut domain);
+    if let Some([low, high]) = &scene.numerics.domain {
+        domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));
+    }
+    for (axis, bounds) in scene.numerics.periodic.bounds::<D>().iter().enumerate() {
+        if let Some([low, high]) = bounds {
+            domain.lower[axis] = *low;
+            domain.upper[axis] = *high;
+            domain.periodic[axis] = true;
+        }
+    }
+    domain
+}
+
+/// A period must be so long that no particle sees another one twice.
+pub fn check_periods<const D: usize>(domain: &Domain<D>, reach: f64) -> Result<(), SolverError> {
+    for axis in (0..D).filter(|&a| domain.periodic[a]) {
+        if domain.length(axis) < 2.0 * reach {
+            let name = ["x", "y", "z"][axis];
+            return Err(SolverError::at(
+                format!("numerics.periodic.{name}"),
+                format!(
+                    "the period of {} m is shorter than two supports with their skin: at least {:.6} m",
+                    domain.length(axis),
+                    2.0 * reach
+                ),
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,258 @@
+//! The numbers that follow from a scene, without running it.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use sph_core::{Declares, Role, StepLimit, System, fields};
+use sph_scene::Scene;
+use sph_solver::{Flow, PluginInForce, SolverError};
+
+use crate::setup::assemble::Assembled;
+use crate::setup::dimensions::assemble;
+use crate::setup::estimate::short_steps;
+use crate::setup::reference_table::readable;
+use crate::setup::rehearsal::rehearse;
+use crate::setup::{Estimate, Memory, Relaxation};
+
+/// A column with its cost.
+#[derive(Clone, Debug, Serialize)]
+pub struct FieldUse {
+    /// Name.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// Whether it carries history.
+    pub state: bool,
+    /// Bytes per particle.
+    pub bytes: usize,
+    /// Stages that write it.
+    pub written_by: Vec<String>,
+    /// Stages that read it.
+    pub read_by: Vec<String>,
+}
+
+/// A planned stage.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageUse {
+    /// Name.
+    pub name: String,
+    /// Whether it walks over neighbours.
+    pub sweep: bool,
+    /// Columns read at the particle.
+    pub reads_here: Vec<String>,
+    /// Columns read at neighbours.
+    pub reads_at_neighbours: Vec<String>,
+    /// Columns written.
+    pub writes: Vec<String>,
+}
+
+/// Derived numbers, plan, limits and cost of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Examination {
+    /// Title of the scene.
+    pub scene: String,
+    /// Space dimensions.
+    pub dimension: usize,
+    /// Numbers by name with their unit: h, c₀, Reynolds and kin.
+    pub derived: Vec<(String, f64, String)>,
+    /// Largest stable steps at the start, s.
+    pub step_limits: BTreeMap<String, f64>,
+    /// Formulas of the limits.
+    pub limit_formulas: Vec<String>,
+    /// Plugins with their parameters.
+    pub plugins: Vec<PluginInForce>,
+    /// Columns.
+    pub fields: Vec<FieldUse>,
+    /// Bytes per particle over all columns.
+    pub bytes_per_particle: usize,
+    /// Stages in order.
+    pub stages: Vec<StageUse>,
+    /// Stages that were offered and not needed.
+    pub pruned: Vec<String>,
+    /// Free particles.
+    pub particles: usize,
+    /// Wall points.
+    pub wall_points: usize,
+    /// Wall elements.
+    pub wall_elements: usize,
+    /// Mean number of true neighbours.
+    pub neighbours: f64,
+    /// What it will cost.
+    pub estimate: Estimate,
+    /// Pairs in the sweeps of all steps: a measure of a run that knows no machine.
+    pub pairs: f64,
+    /// What its memory goes to.
+    pub memory: Memory,
+    /// What relaxing the first particles did, if the scene asks for it.
+    pub relaxation: Option<Relaxation>,
+    /// Remarks.
+    pub warnings: Vec<String>,
+}
+
+/// Assembles a scene and tells what follows from it.
+///
+/// # Errors
+/// Every problem of the scene, with its path.
+pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
+    Ok(match scene.dimension {
+        3 => examine_in::<3>(scene)?.0,
+        _ => examine_in::<2>(scene)?.0,
+    })
+}
+
+/// As [`examine`] of a scene in `D` dimensions, with what was assembled for it.
+///
+/// # Errors
+/// Every problem of the scene, with its path.
+pub fn examine_in<const D: usize>(
+    scene: &Scene,
+) -> Result<(Examination, Assembled<D>), SolverError> {
+    let mut assembled = assemble::<D>(scene)?;
+    rehearse(scene, &mut assembled.flow, &assembled.probes)?;
+    readable(scene)?;
+    let limits = assembled.flow.step_limits()?;
+    let remedies = assembled.flow.remedies_of_bounds()?;
+    let short = short_steps(scene, &limits, &remedies)?;
+    assembled.warnings.extend(short);
+    let dt = StepLimit::least(&limits).map_or(scene.run.end, |l| l.dt) * scene.run.safety;
+    let memory = memory(scene, &mut assembled.flow, dt)?;
+    let flow = &assembled.flow;
+    let world = &flow.world;
+    let names = |f: &[sph_core::AnyField]| f.iter().map(|f| f.name.to_string()).collect::<Vec<_>>();
+    let stages: Vec<StageUse> = flow
+        .stages
+        .iter()
+        .map(|s| {
+            let access = s.access();
+            StageUse {
+                name: s.name(),
+                sweep: access.sweep,
+                reads_here: names(&access.here),
+                reads_at_neighbours: names(&access.neighbours),
+                writes: names(&access.writes),
+            }
+        })
+        .collect();
+    let users = |name: &str, uses: &dyn Fn(&StageUse) -> Vec<String>| -> Vec<String> {
+        let using = stages.iter().filter(|s| uses(s).iter().any(|f| f == name));
+        using.map(|s| s.name.clone()).collect()
+    };
+    let fields = world
+        .free
+        .columns()
+        .map(|(name, unit, role, components, values)| FieldUse {
+            name: name.into(),
+            unit: unit.into(),
+            state: role == Role::State,
+            bytes: match values {
+                sph_core::Plain::Real(_) => 8 * components,
+                sph_core::Plain::Index(_) => 4,
+            },
+            written_by: users(name, &|s| s.writes.clone()),
+            read_by: users(name, &|s| {
+                [s.reads_here.clone(), s.reads_at_neighbours.clone()].concat()
+            }),
+        })
+        .collect();
+    let particles = world.free.len();
+    let neighbours = world.mean_neighbours()?;
+    let estimate = Estimate::new(scene, particles as f64, dt, memory.total());
+    let sweeps = stages.iter().filter(|s| s.sweep).count() as f64;
+    let examined = Examination {
+        scene: scene.title.clone(),
+        dimension: D,
+        derived: derived::<D>(scene, flow, assembled.height),
+        step_limits: limits.iter().map(|l| (l.name.to_string(), l.dt)).collect(),
+        limit_formulas: (flow.limiters.iter().map(|l| l.formula()))
+            .chain(flow.inner_bounds.iter().cloned())
+            .collect(),
+        plugins: std::mem::take(&mut assembled.plugins),
+        fields,
+        bytes_per_particle: world.free.bytes_per_particle(),
+        pruned: flow.pruned.clone(),
+        particles,
+        wall_points: world.walls.points.position.len(),
+        wall_elements: world.walls.elements.centre.len(),
+        pairs: estimate.steps * sweeps * particles as f64 * neighbours,
+        neighbours,
+        estimate,
+        memory,
+        relaxation: assembled.relaxation.take(),
+        warnings: std::mem::take(&mut assembled.warnings),
+        stages,
+    };
+    Ok((examined, assembled))
+}
+
+/// What a run holds: the forces are evaluated once, and the first matrix is put together.
+fn memory<const D: usize>(
+    scene: &Scene,
+    flow: &mut Flow<D>,
+    dt: f64,
+) -> Result<Memory, SolverError> {
+    // Where the state is one that the run will refuse, what can be counted without it counts.
+    let evaluated = flow.evaluate().is_ok();
+    let mut system = 0;
+    for hooked in flow.hooks.all.iter().filter(|_| evaluated) {
+        system += hooked.hook.bytes(&mut flow.world, dt)?;
+    }
+    system += flow.stages.iter().map(|stage| stage.bytes()).sum::<usize>();
+    Ok(Memory::of(scene, flow, system as f64)?)
+}
+
+/// Smoothing length, speeds and dimensionless numbers.
+fn derived<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    length: f64,
+) -> Vec<(String, f64, String)> {
+    let world = &flow.world;
+    let mut all = Vec::new();
+    let mut say = |name: String, value: f64, unit: &str| {
+        if value.is_finite() {
+            all.push((name, value, unit.to_string()));
+        }
+    };
+    say(
+        "smoothing length h".into(),
+        world.kernel.smoothing_length(),
+        "m",
+    );
+    say("kernel support".into(), world.kernel.support_radius(), "m");
+    let g = world.gravity.norm();
+    let fall = (g * length).sqrt();
+    if g > 0.0 {
+        say("depth H".into(), length, "m");
+        say("gravity wave speed √(gH)".into(), fall, "m/s");
+    }
+    let numbers = world.free.get(fields::PHASE).ok();
+    let fastest = |k: usize| {
+        let velocity = world.free.get(fields::VELOCITY).into_iter().flatten();
+        let own = velocity
+            .enumerate()
+            .filter(|(i, _)| numbers.is_none_or(|n| n[*i] as usize == k));
+        own.map(|(_, u)| u.norm()).fold(0.0, f64::max)
+    };
+    let viscosities = flow.kinematic_viscosities.iter();
+    let phases = scene.phase.iter().zip(flow.laws.iter().zip(viscosities));
+    for (k, ((name, phase), (law, nu))) in phases.enumerate() {
+        let c0 = law.reference().sound_speed;
+        say(format!("{name}: speed of sound c₀"), c0, "m/s");
+        say(format!("{name}: kinematic viscosity ν"), *nu, "m²/s");
+        let speed = phase.velocity_scale.unwrap_or(fall).max(fastest(k));
+        if speed > 0.0 {
+            say(format!("{name}: expected speed U"), speed, "m/s");
+            say(format!("{name}: Mach number U/c₀"), speed / c0, "1");
+            let scale = if length > 0.0 { length } else { flow.extent() };
+            say(
+                format!("{name}: Reynolds number UL/ν"),
+                speed * scale / nu,
+                "1",
+            );
+            if fall > 0.0 {
+                say(format!("{name}: Froude number U/√(gH)"), speed / fall, "1");
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,118 @@
+//! What probes learn from the scene before they measure.
+
+use sph_core::{SceneProblem, parse_unit, suggestion};
+use sph_probes::{Probe, ProbeScene};
+use sph_scene::Scene;
+use sph_solver::SolverError;
+use sph_solver::setup::own_accounts;
+
+use crate::setup::reference_table::LONGEST;
+
+/// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
+///
+/// # Errors
+/// All names that are not there, with the nearest one that is.
+pub fn prepare<const D: usize>(
+    scene: &Scene,
+    probes: &mut [(String, Box<dyn Probe<D>>)],
+) -> Result<(), SolverError> {
+    let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let strangers = own_accounts(scene);
+    let known = ProbeScene {
+        phases: &phases,
+        strangers: &strangers,
+    };
+    let mut problems = Vec::new();
+    let mut columns = Vec::new();
+    for (name, probe) in probes {
+        let kind = match scene.gauge.contains_key(name) {
+            true => "gauge",
+            false => "probe",
+        };
+        if let Err(why) = probe.settle(&known) {
+            problems.push(SceneProblem::new(format!("{kind}.{name}.phase"), why));
+        }
+        if let Err(why) = learn(scene, name, &mut **probe) {
+            problems.push(SceneProblem::new(format!("{kind}.{name}.file"), why));
+        }
+        let suffixes = probe.columns().into_iter().map(|c| c.suffix);
+        columns.extend(suffixes.map(|suffix| format!("{name}{suffix}")));
+    }
+    for (name, reference) in &scene.reference {
+        if let Some(probe) = reference.probe.as_ref().filter(|p| !columns.contains(p)) {
+            let near = suggestion(probe, columns.iter().map(String::as_str));
+            problems.push(SceneProblem::new(
+                format!("reference.{name}.probe"),
+                format!("no probe has a column `{probe}`{near}"),
+            ));
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(()),
+        false => Err(SolverError::Scene(problems)),
+    }
+}
+
+/// Reads the file that a probe compares with, and hands it over.
+fn learn<const D: usize>(
+    scene: &Scene,
+    name: &str,
+    probe: &mut dyn Probe<D>,
+) -> Result<(), String> {
+    let Some(file) = probe.file().map(String::from) else {
+        return Ok(());
+    };
+    let path = scene.probe_files.get(name);
+    let path = path.ok_or_else(|| format!("`{file}` is not the value of the key `file`"))?;
+    let read = sph_io::readable(path, LONGEST).and_then(|()| sph_io::read_table(path));
+    let table = read.map_err(|e| e.to_string())?;
+    let [x, y, ..] = table.columns.as_slice() else {
+        return Err(format!("`{file}` has one column where two are expected"));
+    };
+    // Heads may have units, which name the quantity themselves.
+    let factor = |unit: &str| parse_unit(unit).map_or(1.0, |(factor, _)| factor);
+    let factors = [x, y].map(|column| factor(&column.unit));
+    let rows = x.values.iter().zip(&y.values);
+    let rows = rows
+        .map(|(x, y)| [factors[0] * x, factors[1] * y])
+        .collect();
+    probe.learn(rows).map_err(|why| format!("`{file}` {why}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sph_solver::setup::Choices;
+
+    fn told(keys: &str) -> String {
+        let text = format!(
+            "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
+             phase.air = {{ density = 1, rheology.newtonian = {{ viscosity = 1 }} }}\n\
+             phase.water = {{ density = 1000, rheology.newtonian = {{ viscosity = 1 }} }}\n\
+             body.a = {{ phase = \"water\", box = [[0, 0], [1, 1]] }}\n\
+             reference.r = {{ probe = \"e.highest\", norm = \"mean\", value = 1 }}\n{keys}"
+        );
+        let scene = sph_scene::parse(&text, "t.toml", &[]);
+        let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
+        let mut choices = Choices::<2>::of(&scene).unwrap_or_else(|e| panic!("{e:?}"));
+        let done = prepare(&scene, &mut choices.probes);
+        done.err().map_or(String::new(), |e| e.to_string())
+    }
+
+    #[test]
+    fn phases_and_columns_are_looked_up() {
+        assert_eq!(
+            told("probe.e = { kind = \"extent\", phase = \"water\" }"),
+            ""
+        );
+        let wrong = told("gauge.e = { kind = \"extent\", phase = \"wter\" }");
+        assert_eq!(
+            wrong,
+            "gauge.e.phase: there is no phase called `wter`, did you mean `water`?"
+        );
+        let wrong = told("probe.e = { kind = \"line\", file = \"nosuch.csv\" }");
+        assert!(wrong.starts_with("probe.e.file: cannot read"), "{wrong}");
+        let wrong = told("probe.e = { kind = \"front\", phase = \"air\" }");
+        assert!(wrong.starts_with("reference.r.probe: no probe has a column `e.highest`"));
+    }
+}

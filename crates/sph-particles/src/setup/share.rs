@@ -1,0 +1,57 @@
+//! How much of a flow a process begins with.
+
+use std::sync::Arc;
+
+use sph_boundary::Wall;
+use sph_core::StepError;
+use sph_neighbours::WallSet;
+use sph_neighbours::decomposition::{PartError, Transport};
+use sph_solver::{Flow, SolverError};
+
+/// How much of a flow a process begins with.
+pub enum Share<const D: usize> {
+    /// All of it.
+    Whole,
+    /// The part of a rank: lists are built and forces found for this alone.
+    Part(Arc<dyn Transport>),
+    /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
+    Blank,
+    /// Columns and plugins alone, without a particle, among walls that stand already: for what others gather.
+    Columns(Option<Box<Standing<D>>>),
+}
+
+/// Walls that stand already: the plugin, and what pair sums know of them.
+pub type Standing<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
+
+/// Refuses what cannot be divided between ranks.
+pub fn refuse_the_indivisible<const D: usize>(
+    flow: &Flow<D>,
+    ranks: usize,
+) -> Result<(), SolverError> {
+    if let Some(why) = flow.indivisible() {
+        return Err(SolverError::at("", why));
+    }
+    let particles = flow.world.free.len();
+    match ranks > particles {
+        true => Err(SolverError::at(
+            "",
+            format!("{ranks} ranks for {particles} particles: some would own nothing"),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Whether all ranks are ready, which all must ask.
+pub fn all_ready<T, E: From<StepError>>(
+    ranks: &dyn Transport,
+    ready: Result<T, E>,
+) -> Result<T, E> {
+    let mut failed = [f64::from(u8::from(ready.is_err()))];
+    let told = ranks.largest(&mut failed).map_err(PartError::from);
+    let ready = ready?;
+    told.map_err(StepError::from)?;
+    match failed[0] > 0.0 {
+        true => Err(StepError::from(PartError::Elsewhere).into()),
+        false => Ok(ready),
+    }
+}

@@ -1,0 +1,165 @@
+//! The state of all particles before the first step.
+
+use sph_contribution::{Birth, Initial, OwnColumn};
+use sph_core::{StepError, StepLimit, fields};
+use sph_multiphase::Formulation;
+use sph_neighbours::World;
+use sph_probes::Solution;
+use sph_scene::Scene;
+use sph_solver::{Flow, SolverError};
+
+use crate::setup::initial::InitialState;
+use crate::setup::layers::Layers;
+use crate::setup::relax::relax;
+use crate::setup::relaxation::Relaxation;
+use crate::setup::shapes::Drawn;
+use crate::setup::share::{Share, all_ready, refuse_the_indivisible};
+
+/// What the first state of all particles is made from.
+pub(crate) struct Start<'a, const D: usize> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its bodies as shapes.
+    pub drawn: &'a Drawn<D>,
+    /// Body that a particle comes from, by its number.
+    pub body_of: &'a [u32],
+    /// Initial fields, by the body's name.
+    pub initial: &'a [(String, Box<dyn Solution<D>>)],
+    /// What density is.
+    pub formulation: &'a dyn Formulation<D>,
+    /// Columns that contributions bring along.
+    pub columns: &'a [OwnColumn<D>],
+}
+
+/// Number of the phase of every body, in the scene's order of names.
+pub(crate) fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
+    let of = |body: &sph_scene::Body| scene.phase.keys().position(|p| *p == body.phase);
+    let all = scene.body.values();
+    all.map(|body| of(body).unwrap_or(0) as u32).collect()
+}
+
+/// Sorts the particles and gives them their initial state; those of a rank's part if this is its `share`.
+pub(crate) fn start<const D: usize>(
+    given: &Start<'_, D>,
+    share: &Share<D>,
+    flow: &mut Flow<D>,
+) -> Result<Option<Relaxation>, SolverError> {
+    let relaxation = match share {
+        Share::Blank | Share::Columns(_) => return Ok(None),
+        Share::Whole => {
+            let world = &mut flow.world;
+            world.rebuild_lists()?;
+            let walls = flow.walls.as_deref_mut().map(|walls| walls as _);
+            relax(given.scene, given.drawn, world, walls)?
+        }
+        Share::Part(ranks) => {
+            refuse_the_indivisible(flow, ranks.ranks())?;
+            flow.world.sort()?;
+            let divided = flow.divide(ranks.clone());
+            divided.map_err(StepError::from)?;
+            None
+        }
+    };
+    let begun = give_state(given, relaxation, flow);
+    if let Share::Part(ranks) = share {
+        all_ready(&**ranks, begun)?;
+        flow.tell_all()?;
+    } else {
+        begun?;
+    }
+    let mut limits = flow.step_limits()?;
+    flow.least_limits(&mut limits)?;
+    let least = StepLimit::least(&limits).map_or(0.0, |l| l.dt);
+    flow.world.dt = given.scene.run.safety * least;
+    Ok(relaxation)
+}
+
+/// Gives the particles of a process their initial state.
+fn give_state<const D: usize>(
+    given: &Start<'_, D>,
+    relaxation: Option<Relaxation>,
+    flow: &mut Flow<D>,
+) -> Result<(), SolverError> {
+    let Start { scene, drawn, .. } = given;
+    let world = &mut flow.world;
+    let layers = Layers::of(scene, &drawn.regions);
+    let phase_of = phases_of_bodies(scene);
+    let mut states = Vec::new();
+    for (k, ((name, body), region)) in scene.body.iter().zip(&drawn.regions).enumerate() {
+        let field = given.initial.iter().find(|(n, _)| n == name);
+        let field = field.map(|(_, f)| &**f);
+        states.push(InitialState::new(
+            scene,
+            body,
+            region,
+            &*flow.laws[phase_of[k] as usize],
+            field,
+            layers.as_ref(),
+        ));
+    }
+    let identity = world.free.get(fields::IDENTITY)?.to_vec();
+    let position = world.free.get(fields::POSITION)?.to_vec();
+    let body = |k: usize| given.body_of[identity[k] as usize] as usize;
+    let volume = relaxation.map_or(1.0, |r| r.volume);
+    let (noise, seed) = (scene.numerics.velocity_noise, scene.numerics.seed);
+    let whole = volume * world.spacing.powi(D as i32);
+    for k in 0..identity.len() {
+        let state = &states[body(k)];
+        let density = state.density(&position[k]);
+        world.free.get_mut(fields::DENSITY)?[k] = density;
+        world.free.get_mut(fields::MASS)?[k] = density * whole;
+        let mut velocity = state.velocity(&position[k]);
+        if noise > 0.0 {
+            velocity += sph_core::Vect::<D>::from(sph_scene::noise(identity[k], noise, seed));
+        }
+        world.free.get_mut(fields::VELOCITY)?[k] = velocity;
+    }
+    let phases: Vec<&String> = scene.phase.keys().collect();
+    let bodies: Vec<&str> = scene.body.keys().map(String::as_str).collect();
+    for column in given.columns {
+        let name = |k: usize| {
+            let body = body(k);
+            (phases[phase_of[body] as usize].as_str(), bodies[body])
+        };
+        fill(world, column, name)?;
+    }
+    if let Some(walls) = &mut flow.walls {
+        walls.geometry(world)?;
+    }
+    Ok(given.formulation.rebase(world)?)
+}
+
+/// Gives a column of a contribution its values at the start; `names` has the phase and the body of a particle.
+fn fill<'n, const D: usize>(
+    world: &mut World<D>,
+    column: &OwnColumn<D>,
+    names: impl Fn(usize) -> (&'n str, &'n str),
+) -> Result<(), SolverError> {
+    let free = &world.free;
+    let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+    let (density, mass) = (free.get(fields::DENSITY)?, free.get(fields::MASS)?);
+    let birth = |k: usize| {
+        let (phase, body) = names(k);
+        Birth {
+            position: position[k],
+            velocity: velocity[k],
+            density: density[k],
+            mass: mass[k],
+            phase,
+            body,
+        }
+    };
+    let all = 0..position.len();
+    match &column.initial {
+        Initial::Zero => {}
+        Initial::Scalar(formula) => {
+            let values = all.map(|k| formula(&birth(k))).collect();
+            world.free.put(column.field.scalar(), values)?;
+        }
+        Initial::Vector(formula) => {
+            let values = all.map(|k| formula(&birth(k))).collect();
+            world.free.put(column.field.vector(), values)?;
+        }
+    }
+    Ok(())
+}

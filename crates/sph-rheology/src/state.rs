@@ -1,0 +1,16 @@
+//! Equations of state: pressure from density, on slices.
+//!
+//! * [`EquationOfState`] is a kind of plugin: [`Tait`], [`Linear`], and [`CompressibleGrains`], whose pressure follows
+//!   the strain rate as well. [`BoundState`] is one with the reference state of a phase, [`Laws`] those of a scene.
+
+mod compressible_grains;
+mod eos;
+mod lifted;
+mod linear;
+mod tait;
+
+pub use compressible_grains::CompressibleGrains;
+pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Laws, Reference};
+pub use lifted::{Lift, Lifted};
+pub use linear::Linear;
+pub use tait::Tait;

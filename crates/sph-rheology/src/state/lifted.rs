@@ -1,0 +1,117 @@
+//! Laws with a background pressure that is known once the walls stand.
+
+use std::sync::{Arc, OnceLock};
+
+use crate::state::{BoundState, Reference};
+
+/// Pressure that is added to all laws of a scene, Pa: set once at most, before the first of them is asked.
+#[derive(Clone, Debug, Default)]
+pub struct Lift(Arc<OnceLock<f64>>);
+
+impl Lift {
+    /// Sets it, Pa; a second value is of no account.
+    pub fn set(&self, pressure: f64) {
+        let _ = self.0.set(pressure);
+    }
+
+    fn get(&self) -> f64 {
+        self.0.get().copied().unwrap_or(0.0)
+    }
+}
+
+/// A law with a background pressure P: p(ρ) + P, and the energy P (1/ρ₀ − 1/ρ) besides its own.
+#[derive(Debug)]
+pub struct Lifted {
+    law: Box<dyn BoundState>,
+    lift: Lift,
+}
+
+impl Lifted {
+    /// A law with what lifts it.
+    #[must_use]
+    pub fn new(law: Box<dyn BoundState>, lift: &Lift) -> Self {
+        let lift = lift.clone();
+        Self { law, lift }
+    }
+
+    fn raise(&self, pressure: &mut [f64]) {
+        let lift = self.lift.get();
+        if lift != 0.0 {
+            pressure.iter_mut().for_each(|p| *p += lift);
+        }
+    }
+}
+
+impl BoundState for Lifted {
+    fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
+        self.law.pressure(density, pressure);
+        self.raise(pressure);
+    }
+
+    fn needs_strain_rate(&self) -> bool {
+        self.law.needs_strain_rate()
+    }
+
+    fn sheared_pressure(&self, density: &[f64], strain_rate: &[f64], pressure: &mut [f64]) {
+        self.law.sheared_pressure(density, strain_rate, pressure);
+        self.raise(pressure);
+    }
+
+    fn density(&self, pressure: f64) -> f64 {
+        self.law.density(pressure - self.lift.get())
+    }
+
+    fn sound_speed(&self, density: f64) -> f64 {
+        self.law.sound_speed(density)
+    }
+
+    fn internal_energy(&self, density: f64) -> f64 {
+        let own = self.law.internal_energy(density);
+        match self.lift.get() {
+            0.0 => own,
+            lift => own + lift * (1.0 / self.reference().density - 1.0 / density),
+        }
+    }
+
+    fn reference(&self) -> Reference {
+        self.law.reference()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::{EquationOfState, Tait};
+
+    #[test]
+    fn a_lifted_law_is_that_with_the_background_pressure() {
+        let reference = Reference {
+            density: 1000.0,
+            sound_speed: 20.0,
+        };
+        let background_pressure = 3e4;
+        let with = Tait {
+            background_pressure,
+            ..Tait::default()
+        };
+        let lift = Lift::default();
+        let lifted = Lifted::new(Tait::default().bind(reference), &lift);
+        let mut none = [1.0];
+        lifted.pressure(&[1000.0], &mut none);
+        assert_eq!(none, [0.0]);
+        lift.set(background_pressure);
+        let with = with.bind(reference);
+        let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-12 * b.abs(), "{a} for {b}");
+        for density in [970.0, 1020.0] {
+            let (mut a, mut b) = ([0.0], [0.0]);
+            lifted.pressure(&[density], &mut a);
+            with.pressure(&[density], &mut b);
+            near(a[0], b[0]);
+            near(lifted.density(a[0]), with.density(b[0]));
+            near(
+                lifted.internal_energy(density),
+                with.internal_energy(density),
+            );
+        }
+    }
+}

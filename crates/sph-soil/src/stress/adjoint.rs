@@ -1,0 +1,188 @@
+//! The force of a stress as the adjoint of a corrected velocity gradient.
+
+use std::sync::Arc;
+
+use nalgebra::SMatrix;
+use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
+    World, dot, scaled, walk_in_lanes,
+};
+
+use crate::stress::strain_rate::in_space;
+use crate::stress::{NeighbourSums, VelocityGradient};
+
+/// [`STRESS_CORRECTION`](fields::STRESS_CORRECTION) C_a of a velocity gradient, where the particles are now.
+pub struct StressCorrection<const D: usize>(pub Arc<dyn VelocityGradient<D>>);
+
+impl<const D: usize> Declares for StressCorrection<D> {
+    fn name(&self) -> String {
+        "stress correction".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::POSITION)
+            .neighbours(fields::VOLUME)
+            .writes(fields::STRESS_CORRECTION)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut corrections = world.free.take(fields::STRESS_CORRECTION)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let points = &world.walls.points;
+        let elements = &world.walls.elements;
+        let correction = |free: [[f64; D]; D], rows: &Neighbourhood<'_, D>| {
+            let mut position = SMatrix::<f64, D, D>::from_fn(|i, k| free[i][k]);
+            for (k, &v) in rows.wall.index.iter().enumerate() {
+                let v = v as usize;
+                let apart = &rows.wall.separation[k];
+                let weight = points.share[v] * points.volume[v] * rows.wall.factor[k];
+                position -= apart * (apart * weight).transpose();
+            }
+            for contact in rows.contacts {
+                let foot = elements.normal[contact.element as usize] * contact.distance;
+                position += foot * contact.gradient.transpose();
+            }
+            self.0.correction(&NeighbourSums {
+                velocity: SMatrix::zeros(),
+                position,
+                inverse_renormalisation: rows.inverse_renormalisation,
+            })
+        };
+        let free = FreePositions { volume };
+        walk_in_lanes(world, &free, |_| true, &mut corrections, correction)?;
+        Ok(world.free.put(fields::STRESS_CORRECTION, corrections)?)
+    }
+}
+
+/// −Σ V r ⊗ ∇w of free neighbours.
+struct FreePositions<'a> {
+    volume: &'a [f64],
+}
+
+impl<const D: usize> PairSum<D> for FreePositions<'_> {
+    type Own<L: Lane> = ();
+    type Sum<L: Lane> = [[L; D]; D];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, _: Particles) {}
+    #[inline(always)]
+    fn pair<L: Lane>(&self, _: &(), j: usize, pair: &LanePair<D, L>, sums: &mut [[L; D]; D]) {
+        let weight = scaled(pair.separation, L::splat(self.volume[j]) * pair.factor);
+        for (row, along) in sums.iter_mut().zip(pair.separation) {
+            for (sum, weight) in row.iter_mut().zip(weight) {
+                *sum -= along * weight;
+            }
+        }
+    }
+}
+
+/// m_a a = 1/γ_a [Σ_b θ_b V_aV_b (τ_aC_aᵀ + τ_bC_bᵀ)·∇w_ab − 2 Σ_s V_a τ_aC_aᵀ·∇γ_as].
+///
+/// C is the correction of the velocity gradient, G_a = 1/γ_a Σ_b θ_b V_b (u_b − u_a) ⊗ ∇w_ab C_a. Without
+/// walls the power of the force is −Σ V τ:G: what the stress does is what it strains, and an elastic body keeps its
+/// energy. Linear momentum is conserved. A wall carries the stress of the particle that touches it; it must not slip.
+///
+/// Ours, by the principle of virtual work, after Bonet & Lok 1999, §4.
+#[derive(Clone, Copy, Debug)]
+pub struct AdjointDivergence;
+
+impl AdjointDivergence {
+    /// As a term of a sweep.
+    pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
+        Box::new(AdjointDivergence)
+    }
+}
+
+impl<const D: usize> PairTerm<D> for AdjointDivergence {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "adjoint stress divergence".into()
+    }
+
+    fn access(&self) -> Access {
+        Access::none()
+            .both(fields::CARRIED_STRESS)
+            .both(fields::STRESS_CORRECTION)
+            .both(fields::VOLUME)
+            .here(fields::MASS)
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        let stress = world.free.get(fields::CARRIED_STRESS)?;
+        let correction = world.free.get(fields::STRESS_CORRECTION)?;
+        let both = stress.iter().zip(correction);
+        let points = &world.walls.points;
+        Ok(Bound {
+            stress: both
+                .map(|(t, c)| {
+                    (t.matrix() * in_space(c).transpose())
+                        .fixed_view::<D, D>(0, 0)
+                        .into_owned()
+                })
+                .collect(),
+            volume: world.free.get(fields::VOLUME)?,
+            mass: world.free.get(fields::MASS)?,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+        })
+    }
+}
+
+/// [`AdjointDivergence`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    /// τCᵀ.
+    stress: Vec<SMatrix<f64, D, D>>,
+    volume: &'a [f64],
+    mass: &'a [f64],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// τCᵀ, row by row.
+    type Own<L: Lane> = [[L; D]; D];
+    type Sum<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> [[L; D]; D] {
+        let mut own = [[L::splat(0.0); D]; D];
+        for (k, row) in own.iter_mut().enumerate() {
+            *row = all.each(|i| self.stress[i].row(k).transpose().data.0[0]);
+        }
+        own
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &[[L; D]; D], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let weight = L::splat(self.volume[j]) * pair.factor;
+        for (i, (sum, own)) in sum.iter_mut().zip(own).enumerate() {
+            let mut row = *own;
+            for (k, stress) in row.iter_mut().enumerate() {
+                *stress += L::splat(self.stress[j][(i, k)]);
+            }
+            *sum += dot(&row, &pair.separation) * weight;
+        }
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let stress = &self.stress[i];
+        let mut sum = Vect::from(sum);
+        for (v, pair) in at.wall.pairs() {
+            let weight = 2.0 * self.wall_share[v] * self.wall_volume[v] * pair.factor;
+            sum += stress * pair.separation * weight;
+        }
+        for contact in at.contacts {
+            sum -= stress * contact.gradient * 2.0;
+        }
+        let per_mass = self.volume[i] / self.mass[i];
+        rates.acceleration += sum * (per_mass * at.inverse_renormalisation);
+    }
+}

@@ -1,0 +1,149 @@
+//! Forces of which a share acts.
+
+use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
+use sph_neighbours::{
+    ContactRow, Interaction, Neighbourhood, Rates, Row, RowTerm, WithTerm, World,
+};
+
+use crate::stress::Rheologies;
+
+/// s_a times the force of a term on particle a: action is not reaction where shares differ.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.104.
+pub struct Blended<const D: usize> {
+    /// The whole force.
+    pub term: Box<dyn Interaction<D>>,
+    /// s.
+    pub share: Field<Scalar>,
+    /// Phases whose particles act with their whole force, by number; empty if there is none.
+    pub apart: Vec<bool>,
+}
+
+impl<const D: usize> Blended<D> {
+    /// Friction, of which the share ζ acts. What the phases rub off each other that do not blend stays whole, so that there action
+    /// is reaction (ours).
+    pub fn friction(term: Box<dyn Interaction<D>>, laws: &Rheologies) -> Self {
+        let blends = |law: &dyn sph_rheology::Rheology| law.elastic().is_some_and(|e| e.blends());
+        let apart: Vec<bool> = laws.iter().map(|law| !blends(&**law)).collect();
+        Blended {
+            term,
+            share: fields::FRICTION_SHARE,
+            apart: match apart.contains(&true) {
+                true => apart,
+                false => Vec::new(),
+            },
+        }
+    }
+
+    /// An elastic force, of which the share 1 − ζ acts.
+    pub fn solid(term: Box<dyn Interaction<D>>) -> Self {
+        Blended {
+            term,
+            share: fields::SOLID_SHARE,
+            apart: Vec::new(),
+        }
+    }
+}
+
+/// Phases of all particles, and which of them act wholly.
+type Apart<'a> = (&'a [u32], &'a [bool]);
+
+impl<const D: usize> Blended<D> {
+    fn apart<'a>(&'a self, world: &'a World<D>) -> Result<Option<Apart<'a>>, StepError> {
+        match self.apart.is_empty() {
+            true => Ok(None),
+            false => Ok(Some((world.free.get(fields::PHASE)?, &self.apart))),
+        }
+    }
+}
+
+impl<const D: usize> Interaction<D> for Blended<D> {
+    fn name(&self) -> String {
+        format!("share of {}", self.term.name())
+    }
+
+    fn access(&self) -> Access {
+        let access = self.term.access().here(self.share);
+        match self.apart.is_empty() {
+            true => access,
+            false => access.both(fields::PHASE),
+        }
+    }
+
+    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        let share = world.free.get(self.share)?;
+        let apart = self.apart(world)?;
+        self.term
+            .lend(world, &mut |term| with(&Bound { term, share, apart }))
+    }
+}
+
+/// [`Blended`] with its columns.
+struct Bound<'a, const D: usize> {
+    term: &'a dyn RowTerm<D>,
+    share: &'a [f64],
+    apart: Option<Apart<'a>>,
+}
+
+impl<const D: usize> RowTerm<D> for Bound<'_, D> {
+    fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let share = self.share[at.particle];
+        if share == 1.0 {
+            return self.term.row(at, rates);
+        }
+        let mut whole = nothing();
+        self.term.row(at, &mut whole);
+        let apart = self.of_others(at);
+        rates.acceleration +=
+            apart.acceleration + (whole.acceleration - apart.acceleration) * share;
+        rates.scalar += apart.scalar + (whole.scalar - apart.scalar) * share;
+        for (k, rate) in rates.more.iter_mut().enumerate() {
+            *rate += apart.more[k] + (whole.more[k] - apart.more[k]) * share;
+        }
+    }
+}
+
+fn nothing<const D: usize>() -> Rates<D> {
+    Rates::of(Vect::zeros())
+}
+
+impl<const D: usize> Bound<'_, D> {
+    /// The part of neighbours that act wholly.
+    fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
+        let mut rates = nothing();
+        let Some((phase, apart)) = self.apart else {
+            return rates;
+        };
+        let acts = |k: &usize| apart[phase[at.free.index[*k] as usize] as usize];
+        let kept: Vec<usize> = (0..at.free.index.len()).filter(acts).collect();
+        if kept.is_empty() {
+            return rates;
+        }
+        fn of<T: Copy>(kept: &[usize], column: &[T]) -> Vec<T> {
+            kept.iter().map(|k| column[*k]).collect()
+        }
+        let index = of(&kept, at.free.index);
+        let separation = of(&kept, at.free.separation);
+        let distance2 = of(&kept, at.free.distance2);
+        let factor = of(&kept, at.free.factor);
+        let none = Row {
+            index: &[],
+            separation: &[],
+            distance2: &[],
+            factor: &[],
+        };
+        let others = Neighbourhood {
+            free: Row {
+                index: &index,
+                separation: &separation,
+                distance2: &distance2,
+                factor: &factor,
+            },
+            wall: none,
+            contacts: ContactRow::NONE,
+            ..*at
+        };
+        self.term.row(&others, &mut rates);
+        rates
+    }
+}

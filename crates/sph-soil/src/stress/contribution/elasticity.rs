@@ -1,0 +1,228 @@
+//! The elastic force in a scene: which one, and with what it cannot be combined.
+
+use sph_contribution::{
+    Contribution, FromPlugins, Offer, OutsideForce, Plugins, Refusal, Setting, contributes,
+};
+use sph_core::{AnyField, Pool};
+use sph_neighbours::Interaction;
+use sph_rheology::Rheology;
+
+use super::Materials;
+use crate::stress::{
+    AdjointDivergence, Blend, Blended, CarriedAhead, CarriedStress, ElasticForce, ElasticMotion,
+    ElasticSubSteps, ElasticWaveLimit, StressCorrection, Yielded,
+};
+
+/// Remembered stresses of the laws of a scene, and the force that they make.
+struct Elasticity<const D: usize>(Materials<D>);
+
+contributes!("elastic-force", Elasticity);
+
+impl<const D: usize> FromPlugins<D> for Elasticity<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let materials = Materials::from_plugins(plugins)?;
+        materials.force.is_some().then_some(Elasticity(materials))
+    }
+}
+
+const KIND: &str = "elastic-force";
+
+impl<const D: usize> Elasticity<D> {
+    fn term(&self, force: &dyn ElasticForce<D>) -> Box<dyn Interaction<D>> {
+        let term = match self.0.adjoint() {
+            Some(_) => AdjointDivergence::boxed(),
+            None => force.term(&self.0.felt()),
+        };
+        match force.blend() {
+            Blend::Forces => Box::new(Blended::solid(term)),
+            Blend::Stresses => term,
+        }
+    }
+
+    /// The step that elastic waves allow.
+    fn wave(&self, setting: &Setting<'_, D>) -> Option<ElasticWaveLimit> {
+        let stiffness = self.0.force.as_ref()?.stiffness();
+        let both = setting.laws.iter().zip(self.0.laws.iter());
+        let speeds = both.filter_map(|(law, rheology)| {
+            let reference = law.reference();
+            let shear = rheology.elastic()?.shear_modulus() / reference.density;
+            Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
+        });
+        Some(ElasticWaveLimit {
+            courant: setting.courant,
+            speed: speeds.reduce(f64::max)?,
+            stiffness,
+        })
+    }
+}
+
+impl<const D: usize> Contribution<D> for Elasticity<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let Some(force) = &self.0.force else {
+            return Ok(());
+        };
+        self.check(&**force, setting)?;
+        if !force.sub_steps() {
+            offer.terms.push(self.term(&**force));
+            let wave = self.wave(setting).filter(|_| !force.implicit());
+            wave.into_iter().for_each(|wave| offer.limiter(wave));
+        }
+        offer.stored.push(Box::new(self.0.felt()));
+        offer.remedy = Some(format!(
+            "lower Young's modulus of the soil, give it `damping`, or change {}",
+            offer.path
+        ));
+        Ok(())
+    }
+    fn offer_to_readers(
+        &mut self,
+        setting: &Setting<'_, D>,
+        read: &[AnyField],
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        let Some(force) = &self.0.force else {
+            return Ok(());
+        };
+        let felt = self.0.felt();
+        match self.0.ahead() {
+            true => offer.stage(CarriedAhead(felt.clone())),
+            false => offer.stage(CarriedStress(felt.clone())),
+        }
+        offer.stage(Yielded(felt.clone()));
+        if let Some(gradient) = self.0.adjoint() {
+            offer.stage(StressCorrection(gradient.clone()));
+        }
+        let Some(gradient) = self.0.gradient_stage(read) else {
+            return Ok(());
+        };
+        offer.fresh_state = true;
+        let motion = ElasticMotion {
+            gradient,
+            felt: felt.clone(),
+            displaced: force.displaced(),
+            gradients: Pool::default(),
+        };
+        match self.wave(setting).filter(|_| force.sub_steps()) {
+            None => offer.hook(motion),
+            Some(wave) => {
+                let longest = wave.longest_sub_step(setting.world);
+                let term: OutsideForce<D> = self.term(&**force).into();
+                let sub_steps = ElasticSubSteps::new(term.clone(), motion, felt, longest);
+                offer.outside.push(term);
+                offer.inner_bounds.push(sub_steps.bound());
+                offer.hook(sub_steps);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Elasticity<D> {
+    /// Refuses combinations in which a force is not known.
+    fn check(&self, force: &dyn ElasticForce<D>, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        if force.implicit() {
+            self.refuse_implicit()?;
+        }
+        if force.blend() == Blend::Forces {
+            self.refuse_blend()?;
+        }
+        self.refuse_adjoint(force, setting)?;
+        if let (true, Some(name)) = (force.displaced(), setting.moving_wall) {
+            let why = format!(
+                "the displacement of a wall is not remembered, and the wall `{name}` moves: take \
+                 [elastic-force.divergence]"
+            );
+            return Err(Refusal::of(KIND, "", why));
+        }
+        match force.sub_steps() {
+            true => self.refuse_sub_steps(force, setting.kicks_once),
+            false => Ok(()),
+        }
+    }
+
+    /// Refuses stresses of the end of the step where they are not known.
+    fn refuse_implicit(&self) -> Result<(), Refusal> {
+        let why = match self.0.implicit_share {
+            None => {
+                "what the step adds to the stress is solved for with the viscosity: add \
+                 [implicit-viscosity.backward-euler], or take `implicit` out"
+            }
+            Some(share) if share < 1.0 => {
+                "the stress of the end of the step is all of the force: take \
+                 [implicit-viscosity.backward-euler], or take `implicit` out"
+            }
+            Some(_) if !self.0.operator.leaves_rotations() => {
+                "what the step adds to the stress must not brake rotations, as this viscous operator does at free \
+                 surfaces: take [viscous-operator.monaghan-gingold], or take `implicit` out"
+            }
+            Some(_) if self.0.adjoint().is_some() => {
+                "it was not shown to be stable with the `adjoint` force: take one of the two out"
+            }
+            Some(_) => return Ok(()),
+        };
+        Err(Refusal::of(KIND, "implicit", why))
+    }
+
+    /// Refuses a blend of forces where it is not known.
+    fn refuse_blend(&self) -> Result<(), Refusal> {
+        let blends = |law: &dyn Rheology| law.elastic().is_some_and(|e| e.blends());
+        let damps = |law: &dyn Rheology| law.elastic().is_some_and(|e| e.damps());
+        let mut laws = self.0.laws.iter();
+        let why = if !laws.any(|law| blends(&**law)) {
+            "no law of this scene is liquid where it yields: take `blend` out"
+        } else if self.0.implicit_share.is_some() {
+            "a share of a force is not known as a symmetric system: take [implicit-viscosity] out, or blend \
+             \"stresses\""
+        } else if self.0.laws.iter().any(|law| damps(&**law)) {
+            "where forces are blended the solid has no viscosity, and the `damping` of the law would do nothing: let it \
+             be 0, or blend \"stresses\""
+        } else {
+            return Ok(());
+        };
+        Err(Refusal::of(KIND, "blend", why))
+    }
+
+    /// Refuses the adjoint force where it is not known.
+    fn refuse_adjoint(
+        &self,
+        force: &dyn ElasticForce<D>,
+        setting: &Setting<'_, D>,
+    ) -> Result<(), Refusal> {
+        if self.0.adjoint().is_none() {
+            return Ok(());
+        }
+        let walls = &setting.world.walls;
+        let mut grips = walls.points.grip.iter().chain(&walls.elements.grip);
+        let why = if force.displaced() {
+            "the force is made of displacements and not of a stress: take `adjoint` out, or take \
+             [elastic-force.divergence]"
+        } else if grips.any(|grip| *grip < 1.0) {
+            "the adjoint force is not known at walls that slip: take `adjoint` out, or let all walls be \"no-slip\""
+        } else {
+            return Ok(());
+        };
+        Err(Refusal::of("velocity-gradient", "adjoint", why))
+    }
+
+    /// Refuses sub-steps where they are not known.
+    fn refuse_sub_steps(
+        &self,
+        force: &dyn ElasticForce<D>,
+        kicks_once: bool,
+    ) -> Result<(), Refusal> {
+        let why = if force.implicit() {
+            "stresses of the end of the step have no need of sub-steps: take one of `implicit` and `sub_steps` out"
+        } else if force.blend() == Blend::Forces {
+            "where forces are blended the share of the others is not known within the step: take `sub_steps` out, or \
+             blend \"stresses\""
+        } else if self.0.adjoint().is_some() {
+            "the `adjoint` force was not tried in sub-steps: take one of the two out"
+        } else if !kicks_once {
+            "sub-steps go between one kick and one drift over all of the step: take [integrator.symplectic-euler], or \
+             take `sub_steps` out"
+        } else {
+            return Ok(());
+        };
+        Err(Refusal::of(KIND, "sub_steps", why))
+    }
+}

@@ -1,0 +1,132 @@
+//! Friction of fluids in a scene, explicit or solved for.
+
+use sph_contribution::{
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, Stages, contributes,
+};
+use sph_core::AnyField;
+use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
+use sph_multiphase::viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
+
+use super::Materials;
+use crate::stress::{Blend, Blended, StrainRate, ViscosityStage};
+
+/// The viscous force of the laws.
+struct Friction<const D: usize> {
+    materials: Materials<D>,
+    implicit: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
+}
+
+contributes!("viscous-operator", Friction);
+
+impl<const D: usize> FromPlugins<D> for Friction<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let scheme = plugins.one::<D, ImplicitViscosityEntry>();
+        let implicit = scheme.and_then(|s| Some((s, plugins.one::<D, LinearSolverEntry>()?)));
+        Some(Friction {
+            materials: Materials::from_plugins(plugins)?,
+            implicit,
+        })
+    }
+}
+
+impl<const D: usize> Friction<D> {
+    fn solved_for(&self) -> bool {
+        self.materials.implicit_share.is_some()
+    }
+
+    fn viscosity_stage(&self) -> ViscosityStage {
+        ViscosityStage {
+            felt: self.materials.felt(),
+            eddies: self.materials.eddies,
+        }
+    }
+
+    /// η/ρ₀, the largest that the laws allow, m²/s.
+    fn largest(&self, setting: &Setting<'_, D>) -> f64 {
+        let both = setting.laws.iter().zip(self.materials.laws.iter());
+        let kinematic =
+            both.map(|(state, law)| law.largest_viscosity() / state.reference().density);
+        match self.materials.eddies {
+            true => f64::INFINITY,
+            false => kinematic.fold(0.0, f64::max),
+        }
+    }
+}
+
+impl<const D: usize> Contribution<D> for Friction<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let (materials, viscosity) = (&self.materials, self.materials.viscosity());
+        if materials.inviscid() && self.solved_for() {
+            return Err(Refusal::of(
+                "implicit-viscosity",
+                "",
+                "no phase of this scene has a viscosity, so that there is nothing to solve for: take this table out, or \
+                 give a phase a viscosity",
+            ));
+        }
+        if !materials.inviscid() {
+            offer.stages = materials.operator.stages(viscosity);
+        }
+        let why = "the friction could not be solved for: name a solver with more iterations \
+                   (`[linear-solver.conjugate-gradient] iterations`), or `[linear-solver.cholesky]`, which needs none";
+        let remedy = (ImplicitViscosity::<D>::NAME, why.into());
+        offer.remedies_of_failures.push(remedy);
+        if self.solved_for() {
+            offer.remedy = Some(
+                "it is solved for, so look at the rheology: a smaller largest viscosity, or another [linear-solver]"
+                    .into(),
+            );
+            return Ok(());
+        }
+        offer.remedy = Some(
+            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it"
+                .into(),
+        );
+        if !materials.inviscid() {
+            let term = materials.operator.term(viscosity);
+            match materials.felt().blend {
+                Blend::Forces => offer.term(Blended::friction(term, &materials.laws)),
+                Blend::Stresses => offer.terms.push(term),
+            }
+        }
+        let largest = self.largest(setting);
+        if largest > 0.0 {
+            let mut laws = materials.laws.iter();
+            offer.limiter(ViscousLimit {
+                coefficient: setting.viscous / materials.operator.stiffness(),
+                largest,
+                constant: !materials.eddies && laws.all(|l| l.uniform_viscosity().is_some()),
+            });
+        }
+        Ok(())
+    }
+    fn offer_to_readers(
+        &mut self,
+        setting: &Setting<'_, D>,
+        read: &[AnyField],
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        offer.stage(self.viscosity_stage());
+        let Some(solve) = self.implicit.take() else {
+            return Ok(());
+        };
+        let materials = &self.materials;
+        let (operator, viscosity) = (&materials.operator, materials.viscosity());
+        let mut stages: Stages<D> = Vec::new();
+        let gradient = materials.gradient_stage(read);
+        if let Some(gradient) = gradient.filter(|_| materials.felt().strain_rate()) {
+            stages.push(Box::new(gradient));
+            stages.push(Box::new(StrainRate));
+            stages.push(Box::new(self.viscosity_stage()));
+        }
+        let lagged = Lagged {
+            stages,
+            stiffens: materials.ahead(),
+            may_hold: setting.delayed_yield,
+        };
+        let coupling = operator.coupling(viscosity);
+        offer.outside.push(operator.term(viscosity).into());
+        offer.hook(ImplicitViscosity::new(coupling, solve, lagged));
+        Ok(())
+    }
+}

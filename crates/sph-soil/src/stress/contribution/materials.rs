@@ -1,0 +1,132 @@
+//! What the contributions of a scene's laws know of each other.
+
+use std::sync::Arc;
+
+use sph_contribution::Plugins;
+use sph_core::{AnyField, fields};
+use sph_multiphase::linear::ImplicitViscosityEntry;
+use sph_multiphase::viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
+use sph_rheology::{Rheology, RheologyEntry};
+
+use crate::stress::{
+    Blend, ElasticForce, ElasticForceEntry, Felt, GradientStage, Rheologies, VelocityGradient,
+    VelocityGradientEntry,
+};
+
+/// The laws of a scene, and the plugins that make forces of them.
+pub struct Materials<const D: usize> {
+    /// The laws, in the order of the phase numbers.
+    pub laws: Rheologies,
+    /// The gradient of the velocity, where somebody needs it.
+    pub gradient: Option<Arc<dyn VelocityGradient<D>>>,
+    /// What makes friction of viscosities.
+    pub operator: Box<dyn ViscousOperator<D>>,
+    /// What makes forces of elastic stresses, where a law has them.
+    pub force: Option<Box<dyn ElasticForce<D>>>,
+    /// Whether eddies have a viscosity.
+    pub eddies: bool,
+    /// Share of the friction that is of the end of the step, where it is solved for.
+    pub implicit_share: Option<f64>,
+    /// Whether the pressure between grains is another than that of the equation of state.
+    pub grain_pressure: bool,
+}
+
+impl<const D: usize> Materials<D> {
+    /// Those of a scene; none if its viscous operator could not be built.
+    pub fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let laws: Rheologies = plugins.of_phases::<D, RheologyEntry>().into();
+        let eddies = plugins.names("eddy-viscosity");
+        let elastic = laws.iter().any(|law| law.elastic().is_some());
+        let of_gradients = [fields::VELOCITY_GRADIENT.name, fields::STRAIN_RATE.name];
+        let shown = plugins
+            .shown
+            .iter()
+            .any(|name| of_gradients.contains(&&**name));
+        let strained = eddies || elastic || shown || laws.iter().any(|law| law.needs().strain_rate);
+        let gradient = strained.then(|| plugins.one::<D, VelocityGradientEntry>());
+        let force = elastic.then(|| plugins.one::<D, ElasticForceEntry>());
+        let scheme = plugins.one::<D, ImplicitViscosityEntry>();
+        Some(Materials {
+            laws,
+            gradient: gradient.flatten().map(Arc::from),
+            operator: plugins.one::<D, ViscousOperatorEntry>()?,
+            force: force.flatten(),
+            eddies,
+            implicit_share: scheme.map(|scheme| scheme.implicit_share()),
+            grain_pressure: plugins.names("effective-pressure"),
+        })
+    }
+
+    /// What the laws feel.
+    pub(crate) fn felt(&self) -> Felt {
+        let blend = self.force.as_ref().map(|force| force.blend());
+        Felt {
+            laws: self.laws.clone(),
+            pressure: match self.grain_pressure {
+                true => fields::EFFECTIVE_PRESSURE,
+                false => fields::PRESSURE,
+            },
+            blend: blend.unwrap_or(Blend::Stresses),
+        }
+    }
+
+    /// Whether stresses are those of the end of the step.
+    pub(crate) fn ahead(&self) -> bool {
+        self.force.as_ref().is_some_and(|force| force.implicit())
+    }
+
+    /// The formula whose adjoint is the elastic force, if it is.
+    pub(crate) fn adjoint(&self) -> Option<&Arc<dyn VelocityGradient<D>>> {
+        let formula = self.gradient.as_ref()?;
+        (self.force.is_some() && formula.adjoint()).then_some(formula)
+    }
+
+    /// One viscosity for all, or a column, which something besides the laws may need.
+    pub(crate) fn viscosity(&self) -> Viscosity {
+        let column = self.eddies || self.ahead();
+        let laws = &self.laws;
+        let uniform: Vec<_> = laws.iter().map(|l| l.uniform_viscosity()).collect();
+        match uniform.first() {
+            Some(Some(first)) if !column && uniform.iter().all(|v| v == &Some(*first)) => {
+                Viscosity::Uniform(*first)
+            }
+            _ if laws.len() > 1 => Viscosity::PerPhase,
+            _ => Viscosity::PerParticle,
+        }
+    }
+
+    /// Whether nothing has a viscosity.
+    pub(crate) fn inviscid(&self) -> bool {
+        self.viscosity() == Viscosity::Uniform(0.0)
+    }
+
+    /// The gradient of the phases whose laws read it, or of all if others read it too.
+    pub(crate) fn gradient_stage(&self, read: &[AnyField]) -> Option<GradientStage<D>> {
+        let formula = self.gradient.clone()?;
+        let of_gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+        let others = self.eddies || read.iter().any(|f| of_gradients.contains(f));
+        let phases = match others {
+            true => None,
+            false => self.phases_with_gradients(),
+        };
+        Some(GradientStage { formula, phases })
+    }
+
+    /// Whether nobody reads strain rates before the interactions, which may then leave them for those who do it later.
+    pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
+        let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+        self.eddies
+            && !self.laws.iter().any(|law| reads_gradients(&**law))
+            && !read.iter().any(|field| gradients.contains(field))
+    }
+
+    /// By phase number, whether the law reads velocity gradients; `None` if all do.
+    fn phases_with_gradients(&self) -> Option<Arc<[bool]>> {
+        let phases: Arc<[bool]> = self.laws.iter().map(|l| reads_gradients(&**l)).collect();
+        phases.contains(&false).then_some(phases)
+    }
+}
+
+fn reads_gradients(law: &dyn Rheology) -> bool {
+    law.needs().strain_rate || law.elastic().is_some()
+}

@@ -1,0 +1,239 @@
+//! The elastic force of a displacement.
+
+use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
+use sph_multiphase::viscosity::{OnLattice, PairFriction, WithTransposed};
+use sph_neighbours::{
+    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
+    Rates, World, dot, minus,
+};
+
+use crate::stress::divergence::{PLACE, Sum};
+use crate::stress::{Blend, ElasticForce, ElasticForceEntry, Felt};
+
+/// f_a = min(1, τ_y/|τ|)_a [L^E{𝒢, X} + D{J}]_a: second differences of the displacement instead of a divergence.
+///
+/// L^E_a = 1/γ_a Σ_b θ_b V_b 𝒢̄_ab F_ab [(d + 2)(X_ab·e)e + X_ab] − 2/γ_a Σ_s 𝒢_a X_a |∇γ_as|/δr_as and
+/// D_a = −V_a/γ_a Σ_b θ_b (J_a − J_b)·∇w_ab over the neighbours that are elastic.
+///
+/// Symbols: X way since the material was last liquid (m), 0 at walls; J = ∫(ωτ − τω)dt what turns have made of its stress
+/// (Pa), at walls that of the particle; 𝒢̄ harmonic mean of the shear moduli (Pa), times 1 − ζ where stresses are blended
+/// (J as well); δr_as distance from the wall, a spacing at least; τ = ∫(2𝒢D′ + ωτ − τω)dt is not cut.
+///
+/// The force is capped, not the stress, so that action is not reaction where τ > τ_y, nor in D{J}. A particle that was liquid
+/// begins at X = 0 beside neighbours that did not: the step between them is a force of about 𝒢X/δr², which no cap of
+/// stresses removes. X is small and turns are few: the operator is not invariant under rotation. div X is not zero in a
+/// material that can be compressed, and the volume resists with 2𝒢 in place of 4𝒢/3. Walls must not move.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.94–4.101, 4.105 and 4.109–4.114 (4.99 with the sign of 4.69).
+///
+/// ```toml
+/// [elastic-force.displacement]
+/// blend = "forces"
+/// ```
+#[plugin(ElasticForceEntry [2, 3], "displacement",
+    "second differences of the displacement since the material was last liquid",
+    source: "Ghaïtanellis 2017, Eq. 4.94–4.101")]
+#[derive(Copy)]
+pub struct Displacement {
+    /// What is blended where a soil yields.
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.105 (stresses)")]
+    pub blend: Blend,
+    /// Scale of the operator on a lattice.
+    #[parameter(default, source: "ours; literal: as printed")]
+    pub on_lattice: OnLattice,
+}
+
+impl<const D: usize> ElasticForce<D> for Displacement {
+    fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>> {
+        let moduli = felt.laws.iter();
+        let moduli = moduli.map(|law| law.elastic().map_or(0.0, |e| e.shear_modulus()));
+        Box::new(DisplacementForce {
+            moduli: moduli.collect(),
+            choice: *self,
+        })
+    }
+    fn blend(&self) -> Blend {
+        self.blend
+    }
+    fn displaced(&self) -> bool {
+        true
+    }
+    /// Second differences are stiffer than nested first ones: h²λ is 12 at most, and not 2.7.
+    fn stiffness(&self) -> f64 {
+        4.0 / 3.0 * 12.0 / 2.7
+    }
+}
+
+/// [`Displacement`] as a term.
+#[derive(Clone, Debug)]
+pub struct DisplacementForce {
+    /// 𝒢 of every phase, Pa; 0 where it is not elastic.
+    moduli: Vec<f64>,
+    choice: Displacement,
+}
+
+impl<const D: usize> PairTerm<D> for DisplacementForce {
+    type Bound<'a> = Bound<'a, D>;
+
+    fn name(&self) -> String {
+        "elastic force of the displacement".into()
+    }
+
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .both(fields::ELASTIC_DISPLACEMENT)
+            .both(fields::ELASTIC_TURN)
+            .both(fields::SOLID_SHARE)
+            .both(fields::VOLUME)
+            .here(fields::HELD_SHARE)
+            .here(fields::MASS);
+        match self.moduli.len() {
+            1 => access,
+            _ => access.both(fields::PHASE),
+        }
+    }
+
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+        let phase = match self.moduli.len() {
+            1 => None,
+            _ => Some(world.free.get(fields::PHASE)?),
+        };
+        let shares = world.free.get(fields::SOLID_SHARE)?.iter().enumerate();
+        let solids = shares.map(|(i, share)| Solid {
+            modulus: self.moduli[phase.map_or(0, |p| p[i] as usize)],
+            share: match self.choice.blend {
+                Blend::Stresses => *share,
+                Blend::Forces => 1.0,
+            },
+        });
+        let points = &world.walls.points;
+        Ok(Bound {
+            solids: solids.collect(),
+            displacement: world.free.get(fields::ELASTIC_DISPLACEMENT)?,
+            turn: world.free.get(fields::ELASTIC_TURN)?,
+            held: world.free.get(fields::HELD_SHARE)?,
+            volume: world.free.get(fields::VOLUME)?,
+            mass: world.free.get(fields::MASS)?,
+            wall_volume: &points.volume,
+            wall_share: &points.share,
+            wall_grip: &points.grip,
+            elements: &world.walls.elements,
+            scale: self.choice.on_lattice.scale(WithTransposed, world),
+            spacing: world.spacing,
+        })
+    }
+}
+
+/// What of a particle is elastic.
+#[derive(Clone, Copy)]
+struct Solid {
+    /// 𝒢, Pa.
+    modulus: f64,
+    /// Share that acts in the sums.
+    share: f64,
+}
+
+impl Solid {
+    fn stiffness(self) -> f64 {
+        self.modulus * self.share
+    }
+}
+
+/// [`DisplacementForce`] with its columns.
+pub struct Bound<'a, const D: usize> {
+    solids: Vec<Solid>,
+    displacement: &'a [Vect<D>],
+    turn: &'a [Symmetric],
+    held: &'a [f64],
+    volume: &'a [f64],
+    mass: &'a [f64],
+    wall_volume: &'a [f64],
+    wall_share: &'a [f64],
+    wall_grip: &'a [f64],
+    elements: &'a Elements<D>,
+    /// Of the operator.
+    scale: f64,
+    spacing: f64,
+}
+
+/// The own values of a particle.
+#[derive(Clone, Copy)]
+pub struct Own<const D: usize, L> {
+    modulus: L,
+    stiffness: L,
+    displacement: [L; D],
+    turn: [L; 6],
+    volume: L,
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    type Own<L: Lane> = Own<D, L>;
+    type Sum<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
+        let solid = |i: usize| self.solids[i];
+        let [modulus, stiffness] = all.each(|i| [solid(i).modulus, solid(i).stiffness()]);
+        Own {
+            modulus,
+            stiffness,
+            displacement: all.vectors(self.displacement),
+            turn: all.each(|i| (self.turn[i] * solid(i).share).0),
+            volume: all.numbers(self.volume),
+        }
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let solid = self.solids[j];
+        let zero = L::splat(0.0);
+        if solid.modulus == 0.0 || !zero.any_less(own.modulus) {
+            return;
+        }
+        let there = L::splat(solid.stiffness());
+        // The harmonic mean, 0 if either is.
+        let mean = L::splat(2.0) * own.stiffness * there / (own.stiffness + there);
+        let mean = own
+            .stiffness
+            .where_positive(there.where_positive(mean, zero), zero);
+        let apart = minus(&own.displacement, &self.displacement[j]);
+        let volume = L::splat(self.volume[j]);
+        let force = WithTransposed.forces(own.volume, volume, &apart, pair);
+        let turn = self.turn[j] * solid.share;
+        for (k, (sum, force)) in sum.iter_mut().zip(force).enumerate() {
+            let mut turned = [zero; D];
+            for (turned, place) in turned.iter_mut().zip(PLACE[k]) {
+                *turned = own.turn[place] - L::splat(turn.0[place]);
+            }
+            let turned = dot(&turned, &pair.separation) * (own.volume * pair.factor);
+            let force = force * (L::splat(self.scale) * mean) - turned;
+            *sum += own.modulus.where_positive(force, zero);
+        }
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let (displacement, volume) = (self.displacement[i], self.volume[i]);
+        let stiffness = self.solids[i].stiffness();
+        let mut sum = Sum::of(sum);
+        for (v, pair) in at.wall.pairs() {
+            let force = WithTransposed.force(volume, self.wall_volume[v], &displacement, &pair);
+            let rubbing = self.wall_share[v] * self.wall_grip[v];
+            sum.force += force * (rubbing * self.scale * stiffness);
+        }
+        for contact in at.contacts {
+            let grip = self.elements.grip[contact.element as usize];
+            let gradient = contact.gradient.norm();
+            let stiffness = self.scale * stiffness * grip;
+            let distance = contact.distance.max(self.spacing);
+            sum.force -= displacement * (2.0 * stiffness * gradient / distance);
+            sum.normal += contact.gradient * (1.0 - grip);
+            sum.rubbing += gradient * grip;
+        }
+        let factor = self.held[i] * volume / self.mass[i];
+        rates.acceleration += sum.completed(at.inverse_renormalisation) * factor;
+    }
+}

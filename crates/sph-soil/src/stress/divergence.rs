@@ -1,0 +1,196 @@
+//! The force of a stress that particles carry.
+
+use sph_core::{Field, Symmetric, SymmetricTensor, Vect, fields, plugin};
+use sph_neighbours::{
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
+    pair_term,
+};
+
+use crate::stress::{Blend, ElasticForce, ElasticForceEntry, Felt};
+
+/// The divergence of the remembered stress, cut to the yield stress: nested first differences.
+///
+/// The force is that of [`StressDivergence`], or, with `adjoint = true` of the velocity gradient `renormalised`, that of
+/// [`AdjointDivergence`](crate::stress::AdjointDivergence).
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001.
+///
+/// ```toml
+/// [elastic-force.divergence]
+/// blend = "stresses"
+/// ```
+#[plugin(ElasticForceEntry [2, 3], "divergence", "the divergence of the remembered stress",
+    source: "Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001")]
+#[derive(Copy)]
+pub struct Divergence {
+    /// What is blended where a soil yields.
+    #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)")]
+    pub blend: Blend,
+    /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the step
+    /// are damped. Needs an implicit viscosity with which it is solved for. A stiff soil that should fall may stand, and the run then fails at its end: take `sub_steps` for such.
+    #[parameter(default, source: "ours")]
+    pub implicit: bool,
+    /// Take steps of its own within that of the flow, as long as elastic waves allow, while places, pressures and
+    /// viscosities stay: for soils that are much stiffer than their water. With the integrator `symplectic-euler`.
+    #[parameter(default, source: "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990")]
+    pub sub_steps: bool,
+}
+
+impl<const D: usize> ElasticForce<D> for Divergence {
+    fn term(&self, _: &Felt) -> Box<dyn Interaction<D>> {
+        StressDivergence::boxed()
+    }
+    fn blend(&self) -> Blend {
+        self.blend
+    }
+    fn implicit(&self) -> bool {
+        self.implicit
+    }
+    fn sub_steps(&self) -> bool {
+        self.sub_steps
+    }
+}
+
+/// m_a a = 1/γ_a [Σ_b θ_b (V_a²τ_a + V_b²τ_b)·∇w_ab − Σ_s (V_a²τ_a + V_s²τ_s)/V_s·∇γ_as].
+///
+/// The counterpart of the pressure gradient of Hu and Adams: linear momentum is conserved, and the
+/// work of the stress is that of the strain. A wall carries the stress of the particle that touches
+/// it; one that does not rub carries what is normal to it, and along it sums are not divided by γ: what layers
+/// do to each other would else leave a force on the whole.
+///
+/// Ours, after Ghaïtanellis 2017, Eq. 3.25; Gray et al. 2001.
+#[derive(Clone, Copy, Debug)]
+pub struct StressDivergence {
+    /// Name in plans.
+    pub name: &'static str,
+    /// The column of the stress τ, Pa, positive in tension.
+    pub stress: Field<SymmetricTensor>,
+}
+
+impl StressDivergence {
+    /// That of the stress of elastic materials, as a term of a sweep.
+    pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
+        let stress = fields::CARRIED_STRESS;
+        let name = "stress divergence";
+        Box::new(StressDivergence { name, stress })
+    }
+}
+
+/// [`StressDivergence`] with its columns.
+#[pair_term(StressDivergence, self.name)]
+pub struct Bound<'a, const D: usize> {
+    #[both(self.stress)]
+    stress: &'a [Symmetric],
+    #[both(fields::VOLUME)]
+    volume: &'a [f64],
+    #[here(fields::MASS)]
+    mass: &'a [f64],
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
+}
+
+/// Sums of one particle.
+#[derive(Clone, Copy)]
+pub struct Sum<const D: usize> {
+    /// Force of particles and of walls that rub.
+    pub(crate) force: Vect<D>,
+    /// Force of walls that slip.
+    slipping: Vect<D>,
+    /// Σ ∇γ_as of walls that slip.
+    pub(crate) normal: Vect<D>,
+    /// Σ |∇γ_as| of walls that rub.
+    pub(crate) rubbing: f64,
+}
+
+impl<const D: usize> Sum<D> {
+    /// Of free neighbours.
+    #[inline(always)]
+    pub(crate) fn of(force: [f64; D]) -> Self {
+        Sum {
+            force: force.into(),
+            slipping: Vect::zeros(),
+            normal: Vect::zeros(),
+            rubbing: 0.0,
+        }
+    }
+
+    /// The sums over γ, but for what is along walls that slip.
+    #[inline(always)]
+    pub(crate) fn completed(&self, inverse_gamma: f64) -> Vect<D> {
+        let slipping = self.normal.norm();
+        if slipping <= 0.0 {
+            return self.force * inverse_gamma;
+        }
+        let normal = self.normal / slipping;
+        let across = normal * self.force.dot(&normal);
+        // Along a wall without traction nothing completes the sum, as at a free surface.
+        let share = self.rubbing / (self.rubbing + slipping);
+        let along = 1.0 + (inverse_gamma - 1.0) * share;
+        let of_wall = normal * self.slipping.dot(&normal);
+        (across + of_wall) * inverse_gamma + (self.force - across) * along
+    }
+}
+
+/// Where the components of a symmetric tensor stand.
+pub(crate) const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+impl<const D: usize> Bound<'_, D> {
+    /// τ V².
+    #[inline(always)]
+    fn weighted(&self, i: usize) -> [f64; 6] {
+        (self.stress[i] * (self.volume[i] * self.volume[i])).0
+    }
+}
+
+impl<const D: usize> PairSum<D> for Bound<'_, D> {
+    /// τ V².
+    type Own<L: Lane> = [L; 6];
+    type Sum<L: Lane> = [L; D];
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> [L; 6] {
+        all.each(|i| self.weighted(i))
+    }
+
+    #[inline(always)]
+    fn pair<L: Lane>(&self, own: &[L; 6], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let other = self.weighted(j);
+        for (force, places) in sum.iter_mut().zip(PLACE) {
+            let mut row = [L::splat(0.0); D];
+            for (entry, place) in row.iter_mut().zip(places) {
+                *entry = own[place] + L::splat(other[place]);
+            }
+            *force += dot(&row, &pair.separation) * pair.factor;
+        }
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+    #[inline(always)]
+    fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        let (stress, volume) = (self.stress[i], self.volume[i]);
+        let mut sum = Sum::of(sum);
+        for (v, pair) in at.wall.pairs() {
+            let squares =
+                volume * volume + self.walls.points.volume[v] * self.walls.points.volume[v];
+            let weight = self.walls.points.share[v] * squares * pair.factor;
+            let force = stress.apply(&pair.separation) * weight;
+            let grip = self.walls.points.grip[v];
+            sum.force += force * grip;
+            sum.slipping += force * (1.0 - grip);
+        }
+        for contact in at.contacts {
+            let s = contact.element as usize;
+            let there = self.walls.elements.volume[s];
+            let squares = volume * volume + there * there;
+            let force = stress.apply(&contact.gradient) * (squares / there);
+            let grip = self.walls.elements.grip[s];
+            sum.force -= force * grip;
+            sum.slipping -= force * (1.0 - grip);
+            sum.normal += contact.gradient * (1.0 - grip);
+            sum.rubbing += contact.gradient.norm() * grip;
+        }
+        rates.acceleration += sum.completed(at.inverse_renormalisation) / self.mass[i];
+    }
+}

@@ -1,0 +1,40 @@
+//! What makes a force of what an elastic material remembers.
+
+use sph_core::{Work, contract};
+use sph_neighbours::Interaction;
+
+use crate::stress::{Blend, Felt};
+
+/// The force of an elastic material.
+pub trait ElasticForce<const D: usize>: Send {
+    /// As a term of the sweep, for the laws of a scene.
+    fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>>;
+    /// What is blended where the material yields.
+    fn blend(&self) -> Blend;
+    /// Whether the stress is that of the end of the step: what the step adds is then solved for with the viscosity, and elastic
+    /// waves do not bound it.
+    fn implicit(&self) -> bool {
+        false
+    }
+    /// Whether it takes steps of its own within that of the flow, in which nothing but velocities and remembered stresses
+    /// changes.
+    fn sub_steps(&self) -> bool {
+        false
+    }
+    /// Whether it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
+    /// with them stresses that are not cut.
+    fn displaced(&self) -> bool {
+        false
+    }
+    /// k in the speed √(c₀² + k𝒢/ρ₀) that bounds the step.
+    fn stiffness(&self) -> f64 {
+        4.0 / 3.0
+    }
+}
+
+contract!(
+    /// An elastic force that a scene may name.
+    pub ElasticForceEntry, "elastic-force", One, "the force of an elastic material", ElasticForce<D>,
+    .by_default("divergence").ordered(60).works(Work::Others)
+    .idle("no law of this scene is elastic: take this table out")
+);

@@ -1,0 +1,187 @@
+//! What a gradient of the velocity is made of, from free neighbours and walls.
+
+use nalgebra::SMatrix;
+use sph_core::Vect;
+use sph_neighbours::{Contact, Elements, Lane, LanePair, Neighbourhood, WallPoints, WallSet};
+
+use crate::stress::{NeighbourSums, VelocityGradient};
+
+/// Sums of one particle: of velocities, then of positions.
+///
+/// An element stands at the foot of the particle on its plane. Walls that do not rub stop the velocity normal to them,
+/// and know nothing of that along them: they take part in the gradient of the normal component alone. (Without them a
+/// wall's force would do work that no strain answers.) So do open faces, apart from such walls: where both meet, what a wall
+/// at rest says of the velocity along it is not to be taken for what the face says of that through it.
+#[derive(Clone, Copy)]
+pub struct Gathered<const D: usize> {
+    /// Of free neighbours, and of walls as far as they rub.
+    sums: [SMatrix<f64, D, D>; 2],
+    /// What walls that slip add, and what open faces do.
+    slipping: [Slipping<D>; 2],
+}
+
+/// What is known of the normal component alone.
+#[derive(Clone, Copy)]
+struct Slipping<const D: usize> {
+    sums: [SMatrix<f64, D, D>; 2],
+    /// Where it faces.
+    facing: Vect<D>,
+}
+
+const WALLS: usize = 0;
+const OPEN: usize = 1;
+
+impl<const D: usize> Default for Gathered<D> {
+    #[inline(always)]
+    fn default() -> Self {
+        let nothing = Slipping {
+            sums: [SMatrix::zeros(); 2],
+            facing: Vect::zeros(),
+        };
+        Gathered {
+            sums: [SMatrix::zeros(); 2],
+            slipping: [nothing; 2],
+        }
+    }
+}
+
+impl<const D: usize> Gathered<D> {
+    /// With sums of further free neighbours.
+    #[inline(always)]
+    pub(crate) fn with(mut self, free: LaneSums<f64, D>) -> Self {
+        for (sum, free) in self.sums.iter_mut().zip(&free) {
+            *sum += SMatrix::from_fn(|i, k| free[i][k]);
+        }
+        self
+    }
+
+    /// With the walls near a particle.
+    #[inline(always)]
+    pub(crate) fn with_walls(
+        mut self,
+        own: &Vect<D>,
+        walls: &WallSet<D>,
+        at: &Neighbourhood<'_, D>,
+    ) -> Self {
+        for (v, pair) in at.wall.pairs() {
+            self.point(own, &walls.points, v, &pair.separation, pair.factor);
+        }
+        for contact in at.contacts {
+            self.element(own, &walls.elements, &contact);
+        }
+        self
+    }
+
+    /// Adds a wall point at r_a − r_v with its F.
+    #[inline(always)]
+    fn point(
+        &mut self,
+        own: &Vect<D>,
+        points: &WallPoints<D>,
+        v: usize,
+        apart: &Vect<D>,
+        factor: f64,
+    ) {
+        let share = points.share[v] * points.volume[v];
+        let weight = (apart * (share * factor)).transpose();
+        let velocity = (points.viscous_velocity[v] - own) * weight;
+        let kind = if points.ports { OPEN } else { WALLS };
+        self.add([velocity, -apart * weight], points.grip[v], kind);
+    }
+
+    /// Adds a wall element.
+    #[inline(always)]
+    fn element(&mut self, own: &Vect<D>, elements: &Elements<D>, contact: &Contact<D>) {
+        let s = contact.element as usize;
+        let weight = -contact.gradient.transpose();
+        let foot = elements.normal[s] * contact.distance;
+        let velocity = (elements.velocity[s] - own) * weight;
+        let grip = elements.grip[s];
+        let kind = match elements.open.get(s) {
+            Some(true) => OPEN,
+            _ => WALLS,
+        };
+        self.add([velocity, -foot * weight], grip, kind);
+        self.slipping[kind].facing += contact.gradient * (1.0 - grip);
+    }
+
+    #[inline(always)]
+    fn add(&mut self, added: [SMatrix<f64, D, D>; 2], grip: f64, kind: usize) {
+        for (k, added) in added.iter().enumerate() {
+            self.sums[k] += added * grip;
+            self.slipping[kind].sums[k] += added * (1.0 - grip);
+        }
+    }
+
+    /// The gradient by a formula.
+    pub(crate) fn gradient(
+        &self,
+        formula: &dyn VelocityGradient<D>,
+        inverse_renormalisation: f64,
+    ) -> SMatrix<f64, D, D> {
+        let with = |added: &[SMatrix<f64, D, D>; 2]| {
+            formula.gradient(&NeighbourSums {
+                velocity: self.sums[0] + added[0],
+                position: self.sums[1] + added[1],
+                inverse_renormalisation,
+            })
+        };
+        let along = with(&[SMatrix::zeros(); 2]);
+        let mut whole = along;
+        let mut take = |slipping: &Slipping<D>| {
+            if let Some(normal) = slipping.facing.try_normalize(0.0) {
+                let across = with(&slipping.sums);
+                whole += normal * (normal.transpose() * (across - along));
+            }
+        };
+        let [walls, open] = &self.slipping;
+        match open.beyond(walls) {
+            Some(beyond) => [walls, &beyond].into_iter().for_each(&mut take),
+            None => take(&walls.and(open)),
+        }
+        whole
+    }
+}
+
+impl<const D: usize> Slipping<D> {
+    fn and(&self, other: &Self) -> Self {
+        Slipping {
+            sums: [self.sums[0] + other.sums[0], self.sums[1] + other.sums[1]],
+            facing: self.facing + other.facing,
+        }
+    }
+
+    /// Where it meets a wall at an angle: itself, facing where the wall does not.
+    fn beyond(&self, wall: &Self) -> Option<Self> {
+        let normal = wall.facing.try_normalize(0.0)?;
+        let facing = self.facing - normal * normal.dot(&self.facing);
+        let at_an_angle = facing.norm() > 0.5 * self.facing.norm();
+        at_an_angle.then_some(Slipping { facing, ..*self })
+    }
+}
+
+/// Sums of several particles. That of positions is symmetric, but half of it is no faster: its rows fill no vectors.
+pub type LaneSums<L, const D: usize> = [[[L; D]; D]; 2];
+
+/// Adds a free neighbour.
+#[inline(always)]
+pub(crate) fn add_free<const D: usize, L: Lane>(
+    own: &[L; D],
+    velocity: &Vect<D>,
+    volume: f64,
+    pair: &LanePair<D, L>,
+    [of_velocities, of_positions]: &mut LaneSums<L, D>,
+) {
+    let share = L::splat(volume) * pair.factor;
+    let mut weight = pair.separation;
+    for w in &mut weight {
+        *w = *w * share;
+    }
+    for i in 0..D {
+        let rise = L::splat(velocity[i]) - own[i];
+        for k in 0..D {
+            of_velocities[i][k] += rise * weight[k];
+            of_positions[i][k] -= pair.separation[i] * weight[k];
+        }
+    }
+}

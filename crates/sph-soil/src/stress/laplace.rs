@@ -1,0 +1,316 @@
+//! The effective pressure as a harmonic function of place.
+
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields, parameters, plugin};
+use sph_multiphase::linear::{
+    Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
+    Preconditioner, Report,
+};
+use sph_neighbours::{Space, World, walk_in_lanes};
+
+use crate::stress::PorePressure;
+use crate::stress::bed_system::{Couplings, Part, Room as ClusterRoom, start};
+use crate::stress::effective_pressure::{EffectivePressureEntry, Soils};
+use crate::stress::soil_surface::Grains;
+
+/// What solves for the effective pressure.
+#[parameters]
+pub enum PressureSolver {
+    /// With an incomplete factorisation; iterations grow with the rows of the bed.
+    #[default]
+    ConjugateGradient,
+    /// As the source; sweeps grow with the square of the rows.
+    Jacobi,
+}
+
+/// ∇²p' = 0 in the soil, p' = |g| Δρ max(β δr, d/2) at its surface, ∂p'/∂n = Δρ g·n at walls.
+///
+/// Symbols: p' effective pressure (Pa); Δρ = ρ₀ − ρ_p, the density of the soil less that of the fluid
+/// in its pores (kg/m³); g gravity. It knows nothing of the depth of the water above, nor of the noise of the equation
+/// of state, and it is exact for a flat bed. Limits: static, whatever the soil does; not exact under steep surfaces.
+///
+/// The surface is found by an empty cone above a particle (soil and walls only), so that loose grains
+/// are surface, too, and no system is singular. What is solved is
+/// Σ_b V_a V_b F_ab [p'_a − p'_b − Δρ g·(r_a − r_b)] = 0 over the grains: the deviation from the hydrostatic
+/// pressure has no flux into walls, so that walls need no term, and sums that the surface cuts off are
+/// no error (the source's second row is 28 % off). The matrix is symmetric; conjugate gradients, or `solver = "jacobi"` as in the
+/// source, start from the pressure of the step before.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.63–4.65 and 4.85–4.87; the form of the sum and β = ½ are ours.
+///
+/// ```toml
+/// [effective-pressure.laplace]
+/// pore_density = 1000.0
+/// ```
+#[plugin(EffectivePressureEntry [2, 3], "laplace",
+    "harmonic in the soil, from its buoyant weight at walls; blind to the water above",
+    source: "Ghaïtanellis 2017, Eq. 4.63–4.65")]
+#[derive(Copy)]
+pub struct Laplace {
+    /// Density of the fluid in the pores; 0 for a dry soil.
+    #[parameter(default, unit: "kg/m³", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.60")]
+    pub pore_density: f64,
+    /// Depth β of surface particles over the spacing: ½ is that of their centres, 1 the source's.
+    #[parameter(default: 0.5, unit: "1", min: 0.0, source: "ours; 1: Ghaïtanellis 2017, Eq. 4.87")]
+    pub surface_depth: f64,
+    /// Diameter d of the grains: surface particles are then never less deep than d/2, so that spacings finer than the grains do not
+    /// make lighter ones. Only the spacing counts if left out.
+    #[parameter(default, unit: "m", above: 0.0, source: "ours")]
+    pub grain_diameter: Option<f64>,
+    /// Time between solves over √(δr/|g|); 0 for every evaluation. In between the pressure goes with
+    /// its particle.
+    #[parameter(default: 0.01, unit: "1", min: 0.0, source: "ours")]
+    pub interval: f64,
+    /// Relative residual at which the iteration ends.
+    #[parameter(default: 1e-5, unit: "1", above: 0.0, max: 0.1, source: "ours")]
+    pub tolerance: f64,
+    /// What iterates.
+    #[parameter(default, source: "ours; jacobi: Ghaïtanellis 2017, §4.6.1")]
+    pub solver: PressureSolver,
+    /// Iterations after which it gives up; the step is then tried again with half its length. 2000 of conjugate gradients and
+    /// 100 000 sweeps of Jacobi if left out.
+    #[parameter(default, unit: "1", min: 1, source: "ours")]
+    pub iterations: Option<usize>,
+}
+
+impl Laplace {
+    /// Solves once, starting from the pressures that are there, and tells what it took.
+    ///
+    /// # Errors
+    /// If the iteration does not end, or a column is missing.
+    pub fn solve<const D: usize>(
+        &self,
+        soils: Soils,
+        world: &mut World<D>,
+    ) -> Result<Report, StepError> {
+        self.on(soils).solve(world)
+    }
+
+    fn on<const D: usize>(&self, soils: Soils) -> Solve<D> {
+        let buoyant = |density: f64| (density - self.pore_density).max(0.0);
+        Solve {
+            buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
+            surface_depth: self.surface_depth,
+            least_depth: 0.5 * self.grain_diameter.unwrap_or(0.0),
+            interval: self.interval,
+            whole: self.solver == PressureSolver::Jacobi,
+            solver: match self.solver {
+                PressureSolver::ConjugateGradient => Box::new(ConjugateGradient {
+                    preconditioner: Preconditioner::IncompleteDiagonal,
+                    tolerance: self.tolerance,
+                    iterations: self.iterations.unwrap_or(2000),
+                    ..ConjugateGradient::default()
+                }),
+                PressureSolver::Jacobi => Box::new(Jacobi {
+                    tolerance: self.tolerance,
+                    sweeps: self.iterations.unwrap_or(100_000),
+                }),
+            },
+            room: Room::default(),
+        }
+    }
+}
+
+impl<const D: usize> Contribution<D> for Laplace {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if !setting.soils.contains(&true) {
+            let why = "no law of this scene feels a pressure: take this table out";
+            return Err(Refusal::of("effective-pressure", "", why));
+        }
+        let both = setting.soils.iter().zip(setting.laws.iter());
+        let soils = both.map(|(soil, law)| soil.then(|| law.reference().density));
+        offer.stage(self.on(soils.collect()));
+        offer.stage(PorePressure);
+        offer.saturated = self.pore_density > 0.0;
+        let why = "the pressure between the grains could not be solved for: raise \
+                   `effective-pressure.laplace.iterations`, or loosen its `tolerance`";
+        let remedy = ("effective pressure", why.into());
+        offer.remedies_of_failures.push(remedy);
+        Ok(())
+    }
+}
+
+/// The stage of [`Laplace`].
+struct Solve<const D: usize> {
+    /// Δρ of every phase, kg/m³; `None` where it is no soil.
+    buoyant: Vec<Option<f64>>,
+    /// β.
+    surface_depth: f64,
+    /// Depth below which no surface particle is, m.
+    least_depth: f64,
+    /// Time between solves over √(δr/|g|).
+    interval: f64,
+    /// Whether the solver asks for the rows of all particles.
+    whole: bool,
+    /// Of systems with one component.
+    solver: Box<dyn LinearSolver<1>>,
+    /// The memory of former solves.
+    room: Room,
+}
+
+/// What a solve fills anew, kept for its memory.
+#[derive(Default)]
+struct Room {
+    parts: Vec<Part>,
+    assembly: Assembly<f64, 1>,
+    pressure: Vec<Vect<1>>,
+    rooms: Pool<ClusterRoom>,
+}
+
+impl<const D: usize> Declares for Solve<D> {
+    fn name(&self) -> String {
+        "effective pressure".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .both(fields::POSITION)
+            .both(fields::VOLUME)
+            // A solve starts from the last one.
+            .remembers(fields::EFFECTIVE_PRESSURE);
+        match self.buoyant.len() {
+            1 => access,
+            _ => access.both(fields::PHASE),
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Solve<D> {
+    fn needs_all(&self) -> Option<&'static str> {
+        self.whole.then_some(
+            "its solver sweeps over the rows of all particles: take `conjugate-gradient`",
+        )
+    }
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        match self.due(world) {
+            true => self.solve(world).map(drop),
+            false => Ok(()),
+        }
+    }
+    fn bytes(&self) -> usize {
+        let Assembly {
+            pattern, values, ..
+        } = &self.room.assembly;
+        size_of_val(&pattern.starts[..])
+            + size_of_val(&pattern.columns[..])
+            + size_of_val(&values.diagonal[..])
+            + size_of_val(&values.others[..])
+            + size_of_val(&self.room.pressure[..])
+    }
+}
+
+impl<const D: usize> Solve<D> {
+    fn solve(&mut self, world: &mut World<D>) -> Result<Report, StepError> {
+        let mut room = std::mem::take(&mut self.room);
+        let solved = self.solve_in(world, &mut room);
+        self.room = room;
+        solved
+    }
+
+    fn solve_in(&mut self, world: &mut World<D>, room: &mut Room) -> Result<Report, StepError> {
+        let Room {
+            parts,
+            assembly,
+            pressure: x,
+            rooms,
+        } = room;
+        let rooms = &*rooms;
+        self.parts(world, parts)?;
+        let space = world.space()?;
+        self.refresh(world, &space, parts)?;
+        let system = Couplings {
+            owned: space.owned(),
+            parts,
+            volume: world.free.get(fields::VOLUME)?,
+            gravity: world.gravity,
+        };
+        assembly.fill_wanted(
+            world,
+            |i| system.is_solved(i),
+            |rows, cluster| system.add(cluster, rows, rooms),
+            |rows, others| others.for_each(|i| system.add_known(i, rows)),
+        )?;
+        let values = std::mem::take(&mut assembly.values);
+        let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
+        let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        x.clear();
+        x.extend(
+            pressure
+                .iter()
+                .zip(&*parts)
+                .map(|(p, part)| start(*p, part)),
+        );
+        let sources = &assembly.sources;
+        let system = ParticleMatrix::new(&matrix, &space, None);
+        let solved = self.solver.solve(&system, sources, x);
+        pressure
+            .iter_mut()
+            .zip(&*x)
+            .for_each(|(p, x)| *p = x[0].max(0.0));
+        world.free.put(fields::EFFECTIVE_PRESSURE, pressure)?;
+        if let Entries::Scalar(values) = matrix.entries {
+            assembly.values = values;
+        }
+        solved.map_err(|e| StepError::Stage {
+            stage: "effective pressure".into(),
+            reason: e.to_string(),
+        })
+    }
+}
+
+impl<const D: usize> Solve<D> {
+    /// Whether a multiple of the interval has passed within the last step: the same for a run that
+    /// was interrupted.
+    fn due(&self, world: &World<D>) -> bool {
+        let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
+        let count = |time: f64| (time / interval).floor();
+        let passed = count(world.time) > count(world.time - world.dt);
+        passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
+    }
+
+    /// Δρ of every particle, kg/m³; `None` where it is no soil.
+    fn densities<'a>(
+        &'a self,
+        world: &'a World<D>,
+    ) -> Result<impl Fn(usize) -> Option<f64> + Sync + 'a, StepError> {
+        let phase = match self.buoyant.len() {
+            1 => None,
+            _ => Some(world.free.get(fields::PHASE)?),
+        };
+        let soils = &self.buoyant[..];
+        Ok(move |i: usize| soils[phase.map_or(0, |p| p[i] as usize)])
+    }
+
+    /// What stands over Δρ in the pressure of surface particles, m²/s².
+    fn top(&self, world: &World<D>) -> f64 {
+        let depth = (self.surface_depth * world.spacing).max(self.least_depth);
+        depth * world.gravity.norm()
+    }
+
+    /// Whether copies of others' particles are at the surface, their owners know.
+    fn refresh(
+        &self,
+        world: &World<D>,
+        space: &Space<D>,
+        parts: &mut [Part],
+    ) -> Result<(), StepError> {
+        let (buoyant, top) = (self.densities(world)?, self.top(world));
+        let surface = |part: &Part| matches!(part, Part::Surface(..));
+        let of = |i: usize, surface: bool| Part::of(buoyant(i), surface, top);
+        space.refresh_marked(parts, surface, of);
+        Ok(())
+    }
+
+    fn parts(&self, world: &World<D>, parts: &mut Vec<Part>) -> Result<(), StepError> {
+        let volume = world.free.get(fields::VOLUME)?;
+        let (buoyant, top) = (self.densities(world)?, self.top(world));
+        let positions = world.free.get(fields::POSITION)?;
+        let soil = |j: usize| buoyant(j).is_some();
+        let grains = Grains { volume, soil };
+        parts.clear();
+        parts.resize(volume.len(), Part::Outside);
+        walk_in_lanes(world, &grains, soil, parts, |sums, rows| {
+            let surface = grains.at_surface(world, positions, sums, rows);
+            Part::of(buoyant(rows.particle), surface, top)
+        })
+    }
+}

@@ -1,0 +1,49 @@
+//! How the materials of a scene yield, as columns.
+
+use sph_core::{Access, Declares, Stage, StepError, fields};
+use sph_neighbours::World;
+use sph_rheology::Yielding;
+
+use crate::stress::Felt;
+
+/// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_SHARE`](fields::SOLID_SHARE) and
+/// [`HELD_SHARE`](fields::HELD_SHARE) from the remembered stress; 1 in phases without an elastic part.
+pub struct Yielded(pub Felt);
+
+impl Declares for Yielded {
+    fn name(&self) -> String {
+        "yielding".into()
+    }
+    fn access(&self) -> Access {
+        self.0
+            .access()
+            .here(fields::ELASTIC_STRESS)
+            .writes(fields::FRICTION_SHARE)
+            .writes(fields::SOLID_SHARE)
+            .writes(fields::HELD_SHARE)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Yielded {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut yielding = vec![Yielding::NONE; world.free.len()];
+        let stress = world.free.get(fields::ELASTIC_STRESS)?;
+        self.0.each(world, &mut yielding, |law, inputs, run, out| {
+            if let Some(elastic) = law.elastic() {
+                elastic.yielding(inputs, &stress[run], out);
+            }
+        })?;
+        type Share = fn(&Yielding) -> f64;
+        let columns: [(_, Share); 3] = [
+            (fields::FRICTION_SHARE, |y| y.friction),
+            (fields::SOLID_SHARE, |y| y.solid),
+            (fields::HELD_SHARE, |y| y.held),
+        ];
+        for (field, share) in columns {
+            let column = world.free.get_mut(field)?;
+            let all = column.iter_mut().zip(&yielding);
+            all.for_each(|(value, yielding)| *value = share(yielding));
+        }
+        Ok(())
+    }
+}
