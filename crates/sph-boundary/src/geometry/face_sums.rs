@@ -80,6 +80,11 @@ impl Walls<3> {
             if whole.kernel == 0.0 || hidden.contains(&shell) {
                 continue;
             }
+            if self.whole_faces {
+                let nearest = weights.nearest(&self.planes.circles, &foot);
+                contacts.push(normal, height, std::iter::once((nearest, whole.kernel)));
+                continue;
+            }
             weights.weigh(integrals, &self.planes.patches, &foot);
             let (elements, weights) = weights.all();
             let mut total = 0.0;

@@ -54,6 +54,10 @@ impl WallMesh<3> for Walls<3> {
         self
     }
 
+    fn meet_whole_faces(&mut self) {
+        self.whole_faces = true;
+    }
+
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
         self.mesh.move_walls(poses)?;
         self.forget_places();

@@ -87,6 +87,9 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// The mesh and what finds its elements.
     fn walls(&self) -> &Walls<D>;
 
+    /// Makes a face one contact, where that is cheaper.
+    fn meet_whole_faces(&mut self) {}
+
     /// Moves every wall to its pose.
     ///
     /// # Errors

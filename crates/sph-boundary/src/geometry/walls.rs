@@ -15,6 +15,8 @@ pub struct Walls<const D: usize> {
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
+    /// Whether a face in space is one contact, of the element that is nearest, instead of one for each element.
+    pub(crate) whole_faces: bool,
 }
 
 /// Walls of the plane.
@@ -36,6 +38,7 @@ impl<const D: usize> Walls<D> {
             planes: Planes::default(),
             mesh,
             reach,
+            whole_faces: false,
         }
     }
 

@@ -15,7 +15,7 @@ use crate::{
 const LEAST_CLEARANCE: f64 = 0.1;
 
 /// Size of elements over the spacing: γ and ∇γ do not depend on it, and no mean over elements enters a pressure.
-const ELEMENT: f64 = 4.0;
+const ELEMENT: f64 = 2.0;
 
 /// Walls that scale the kernel: w̃_ab = s_a s_b w_ab in density, divergence, pressure, smoothers and damper, with
 /// s(x) ∫ s(y) w(x − y) dy = 1 over the fluid's side of the walls.
@@ -145,12 +145,13 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             });
         }
         let size = element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing);
-        let (set_up, mut walls) = SetUp::build(setup, false, size)?;
+        let (mut set_up, mut walls) = SetUp::<D, M>::build(setup, false, size)?;
         self.scales = Some(Scales {
             walls: WallScales::new(setup, &set_up.outline.groups)?,
             found: Vec::new(),
             slopes: Vec::new(),
         });
+        set_up.outline.mesh.meet_whole_faces();
         self.set_up = Some(set_up);
         walls.scales = true;
         Ok(walls)

@@ -81,6 +81,13 @@ impl Patch {
 }
 
 impl Circle {
+    /// Squared distance of its centre from the foot, m².
+    #[inline(always)]
+    pub fn square(&self, foot: &Foot) -> f64 {
+        let [x, y] = foot.to(self.centre);
+        x * x + y * y
+    }
+
     /// Whether it meets the disc of the plane within the support.
     #[inline(always)]
     pub fn meets(&self, foot: &Foot) -> bool {

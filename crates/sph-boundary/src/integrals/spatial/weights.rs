@@ -39,6 +39,16 @@ impl Weights {
         n > 0
     }
 
+    /// The triangle that was found whose middle is nearest to the foot.
+    pub(crate) fn nearest(&self, circles: &[Circle], foot: &Foot) -> u32 {
+        let square = |t: &u32| circles[*t as usize].square(foot);
+        let nearest = self
+            .near
+            .iter()
+            .min_by(|a, b| square(a).total_cmp(&square(b)));
+        nearest.copied().unwrap_or_default()
+    }
+
     /// Weighs the triangles that were found, 1/m: each as [`Renormalisation3d::weight`] does.
     pub(crate) fn weigh(&mut self, of: &Renormalisation3d, patches: &[Patch], foot: &Foot) {
         let n = self.near.len();
