@@ -12,7 +12,6 @@ readmes! {
     GrainsAndPores "../crates/dem-pfv/README.md"
     SceneText "../crates/scene-text/README.md"
     SurfaceFile "../crates/surface-file/README.md"
-    Bodies "../crates/sph-bodies/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
     Kernels "../crates/sph-kernels/README.md"

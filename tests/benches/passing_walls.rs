@@ -7,8 +7,6 @@ mod running;
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
 use sph_particles::setup::{Assembled, assemble};
-// For their plugins.
-use sph_bodies as _;
 
 use running::advance;
 

@@ -13,7 +13,7 @@
 //! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
 //! fulfil it. [`Mover`] is the contract of what moves a wall, whose [`RigidState`] is kept, rolled back and saved;
 //! [`RigidMotion`] moves one along [`Course`]s,
-//! [`Spring`] holds one against the fluid.
+//! [`Spring`] holds one against the fluid, and [`bodies`] float and sink.
 //!
 //! # In the plane
 //! ```
@@ -65,6 +65,7 @@
     allow(unused_imports, reason = "plugins are not registered in unit tests")
 )]
 
+pub mod bodies;
 mod error;
 mod geometry;
 mod integrals;

@@ -27,7 +27,6 @@ mod tool_arguments;
 
 use sph_core::number;
 // Their plugins are in this binary.
-use sph_bodies as _;
 use sph_multiphase as _;
 use sph_open as _;
 use sph_turbulence as _;

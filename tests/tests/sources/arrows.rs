@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 24] = [
+const ALLOWED: [(&str, &[&str]); 23] = [
     ("sparse", &[]),
     (
         "sph-soil",
@@ -41,7 +41,6 @@ const ALLOWED: [(&str, &[&str]); 24] = [
         "sph-boundary",
         &["sph-core", "sph-kernels", "sph-neighbours", "surface-file"],
     ),
-    ("sph-bodies", &["sph-core", "sph-boundary"]),
     (
         "sph-open",
         &[
@@ -114,7 +113,6 @@ const ALLOWED: [(&str, &[&str]); 24] = [
         "sph-cli",
         &[
             "dem-pfv",
-            "sph-bodies",
             "sph-core",
             "sph-multiphase",
             "sph-neighbours",

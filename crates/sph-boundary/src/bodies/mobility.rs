@@ -1,10 +1,10 @@
 //! How a body gives way.
 
 use nalgebra::{Matrix3, Matrix6};
-use sph_boundary::RigidState;
 
-use crate::dynamics::Dynamics;
-use crate::six::{blocks, rotation, solve};
+use crate::RigidState;
+use crate::bodies::dynamics::Dynamics;
+use crate::bodies::six::{blocks, rotation, solve};
 
 impl Dynamics {
     /// The inverse of mass and inertia over what is free at a time.

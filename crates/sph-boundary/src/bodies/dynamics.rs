@@ -1,13 +1,13 @@
 //! Newton's and Euler's equations over a step.
 
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
-use sph_boundary::{Load, RigidState};
 use sph_core::Vect;
 
-use crate::freedom::Freedom;
-use crate::mooring::{Mooring, Pull};
-use crate::prescribed::{Prescribed, moved};
-use crate::six::{blocks, padded, parts, rotation, six, solve};
+use crate::bodies::freedom::Freedom;
+use crate::bodies::mooring::{Mooring, Pull};
+use crate::bodies::prescribed::{Prescribed, moved};
+use crate::bodies::six::{blocks, padded, parts, rotation, six, solve};
+use crate::{Load, RigidState};
 
 /// A body as the equations of motion know it; matrices as it is drawn.
 #[derive(Clone, Debug)]
@@ -182,7 +182,7 @@ impl Dynamics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catenary::Catenary;
+    use crate::bodies::catenary::Catenary;
 
     fn body(free: [bool; 6]) -> Dynamics {
         Dynamics {

@@ -1,10 +1,10 @@
 //! Times in which a body is moved as the scene says, whatever pushes it.
 
 use nalgebra::{Vector3, Vector6};
-use sph_boundary::{MoverRefusal, RigidState};
 use sph_core::{Vect, parameters};
 
-use crate::six::{parts, six};
+use crate::bodies::six::{parts, six};
+use crate::{MoverRefusal, RigidState};
 
 /// A time in which the body moves as given: it keeps the velocities that it had, or takes those of a course.
 ///

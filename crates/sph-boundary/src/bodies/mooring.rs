@@ -1,11 +1,11 @@
 //! Lines as a body in motion knows them: what they pull with, and how stiff they are.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
-use sph_boundary::{MoverRefusal, MoverSetting};
 
-use crate::catenary::Catenary;
-use crate::line::{Line, crosses};
-use crate::six::{padded, six};
+use crate::bodies::catenary::Catenary;
+use crate::bodies::line::{Line, crosses};
+use crate::bodies::six::{padded, six};
+use crate::{MoverRefusal, MoverSetting};
 
 /// A line, ready to pull.
 #[derive(Clone, Debug)]

@@ -1,7 +1,8 @@
 //! Six numbers: three along the axes, three about them; and the rotation of a state.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-use sph_boundary::RigidState;
+
+use crate::RigidState;
 
 /// A vector of three and one of three.
 pub(crate) fn six(along: Vector3<f64>, about: Vector3<f64>) -> Vector6<f64> {

@@ -1,9 +1,9 @@
 //! The fluid next to a body whose inertia acts within a step.
 
 use nalgebra::{Matrix6, Vector3};
-use sph_boundary::Drawing;
 
-use crate::six::six;
+use crate::Drawing;
+use crate::bodies::six::six;
 
 /// A* = ρ h Σ ∫ j jᵀ dS with j = (n, (x − c) × n): the inertia of a layer of fluid one smoothing length h thick that goes
 /// with the surface along its normal n.
@@ -53,7 +53,7 @@ pub(crate) fn layer<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sph_boundary::Polyline;
+    use crate::Polyline;
 
     /// Of a square of side a about its centre: 2 ρ h a along each axis, ρ h 4 ∫ s² ds = ρ h a³/3 about it.
     #[test]

@@ -3,9 +3,6 @@
 //! * [`RigidBody`] is the mover: mass, centre and inertia, degrees of freedom, springs and dampers on them ([`Holds`]),
 //!   elastic and hanging [`Line`]s, contact.
 //! * [`Solid`] has volume, centre and inertia of what lines and surfaces enclose.
-//!
-//! The wall itself, γ, the force of the fluid and the state of a body are those of `sph-boundary`.
-#![doc = include_str!("../README.md")]
 
 mod body;
 mod catenary;

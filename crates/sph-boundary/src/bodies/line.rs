@@ -1,10 +1,10 @@
 //! Lines between a body and a place that stays: moorings.
 
 use nalgebra::Vector3;
-use sph_boundary::Drawing;
 use sph_core::parameters;
 
-use crate::six::padded;
+use crate::Drawing;
+use crate::bodies::six::padded;
 
 /// A line from a fixed place to a place of the body. It pulls with k (l − l₀) + c l̇ ≥ 0, and never pushes.
 ///
@@ -76,7 +76,7 @@ pub(crate) fn crosses(from: Vector3<f64>, to: Vector3<f64>, wall: &Drawing) -> b
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sph_boundary::{Polyline, Surface};
+    use crate::{Polyline, Surface};
 
     #[test]
     fn it_sees_walls_that_it_goes_through() {

@@ -1,19 +1,17 @@
 //! The mover `rigid-body`.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use sph_boundary::{
-    Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch,
-};
 use sph_core::{Vect, plugin};
 
-use crate::dynamics::Dynamics;
-use crate::freedom::{Freedom, Holds};
-use crate::layer::layer;
-use crate::line::Line;
-use crate::mooring::Mooring;
-use crate::prescribed::{self, Prescribed};
-use crate::shape::{Solid, winding};
-use crate::six::padded;
+use crate::bodies::dynamics::Dynamics;
+use crate::bodies::freedom::{Freedom, Holds};
+use crate::bodies::layer::layer;
+use crate::bodies::line::Line;
+use crate::bodies::mooring::Mooring;
+use crate::bodies::prescribed::{self, Prescribed};
+use crate::bodies::shape::{Solid, winding};
+use crate::bodies::six::padded;
+use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch};
 
 /// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid
 /// does to them in one blow throws them: it has several times their mass.

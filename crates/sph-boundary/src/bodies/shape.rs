@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
-use sph_boundary::{Drawing, Polyline, Surface};
 
-use crate::six::padded;
+use crate::bodies::six::padded;
+use crate::{Drawing, Polyline, Surface};
 
 /// A solid of density 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
