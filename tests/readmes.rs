@@ -11,7 +11,6 @@ readmes! {
     Workspace "../README.md"
     GrainsAndPores "../crates/dem-pfv/README.md"
     SceneText "../crates/scene-text/README.md"
-    SurfaceFile "../crates/surface-file/README.md"
     Boundary "../crates/sph-boundary/README.md"
     Core "../crates/sph-core/README.md"
     Kernels "../crates/sph-kernels/README.md"

@@ -8,6 +8,8 @@
 //! 3. tells what is wrong as [`SceneProblem`]s, by key, which [`Source::diagnose`] turns into [`Diagnostic`]s with
 //!    file, line, column and span.
 //!
+//! With the feature `surface`, the module of that name reads the STL files that scenes name.
+//!
 //! ```
 //! use scene_text::{SceneProblem, Source};
 //!
@@ -31,6 +33,8 @@ pub mod plausible;
 mod problem;
 mod quantity;
 mod source;
+#[cfg(feature = "surface")]
+pub mod surface;
 mod table;
 mod text;
 

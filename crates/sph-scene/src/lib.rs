@@ -68,10 +68,10 @@ pub use reading::files::DataFile;
 pub use reading::load::{LoadError, Loaded, Refused, load, load_allowing, parse, read};
 pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
+pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
     Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
 };
-pub use surface_file::{Facets, Topology};
 pub use tables::body::{Body, Cutout, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::gravity::{GravityOverTime, GravitySine};

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sph_core::kinds;
 
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 23] = [
+const ALLOWED: [(&str, &[&str]); 22] = [
     ("sparse", &[]),
     (
         "sph-soil",
@@ -22,24 +22,16 @@ const ALLOWED: [(&str, &[&str]); 23] = [
     ),
     (
         "dem-pfv",
-        &[
-            "sparse",
-            "sph-derive",
-            "scene-text",
-            "surface-file",
-            "sph-io",
-            "sph-run",
-        ],
+        &["sparse", "sph-derive", "scene-text", "sph-io", "sph-run"],
     ),
     ("scene-text", &[]),
-    ("surface-file", &[]),
     ("sph-kernels", &[]),
     ("sph-derive", &[]),
     ("sph-core", &["scene-text", "sph-derive"]),
     ("sph-neighbours", &["sph-core", "sph-derive", "sph-kernels"]),
     (
         "sph-boundary",
-        &["sph-core", "sph-kernels", "sph-neighbours", "surface-file"],
+        &["sph-core", "sph-kernels", "sph-neighbours", "scene-text"],
     ),
     (
         "sph-open",
@@ -88,7 +80,7 @@ const ALLOWED: [(&str, &[&str]); 23] = [
             "sph-probes",
         ],
     ),
-    ("sph-scene", &["scene-text", "surface-file", "sph-core"]),
+    ("sph-scene", &["scene-text", "sph-core"]),
     (
         "sph-particles",
         &[

@@ -74,7 +74,7 @@ fn surface(
     let key = format!("wall.{name}.file");
     let path = loaded.source.resolve(&key, file);
     let path = path.map_err(|e| DemError::at(&key, e))?;
-    let corners = surface_file::read(&path)
+    let corners = scene_text::surface::read(&path)
         .map_err(|e| DemError::at(&key, e))?
         .triangles;
     let unit = table.unit.as_deref().and_then(|u| unit_factor(u, "m").ok());

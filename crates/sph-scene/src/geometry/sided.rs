@@ -1,7 +1,7 @@
 //! Which way the facets of a file face.
 
+use scene_text::surface::{Facets, Opening};
 use sph_core::{SceneProblem, number};
-use surface_file::{Facets, Opening};
 
 use crate::geometry::vector::point;
 use crate::{Side, Wall};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use surface_file::{Facets, Welder, cross, dot, minus};
+use scene_text::surface::{Facets, Welder, cross, dot, minus};
 
 use crate::Polygon;
 use crate::geometry::triangulate::triangulate;

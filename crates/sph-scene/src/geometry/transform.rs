@@ -1,6 +1,6 @@
 //! Where a geometry is put: scaled, turned, shifted.
 
-use surface_file::{cross, dot};
+use scene_text::surface::{cross, dot};
 
 use crate::Wall;
 use crate::geometry::vector::{array, unit};

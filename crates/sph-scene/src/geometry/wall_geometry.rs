@@ -1,7 +1,7 @@
 //! The geometry of a wall as lines or facets.
 
+use scene_text::surface::Facets;
 use sph_core::{SceneProblem, bounds, unit_factor};
-use surface_file::Facets;
 
 use crate::drawings::heading::Form;
 use crate::drawings::rows;

@@ -1,6 +1,6 @@
 //! What is kept to tell the sides of a mesh.
 
-use surface_file::Winding;
+use scene_text::surface::Winding;
 
 use super::grid::Grid;
 use super::rays::Rays;

@@ -1,6 +1,6 @@
 //! Which side of surfaces is the fluid's.
 
-use surface_file::Winding;
+use scene_text::surface::Winding;
 
 use crate::geometry::mesh::{Mesh, Outside, SAME_DISTANCE, SAME_HEIGHT, Sides, angle};
 use crate::geometry::vector::{Point, add, bounds, norm, sub};

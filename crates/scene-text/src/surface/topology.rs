@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::vector::{dot, minus};
-use crate::weld::Facets;
+use crate::surface::vector::{dot, minus};
+use crate::surface::weld::Facets;
 
 /// Edges that hang together and have a facet on one side only.
 #[derive(Clone, Debug, PartialEq)]

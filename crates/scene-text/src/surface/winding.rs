@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::vector::{cross, dot, minus};
+use crate::surface::vector::{cross, dot, minus};
 
 /// Clusters farther away than this many of their radii count as one facet.
 const FAR: f64 = 4.0;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::stl::{StlFile, parse, read};
-use crate::vector::{cross, dot, minus};
-use crate::weld::{Facets, Welder};
-use crate::winding::Winding;
+use crate::surface::stl::{StlFile, parse, read};
+use crate::surface::vector::{cross, dot, minus};
+use crate::surface::weld::{Facets, Welder};
+use crate::surface::winding::Winding;
 
 /// Corners of a file nearer to each other than this share of its extent are one: single precision has 6·10⁻⁸.
 const SAME_CORNER: f64 = 1e-6;

@@ -3,9 +3,9 @@
 //! ```
 //! let text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
 //!     endloop\nendfacet\nendsolid a\n";
-//! let surface = surface_file::parse(text.to_vec(), "a.stl").expect("a triangle");
+//! let surface = scene_text::surface::parse(text.to_vec(), "a.stl").expect("a triangle");
 //! assert_eq!(surface.triangles[0][1], [1.0, 0.0, 0.0]);
-//! assert!(surface_file::parse(b"solid a".to_vec(), "a.stl").unwrap_err().contains("endsolid"));
+//! assert!(scene_text::surface::parse(b"solid a".to_vec(), "a.stl").unwrap_err().contains("endsolid"));
 //! ```
 
 mod facets;
@@ -20,7 +20,3 @@ pub use topology::{Opening, Topology};
 pub use vector::{cross, dot, minus};
 pub use weld::{Facets, Welder};
 pub use winding::Winding;
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

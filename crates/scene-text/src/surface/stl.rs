@@ -6,7 +6,7 @@ use std::path::Path;
 
 use stl_io::{Triangle, create_stl_reader};
 
-use crate::vector::{cross, dot, minus};
+use crate::surface::vector::{cross, dot, minus};
 
 /// Most triangles of a file.
 const TRIANGLES: usize = 5_000_000;
