@@ -4,6 +4,7 @@ pub(crate) mod contact;
 pub(crate) mod contact_law;
 pub(crate) mod contract;
 pub(crate) mod dummy;
+pub(crate) mod elements;
 pub(crate) mod far_sight;
 pub(crate) mod groups;
 pub(crate) mod hiding;

@@ -8,7 +8,7 @@ use sph_kernels::lanes::{Lane, MOST, Width, dispatch_at};
 
 use crate::lane_pair::LanePair;
 use crate::members::Members;
-use crate::scaling::{ScaledPairs, Scaling};
+use crate::scaling::Scaling;
 use crate::separation::{Distances, grow};
 use crate::{Blocked, ContactRow, Contacts, Domain, Neighbourhood, Row, Scratch};
 
@@ -114,12 +114,7 @@ impl<const D: usize> Buffers<D> {
         factors.copy_from_slice(&self.factor[..needed]);
         scaling.kernel.value(&self.distance2[..needed], values);
         for numbers in [factors, values] {
-            let body = ScaledPairs {
-                members,
-                scale: scaling.scale,
-                numbers,
-            };
-            dispatch_at(width, body);
+            scaling.scale_pairs(width, members, numbers);
         }
     }
 }

@@ -11,10 +11,10 @@ use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
 use crate::pair_sum::PairSum;
 use crate::particles::{Particles, Rows, make_room as room_for};
-use crate::scaling::{ScaledPairs, Scaling};
+use crate::scaling::Scaling;
 use crate::separation::Distances;
 use crate::sweep::wrapping;
-use crate::{Blocked, Clusters, Domain, World};
+use crate::{Blocked, Clusters, Domain, WallPoints, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
 ///
@@ -32,7 +32,7 @@ pub fn kernel_sums<const D: usize>(
     let points = &world.walls.points;
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
-    let scaling = Scaling::of(world);
+    let scaling = Scaling::of(&world.free, &*world.kernel);
     let (blocked, unseen) = (&world.lists.hidden.particles, &world.lists.hidden.points);
     let limit = kernel.support_radius().powi(2);
     let width = width();
@@ -62,14 +62,8 @@ pub fn kernel_sums<const D: usize>(
             let value = &mut values.value[..needed];
             kernel.value(distance2, value);
             if let Some(scaling) = scaling.filter(|s| s.acts(members)) {
-                let body = ScaledPairs {
-                    members,
-                    scale: scaling.scale,
-                    numbers: value,
-                };
-                dispatch_at(width, body);
+                scaling.scale_pairs(width, members, value);
             }
-            let value = &values.value[..needed];
             let sums = &mut sums[first..first + members.count];
             dispatch_at(
                 width,
@@ -88,15 +82,9 @@ pub fn kernel_sums<const D: usize>(
                 let i = all.from + k;
                 let row = world.lists.wall.row(i);
                 if !row.is_empty() {
-                    let values = &mut room.row;
-                    let w = values.fill(&positions[i], &points.position, row, domain(i), kernel);
-                    let seen = |v: u32| f64::from(!unseen.has(i, v));
-                    let shares = row.iter().map(|&v| seen(v) * points.share[v as usize]);
-                    *sum += w
-                        .iter()
-                        .zip(shares)
-                        .map(|(w, share)| w * share)
-                        .sum::<f64>();
+                    let x = &positions[i];
+                    let w = room.row.fill(x, &points.position, row, domain(i), kernel);
+                    *sum += over_points(points, row, w, |v| f64::from(!unseen.has(i, v)));
                 }
             }
         }
@@ -112,6 +100,17 @@ pub fn kernel_sums<const D: usize>(
     pruned.fill(&world.lists.free, sums, pool, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
+}
+
+/// Σ θ w over wall points that are seen.
+fn over_points<const D: usize>(
+    points: &WallPoints<D>,
+    row: &[u32],
+    w: &[f64],
+    seen: impl Fn(u32) -> f64,
+) -> f64 {
+    let shares = row.iter().map(|&v| seen(v) * points.share[v as usize]);
+    w.iter().zip(shares).map(|(w, share)| w * share).sum()
 }
 
 /// Σ w in every lane, and who is within the support of any.

@@ -48,6 +48,21 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub scale: Option<WallScale<'a, D>>,
 }
 
+impl<'a, const D: usize> Neighbourhood<'a, D> {
+    /// As a sum with s_a s_b w_ab sees it: γ = 1, without wall elements.
+    #[inline(always)]
+    pub(crate) fn scaled(&self) -> Neighbourhood<'a, D> {
+        match self.scale {
+            None => *self,
+            Some(_) => Neighbourhood {
+                contacts: ContactRow::NONE,
+                inverse_renormalisation: 1.0,
+                ..*self
+            },
+        }
+    }
+}
+
 /// No index of any source.
 pub const NOBODY: u32 = u32::MAX;
 

@@ -1,12 +1,11 @@
 //! Walls that scale the kernel: w̃_ab = s_a s_b w_ab.
 
-use sph_core::{Vect, fields};
+use sph_core::{Store, Vect, fields};
 use sph_kernels::Sampler;
-use sph_kernels::lanes::{Body, Lane};
+use sph_kernels::lanes::{Body, Lane, Width, dispatch_at};
 
 use crate::members::Members;
 use crate::particles::Particles;
-use crate::{ContactRow, Neighbourhood, World};
 
 /// Columns of walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]
@@ -19,12 +18,12 @@ pub(crate) struct Scaling<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Scaling<'a, D> {
-    /// Of a world; none if its walls do not scale the kernel.
-    pub fn of(world: &'a World<D>) -> Option<Self> {
+    /// Of particles; none if their walls do not scale the kernel.
+    pub fn of(free: &'a Store<D>, kernel: &'a dyn Sampler) -> Option<Self> {
         Some(Scaling {
-            scale: world.free.get(fields::SCALE).ok()?,
-            slope: Some(world.free.get(fields::SCALE_SLOPE).ok()?),
-            kernel: &*world.kernel,
+            scale: free.get(fields::SCALE).ok()?,
+            slope: Some(free.get(fields::SCALE_SLOPE).ok()?),
+            kernel,
         })
     }
 
@@ -32,6 +31,16 @@ impl<'a, const D: usize> Scaling<'a, D> {
     pub fn acts(&self, members: Members<'_>) -> bool {
         let mut candidates = members.candidates.iter();
         candidates.any(|j| self.scale[*j as usize] != 1.0)
+    }
+
+    /// Multiplies numbers of all pairs of a cluster, one per lane for each candidate, by s_a s_b.
+    pub fn scale_pairs(&self, width: Width, members: Members<'_>, numbers: &mut [f64]) {
+        let body = ScaledPairs {
+            members,
+            scale: self.scale,
+            numbers,
+        };
+        dispatch_at(width, body);
     }
 
     /// At a particle.
@@ -86,26 +95,11 @@ impl<const D: usize> WallScale<'_, D> {
     }
 }
 
-impl<'a, const D: usize> Neighbourhood<'a, D> {
-    /// As a sum with s_a s_b w_ab sees it: γ = 1, without wall elements.
-    #[inline(always)]
-    pub(crate) fn scaled(&self) -> Neighbourhood<'a, D> {
-        match self.scale {
-            None => *self,
-            Some(_) => Neighbourhood {
-                contacts: ContactRow::NONE,
-                inverse_renormalisation: 1.0,
-                ..*self
-            },
-        }
-    }
-}
-
-/// Multiplies numbers of all pairs of a cluster, one per lane for each candidate, by s_a s_b.
-pub(crate) struct ScaledPairs<'a> {
-    pub members: Members<'a>,
-    pub scale: &'a [f64],
-    pub numbers: &'a mut [f64],
+/// [`Scaling::scale_pairs`] with lanes.
+struct ScaledPairs<'a> {
+    members: Members<'a>,
+    scale: &'a [f64],
+    numbers: &'a mut [f64],
 }
 
 impl Body for ScaledPairs<'_> {

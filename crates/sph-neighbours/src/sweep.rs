@@ -262,7 +262,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
                 false => &[],
             },
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            scaling: Scaling::of(world),
+            scaling: Scaling::of(&world.free, &*world.kernel),
             lists: world.lists.nearest(),
             width: width(),
         })

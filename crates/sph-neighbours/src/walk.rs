@@ -25,7 +25,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             world,
             position: world.free.get(fields::POSITION)?,
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            scaling: Scaling::of(world),
+            scaling: Scaling::of(&world.free, &*world.kernel),
             lists: world.lists.nearest(),
         })
     }

@@ -112,7 +112,7 @@ pub(crate) fn flat_faces<const D: usize, M: WallMesh<D>>(
     };
     let found = chosen.iter().map(|face| {
         let own = elements.iter().zip(&face_of).filter(|(_, f)| *f == face);
-        let corners = own.flat_map(|(e, _)| e.corners.map(|c| nodes[c as usize]));
+        let corners = own.flat_map(|(e, _)| unrolled(e, &nodes, domain));
         spanned(faces[*face].clone(), &corners.collect::<Vec<_>>(), domain)
     });
     (found.collect(), on_none)
@@ -120,6 +120,16 @@ pub(crate) fn flat_faces<const D: usize, M: WallMesh<D>>(
 
 /// Faces beyond which a mesh is curved.
 const MOST: usize = 400;
+
+/// Corners of an element, m. It may go on beyond a periodic border, where its node is that of the other side.
+pub(crate) fn unrolled<const D: usize>(
+    element: &MeshElement<D>,
+    nodes: &[Vect<D>],
+    domain: &Domain<D>,
+) -> [Vect<D>; D] {
+    let from = |c: u32| domain.nearest(nodes[c as usize] - element.centre);
+    element.corners.map(|c| element.centre + from(c))
+}
 
 /// A face with its place in the middle of its corners, and its spans.
 fn spanned<const D: usize>(

@@ -5,8 +5,10 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 use sph_core::Vect;
 use sph_kernels::Sampler;
+use sph_neighbours::Domain;
 
 use crate::geometry::wall_mesh::WallMesh;
+use crate::scale::flat::unrolled;
 use crate::scale::plane::{REACH, fade};
 use crate::scale::spline::{Grid, interpolate, value};
 use crate::{BoundaryError, SeenElement};
@@ -52,6 +54,7 @@ pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     /// Least height over the flat faces, m.
     pub over_flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
     pub kernel: &'a dyn Sampler,
+    pub domain: &'a Domain<D>,
     /// Name of the walls, for messages.
     pub wall: &'a str,
 }
@@ -81,19 +84,19 @@ struct Cells<const D: usize> {
 }
 
 impl<const D: usize> ScaleMap<D> {
-    /// Solves s(x) ∫ s w = 1 by ln s ← ln s − ω ln (s ∫ s w) on the nodes near the curved elements; cells that the wall cuts are sampled.
+    /// Solves s(x) ∫ s w = 1 by ln s ← ln s − ω ln (s ∫ s w) on the nodes near the curved elements; cells that the wall cuts
+    /// are sampled.
     ///
     /// # Errors
     /// If the grid would have too many nodes.
     pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self, BoundaryError> {
         let h = of.kernel.smoothing_length();
         let step = h / NODES;
-        let corners: Vec<Vect<D>> = of.mesh.points().map(|p| p.position).collect();
+        let nodes: Vec<Vect<D>> = of.mesh.points().map(|p| p.position).collect();
         let elements = of.mesh.elements().zip(of.curved);
         let own = elements.filter(|(_, curved)| **curved);
-        let own: Vec<Vect<D>> = own
-            .flat_map(|(e, _)| e.corners.map(|c| corners[c as usize]))
-            .collect();
+        let corners = own.flat_map(|(e, _)| unrolled(&e, &nodes, of.domain));
+        let own: Vec<Vect<D>> = corners.collect();
         let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
         let [low, high] = own
             .iter()
@@ -101,11 +104,11 @@ impl<const D: usize> ScaleMap<D> {
         // All that an active node sees is on the grid.
         let margin = REACH * h + of.kernel.support_radius() + 4.0 * step;
         let grid = Grid::around(low.add_scalar(-margin), high.add_scalar(margin), step);
-        let nodes: f64 = grid.nodes.iter().map(|n| *n as f64).product();
-        if nodes > MOST_NODES as f64 {
+        let count: f64 = grid.nodes.iter().map(|n| *n as f64).product();
+        if count > MOST_NODES as f64 {
             return Err(BoundaryError::LargeMap {
                 wall: of.wall.into(),
-                nodes: nodes as usize,
+                nodes: count as usize,
                 most: MOST_NODES,
             });
         }
@@ -325,22 +328,24 @@ fn near_node<const D: usize, M: WallMesh<D>>(
     several: bool,
 ) -> NodeKind<D> {
     let reach = (REACH + 0.5) * of.kernel.smoothing_length();
-    let near = of.mesh.near(x, reach);
+    // The mesh knows places in the box.
+    let place = of.domain.wrapped(*x);
+    let near = of.mesh.near(&place, reach);
     let curved = near.iter().filter(|n| of.curved[n.index()]);
     let walls: Vec<usize> = match several {
         true => curved.clone().map(|n| of.mesh.wall_of(*n)).collect(),
         false => Vec::new(),
     };
-    let curved: Vec<_> = curved.map(|n| of.mesh.seen(x, *n)).collect();
+    let curved: Vec<_> = curved.map(|n| of.mesh.seen(&place, *n)).collect();
     let distance = |k: usize| {
         let only = std::slice::from_ref(&curved[k]);
         SeenElement::signed_distance(only, [0.0; D], reach).map_or(f64::INFINITY, f64::abs)
     };
     let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-    let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(x, *n)).collect();
+    let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(&place, *n)).collect();
     let from_curved = SeenElement::signed_distance(&curved, [0.0; D], reach);
     let height = SeenElement::signed_distance(&seen, [0.0; D], reach);
-    let height = height.unwrap_or_else(|| match of.mesh.contains(x) {
+    let height = height.unwrap_or_else(|| match of.mesh.contains(&place) {
         true => f64::INFINITY,
         false => f64::NEG_INFINITY,
     });

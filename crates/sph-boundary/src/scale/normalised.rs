@@ -30,6 +30,13 @@ fn spec<const D: usize>(drawing: Drawing) -> WallSpec<D> {
 
 fn scales<const D: usize, M: WallMesh<D>>(walls: &[WallSpec<D>]) -> WallScales<D, M> {
     let domain = Domain::open(Vect::repeat(-100.0), Vect::repeat(100.0));
+    scales_in(domain, walls)
+}
+
+fn scales_in<const D: usize, M: WallMesh<D>>(
+    domain: Domain<D>,
+    walls: &[WallSpec<D>],
+) -> WallScales<D, M> {
     let kernel = kernel();
     let setup = WallSetup {
         walls,
@@ -165,6 +172,30 @@ fn box_of(low: [f64; 3], high: [f64; 3], name: &str, outside: bool) -> Drawing {
         points: (0..8).map(corner).collect(),
         triangles: triangles.map(turned).collect(),
     })
+}
+
+/// A floor with a ridge at the border of a periodic box: s is the same on both sides, and that of a floor far from it.
+#[test]
+fn a_floor_goes_on_across_periodic_borders() {
+    let mut domain = Domain::open(Vect::<2>::new(0.0, -1.0), Vect::<2>::new(16.0, 20.0));
+    domain.periodic[0] = true;
+    let flat = Polyline::open("floor", vec![[0.0, 0.0], [16.0, 0.0]]);
+    let ridge = vec![[0.0, 1.0], [1.0, 0.0], [15.0, 0.0], [16.0, 1.0]];
+    let [flat, ridge] = [flat, Polyline::open("ridge", ridge)]
+        .map(|line| scales_in::<2, PlanarWalls>(domain.clone(), &[spec(Drawing::Line(line))]));
+    let at = |scales: &WallScales<2, PlanarWalls>, x: [f64; 2]| {
+        let (mut found, mut slopes) = (Vec::new(), Vec::new());
+        scales.at(&[x.into()], &[], &mut found, &mut slopes);
+        found[0].scale
+    };
+    for x in [0.01, 0.4, 8.0, 15.3, 15.99] {
+        assert!((at(&flat, [x, 0.25]) - 1.264_273).abs() < 1e-5, "{x}");
+    }
+    assert!((at(&ridge, [8.0, 0.25]) - 1.264_273).abs() < 1e-5);
+    let [left, right] = [[0.3, 1.0], [15.7, 1.0]].map(|x| at(&ridge, x));
+    assert!((left / right - 1.0).abs() < 2e-3, "{left} {right}");
+    let [before, after] = [[15.999, 1.2], [0.001, 1.2]].map(|x| at(&ridge, x));
+    assert!((before / after - 1.0).abs() < 2e-3, "{before} {after}");
 }
 
 #[test]

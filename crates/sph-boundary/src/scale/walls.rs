@@ -136,6 +136,7 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
                     flat: &flat,
                     over_flat: &over_flat,
                     kernel: &*kernel,
+                    domain: setup.domain,
                     wall: setup.walls[own[0]].drawing.name(),
                 })?);
             }

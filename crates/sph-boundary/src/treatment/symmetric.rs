@@ -5,8 +5,8 @@ use sph_neighbours::{Slope, WallSet, World};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
+use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::{Outline, shaped_by_outline};
-use crate::treatment::usaw::{SetUp, not_built};
 use crate::{
     BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec, WallStates,
 };
