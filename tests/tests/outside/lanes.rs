@@ -73,12 +73,14 @@ fn end_of(scene: &str, steps: usize) -> FinalState {
 
 const TERM: &str = "[term.artificial-viscosity]\nspeed = 0.3\n";
 
-/// Walls of both kinds, three dimensions, periodic faces, several phases and a soil.
+/// Walls of all kinds, three dimensions, periodic faces, several phases and a soil.
 #[test]
 fn two_four_and_eight_lanes_end_with_the_same_bits() {
     let dummy = DAM_BREAK.replace("[walls.usaw]", "[walls.dummy-particles]");
+    let symmetric = DAM_BREAK.replace("[walls.usaw]", "[walls.symmetric]");
     let scenes = [
         ("dam break", DAM_BREAK, 60),
+        ("symmetric walls", &symmetric, 60),
         ("dummy particles", &dummy, 60),
         ("stirrer", STIRRER, 12),
         ("periodic", PERIODIC, 40),
