@@ -235,8 +235,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         let (pressure, own) = (self.pressure[i], self.volume[i]);
         let against = |volume: f64| pressure * (own * own + volume * volume);
         let mut sum = Vect::from(sum);
-        if let Some(scale) = at.scale {
-            let itself = 2.0 * pressure * own * own * scale.own_value();
+        if let Some(scale) = at.scale() {
+            let itself = 2.0 * pressure * own * own * scale.own_value;
             sum += scale.slope * (of_values + itself);
         }
         for (v, pair) in at.wall.pairs() {

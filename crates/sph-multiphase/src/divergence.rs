@@ -158,9 +158,9 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (velocity, volume, density) = (self.velocity[i], self.volume[i], self.density[i]);
-        if let Some(scale) = at.scale {
+        if let Some(scale) = at.scale() {
             let weight = self.weight.weight(volume, density, volume, density);
-            sum -= weight * 2.0 * scale.own_value() * self.scale_rate(i);
+            sum -= weight * 2.0 * scale.own_value * self.scale_rate(i);
         }
         for (v, pair) in at.wall.pairs() {
             let there = self.walls.points.volume[v];

@@ -163,8 +163,8 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
     ) {
         let own = self.own::<f64>(Particles::one(at.particle));
         let mut sum = Vect::from(sum);
-        if let Some(scale) = at.scale {
-            sum += scale.slope * (of_values + self.weight.pair(own, own) * scale.own_value());
+        if let Some(scale) = at.scale() {
+            sum += scale.slope * (of_values + self.weight.pair(own, own) * scale.own_value);
         }
         // A wall has no density of its own: it is that of the particle.
         for (v, pair) in at.wall.pairs() {

@@ -22,7 +22,7 @@ pub struct Cluster<'a, const D: usize> {
     /// Square of the support radius, m².
     pub(crate) limit: f64,
     /// Where walls scale the kernel.
-    pub(crate) scaling: Option<Scaling<'a, D>>,
+    pub(crate) scaling: Option<&'a Scaling<'a, D>>,
     /// Whether some of its pairs are scaled.
     pub(crate) scaled: bool,
     /// Whether any member sees a wall.
@@ -173,7 +173,7 @@ impl<const D: usize> Cluster<'_, D> {
                 wall: self.buffers.walls[k].row(),
                 contacts: self.contacts.of(particle),
                 inverse_renormalisation: self.inverse_renormalisation[k],
-                scale: self.scaling.map(|scaling| scaling.at(particle)),
+                scaling: self.scaling,
             };
             visit(k, &neighbourhood);
         }
@@ -218,7 +218,7 @@ impl<const D: usize> Cluster<'_, D> {
             wall,
             contacts,
             inverse_renormalisation: self.inverse_renormalisation[member],
-            scale: self.scaling.map(|scaling| scaling.at(particle)),
+            scaling: self.scaling,
         }
     }
 

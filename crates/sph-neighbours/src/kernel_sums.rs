@@ -77,7 +77,7 @@ pub fn kernel_sums<const D: usize>(
             );
         }
         for (k, sum) in sums.iter_mut().enumerate() {
-            *sum += scaling.map_or(own, |s| s.at(all.from + k).own_value());
+            *sum += scaling.map_or(own, |s| s.at(all.from + k).own_value);
             if points.in_density() {
                 let i = all.from + k;
                 let row = world.lists.wall.row(i);

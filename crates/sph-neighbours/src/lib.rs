@@ -99,7 +99,7 @@ pub use particles::Particles;
 pub use rates::{Rates, TRANSPORTED};
 pub use reaction::{reactions, wall_forces};
 pub use row::{NOBODY, Neighbourhood, Row, Rows, Scratch};
-pub use scaling::WallScale;
+pub use scaling::{Scaling, WallScale};
 pub use shares::{TermShare, shares_at};
 pub use sight::Sight;
 pub use slopes::{Slope, Slopes};

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{Blocked, ContactRow, Domain, WallScale};
+use crate::{Blocked, ContactRow, Domain, Scaling, WallScale};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -44,21 +44,24 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub contacts: ContactRow<'a, D>,
     /// 1/γ, 1 away from walls.
     pub inverse_renormalisation: f64,
-    /// Where walls scale the kernel: s and its slope.
-    pub scale: Option<WallScale<'a, D>>,
+    /// Where walls scale the kernel.
+    pub scaling: Option<&'a Scaling<'a, D>>,
 }
 
 impl<'a, const D: usize> Neighbourhood<'a, D> {
+    /// What walls that scale the kernel make of the particle.
+    #[inline(always)]
+    pub fn scale(&self) -> Option<WallScale<D>> {
+        self.scaling.map(|scaling| scaling.at(self.particle))
+    }
+
     /// As a sum with s_a s_b w_ab sees it: γ = 1, without wall elements.
     #[inline(always)]
     pub(crate) fn scaled(&self) -> Neighbourhood<'a, D> {
-        match self.scale {
-            None => *self,
-            Some(_) => Neighbourhood {
-                contacts: ContactRow::NONE,
-                inverse_renormalisation: 1.0,
-                ..*self
-            },
+        Neighbourhood {
+            contacts: ContactRow::NONE,
+            inverse_renormalisation: 1.0,
+            ..*self
         }
     }
 }

@@ -9,32 +9,40 @@ use crate::particles::Particles;
 
 /// Columns of walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scaling<'a, const D: usize> {
+pub struct Scaling<'a, const D: usize> {
     /// s of every particle.
-    pub scale: &'a [f64],
-    /// ∇ ln s of every particle, 1/m; none for sums without walls.
-    pub slope: Option<&'a [Vect<D>]>,
-    pub kernel: &'a dyn Sampler,
+    scale: &'a [f64],
+    slope: SlopeOf<'a, D>,
+    pub(crate) kernel: &'a dyn Sampler,
+}
+
+/// ∇ ln s, 1/m.
+#[derive(Clone, Copy, Debug)]
+enum SlopeOf<'a, const D: usize> {
+    /// Of all walls, at every particle.
+    All(&'a [Vect<D>]),
+    /// Of some walls, at the particle that is looked at.
+    Some(Vect<D>),
 }
 
 impl<'a, const D: usize> Scaling<'a, D> {
     /// Of particles; none if their walls do not scale the kernel.
-    pub fn of(free: &'a Store<D>, kernel: &'a dyn Sampler) -> Option<Self> {
+    pub(crate) fn of(free: &'a Store<D>, kernel: &'a dyn Sampler) -> Option<Self> {
         Some(Scaling {
             scale: free.get(fields::SCALE).ok()?,
-            slope: Some(free.get(fields::SCALE_SLOPE).ok()?),
+            slope: SlopeOf::All(free.get(fields::SCALE_SLOPE).ok()?),
             kernel,
         })
     }
 
     /// Whether some of the pairs of a cluster are scaled.
-    pub fn acts(&self, members: Members<'_>) -> bool {
+    pub(crate) fn acts(&self, members: Members<'_>) -> bool {
         let mut candidates = members.candidates.iter();
         candidates.any(|j| self.scale[*j as usize] != 1.0)
     }
 
     /// Multiplies numbers of all pairs of a cluster, one per lane for each candidate, by s_a s_b.
-    pub fn scale_pairs(&self, width: Width, members: Members<'_>, numbers: &mut [f64]) {
+    pub(crate) fn scale_pairs(&self, width: Width, members: Members<'_>, numbers: &mut [f64]) {
         let body = ScaledPairs {
             members,
             scale: self.scale,
@@ -43,56 +51,40 @@ impl<'a, const D: usize> Scaling<'a, D> {
         dispatch_at(width, body);
     }
 
-    /// At a particle.
-    #[inline(always)]
-    pub fn at(&self, particle: usize) -> WallScale<'a, D> {
-        WallScale {
-            all: self.scale,
-            own: self.scale[particle],
-            slope: self.slope.map_or_else(Vect::zeros, |g| g[particle]),
-            kernel: self.kernel,
+    /// The same for sums with one wall, which has this part of the slope; 0 for those without walls.
+    pub(crate) fn with_slope(&self, slope: Vect<D>) -> Self {
+        Scaling {
+            slope: SlopeOf::Some(slope),
+            ..*self
         }
     }
-}
 
-/// s and ∇ ln s at a particle.
-#[derive(Clone, Copy, Debug)]
-pub struct WallScale<'a, const D: usize> {
-    pub(crate) all: &'a [f64],
-    /// s of the particle.
-    pub own: f64,
-    /// ∇ ln s of the particle, 1/m; that of one wall in sums for this wall.
-    pub slope: Vect<D>,
-    pub(crate) kernel: &'a dyn Sampler,
-}
-
-impl<const D: usize> WallScale<'_, D> {
-    /// The same for sums without walls.
-    pub(crate) fn without_slope(self) -> Self {
-        self.with_slope(Vect::zeros())
-    }
-
-    /// The same for sums with one wall, which has this part of the slope.
-    pub(crate) fn with_slope(self, slope: Vect<D>) -> Self {
-        WallScale { slope, ..self }
-    }
-
-    /// w̃_aa = s_a² w(0), 1/m^d: what a particle adds to its own sum.
+    /// At a particle.
     #[inline(always)]
-    pub fn own_value(&self) -> f64 {
-        self.own * self.own * self.kernel.value_at_zero()
+    pub(crate) fn at(&self, particle: usize) -> WallScale<D> {
+        let own = self.scale[particle];
+        WallScale {
+            own_value: own * own * self.kernel.value_at_zero(),
+            slope: match self.slope {
+                SlopeOf::All(all) => all[particle],
+                SlopeOf::Some(slope) => slope,
+            },
+        }
     }
 
     /// s_a s_b.
-    #[inline(always)]
-    pub(crate) fn with(&self, other: usize) -> f64 {
-        self.own * self.all[other]
+    pub(crate) fn of_pair(&self, first: usize, second: usize) -> f64 {
+        self.scale[first] * self.scale[second]
     }
+}
 
-    /// s_a s_b w_ab at a squared distance, 1/m^d.
-    pub(crate) fn value(&self, other: usize, distance2: f64) -> f64 {
-        self.with(other) * self.kernel.at(distance2.sqrt()).0
-    }
+/// What walls that scale the kernel make of a particle.
+#[derive(Clone, Copy, Debug)]
+pub struct WallScale<const D: usize> {
+    /// w̃_aa = s_a² w(0), 1/m^d: what the particle adds to its own sum.
+    pub own_value: f64,
+    /// ∇ ln s, 1/m; that of one wall in sums for this wall.
+    pub slope: Vect<D>,
 }
 
 /// [`Scaling::scale_pairs`] with lanes.

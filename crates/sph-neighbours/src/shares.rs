@@ -2,9 +2,7 @@
 
 use sph_core::{StepError, Vect};
 
-use crate::{
-    ContactRow, Interaction, Neighbourhood, Rates, Rows, Scratch, Surroundings, WallScale, World,
-};
+use crate::{ContactRow, Interaction, Neighbourhood, Rates, Rows, Scratch, Surroundings, World};
 
 /// What one term does to a particle.
 #[derive(Clone, Debug)]
@@ -30,11 +28,12 @@ pub fn shares_at<const D: usize>(
     let mut rows = Rows::default();
     let whole = surroundings.of(particle, &mut rows);
     let none = Scratch::<D>::new();
+    let without = whole.scaling.map(|s| s.with_slope(Vect::zeros()));
     let fluid = Neighbourhood {
         wall: none.row(),
         contacts: ContactRow::NONE,
         inverse_renormalisation: 1.0,
-        scale: whole.scale.map(WallScale::without_slope),
+        scaling: without.as_ref(),
         ..whole
     };
     let mut shares = Vec::new();

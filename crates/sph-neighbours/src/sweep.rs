@@ -346,8 +346,9 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         }
         let (positions, blocked) = (self.positions, &hidden.particles);
         buffers.measure(self.width, members, positions, domain, blocked, self.kernel);
-        let scaled = self.scaling.filter(|scaling| scaling.acts(members));
-        if let Some(scaling) = &scaled {
+        let scaling = self.scaling.as_ref();
+        let scaled = scaling.filter(|scaling| scaling.acts(members));
+        if let Some(scaling) = scaled {
             buffers.scale(self.width, members, scaling);
         }
         Cluster {
@@ -356,7 +357,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
             contacts,
             inverse_renormalisation,
             limit: self.kernel.support_radius().powi(2),
-            scaling: self.scaling,
+            scaling,
             scaled: scaled.is_some(),
             beside,
             wraps: domain.is_some(),

@@ -103,16 +103,16 @@ impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for ByPairs<B> {
     fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.0.own::<f64>(Particles::one(at.particle));
         let mut sum = B::Sum::<f64>::zero();
-        let Some(scale) = at.scale.filter(|_| B::SCALED) else {
+        let Some(scaling) = at.scaling.filter(|_| B::SCALED) else {
             for (j, pair) in at.free.pairs() {
                 self.0.pair(&own, j, &(&pair).into(), &mut sum);
             }
             return self.0.finish(sum, at, rates);
         };
         for (j, pair) in at.free.pairs() {
-            let mut pair = LanePair::from(&pair);
-            pair.factor *= scale.with(j);
-            pair.value = scale.value(j, pair.distance2);
+            let (mut pair, scale) = (LanePair::from(&pair), scaling.of_pair(at.particle, j));
+            pair.factor *= scale;
+            pair.value = scale * scaling.kernel.at(pair.distance2.sqrt()).0;
             self.0.pair(&own, j, &pair, &mut sum);
             self.0.pair_at_walls(&own, j, &pair, &mut sum);
         }
@@ -121,12 +121,12 @@ impl<const D: usize, B: BoundTerm<D>> RowTerm<D> for ByPairs<B> {
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         let mut rows = std::mem::take(&mut cluster.buffers.sums);
         sum_cluster(&self.0, cluster, &mut rows);
+        let scaled = B::SCALED && cluster.scaling.is_some();
         for (k, rates) in rates.iter_mut().enumerate() {
             let sum = B::Sum::<f64>::one(&rows, k);
-            let at = cluster.walls(k);
-            match B::SCALED {
-                true => self.0.finish(sum, &at.scaled(), rates),
-                false => self.0.finish(sum, &at, rates),
+            match scaled {
+                true => self.0.finish(sum, &cluster.walls(k).scaled(), rates),
+                false => self.0.finish(sum, &cluster.walls(k), rates),
             }
         }
         cluster.buffers.sums = rows;

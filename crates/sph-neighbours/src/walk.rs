@@ -63,7 +63,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             wall: rows.wall.row(),
             contacts: world.walls.contacts.of(particle),
             inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
-            scale: self.scaling.map(|scaling| scaling.at(particle)),
+            scaling: self.scaling.as_ref(),
         }
     }
 }

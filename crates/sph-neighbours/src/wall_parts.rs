@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::MOST;
 
-use crate::scaling::Scaling;
 use crate::sweep::{Sweep, with_all};
 use crate::{
     CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, Rates, RowTerm,
@@ -199,10 +198,11 @@ impl<const D: usize> Apart<D> {
         if points {
             cluster.buffers.walls = from_fn::<_, MOST, _>(|_| Scratch::new());
         }
+        let unsloped = cluster.scaling.map(|s| s.with_slope(Vect::zeros()));
         let mut without = Cluster {
             contacts: none,
             inverse_renormalisation: [1.0; MOST],
-            scaling: cluster.scaling.map(|s| Scaling { slope: None, ..s }),
+            scaling: unsloped.as_ref(),
             buffers: &mut *cluster.buffers,
             ..*cluster
         };
@@ -266,11 +266,12 @@ impl<const D: usize> Piece<D> {
 
     /// Sums all terms of a member with this wall in the place of all of its own.
     fn sum(&mut self, own: &Neighbourhood<'_, D>, term: &dyn RowTerm<D>) {
+        let scaling = own.scaling.map(|s| s.with_slope(self.slope));
         let alone = Neighbourhood {
             wall: self.points.row(),
             contacts: all(&self.contacts),
             inverse_renormalisation: 1.0,
-            scale: own.scale.map(|scale| scale.with_slope(self.slope)),
+            scaling: scaling.as_ref(),
             ..*own
         };
         let mut rates = Rates::of(Vect::zeros());

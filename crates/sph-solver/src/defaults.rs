@@ -13,6 +13,8 @@ const SUGGESTIONS: [(&str, &str); 2] = [
 pub const ONE_KICK: &str = "`[integrator.symplectic-euler]`";
 /// Walls that can be opened.
 pub const OPEN_WALLS: &str = "`[walls.usaw]` with `vertices = false`";
+/// Walls that every formulation and pressure scheme knows.
+pub const KNOWN_WALLS: &str = "`[walls.usaw]`";
 /// Lets fluid out.
 pub const OUTFLOW: &str = "`open-boundary.outflow`";
 /// Takes sound that walls feed.

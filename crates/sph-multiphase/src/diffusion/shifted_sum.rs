@@ -69,8 +69,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         if self.emptiness[i] == 0.0 {
             return;
         }
-        if let Some(scale) = at.scale {
-            sum += 2.0 * scale.own_value() * self.scale_rate(i);
+        if let Some(scale) = at.scale() {
+            sum += 2.0 * scale.own_value * self.scale_rate(i);
         }
         rates.scalar -= self.mass[i] * sum;
     }

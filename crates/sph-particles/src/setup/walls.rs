@@ -7,6 +7,7 @@ use sph_multiphase::Formulation;
 use sph_neighbours::{Domain, WallSet};
 use sph_scene::Scene;
 use sph_solver::SolverError;
+use sph_solver::defaults::KNOWN_WALLS;
 
 /// Refuses what does not follow walls that scale the kernel.
 ///
@@ -28,7 +29,8 @@ pub fn check_scaling<const D: usize>(
         return Ok(());
     };
     let treatment = scene.choice("walls").map_or(String::new(), |c| c.path);
-    let why = format!("its sums do not follow the scale of `{treatment}`: take `walls.usaw`");
+    let path = &refused.path;
+    let why = format!("`{path}` has sums that `{treatment}` does not scale: take {KNOWN_WALLS}");
     Err(SolverError::at(refused.path, why))
 }
 

@@ -156,3 +156,20 @@ fn a_hole_in_a_mesh_is_told_with_its_size_and_place() {
     );
     silent(&scene(-1.9).replace("open = [\"z-\"]\n", ""));
 }
+
+#[test]
+fn what_does_not_follow_the_scale_of_symmetric_walls_is_refused_at_its_line() {
+    let tank = || {
+        let usaw = in_the_plane("", "box = [[0.0, 0.0], [1.0, 0.5]]");
+        usaw.replace("[walls.usaw]", "[walls.symmetric]") + "[wall.tank]\nbox = [[0, 0], [1, 1]]\n"
+    };
+    let sums = [
+        "`walls.symmetric` does not scale",
+        "take `[walls.usaw]`",
+        "scene.toml:",
+    ];
+    refused(&(tank() + "[pressure.implicit]\n"), &[], &sums);
+    refused(&(tank() + "[formulation.grenier]\n"), &[], &sums);
+    let open = "open-boundary.outflow = {}\n";
+    refused(&(tank() + open), &[], &["open faces", "[walls.usaw]"]);
+}
