@@ -16,7 +16,8 @@ use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 ///
 /// The reaction balances the particles, which begin half a spacing off the wall: under gravity it
 /// is that of a body larger by this half spacing: 1.30 times the buoyancy of the block of the
-/// tests, where the pressure integral gives 1.03. Take `.pressure` for buoyancy.
+/// tests, where the pressure integral gives 1.03. Take `.pressure` for buoyancy, but for `walls.symmetric`, whose reaction
+/// is the displaced weight.
 ///
 /// ```toml
 /// [probe.drag]
