@@ -22,11 +22,14 @@ fuzz_target!(|text: &str| {
             text: SCENE.to_string(),
             file: sph_fuzz::FILE.to_string(),
             allowed: Vec::new(),
+            method: &sph_particles::Particles,
         }),
     };
     if let Ok(study) = Study::parse(text, Path::new("fuzzed.toml"), &find, &[], &[]) {
         for variant in study.variants.iter().take(2) {
-            sph_fuzz::assemble(&variant.loaded);
+            if let Ok(scene) = toml::to_string(&variant.subject.resolved()) {
+                sph_fuzz::check(&scene, &[]);
+            }
         }
     }
 });
