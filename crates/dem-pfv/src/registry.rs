@@ -26,7 +26,7 @@ pub enum PluginError {
     /// No law of that name.
     #[error("there is no {kind} {name:?}; there are: {known}")]
     Unknown {
-        /// What the law is.
+        /// Description of the law.
         kind: &'static str,
         /// The name.
         name: String,
@@ -36,7 +36,7 @@ pub enum PluginError {
     /// Two laws of the same name.
     #[error("both {first} and {second} register a {kind} {name:?}")]
     Two {
-        /// What the laws are.
+        /// Description of the kind of laws.
         kind: &'static str,
         /// Their name.
         name: &'static str,
@@ -48,11 +48,11 @@ pub enum PluginError {
     /// A table of parameters that a law does not understand.
     #[error("the parameters of the {kind} {name:?}: {problem}")]
     Parameters {
-        /// What the law is.
+        /// Description of the law.
         kind: &'static str,
         /// Its name.
         name: &'static str,
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
 }

@@ -66,6 +66,7 @@ pub use kernel::Kernel;
 pub use polynomial::PiecewisePolynomial;
 pub use polynomial_kernel::PolynomialKernel;
 pub use polynomial_sampler::polynomial_sampler;
+pub use quadrature::gauss_points;
 pub use sampler::Sampler;
 pub use scalar_sampler::ScalarSampler;
 

@@ -1,30 +1,34 @@
-//! Normalisation of a shape known only by its values.
+//! Integrals by points of Gauss: the normalisation of a shape known only by its values.
 
 use crate::moments::sphere;
 
 /// Panels of the support; with five points each the error of a smooth f is rounding.
 const PANELS: usize = 64;
 
-/// Abscissae and weights of the five-point Gauss-Legendre rule on [−1, 1], right half.
+/// Places and weights of the five-point Gauss–Legendre rule on [−1, 1].
 /// Source: Abramowitz & Stegun (1964), table 25.4.
-const GAUSS: [(f64, f64); 3] = [
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+const GAUSS: [[f64; 2]; 5] = [
+    [-0.906_179_845_938_664, 0.236_926_885_056_189_08],
+    [-0.538_469_310_105_683_1, 0.478_628_670_499_366_47],
+    [0.0, 0.568_888_888_888_888_9],
+    [0.538_469_310_105_683_1, 0.478_628_670_499_366_47],
+    [0.906_179_845_938_664, 0.236_926_885_056_189_08],
 ];
+
+/// Places and weights of the five-point Gauss–Legendre rule on each of `panels` equal parts of an interval.
+pub fn gauss_points(from: f64, to: f64, panels: usize) -> impl Iterator<Item = [f64; 2]> {
+    let half = 0.5 * (to - from) / panels as f64;
+    (0..panels).flat_map(move |k| {
+        let middle = from + (2 * k + 1) as f64 * half;
+        GAUSS.map(|[x, w]| [middle + half * x, half * w])
+    })
+}
 
 /// 1 / (S_d ∫ f q^(d−1) dq) with S_d the surface of the unit sphere.
 pub(crate) fn normalisation(f: impl Fn(f64) -> f64, support: f64, dimension: usize) -> f64 {
     let weight = |q: f64| f(q) * q.powi(dimension as i32 - 1);
-    let half = 0.5 * support / PANELS as f64;
-    let panel = |k: usize| {
-        let middle = (2 * k + 1) as f64 * half;
-        let pairs = GAUSS[1..]
-            .iter()
-            .map(|(x, w)| w * (weight(middle - half * x) + weight(middle + half * x)));
-        half * (GAUSS[0].1 * weight(middle) + pairs.sum::<f64>())
-    };
-    1.0 / (sphere(dimension) * (0..PANELS).map(panel).sum::<f64>())
+    let all = gauss_points(0.0, support, PANELS);
+    1.0 / (sphere(dimension) * all.map(|[q, w]| w * weight(q)).sum::<f64>())
 }
 
 #[cfg(test)]

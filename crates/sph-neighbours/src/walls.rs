@@ -117,8 +117,23 @@ pub struct Frame<const D: usize> {
 impl<const D: usize> Frame<D> {
     /// The present place of a point of the wall, m.
     pub fn present(&self, drawn: &Vect<D>) -> Vect<D> {
+        self.offset + self.turned(drawn)
+    }
+
+    /// R times a vector: from where the wall was drawn to now.
+    pub fn turned(&self, drawn: &Vect<D>) -> Vect<D> {
         let row = |k: usize| (0..D).map(|i| self.rotation[k][i] * drawn[i]).sum::<f64>();
-        self.offset + Vect::from_fn(|k, _| row(k))
+        Vect::from_fn(|k, _| row(k))
+    }
+
+    /// Rᵀ times a vector: from now to where the wall was drawn.
+    pub fn turned_back(&self, present: &Vect<D>) -> Vect<D> {
+        let column = |k: usize| {
+            (0..D)
+                .map(|i| self.rotation[i][k] * present[i])
+                .sum::<f64>()
+        };
+        Vect::from_fn(|k, _| column(k))
     }
 }
 

@@ -55,7 +55,7 @@ pub enum CoupledError {
     BadCondition {
         /// The wall.
         wall: usize,
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
     /// A step for which the scheme is not stable; nothing was moved.
@@ -78,7 +78,7 @@ pub enum CoupledError {
     /// A saved state whose parts do not fit together.
     #[error("the saved state cannot be resumed: {problem}")]
     BadState {
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
 }

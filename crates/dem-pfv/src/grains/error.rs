@@ -133,7 +133,7 @@ pub enum GrainError {
     BadWall {
         /// Its number.
         wall: usize,
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
     /// A mesh with a triangle that is none.
@@ -143,7 +143,7 @@ pub enum GrainError {
         mesh: usize,
         /// The triangle.
         triangle: usize,
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
     /// A parameter of a contact law is out of range.
@@ -214,7 +214,7 @@ pub enum GrainError {
     /// A saved state that does not fit together.
     #[error("the saved state cannot be resumed: {problem}")]
     BadState {
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
     /// No place is left for a grain of a cloud.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
-use sph_core::Vect;
+use sph_core::{Vect, bounds};
 use sph_kernels::Sampler;
 use sph_neighbours::Domain;
 
@@ -96,11 +96,7 @@ impl<const D: usize> ScaleMap<D> {
         let elements = of.mesh.elements().zip(of.curved);
         let own = elements.filter(|(_, curved)| **curved);
         let corners = own.flat_map(|(e, _)| unrolled(&e, &nodes, of.domain));
-        let own: Vec<Vect<D>> = corners.collect();
-        let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
-        let [low, high] = own
-            .iter()
-            .fold(none, |[low, high], x| [low.inf(x), high.sup(x)]);
+        let [low, high] = bounds(corners.map(|x| x.into())).map(Vect::from);
         // All that an active node sees is on the grid.
         let margin = REACH * h + of.kernel.support_radius() + 4.0 * step;
         let grid = Grid::around(low.add_scalar(-margin), high.add_scalar(margin), step);

@@ -1,6 +1,6 @@
 //! s next to a flat wall.
 
-use sph_kernels::Kernel;
+use sph_kernels::{Kernel, gauss_points};
 
 /// Where ln s is cut, over h: it is 4·10⁻⁵ there.
 pub(crate) const REACH: f64 = 3.0;
@@ -8,9 +8,10 @@ pub(crate) const REACH: f64 = 3.0;
 const FADES: f64 = 2.5;
 /// Cells of the table.
 const CELLS: usize = 768;
-/// Panels of the half line per h, and Gauss points of each.
-const PANELS: usize = 8;
-const POINTS: usize = 6;
+/// Panels of the half line per h.
+const PANELS: usize = 10;
+/// Panels of an integral along or across the wall.
+const ACROSS: usize = 10;
 /// Where s is 1 from, over the support.
 const END: f64 = 5.0;
 /// Sweeps of the iteration, in each of which the error is halved at least.
@@ -32,15 +33,7 @@ impl PlaneScale {
     pub fn new(kernel: &dyn Kernel, dimension: usize) -> Self {
         let line = AlongWall::new(kernel, dimension);
         let panels = (END * line.support * PANELS as f64).ceil() as usize;
-        let width = END * line.support / panels as f64;
-        let gauss = gauss(POINTS);
-        let nodes: Vec<[f64; 2]> = (0..panels)
-            .flat_map(|p| {
-                let middle = (p as f64 + 0.5) * width;
-                let point = move |(x, w): &(f64, f64)| [middle + 0.5 * width * x, 0.5 * width * w];
-                gauss.iter().map(point).collect::<Vec<_>>()
-            })
-            .collect();
+        let nodes: Vec<[f64; 2]> = gauss_points(0.0, END * line.support, panels).collect();
         let end = END * line.support;
         let rows: Vec<Vec<(usize, f64)>> = nodes
             .iter()
@@ -112,7 +105,6 @@ pub(crate) fn fade(t: f64) -> [f64; 2] {
 struct AlongWall {
     sampler: Box<dyn sph_kernels::Sampler>,
     support: f64,
-    gauss: Vec<(f64, f64)>,
 }
 
 impl AlongWall {
@@ -120,7 +112,6 @@ impl AlongWall {
         AlongWall {
             sampler: kernel.sampler(dimension, 1.0),
             support: kernel.support(),
-            gauss: gauss(48),
         }
     }
 
@@ -130,18 +121,16 @@ impl AlongWall {
         if square <= 0.0 {
             return [0.0; 2];
         }
-        let half = 0.5 * square.sqrt();
-        let one = |(x, weight): &(f64, f64)| {
-            let t = half * (1.0 + x);
+        let one = |[t, weight]: [f64; 2]| {
             let around = match self.sampler.dimension() {
                 2 => 2.0,
                 _ => std::f64::consts::TAU * t,
             };
             let (w, factor) = self.sampler.at((u * u + t * t).sqrt());
-            let share = weight * half * around;
+            let share = weight * around;
             [share * w, share * factor * u]
         };
-        let parts = self.gauss.iter().map(one);
+        let parts = gauss_points(0.0, square.sqrt(), ACROSS).map(one);
         parts.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
     }
 
@@ -150,34 +139,9 @@ impl AlongWall {
         if from >= self.support {
             return 0.0;
         }
-        let half = 0.5 * (self.support - from);
-        let one = |(x, w): &(f64, f64)| w * half * self.at(from + half * (1.0 + x))[0];
-        self.gauss.iter().map(one).sum()
+        let points = gauss_points(from, self.support, ACROSS);
+        points.map(|[u, w]| w * self.at(u)[0]).sum()
     }
-}
-
-/// Places and weights of Gauss's rule on −1 to 1.
-fn gauss(points: usize) -> Vec<(f64, f64)> {
-    let place = |i: usize| {
-        let mut x = ((i as f64 + 0.75) / (points as f64 + 0.5) * std::f64::consts::PI).cos();
-        let mut slope = 1.0;
-        for _ in 0..100 {
-            let (mut before, mut value) = (1.0, x);
-            for k in 2..=points {
-                let k = k as f64;
-                let next = ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k;
-                (before, value) = (value, next);
-            }
-            slope = points as f64 * (x * value - before) / (x * x - 1.0);
-            let step = value / slope;
-            x -= step;
-            if step.abs() < 1e-16 {
-                break;
-            }
-        }
-        (-x, 2.0 / ((1.0 - x * x) * slope * slope))
-    };
-    (0..points).map(place).collect()
 }
 
 #[cfg(test)]

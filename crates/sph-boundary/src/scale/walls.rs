@@ -1,10 +1,9 @@
 //! s of all walls of a scene, each group of walls that moves as one in its own frame.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::Vect;
+use sph_core::{Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
 use crate::geometry::sets::Sets;
@@ -12,7 +11,7 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
-use crate::{BoundaryError, Drawing, PeriodicBox, WallSetup, WallSpec};
+use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
 
 /// Size of the elements of faces, over h: the scale knows faces, whatever pieces they have.
 const ELEMENT: f64 = 4.0;
@@ -20,7 +19,7 @@ const ELEMENT: f64 = 4.0;
 /// The scale of all walls.
 #[derive(Debug)]
 pub(crate) struct WallScales<const D: usize, M> {
-    plane: Arc<PlaneScale>,
+    plane: PlaneScale,
     groups: Vec<Group<D, M>>,
     h: f64,
     domain: Domain<D>,
@@ -56,17 +55,9 @@ fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usi
 
 /// Size of elements, m: `most`, a quarter of the smallest piece of a wall if that is less, the spacing at least.
 pub(crate) fn element_size<const D: usize>(walls: &[WallSpec<D>], spacing: f64, most: f64) -> f64 {
-    let extent = |points: &mut dyn Iterator<Item = [f64; 3]>| {
-        let none = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        let (low, high) = points.fold(none, |(low, high), x| {
-            let both = |f: fn(f64, f64) -> f64, a: [f64; 3]| [0, 1, 2].map(|k| f(a[k], x[k]));
-            (both(f64::min, low), both(f64::max, high))
-        });
-        (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max)
-    };
-    let of_wall = |wall: &WallSpec<D>| match &wall.drawing {
-        Drawing::Line(line) => extent(&mut line.points.iter().map(|[x, y]| [*x, *y, 0.0])),
-        Drawing::Surface(surface) => extent(&mut surface.points.iter().copied()),
+    let of_wall = |wall: &WallSpec<D>| {
+        let [low, high] = bounds(wall.drawing.points::<D>());
+        (0..D).map(|k| high[k] - low[k]).fold(0.0, f64::max)
     };
     let least = walls.iter().map(of_wall).fold(f64::INFINITY, f64::min);
     (0.25 * least).min(most).max(spacing)
@@ -85,7 +76,7 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
     /// # Errors
     /// If a wall cannot have a scale.
     pub fn new(setup: &WallSetup<'_, D>, groups: &[usize]) -> Result<Self, BoundaryError> {
-        let plane = Arc::new(PlaneScale::new(setup.kernel, D));
+        let plane = PlaneScale::new(setup.kernel, D);
         let h = setup.smoothing_length;
         let kernel = setup.kernel.sampler(D, h);
         let mut all = Vec::new();
@@ -98,11 +89,10 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
             M::build(&specs, size, reach, &domain)
         };
         let mut pieces: Vec<(Vec<usize>, M)> = Vec::new();
-        for first in 0..setup.walls.len() {
-            let own: Vec<usize> = (0..groups.len()).filter(|k| groups[*k] == first).collect();
-            if own.is_empty() {
-                continue;
-            }
+        let mut together = BTreeMap::<usize, Vec<usize>>::new();
+        let walls = groups.iter().enumerate();
+        walls.for_each(|(wall, group)| together.entry(*group).or_default().push(wall));
+        for own in together.into_values() {
             let mesh = build(&own)?;
             match &joined(&mesh, own.len())[..] {
                 [_] => pieces.push((own, mesh)),
@@ -214,20 +204,12 @@ impl<const D: usize, M: WallMesh<D>> Group<D, M> {
         let apart = |place: &Vect<D>| match frame {
             None => all.domain.nearest(x - place),
             Some(frame) => {
-                let apart = all.domain.nearest(x + frame.round - frame.present(place));
-                Vect::from_fn(|k, _| (0..D).map(|i| frame.rotation[i][k] * apart[i]).sum())
-            }
-        };
-        let turned = |v: Vect<D>| match frame {
-            None => v,
-            Some(frame) => {
-                let row = |k: usize| (0..D).map(|i| frame.rotation[k][i] * v[i]).sum::<f64>();
-                Vect::from_fn(|k, _| row(k))
+                frame.turned_back(&all.domain.nearest(x + frame.round - frame.present(place)))
             }
         };
         let mut sum = 0.0;
         let mut leave = |wall: u32, slope: Vect<D>| {
-            let slope = turned(slope);
+            let slope = frame.map_or(slope, |frame| frame.turned(&slope));
             slopes.push(Slope {
                 particle,
                 wall,

@@ -80,6 +80,22 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         })
     }
 
+    /// Lets the outline move, and places the layers where it is then.
+    fn moved(
+        &mut self,
+        walls: &mut WallSet<D>,
+        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
+    ) -> Result<(), BoundaryError> {
+        if self.outline.moves() {
+            way(&mut self.outline)?;
+            walls.frames = self.outline.frames();
+            self.place(&mut walls.points, &walls.frames);
+            walls.pulls = self.outline.pulls();
+            walls.bodies.clone_from(&self.outline.bodies);
+        }
+        Ok(())
+    }
+
     fn place(&self, points: &mut WallPoints<D>, frames: &[Frame<D>]) {
         let maps = self.outline.maps();
         for (v, (wall, drawn)) in self.drawn.iter().enumerate() {
@@ -91,25 +107,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
                 *acceleration = movement.acceleration;
             }
         }
-    }
-}
-
-impl<const D: usize, M: WallMesh<D>> DummyParticles<D, M> {
-    /// Lets the outline move, and places the layers where it is then.
-    fn moved(
-        &mut self,
-        walls: &mut WallSet<D>,
-        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
-    ) -> Result<(), BoundaryError> {
-        let Some(set_up) = self.set_up.as_mut().filter(|s| s.outline.moves()) else {
-            return Ok(());
-        };
-        way(&mut set_up.outline)?;
-        walls.frames = set_up.outline.frames();
-        set_up.place(&mut walls.points, &walls.frames);
-        walls.pulls = set_up.outline.pulls();
-        walls.bodies.clone_from(&set_up.outline.bodies);
-        Ok(())
     }
 }
 

@@ -283,7 +283,7 @@ fn check_reach<const D: usize>(
 }
 
 /// Shape and motion of walls by their outline; the treatment
-/// keeps it in `self.set_up`.
+/// keeps it in `self.set_up`, whose `moved` places what the walls carry.
 macro_rules! shaped_by_outline {
     ($treatment:ident) => {
         impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {
@@ -331,7 +331,8 @@ macro_rules! shaped_by_outline {
 
         impl<const D: usize, M: WallMesh<D>> crate::WallMotion<D> for $treatment<D, M> {
             fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
-                self.moved(walls, |outline| outline.move_to(time))
+                let set_up = self.set_up.as_mut();
+                set_up.map_or(Ok(()), |s| s.moved(walls, |outline| outline.move_to(time)))
             }
 
             fn advance(
@@ -343,8 +344,11 @@ macro_rules! shaped_by_outline {
             ) -> Result<(), BoundaryError> {
                 let forces = std::mem::take(&mut walls.forces);
                 let bodies = std::mem::take(&mut walls.bodies);
-                let moved = self.moved(walls, |outline| {
-                    outline.advance(&forces, &bodies, gravity, [time, dt])
+                let set_up = self.set_up.as_mut();
+                let moved = set_up.map_or(Ok(()), |s| {
+                    s.moved(walls, |outline| {
+                        outline.advance(&forces, &bodies, gravity, [time, dt])
+                    })
                 });
                 walls.forces = forces;
                 moved
@@ -371,7 +375,10 @@ macro_rules! shaped_by_outline {
                 states: &WallStates,
                 time: f64,
             ) -> Result<(), BoundaryError> {
-                self.moved(walls, |outline| outline.put_back(states, time))
+                let set_up = self.set_up.as_mut();
+                set_up.map_or(Ok(()), |s| {
+                    s.moved(walls, |outline| outline.put_back(states, time))
+                })
             }
         }
     };

@@ -56,16 +56,6 @@ struct Scales<const D: usize, M> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Symmetric<D, M> {
-    /// Lets the outline move, and places points and elements where it is then.
-    fn moved(
-        &mut self,
-        walls: &mut WallSet<D>,
-        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
-    ) -> Result<(), BoundaryError> {
-        let set_up = self.set_up.as_mut();
-        set_up.map_or(Ok(()), |set_up| set_up.moved(walls, way))
-    }
-
     /// Whether any wall moves, so that s changes at a fixed place.
     fn moves(&self) -> bool {
         self.set_up.as_ref().is_some_and(|s| s.outline.moves())

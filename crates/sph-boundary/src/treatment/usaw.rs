@@ -6,7 +6,7 @@ use sph_neighbours::{WallSet, World};
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
-use crate::treatment::outline::{Outline, shaped_by_outline};
+use crate::treatment::outline::shaped_by_outline;
 use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
@@ -42,18 +42,6 @@ pub struct Usaw<const D: usize, M: WallMesh<D>> {
     vertices: bool,
     #[serde(skip)]
     set_up: Option<SetUp<D, M>>,
-}
-
-impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
-    /// Lets the outline move, and places points and elements where it is then.
-    fn moved(
-        &mut self,
-        walls: &mut WallSet<D>,
-        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
-    ) -> Result<(), BoundaryError> {
-        let set_up = self.set_up.as_mut();
-        set_up.map_or(Ok(()), |set_up| set_up.moved(walls, way))
-    }
 }
 
 shaped_by_outline!(Usaw);

@@ -1,4 +1,4 @@
-//! What cannot be computed is refused with the grain, the wall or the cell; what can be, is stable.
+//! Refusals name the grain, the wall or the cell; extreme flows that can be computed are stable.
 
 use dem_pfv::coupled::{
     Condition, CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side, Wave,

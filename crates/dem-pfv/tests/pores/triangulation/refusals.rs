@@ -1,4 +1,4 @@
-//! What has no triangulation is named.
+//! Refusals of points without a triangulation name these.
 
 use dem_pfv::triangulation::{Sphere, Triangulation, TriangulationError as Error, Wall};
 
