@@ -8,7 +8,7 @@ pub struct Disk<'a>(&'a Path);
 
 impl<'a> Disk<'a> {
     /// Mounted at a folder, if that is permitted here.
-    pub fn of(kilobytes: u32, at: &'a Path) -> Option<Self> {
+    pub fn mount(kilobytes: u32, at: &'a Path) -> Option<Self> {
         std::fs::create_dir_all(at).ok()?;
         let size = format!("size={kilobytes}k");
         let mut mount = Command::new("mount");

@@ -28,7 +28,7 @@ pub const SUB_STEPS: &str = "[elastic-force.divergence]\nsub_steps = true";
 /// [`SOIL`] with another elastic force, a hundred times as stiff.
 pub fn soil_with(elastic_force: &str) -> String {
     let force = "[elastic-force.displacement]\nblend = \"forces\"";
-    let remembered = ", \"elastic_displacement\", \"elastic_turn\"";
+    let remembered = ", \"elastic_displacement\", \"stress_rotation\"";
     assert!(SOIL.contains(force) && SOIL.contains(remembered));
     let soft = SOIL.replace(force, elastic_force).replace(remembered, "");
     let stiff = soft.replace("0.8 MPa", "80 MPa");

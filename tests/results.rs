@@ -33,7 +33,7 @@ const CLOCKS: [&str; 6] = [
 
 impl Results {
     /// Reads a results folder.
-    pub fn of(folder: &Path) -> Self {
+    pub fn read(folder: &Path) -> Self {
         let summary = std::fs::read(folder.join("summary.json")).expect("a summary");
         let summary = serde_json::from_slice(&summary).expect("a whole summary");
         let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
@@ -45,7 +45,7 @@ impl Results {
             (name, std::fs::read(path).expect("a file"))
         };
         Results {
-            state: FinalState::of(folder),
+            state: FinalState::read(folder),
             files: files.map(named).collect(),
             summary: timeless(summary),
             counters: timeless(checkpoint.meta["run"].clone()),

@@ -23,7 +23,7 @@ pub struct FinalState {
 
 impl FinalState {
     /// Reads a results folder.
-    pub fn of(folder: &Path) -> Self {
+    pub fn read(folder: &Path) -> Self {
         let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
         let clock = &checkpoint.meta["clock"];
         let bits = |name: &str| clock[name].as_u64().expect("a clock");

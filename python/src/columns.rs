@@ -29,7 +29,7 @@ const DERIVED: [AnyField; 15] = [
     fields::CARRIED_STRESS.any(),
     fields::RENORMALISATION.any(),
     fields::DISPLACEMENT.any(),
-    fields::EMPTINESS.any(),
+    fields::VOID_FRACTION.any(),
 ];
 
 /// The field of a name: one of the store, or one that a stage may write.

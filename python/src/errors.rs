@@ -16,7 +16,7 @@ fn exception(py: Python<'_>, class: &str, text: &str, json: &str) -> PyErr {
 }
 
 /// The exception for what keeps a command from its end.
-pub fn of(py: Python<'_>, trouble: &Trouble) -> PyErr {
+pub fn from_trouble(py: Python<'_>, trouble: &Trouble) -> PyErr {
     let class = match trouble {
         Trouble::Usage(_) => "UsageError",
         Trouble::Scene(_) => "SceneError",

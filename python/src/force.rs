@@ -115,7 +115,7 @@ impl<const D: usize> Interaction<D> for Push {
     fn access(&self) -> Access {
         Access::none().here(PUSH)
     }
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         with(&BoundPush(world.free.get(PUSH)?))
     }
 }

@@ -28,7 +28,7 @@ pub fn check(
     let py = scene.py();
     let opened = opened(scene, &request(set, allow_path))?;
     let told = py.detach(|| library::check(&opened, threads));
-    let told = told.map_err(|t| errors::of(py, &t))?;
+    let told = told.map_err(|t| errors::from_trouble(py, &t))?;
     Ok((told.text, told.json.to_string()))
 }
 
@@ -42,7 +42,7 @@ pub fn explain(
     let py = scene.py();
     let opened = opened(scene, &request(set, allow_path))?;
     let told = py.detach(|| library::explain(&opened));
-    let told = told.map_err(|t| errors::of(py, &t))?;
+    let told = told.map_err(|t| errors::from_trouble(py, &t))?;
     Ok((told.text, told.json.to_string()))
 }
 
@@ -82,7 +82,7 @@ pub fn run(
         library::run(&opened, &request, how, &mut Watching(&shared))
     })?;
     let (ended, folder) = ran.map_err(|trouble| {
-        let error = errors::of(py, &trouble);
+        let error = errors::from_trouble(py, &trouble);
         error.set_cause(py, functions::raised());
         error
     })?;
@@ -129,7 +129,7 @@ pub fn study(
         library::study(&study, &request, &options, stop)
     })?;
     debug_assert!(!shared.stop.load(Ordering::SeqCst));
-    let studied = done.map_err(|t| errors::of(py, &t))?;
+    let studied = done.map_err(|t| errors::from_trouble(py, &t))?;
     Ok((
         studied.told.text,
         studied.told.json.to_string(),

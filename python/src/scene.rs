@@ -14,7 +14,7 @@ const DEEPEST: usize = 64;
 /// Opens a scene: a path or the name of a shipped scene, a text with several lines, or a dict.
 pub fn opened(scene: &Bound<'_, PyAny>, request: &Request) -> PyResult<Opened> {
     let py = scene.py();
-    let told = |t| errors::of(py, &t);
+    let told = |t| errors::from_trouble(py, &t);
     if let Ok(dict) = scene.cast::<PyDict>() {
         let table = table(dict.as_mapping(), 0)?;
         let text = toml::to_string_pretty(&table);

@@ -97,11 +97,12 @@ impl Simulation {
         let opened = opened(scene, &Request { set, allow_path })?;
         let AnyScene::Particles(loaded) = &opened.scene else {
             let why = "a scene of grains cannot be stepped from Python: run it with sph.run";
-            return Err(errors::of(py, &Trouble::usage(why)));
+            return Err(errors::from_trouble(py, &Trouble::usage(why)));
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
         let pool = pool.build();
-        let pool = pool.map_err(|e| errors::of(py, &Trouble::usage(format!("threads: {e}"))))?;
+        let pool =
+            pool.map_err(|e| errors::from_trouble(py, &Trouble::usage(format!("threads: {e}"))))?;
         let made = py.detach(|| {
             pool.install(|| {
                 let mut flow = assembled(&loaded.scene)?;
@@ -116,7 +117,7 @@ impl Simulation {
             })
         });
         let flow = made.map_err(|e| {
-            let told = errors::of(py, &Trouble::of(e, &loaded.source));
+            let told = errors::from_trouble(py, &Trouble::in_scene(e, &loaded.source));
             told.set_cause(py, functions::raised());
             told
         })?;

@@ -16,7 +16,7 @@ const FIRST_LOOK: Duration = Duration::from_millis(5);
 
 /// What a run has told since the last look.
 #[derive(Default)]
-struct Told {
+struct Updates {
     progress: Option<Progress>,
     messages: Vec<String>,
 }
@@ -24,7 +24,7 @@ struct Told {
 /// What both threads know.
 #[derive(Default)]
 pub struct Shared {
-    told: Mutex<Told>,
+    told: Mutex<Updates>,
     /// Raised to stop the work.
     pub stop: Arc<AtomicBool>,
 }

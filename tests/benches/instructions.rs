@@ -24,8 +24,8 @@ fn alone() -> World<2> {
 
 fn typed() -> (World<2>, WendlandC2, Sums) {
     let world = alone();
-    let mut sums = Sums::of(&world);
-    let kernel = WendlandC2::of(&world);
+    let mut sums = Sums::new(&world);
+    let kernel = WendlandC2::from_world(&world);
     // Once before, so that buffers have their size.
     sums.by_type(&world, &kernel);
     (world, kernel, sums)
@@ -33,7 +33,7 @@ fn typed() -> (World<2>, WendlandC2, Sums) {
 
 fn named(terms: fn() -> Terms<2>) -> (World<2>, Terms<2>, Sums) {
     let world = alone();
-    let mut sums = Sums::of(&world);
+    let mut sums = Sums::new(&world);
     let terms = terms();
     sums.by_name(&world, &terms);
     (world, terms, sums)

@@ -69,7 +69,7 @@ pub fn world(side: usize) -> World<2> {
         dt: 1e-4,
         transported: Vec::new(),
         extent: None,
-        team: None,
+        communicator: None,
     };
     world.free.add(fields::POSITION, Role::State);
     world.free.add(fields::VELOCITY, Role::State);
@@ -130,7 +130,7 @@ pub fn terms_by_name() -> Terms<2> {
     vec![
         column(formulation).pressure_term(),
         column(viscous).term(Viscosity::Uniform(VISCOSITY)),
-        Box::new(BrezziPitkaranta::with(STRENGTH).of(&laws())),
+        Box::new(BrezziPitkaranta::with(STRENGTH).term(&laws())),
     ]
 }
 
@@ -145,7 +145,7 @@ pub struct Sums {
 
 impl Sums {
     /// Buffers for a world.
-    pub fn of(world: &World<2>) -> Self {
+    pub fn new(world: &World<2>) -> Self {
         Sums {
             acceleration: vec![Vect::zeros(); world.free.len()],
             scalar: vec![0.0; world.free.len()],
@@ -160,7 +160,7 @@ impl Sums {
 
     /// One sweep with kernel and terms as types.
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
-        let smoother = BrezziPitkaranta::with(STRENGTH).of(&laws());
+        let smoother = BrezziPitkaranta::with(STRENGTH).term(&laws());
         let friction = ViscousTerm(
             FirstDifferences,
             ViscositySource::Uniform(VISCOSITY),
@@ -230,7 +230,7 @@ pub struct WendlandC2 {
 
 impl WendlandC2 {
     /// The kernel of a world made here.
-    pub fn of(world: &World<2>) -> Self {
+    pub fn from_world(world: &World<2>) -> Self {
         let h = world.kernel.smoothing_length();
         WendlandC2 { h }
     }

@@ -18,8 +18,8 @@ fn main() {
 #[divan::bench]
 fn a_types(bencher: Bencher) {
     let world = world(SIDE);
-    let kernel = WendlandC2::of(&world);
-    let mut sums = Sums::of(&world);
+    let kernel = WendlandC2::from_world(&world);
+    let mut sums = Sums::new(&world);
     bencher
         .counter(ItemsCount::new(pairs(&world)))
         .bench_local(|| sums.by_type(&world, &kernel));
@@ -29,7 +29,7 @@ fn a_types(bencher: Bencher) {
 fn b_plugins(bencher: Bencher) {
     let world = world(SIDE);
     let terms = terms_by_name();
-    let mut sums = Sums::of(&world);
+    let mut sums = Sums::new(&world);
     bencher
         .counter(ItemsCount::new(pairs(&world)))
         .bench_local(|| sums.by_name(&world, &terms));
@@ -38,8 +38,8 @@ fn b_plugins(bencher: Bencher) {
 /// What is timed must be the same physics.
 fn both_give_the_same() {
     let world = world(30);
-    let [mut typed, mut named] = [0; 2].map(|_| Sums::of(&world));
-    typed.by_type(&world, &WendlandC2::of(&world));
+    let [mut typed, mut named] = [0; 2].map(|_| Sums::new(&world));
+    typed.by_type(&world, &WendlandC2::from_world(&world));
     named.by_name(&world, &terms_by_name());
     let norms = typed.acceleration.iter().map(|a| a.norm());
     let largest = norms.fold(0.0, f64::max);

@@ -9,7 +9,7 @@ use std::error::Error;
 use std::path::Path;
 
 use sph_boundary::{
-    Condition, Drawing, PeriodicBox, PlanarWalls, Polyline, RigidMotion, SpatialWalls, Surface,
+    Drawing, PeriodicBox, PlanarWalls, Polyline, RigidMotion, SpatialWalls, Surface, WallCondition,
     WallMesh, WallSpec,
 };
 use sph_core::Vect;
@@ -79,7 +79,7 @@ fn gear(scene: &Scene, images: &Path) -> Result<(), Box<dyn Error>> {
         window: Some(window),
         range: Some([0.2, 1.0]),
         width: 760,
-        ..Picture::of(&picture.points, &picture.values)
+        ..Picture::new(&picture.points, &picture.values)
     }
     .save(images.join("gamma-gear.png"))?;
     Ok(())
@@ -113,7 +113,7 @@ fn pyramid(scene: &Scene, images: &Path) -> Result<(), Box<dyn Error>> {
         window: Some(window),
         range: Some([0.1, 1.0]),
         width: 760,
-        ..Picture::of(&picture.points, &picture.values)
+        ..Picture::new(&picture.points, &picture.values)
     }
     .save(images.join("gamma-pyramid.png"))?;
     Ok(())
@@ -122,7 +122,7 @@ fn pyramid(scene: &Scene, images: &Path) -> Result<(), Box<dyn Error>> {
 fn at_rest<const D: usize>(drawing: Drawing) -> WallSpec<D> {
     WallSpec {
         drawing,
-        condition: Condition::NoSlip,
+        condition: WallCondition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,

@@ -66,7 +66,7 @@ fn law(images: &Path) -> Result<(), Box<dyn Error>> {
     ];
     let plain = sand(MuIRegularisation::ChauchatMedale { strain_rate: 0.1 });
     let exact = rates().map(|rate| [rate, plain.friction(rate, PRESSURE)]);
-    let mut series = vec![Series::of("μ(I)", exact.collect(), Style::Dashes)];
+    let mut series = vec![Series::styled("μ(I)", exact.collect(), Style::Dashes)];
     for (name, regularisation) in regularised {
         let law = sand(regularisation);
         let stress = rates().map(|rate| [rate, law.at(rate, PRESSURE) * rate / PRESSURE]);
@@ -105,7 +105,7 @@ fn run_out(table: &str, images: &Path) -> Result<(), Box<dyn Error>> {
                 "round columns, Lube et al. 2004",
                 law(|a| if a < 1.7 { 1.24 * a } else { 1.6 * a.sqrt() }),
             ),
-            Series::of(
+            Series::styled(
                 "channel, Lube et al. 2005",
                 law(|a| match a {
                     _ if a < 1.8 => 1.2 * a,

@@ -1,6 +1,6 @@
 //! A coupled step of a packing of 1000 spheres, and what is done once per mesh.
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
 use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
 fn main() {
@@ -20,8 +20,8 @@ fn system() -> CoupledSystem {
     let grains = GrainSystem::new(setup.walls(Wall::cuboid([0.0; 3], [1.0; 3]))).expect("grains");
     let setup = FlowSetup::new(Fluid::new(125.0, 0.0)).remeshing(Remeshing::never());
     let setup = setup
-        .side(4, Side::drained(0.0))
-        .side(5, Side::drained(0.0));
+        .side(4, WallBoundary::drained(0.0))
+        .side(5, WallBoundary::drained(0.0));
     CoupledSystem::new(grains, setup).expect("a system")
 }
 

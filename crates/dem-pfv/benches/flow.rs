@@ -1,7 +1,7 @@
 //! Time of pores and throats, of a system with its first solve, and of a solve with the factor kept, on box1000.
 
 use dem_pfv::flow::{
-    Boundary, FlowSystem, Grip, HydraulicRadius, PoreGeometry, SolidAngles, Solver,
+    Boundary, FlowSystem, HydraulicRadius, PoreGeometry, SlipCondition, SolidAngles, Solver,
 };
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
@@ -24,7 +24,8 @@ fn mesh() -> Triangulation {
 }
 
 fn pores() -> (PoreGeometry, Boundary) {
-    let pores = PoreGeometry::new(mesh(), &[Grip::NoSlip; 6], SolidAngles::Signed).expect("pores");
+    let pores =
+        PoreGeometry::new(mesh(), &[SlipCondition::NoSlip; 6], SolidAngles::Signed).expect("pores");
     let mut boundary = Boundary::closed(&pores);
     boundary.pressure(&pores, 2, |_| Some(0.0));
     boundary.pressure(&pores, 3, |_| Some(1.0));
@@ -39,7 +40,13 @@ fn system(pores: &PoreGeometry, boundary: &Boundary) -> FlowSystem {
 #[divan::bench]
 fn geometry(bencher: divan::Bencher) {
     let mesh = mesh();
-    bencher.bench(|| PoreGeometry::new(mesh.clone(), &[Grip::NoSlip; 6], SolidAngles::Signed));
+    bencher.bench(|| {
+        PoreGeometry::new(
+            mesh.clone(),
+            &[SlipCondition::NoSlip; 6],
+            SolidAngles::Signed,
+        )
+    });
 }
 
 #[divan::bench]

@@ -6,7 +6,7 @@
 //! `cargo run --release -p dem-pfv --example column [a] [grains along L_0]`
 
 use dem_pfv::grains::{
-    Grain, GrainSystem, LinearElastic, RollingResistance, Setup, Vector, Wall, rain, settle,
+    Grain, GrainSystem, LinearElastic, RollingResistance, Setup, Vector, Wall, rain, step_to_rest,
     uniform_radii,
 };
 
@@ -81,7 +81,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let setup = Setup::new(grains, glass()).law(smooth()).walls(walls);
     let setup = setup.periodic(1, 0.0, width).gravity([0.0, 0.0, -9.81]);
     let mut system = GrainSystem::new(setup.damping(0.2))?;
-    settle(&mut system, 0.6, 1e-2, 2_000_000)?;
+    step_to_rest(&mut system, 0.6, 1e-2, 2_000_000)?;
     system.set_damping(0.0)?; // friction and dashpots only
     let height = top(&system, length);
     let aspect = height / length;

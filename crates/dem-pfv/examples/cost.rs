@@ -6,7 +6,7 @@ mod common;
 
 use std::time::Instant;
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
 use dem_pfv::grains::Control;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -22,8 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let setup = FlowSetup::new(Fluid::new(250.0, 0.0));
     let setup = setup
-        .side(4, Side::drained(0.0))
-        .side(5, Side::drained(0.0));
+        .side(4, WallBoundary::drained(0.0))
+        .side(5, WallBoundary::drained(0.0));
     let start = Instant::now();
     let mut system = CoupledSystem::new(grains, setup.clone())?;
     let made = start.elapsed();

@@ -6,7 +6,7 @@ mod common;
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{Condition, CoupledSystem, FlowSetup, Fluid, Side, Wave};
+use dem_pfv::coupled::{CoupledSystem, FlowCondition, FlowSetup, Fluid, WallBoundary, Wave};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args()
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut grains = common::spheres(&file)?;
     grains.iter_mut().for_each(|g| g.held = true);
     for up in [1, 2] {
-        let condition = Condition::Wave(Wave {
+        let condition = FlowCondition::Wave(Wave {
             axis: 0,
             crest: 0.0,
             half_length: 1.0,
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             period: None,
         });
         let grains = common::boxed(grains.clone(), 0.0)?;
-        let top = Side {
+        let top = WallBoundary {
             condition,
             sticks: false,
         };

@@ -5,8 +5,8 @@
 
 mod common;
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Side, Terzaghi};
-use dem_pfv::grains::{Control, GrainError, GrainSystem, settle};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Terzaghi, WallBoundary};
+use dem_pfv::grains::{Control, GrainError, GrainSystem, step_to_rest};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -19,7 +19,7 @@ fn press(grains: &mut GrainSystem, stress: f64) {
 fn sample(file: &str, stress: f64) -> Result<GrainSystem, Failure> {
     let mut grains = common::boxed(common::spheres(file)?, 0.4)?;
     press(&mut grains, stress);
-    settle(&mut grains, 0.8, 1e-5, 100_000)?;
+    step_to_rest(&mut grains, 0.8, 1e-5, 100_000)?;
     Ok(grains)
 }
 
@@ -33,9 +33,9 @@ fn dry_strain(grains: GrainSystem, confining: f64, load: f64) -> Result<f64, Gra
     let mut grains = grains;
     for part in 1..=40 {
         press(&mut grains, confining + load * f64::from(part) / 40.0);
-        settle(&mut grains, 0.8, 1e-4, 100_000)?;
+        step_to_rest(&mut grains, 0.8, 1e-4, 100_000)?;
     }
-    settle(&mut grains, 0.8, 1e-6, 100_000)?;
+    step_to_rest(&mut grains, 0.8, 1e-6, 100_000)?;
     Ok((start - height(&grains)) / start)
 }
 
@@ -49,7 +49,7 @@ fn main() -> Result<(), Failure> {
     grains.set_damping(0.0)?;
     press(&mut grains, confining + load);
     let (high, start) = (height(&grains), grains.time());
-    let drained = || Side::drained(0.0);
+    let drained = || WallBoundary::drained(0.0);
     let setup = FlowSetup::new(Fluid::new(viscosity, 0.0))
         .side(4, drained())
         .side(5, drained());

@@ -2,7 +2,7 @@
 //!
 //! Each step, pores that shrink press their fluid out, pressures push grains, grains move (Catalano 2012, ch. 4).
 //!
-//! * [`CoupledSystem`]: steps grains and flow together; [`FlowSetup`], [`Fluid`], [`Side`] and [`Condition`] are what
+//! * [`CoupledSystem`]: steps grains and flow together; [`FlowSetup`], [`Fluid`], [`WallBoundary`] and [`FlowCondition`] are what
 //!   it starts from, [`Wave`] the load of waves on a bed.
 //! * [`Fluid::shear`], [`Lubrication`]: what neighbours feel of each other besides the pores' pressures, if wanted.
 //! * [`Remeshing`]: when pores are found anew. [`StepLimit`]: the largest stable step, of contacts and drag.
@@ -12,7 +12,7 @@
 //! * [`Terzaghi`]: the exact consolidation that a loaded packing is compared with.
 //!
 //! ```
-//! use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Side};
+//! use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, WallBoundary};
 //! use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 //!
 //! // A ball sinks in a closed box under a free surface, slower than it would fall.
@@ -20,7 +20,7 @@
 //! let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
 //! let setup = Setup::new(vec![ball], LinearElastic::new(1e6, 0.5, 0.3)).walls(walls);
 //! let grains = GrainSystem::new(setup.gravity([0.0, 0.0, -9.81]))?;
-//! let water = FlowSetup::new(Fluid::new(100.0, 1000.0)).side(5, Side::drained(0.0));
+//! let water = FlowSetup::new(Fluid::new(100.0, 1000.0)).side(5, WallBoundary::drained(0.0));
 //! let mut system = CoupledSystem::new(grains, water)?;
 //! system.run_to(0.05, 0.8)?;
 //! let speed = -system.grains().grains().velocities()[0].z;
@@ -43,7 +43,7 @@ mod terzaghi;
 mod transfer;
 mod unit_forces;
 
-pub use condition::{Condition, Side, Wave};
+pub use condition::{FlowCondition, WallBoundary, Wave};
 pub use error::CoupledError;
 pub use limit::StepLimit;
 pub use recorded::Recorded;

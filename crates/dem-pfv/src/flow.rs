@@ -18,11 +18,11 @@
 //! No grain moves here: whoever moves them gives rates of the cells' volumes ([`cell_volumes`]).
 //!
 //! ```
-//! use dem_pfv::flow::{Boundary, FlowSystem, Grip, HydraulicRadius, PoreGeometry, SolidAngles, Solver};
+//! use dem_pfv::flow::{Boundary, FlowSystem, SlipCondition, HydraulicRadius, PoreGeometry, SolidAngles, Solver};
 //! use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 //!
 //! let mesh = Triangulation::within(&[Sphere::new([0.5; 3], 0.3)], &Wall::cuboid([0.0; 3], [1.0; 3]))?;
-//! let geometry = PoreGeometry::new(mesh, &[Grip::NoSlip; 6], SolidAngles::Signed)?;
+//! let geometry = PoreGeometry::new(mesh, &[SlipCondition::NoSlip; 6], SolidAngles::Signed)?;
 //! let mut boundary = Boundary::closed(&geometry);
 //! boundary.pressure(&geometry, 2, |_| Some(0.0)); // the wall y = 0, Pa
 //! boundary.pressure(&geometry, 3, |_| Some(1.0)); // the wall y = 1
@@ -55,5 +55,5 @@ pub use forces::Forces;
 pub use geometry::PoreGeometry;
 pub use solid_angle::solid_angle;
 pub use system::{FlowSystem, Solver, Storage};
-pub use throat::{Grip, SolidAngles, Throat};
+pub use throat::{SlipCondition, SolidAngles, Throat};
 pub use volume::cell_volumes;

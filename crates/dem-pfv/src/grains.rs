@@ -7,7 +7,7 @@
 //! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:
 //!   [`register_law!`](crate::register_law), [`contact_law`].
 //! * [`Control`]: walls at a velocity, a stress or a rate of strain, and free pistons.
-//! * [`Cloud`], [`rain`], [`Growth`], [`settle`]: samples.
+//! * [`Cloud`], [`rain`], [`Growth`], [`step_to_rest`]: samples.
 //! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
 //!   measures.
 //! * [`State`]: saved, and resumed to the same bits. [`GrainError`]: what is refused, by the grain's number.
@@ -61,7 +61,7 @@ mod wall;
 pub use cloud::{Cloud, rain, uniform_radii};
 pub use columns::Grains;
 pub use error::GrainError;
-pub use growth::{Growth, Target, settle};
+pub use growth::{Growth, Target, step_to_rest};
 pub use hertz_mindlin::HertzMindlin;
 pub use law::{Contact, ContactLaw, MEMORY, Stiffness, contact_law, contact_laws, require};
 pub use linear::LinearElastic;

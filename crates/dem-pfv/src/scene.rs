@@ -42,15 +42,15 @@
 //! ```
 
 mod assemble;
-mod at_fault;
 mod check;
 mod checkpoint;
 mod columns;
 mod compare;
+mod culprits;
 mod error;
 mod examine;
 mod fields;
-mod foreseen;
+mod forecast;
 mod frames;
 mod highest_point;
 mod laws;
@@ -74,7 +74,7 @@ pub use assemble::{Assembled, assemble};
 pub use compare::Compared;
 pub use error::{DemError, Failure};
 pub use examine::{Examination, examine};
-pub use foreseen::Cost;
+pub use forecast::Cost;
 pub use model::{Load, Made, Model, Saved};
 pub use origin::Origin;
 pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};

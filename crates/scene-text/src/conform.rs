@@ -251,7 +251,7 @@ impl<'s> Walk<'s> {
     /// Bounds by quantity, for what is within the range of its key.
     fn plausible(&mut self, x: f64, schema: &Json, path: &str, unit: Option<&str>) {
         let name = schema.get("quantity").and_then(Json::as_str);
-        match Quantity::of(name, unit).map(|q| q.judge(x)) {
+        match Quantity::find(name, unit).map(|q| q.judge(x)) {
             Some(Verdict::Impossible(why)) => self.problem(path, why),
             Some(Verdict::Odd(why)) if self.remarks.len() < MOST_PROBLEMS => {
                 self.remarks.push(SceneProblem::new(path, why));

@@ -27,7 +27,7 @@ pub enum PictureRange {
 impl PictureRange {
     /// The values at the ends for a field, if they are given.
     #[must_use]
-    pub fn of(&self, field: &str) -> Option<[f64; 2]> {
+    pub fn ends(&self, field: &str) -> Option<[f64; 2]> {
         match self {
             PictureRange::All(range) => Some(*range),
             PictureRange::ByField(ranges) => ranges.get(field).copied(),

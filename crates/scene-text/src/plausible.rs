@@ -224,7 +224,7 @@ pub enum Verdict {
 
 impl Quantity {
     /// The quantity of a key: the one that its schema names, or else the first of its unit.
-    pub fn of(name: Option<&str>, unit: Option<&str>) -> Option<&'static Quantity> {
+    pub fn find(name: Option<&str>, unit: Option<&str>) -> Option<&'static Quantity> {
         let named = |n| QUANTITIES.iter().find(|q| q.name == n);
         let measured = |u: &str| QUANTITIES.iter().find(|q| !u.is_empty() && q.unit == u);
         name.and_then(named).or_else(|| measured(unit?))
@@ -232,7 +232,7 @@ impl Quantity {
 
     /// Why no run can be right with a number of the quantity of a name, if none can.
     pub fn refused(name: &str, x: f64) -> Option<String> {
-        match Self::of(Some(name), None)?.judge(x) {
+        match Self::find(Some(name), None)?.judge(x) {
             Verdict::Impossible(why) => Some(why),
             _ => None,
         }
@@ -299,7 +299,7 @@ mod tests {
 
     #[test]
     fn a_key_has_the_quantity_that_it_names_or_that_of_its_unit() {
-        let name = |n, u| Quantity::of(n, u).map(|q| q.name);
+        let name = |n, u| Quantity::find(n, u).map(|q| q.name);
         assert_eq!(name(None, Some("Pa")), Some("pressure or stress"));
         assert_eq!(name(Some("modulus"), Some("Pa")), Some("modulus"));
         assert_eq!(name(None, Some("1")), None);
@@ -308,7 +308,7 @@ mod tests {
 
     #[test]
     fn verdicts_tell_the_bound_with_its_source() {
-        let density = Quantity::of(None, Some("kg/m³")).unwrap();
+        let density = Quantity::find(None, Some("kg/m³")).unwrap();
         assert_eq!(
             density.judge(1e12),
             Verdict::Odd(

@@ -19,7 +19,7 @@ struct Node<'a> {
 }
 
 impl<'a> Node<'a> {
-    fn of(symbolic: &'a SymbolicSupernodalCholesky<u32>, values: &'a [f64], s: usize) -> Self {
+    fn new(symbolic: &'a SymbolicSupernodalCholesky<u32>, values: &'a [f64], s: usize) -> Self {
         let [begin, end] = [symbolic.supernode_begin()[s], symbolic.supernode_end()[s]];
         let range =
             symbolic.col_ptr_for_val()[s] as usize..symbolic.col_ptr_for_val()[s + 1] as usize;
@@ -133,7 +133,7 @@ pub fn solve(
     x: &mut [f64],
     room: &mut Vec<f64>,
 ) {
-    let nodes = || (0..symbolic.n_supernodes()).map(|s| Node::of(symbolic, values, s));
+    let nodes = || (0..symbolic.n_supernodes()).map(|s| Node::new(symbolic, values, s));
     room.resize(x.len(), 0.0);
     for node in nodes() {
         node.forward(x, room);

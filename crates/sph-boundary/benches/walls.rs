@@ -9,7 +9,7 @@ use std::fmt::{self, Display};
 use divan::{Bencher, counter::ItemsCount};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use sph_boundary::{
-    Condition, Drawing, Polyline, RigidMotion, Surface, Wall, WallEntry, WallSetup, WallSpec,
+    Drawing, Polyline, RigidMotion, Surface, Wall, WallCondition, WallEntry, WallSetup, WallSpec,
 };
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
@@ -132,7 +132,7 @@ impl<const D: usize> Flow<D> {
         let domain = Domain::open(Vect::repeat(-2.0), Vect::repeat(3.0));
         let spec = WallSpec {
             drawing: drawing(shape),
-            condition: Condition::NoSlip,
+            condition: WallCondition::NoSlip,
             surface_velocity: Vect::zeros(),
             motion: RigidMotion::default(),
             mover: None,
@@ -176,7 +176,7 @@ impl<const D: usize> Flow<D> {
             dt: 0.0,
             transported: Vec::new(),
             extent: None,
-            team: None,
+            communicator: None,
         };
         world.refresh_lists().expect("positions");
         wall.geometry(&mut world).expect("geometry");

@@ -14,7 +14,7 @@ mod mobility;
 mod mooring;
 mod prescribed;
 mod shape;
-mod six;
+mod spatial_vector;
 
 pub use body::RigidBody;
 pub use freedom::{Freedom, Hold, HoldTurn, Holds};

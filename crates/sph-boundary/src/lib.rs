@@ -100,7 +100,8 @@ pub use rigid::rigid_state::{Movement, RigidState};
 pub use rigid::spring::Spring;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 pub use treatment::contract::{
-    Condition, ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
+    ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
+    WallStates,
 };
 pub use treatment::dummy::DummyParticles;
 pub use treatment::symmetric::Symmetric;

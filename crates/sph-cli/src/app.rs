@@ -10,7 +10,7 @@ use crate::commands::{
     check, compare, draw, explain, manual, measure, new, plugins, run, scenes, schema, study, view,
 };
 use crate::ranks;
-use crate::telling::console;
+use crate::terminal::console;
 
 /// Runs the command that the process was called with.
 ///

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::telling::console;
+use crate::terminal::console;
 
 /// A flag that the first Ctrl-C (or SIGTERM, or SIGHUP) raises; the second ends the process with code 1.
 pub fn flag() -> Arc<AtomicBool> {

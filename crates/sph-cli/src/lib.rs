@@ -22,7 +22,7 @@ pub mod library;
 mod ranks;
 mod scene_file;
 mod shipped;
-mod telling;
+mod terminal;
 mod tool_arguments;
 
 use sph_core::number;

@@ -20,13 +20,13 @@ use crate::commands::{run as runs, study as studies};
 use crate::scene_file;
 
 pub use crate::app::command_line;
-pub use crate::commands::check::told as check;
-pub use crate::commands::compare::told as compare;
-pub use crate::commands::explain::told as explain;
+pub use crate::commands::check::output as check;
+pub use crate::commands::compare::output as compare;
+pub use crate::commands::explain::output as explain;
 pub use crate::commands::study::Studied;
 pub use crate::scene_file::{AnyScene, Opened};
-pub use crate::telling::told::{Ended, Told};
-pub use crate::telling::trouble::Trouble;
+pub use crate::terminal::output::{CommandOutput, Ended};
+pub use crate::terminal::trouble::Trouble;
 /// A scene of particles.
 pub use sph_scene::Scene as ParticleScene;
 
@@ -40,7 +40,7 @@ pub struct Request {
 }
 
 impl Request {
-    fn of(&self, scene: &str) -> SceneArguments {
+    fn scene_arguments(&self, scene: &str) -> SceneArguments {
         SceneArguments {
             scene: scene.to_string(),
             set: self.set.clone(),
@@ -68,7 +68,7 @@ pub enum Begin {
 /// # Errors
 /// Mistakes of the scene with their places, or that there is none.
 pub fn open(scene: &str, request: &Request) -> Result<Opened, Trouble> {
-    scene_file::open(&request.of(scene))
+    scene_file::open(&request.scene_arguments(scene))
 }
 
 /// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
@@ -76,7 +76,7 @@ pub fn open(scene: &str, request: &Request) -> Result<Opened, Trouble> {
 /// # Errors
 /// Mistakes of the scene with their places.
 pub fn open_text(text: &str, file: &str, request: &Request) -> Result<Opened, Trouble> {
-    scene_file::open_text(text, file, &request.of(file))
+    scene_file::open_text(text, file, &request.scene_arguments(file))
 }
 
 /// Runs a scene into a folder; `None` is `results/NAME`. The folder is returned as well.
@@ -94,7 +94,7 @@ pub fn run(
         AnyScene::Grains(loaded) => loaded.source.file(),
     };
     let arguments = RunArguments {
-        scene: request.of(file),
+        scene: request.scene_arguments(file),
         out,
         threads,
         ranks: None,

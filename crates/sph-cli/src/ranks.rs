@@ -34,11 +34,13 @@ pub fn join() -> Joined {
 }
 
 /// All ranks, if there are several.
-pub fn team() -> Option<Arc<dyn Transport>> {
-    TEAM.get().filter(|team| team.ranks() > 1).cloned()
+pub fn communicator() -> Option<Arc<dyn Transport>> {
+    TEAM.get()
+        .filter(|communicator| communicator.ranks() > 1)
+        .cloned()
 }
 
 /// Whether this process speaks and writes: the first of several, or the only one.
 pub fn is_first() -> bool {
-    team().is_none_or(|team| team.rank() == 0)
+    communicator().is_none_or(|communicator| communicator.rank() == 0)
 }

@@ -12,8 +12,8 @@ use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
 use crate::shipped::{self, Shipped};
-use crate::telling::diagnostics;
-use crate::telling::trouble::Trouble;
+use crate::terminal::diagnostics;
+use crate::terminal::trouble::Trouble;
 
 /// A scene of one kind or the other, with its text.
 pub enum AnyScene {

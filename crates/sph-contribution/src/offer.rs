@@ -61,7 +61,7 @@ pub struct Offer<const D: usize> {
 
 impl<const D: usize> Offer<D> {
     /// Nothing yet, of the contribution whose table in the scene is `path`.
-    pub fn of(path: String) -> Self {
+    pub fn new(path: String) -> Self {
         Offer {
             path,
             ..Offer::default()

@@ -13,7 +13,7 @@ pub struct Refusal {
 
 impl Refusal {
     /// Of a key in the table of a kind's plugin.
-    pub fn of(kind: &'static str, key: impl Into<String>, why: impl Into<String>) -> Self {
+    pub fn at_key(kind: &'static str, key: impl Into<String>, why: impl Into<String>) -> Self {
         Refusal {
             kind,
             key: key.into(),

@@ -175,7 +175,7 @@ impl<const D: usize> BoxTree<D> {
     }
 
     /// The box of a number.
-    pub fn of(&self, number: usize) -> Corners<D> {
+    pub fn corners(&self, number: usize) -> Corners<D> {
         self.boxes[number]
     }
 }

@@ -78,8 +78,8 @@ pub const ELASTIC_DISPLACEMENT: Field<Vector> = Field::new(
     "way of an elastic material since it was last liquid",
 );
 /// What turns have made of the remembered stress since the material was last liquid: ∫(ωτ − τω)dt.
-pub const ELASTIC_TURN: Field<SymmetricTensor> = Field::new(
-    "elastic_turn",
+pub const STRESS_ROTATION: Field<SymmetricTensor> = Field::new(
+    "stress_rotation",
     "Pa",
     "what turns have made of the remembered stress (xx, yy, zz, xy, yz, xz)",
 );
@@ -90,14 +90,14 @@ pub const FRICTION_SHARE: Field<Scalar> = Field::new(
     "share ζ of the viscous force in a material that blends",
 );
 /// Share of the elastic stress or force in a material that blends.
-pub const SOLID_SHARE: Field<Scalar> = Field::new(
-    "solid_share",
+pub const SOLID_FRACTION: Field<Scalar> = Field::new(
+    "solid_fraction",
     "1",
     "share 1 − ζ of the elastic force in a material that blends",
 );
 /// What the yield stress leaves of an elastic force.
-pub const HELD_SHARE: Field<Scalar> = Field::new(
-    "held_share",
+pub const YIELD_FACTOR: Field<Scalar> = Field::new(
+    "yield_factor",
     "1",
     "min(1, τ_y/|τ|): what the yield stress leaves of an elastic force",
 );
@@ -170,8 +170,8 @@ pub const MEAN_ACCELERATION: Field<Vector> = Field::new(
     "acceleration, averaged over the time in which sound passes some smoothing lengths",
 );
 /// How much of a particle's neighbourhood is empty, by its arrangement.
-pub const EMPTINESS: Field<Scalar> = Field::new(
-    "emptiness",
+pub const VOID_FRACTION: Field<Scalar> = Field::new(
+    "void_fraction",
     "1",
     "1 - sum of volume times kernel over the renormalisation; 0 within reach of free surfaces and of wall points",
 );

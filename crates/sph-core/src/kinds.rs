@@ -119,7 +119,7 @@ impl PluginKind {
     }
 
     /// With a list of its plugins.
-    pub const fn of(mut self, plugins: fn() -> Vec<PluginInfo>) -> Self {
+    pub const fn with_plugins(mut self, plugins: fn() -> Vec<PluginInfo>) -> Self {
         self.plugins = plugins;
         self
     }

@@ -20,7 +20,6 @@
 //! ```
 
 mod axis;
-mod births;
 mod boxes;
 pub mod course;
 mod duct;
@@ -28,6 +27,7 @@ mod error;
 mod evolve;
 mod field;
 pub mod fields;
+mod insertion;
 mod kinds;
 mod limit;
 mod parcel;
@@ -36,12 +36,12 @@ mod plugin_choice;
 mod plugin_info;
 mod pool;
 mod registry;
+mod removal;
 mod saved;
 mod slots;
 mod stage;
 mod store;
 mod symmetric;
-mod taken;
 mod turnover;
 mod watch;
 
@@ -56,7 +56,7 @@ pub use limit::StepLimit;
 pub use plan::{Plan, plan};
 pub use plugin_choice::PluginChoice;
 pub use plugin_info::PluginInfo;
-pub use pool::{Lent, Pool};
+pub use pool::{Pool, PoolGuard};
 pub use registry::{
     Contract, Makes, Parameter, Registry, node_of, parameters, plugins_of, schema_of, typed,
 };
@@ -70,7 +70,7 @@ pub use sph_derive::{parameters, plugin};
 pub use stage::{Access, Declares, Stage};
 pub use store::{Plain, Role, Store};
 pub use symmetric::Symmetric;
-pub use turnover::{Born, Taken};
+pub use turnover::{Inserted, Removed};
 
 /// Crates that the registration macros name; use them through the macros only.
 #[doc(hidden)]

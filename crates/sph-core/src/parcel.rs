@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_packed_arrives_in_the_slots_that_are_named() {
+    fn packed_values_arrive_in_the_named_slots() {
         let mut from = store(3);
         *from.get_mut(S).unwrap() = vec![1.0, -0.0, f64::NAN];
         *from.get_mut(V).unwrap() = (0..3).map(|k| Vect::<2>::new(f64::from(k), 0.5)).collect();

@@ -24,9 +24,9 @@ impl<T> Pool<T> {
 
 impl<T: Default> Pool<T> {
     /// A buffer that somebody has given back, or a new one.
-    pub fn lend(&self) -> Lent<'_, T> {
+    pub fn acquire(&self) -> PoolGuard<'_, T> {
         let found = self.all().pop();
-        Lent {
+        PoolGuard {
             item: Some(found.unwrap_or_default()),
             pool: self,
         }
@@ -34,13 +34,13 @@ impl<T: Default> Pool<T> {
 }
 
 /// A buffer that goes back when it is dropped.
-pub struct Lent<'a, T> {
+pub struct PoolGuard<'a, T> {
     /// There until then.
     item: Option<Box<T>>,
     pool: &'a Pool<T>,
 }
 
-impl<T> Deref for Lent<'_, T> {
+impl<T> Deref for PoolGuard<'_, T> {
     type Target = T;
     #[inline(always)]
     fn deref(&self) -> &T {
@@ -51,7 +51,7 @@ impl<T> Deref for Lent<'_, T> {
     }
 }
 
-impl<T> DerefMut for Lent<'_, T> {
+impl<T> DerefMut for PoolGuard<'_, T> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut T {
         match &mut self.item {
@@ -61,7 +61,7 @@ impl<T> DerefMut for Lent<'_, T> {
     }
 }
 
-impl<T> Drop for Lent<'_, T> {
+impl<T> Drop for PoolGuard<'_, T> {
     fn drop(&mut self) {
         if let Some(item) = self.item.take() {
             self.pool.all().push(item);

@@ -275,7 +275,7 @@ macro_rules! contract {
         }
         $crate::reexport::inventory::collect!($entry);
         $crate::reexport::inventory::submit! {
-            <$entry as $crate::Contract>::KIND.of($crate::plugins_of::<$entry>)
+            <$entry as $crate::Contract>::KIND.with_plugins($crate::plugins_of::<$entry>)
         }
     };
 }

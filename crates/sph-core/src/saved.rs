@@ -1,14 +1,14 @@
 //! Copies of what a store remembers, to go back to.
 
 use crate::field::Column;
-use crate::{Born, Field, FieldError, Kind, Role, Store, Taken};
+use crate::{Field, FieldError, Inserted, Kind, Removed, Role, Store};
 
 /// Copies of all [`State`](Role::State) columns of a store, whoever declared them, in the order the particles had.
 #[derive(Clone, Debug, Default)]
 pub struct Saved<const D: usize> {
     len: usize,
-    taken: Vec<Taken>,
-    born: Born,
+    taken: Vec<Removed>,
+    born: Inserted,
     columns: Vec<(&'static str, Column<D>)>,
 }
 
@@ -126,7 +126,7 @@ mod tests {
 
     /// Every column that was declared as state comes back, in another order too; derived ones do not.
     #[test]
-    fn what_was_saved_comes_back_in_any_order() {
+    fn saved_particles_come_back_in_any_order() {
         let mut store = Store::<2>::new(3);
         store.add(fields::MASS, Role::State);
         store.add(fields::IDENTITY, Role::State);

@@ -14,7 +14,7 @@ const SPARSE: usize = 4;
 
 impl Slots {
     /// Of identities in the order of their slots.
-    pub fn of(identities: &[u32]) -> Self {
+    pub fn from_identities(identities: &[u32]) -> Self {
         let most = identities.iter().max().map_or(0, |id| *id as usize + 1);
         let slots = identities.iter().zip(0u32..);
         if most > SPARSE * identities.len() {
@@ -47,9 +47,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everybody_is_found_and_nobody_else() {
+    fn all_ghosts_and_no_others_are_found() {
         for identities in [vec![3, 0, 2], vec![4_000_000_000, 7, 90]] {
-            let slots = Slots::of(&identities);
+            let slots = Slots::from_identities(&identities);
             for (slot, id) in identities.iter().enumerate() {
                 assert_eq!(slots.slot(*id), Some(slot as u32), "{slots:?}");
             }
@@ -57,7 +57,13 @@ mod tests {
                 assert_eq!(slots.slot(id), None);
             }
         }
-        assert!(matches!(Slots::of(&[3, 0, 2]), Slots::Dense(_)));
-        assert!(matches!(Slots::of(&[4_000_000_000]), Slots::Sparse(_)));
+        assert!(matches!(
+            Slots::from_identities(&[3, 0, 2]),
+            Slots::Dense(_)
+        ));
+        assert!(matches!(
+            Slots::from_identities(&[4_000_000_000]),
+            Slots::Sparse(_)
+        ));
     }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Born, Field, FieldError, Kind, StepError, Symmetric, Taken, Vect};
+use crate::{Access, Field, FieldError, Inserted, Kind, Removed, StepError, Symmetric, Vect};
 
 /// What happens to a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,9 +27,9 @@ pub struct Store<const D: usize> {
     pub(crate) len: usize,
     pub(crate) entries: Vec<Entry<D>>,
     /// What has been taken out.
-    pub(crate) taken: Vec<Taken>,
+    pub(crate) taken: Vec<Removed>,
     /// What has been born.
-    pub(crate) born: Born,
+    pub(crate) born: Inserted,
     pub(crate) watch: Watch,
     pub(crate) spare: Spare<D>,
 }
@@ -60,7 +60,7 @@ impl<const D: usize> Store<D> {
             len,
             entries: Vec::new(),
             taken: Vec::new(),
-            born: Born::default(),
+            born: Inserted::default(),
             watch: Watch::default(),
             spare: Spare::default(),
         }

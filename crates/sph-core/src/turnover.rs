@@ -2,7 +2,7 @@
 
 /// What has been taken out of a store by one outlet of one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Taken {
+pub struct Removed {
     /// Number of the outlet.
     pub outlet: u32,
     /// Number of the phase.
@@ -15,7 +15,7 @@ pub struct Taken {
 
 /// What came into a store after the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Born {
+pub struct Inserted {
     /// Identities that were given so far, those of the start included: nobody gets one of them again.
     pub identities: u32,
     /// Mass that came in after the start, kg (per metre of depth in two dimensions).

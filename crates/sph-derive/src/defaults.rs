@@ -18,7 +18,7 @@ pub struct Defaults {
 
 impl Defaults {
     /// None yet, of an item.
-    pub fn of(item: &DeriveInput) -> Self {
+    pub fn new(item: &DeriveInput) -> Self {
         Self {
             name: item.ident.clone(),
             generics: item.generics.clone(),

@@ -58,7 +58,7 @@ fn is_option(ty: &Type) -> bool {
 }
 
 impl Entry {
-    fn of(field: &Field, attribute: &Attribute) -> syn::Result<Self> {
+    fn new(field: &Field, attribute: &Attribute) -> syn::Result<Self> {
         let word = attribute.path().get_ident().map(ToString::to_string);
         let word = word.unwrap_or_default();
         if word == "value" {
@@ -128,7 +128,7 @@ pub fn expand(term: &Term, mut item: DeriveInput) -> syn::Result<TokenStream> {
         let [word] = &words[..] else {
             return Err(Error::new_spanned(name, WORDS));
         };
-        let entry = Entry::of(field, word)?;
+        let entry = Entry::new(field, word)?;
         access.extend(entry.access);
         let value = entry.value;
         fields.extend(quote!(#name: #value,));

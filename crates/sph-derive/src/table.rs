@@ -43,7 +43,7 @@ pub fn expand(
     let said = words(&item.attrs, "serde");
     let plain = item.generics.params.is_empty() && is_plain(&item.data);
     let keeps = matches!(&item.data, Data::Struct(data) if data.fields.iter().any(is_skipped));
-    let mut defaults = Defaults::of(&item);
+    let mut defaults = Defaults::new(&item);
     let (mut derives, mut default) = (vec!["Deserialize", "JsonSchema"], None);
     let mut serde = Vec::new();
     match &mut item.data {

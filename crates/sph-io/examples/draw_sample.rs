@@ -39,7 +39,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
         label: "pressure [Pa]",
         diameter: 0.00427,
         walls: &tank,
-        ..Picture::of(&column, &pressure)
+        ..Picture::new(&column, &pressure)
     };
     let start = Instant::now();
     dam_break.save(file("dam_break.png"))?;
@@ -68,7 +68,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
         diameter: 1.0 / 30.0,
         view: View::Front,
         width: 800,
-        ..Picture::of(&ball, &height)
+        ..Picture::new(&ball, &height)
     }
     .save(file("ball.png"))?;
 
@@ -78,7 +78,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
         title: "Flume",
         label: "depth [m]",
         diameter: 0.2,
-        ..Picture::of(&flume, &depth)
+        ..Picture::new(&flume, &depth)
     }
     .save(file("flume.png"))?;
     let tower: Vec<[f64; 3]> = flume
@@ -89,7 +89,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
         title: "Tower",
         label: "depth [m]",
         diameter: 2e-4,
-        ..Picture::of(&tower, &depth)
+        ..Picture::new(&tower, &depth)
     }
     .save(file("tower.png"))?;
 
@@ -172,7 +172,7 @@ fn convergence() -> Plot {
             .map(|i| [0.3 * at(3 * i), scale * at(-i).powf(order)])
             .collect()
     };
-    let marked = |name: &str, points| Series::of(name, points, Style::LineAndMarkers);
+    let marked = |name: &str, points| Series::styled(name, points, Style::LineAndMarkers);
     Plot {
         title: "Taylor–Green vortex: error against run time".into(),
         x_label: "run time [s]".into(),
@@ -183,7 +183,7 @@ fn convergence() -> Plot {
             marked("Wendland C2", line(0.08, 1.1)),
             marked("Wendland C4", line(0.11, 1.6)),
             marked("quintic spline", line(0.05, 1.4)),
-            Series::of("second order", line(0.03, 2.0), Style::Dashes),
+            Series::styled("second order", line(0.03, 2.0), Style::Dashes),
         ],
     }
 }

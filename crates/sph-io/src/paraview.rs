@@ -1,7 +1,7 @@
 //! Files for ParaView.
 
-pub(crate) mod beside;
 pub mod frame;
+pub(crate) mod named_files;
 pub mod pvd;
 pub mod pvtu;
 pub mod vtu;

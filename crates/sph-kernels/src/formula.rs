@@ -23,7 +23,7 @@ pub(crate) struct Product<const ROOT: usize, const N: usize> {
 
 impl<const ROOT: usize, const N: usize> Product<ROOT, N> {
     /// The pieces in this form, if they have it.
-    pub(crate) fn of(pieces: &Pieces) -> Option<Self> {
+    pub(crate) fn from_pieces(pieces: &Pieces) -> Option<Self> {
         let [piece] = pieces.list.as_slice() else {
             return None;
         };
@@ -55,7 +55,7 @@ pub(crate) struct Selection<const K: usize, const N: usize, const DIVIDED: bool>
 
 impl<const K: usize, const N: usize, const DIVIDED: bool> Selection<K, N, DIVIDED> {
     /// The pieces in this form, if they fit.
-    pub(crate) fn of(pieces: &Pieces) -> Option<Self> {
+    pub(crate) fn from_pieces(pieces: &Pieces) -> Option<Self> {
         let list: &[Piece; K] = pieces.list.as_slice().try_into().ok()?;
         let fits = list
             .iter()
@@ -160,13 +160,13 @@ mod tests {
         let (wendland, spline) = (wendland_c6(), quintic_spline());
         let f = factored::value(wendland.shape(), 1.0);
         assert_close(
-            &Product::<8, 4>::of(&f).expect("its form"),
+            &Product::<8, 4>::from_pieces(&f).expect("its form"),
             &General(f),
             2.0,
         );
         let g = factored::factor(spline.shape(), 1.0);
         assert_close(
-            &Selection::<3, 5, true>::of(&g).expect("its form"),
+            &Selection::<3, 5, true>::from_pieces(&g).expect("its form"),
             &General(g),
             3.0,
         );
@@ -175,11 +175,14 @@ mod tests {
     #[test]
     fn other_forms_are_refused() {
         let f = factored::value(wendland_c6().shape(), 1.0);
-        assert!(Product::<8, 3>::of(&f).is_none() && Product::<7, 4>::of(&f).is_none());
-        assert!(Selection::<1, 12, false>::of(&f).is_none());
+        assert!(
+            Product::<8, 3>::from_pieces(&f).is_none()
+                && Product::<7, 4>::from_pieces(&f).is_none()
+        );
+        assert!(Selection::<1, 12, false>::from_pieces(&f).is_none());
         let g = factored::factor(quintic_spline().shape(), 1.0);
-        assert!(Selection::<3, 5, false>::of(&g).is_none());
-        assert!(Selection::<3, 4, true>::of(&g).is_none());
+        assert!(Selection::<3, 5, false>::from_pieces(&g).is_none());
+        assert!(Selection::<3, 4, true>::from_pieces(&g).is_none());
     }
 
     #[test]

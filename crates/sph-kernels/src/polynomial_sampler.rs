@@ -37,7 +37,7 @@ pub fn polynomial_sampler(
     };
     macro_rules! first_fit {
         ($($value:ty, $factor:ty;)*) => {
-            $(if let (Some(value), Some(factor)) = (<$value>::of(&value), <$factor>::of(&factor)) {
+            $(if let (Some(value), Some(factor)) = (<$value>::from_pieces(&value), <$factor>::from_pieces(&factor)) {
                 return Box::new(PolynomialSampler { range, value, factor });
             })*
         };

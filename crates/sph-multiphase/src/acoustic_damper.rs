@@ -182,7 +182,7 @@ struct DampingForce;
 
 /// [`DampingForce`] with its columns.
 #[pair_term(DampingForce, "acoustic damper")]
-struct Bound<'a, const D: usize> {
+struct BoundDamping<'a, const D: usize> {
     #[both(DAMPING_PRESSURE)]
     pressure: &'a [f64],
     #[both(fields::VOLUME)]
@@ -193,7 +193,7 @@ struct Bound<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundDamping<'_, D> {
     const SCALED: bool = true;
     /// q V².
     type Own<L: Lane> = L;
@@ -222,7 +222,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundDamping<'_, D> {
     #[inline(always)]
     fn finish(
         &self,

@@ -28,7 +28,7 @@ impl ContactAngle {
     /// The key that names none.
     pub(crate) fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| {
-            Err(Refusal::of(
+            Err(Refusal::at_key(
                 "interface",
                 format!("contact_angle.{key}").trim_end_matches('.'),
                 why,

@@ -102,7 +102,7 @@ pub fn offer_interface<const D: usize>(
     offer: &mut Offer<D>,
 ) -> Result<(), Refusal> {
     if setting.phases.len() <= 1 {
-        return Err(Refusal::of(
+        return Err(Refusal::at_key(
             "interface",
             "",
             "the scene has one phase, and interfaces are between two: take this table out, or add a phase",

@@ -40,7 +40,7 @@ impl<const D: usize> Compressible<D> {
             courant: setting.courant,
             laws: setting.laws.clone(),
         });
-        if let Some(limit) = InterfaceLimit::of(setting.laws) {
+        if let Some(limit) = InterfaceLimit::new(setting.laws) {
             offer.limiter(limit);
         }
         if !setting.world.walls.bodies.is_empty() {

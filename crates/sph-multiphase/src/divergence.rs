@@ -89,7 +89,7 @@ impl<W: DivergenceWeight> Divergence<W> {
 
 /// [`Divergence`] with its columns.
 #[pair_term(Divergence<W>, W::NAME)]
-pub struct Bound<'a, const D: usize, W: DivergenceWeight> {
+pub struct BoundVelocityDivergence<'a, const D: usize, W: DivergenceWeight> {
     #[value(self.0)]
     weight: W,
     #[both(fields::VELOCITY)]
@@ -106,7 +106,7 @@ pub struct Bound<'a, const D: usize, W: DivergenceWeight> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize, W: DivergenceWeight> Bound<'_, D, W> {
+impl<const D: usize, W: DivergenceWeight> BoundVelocityDivergence<'_, D, W> {
     /// σ = d ln s/dt of a particle, 1/s.
     #[inline(always)]
     fn scale_rate(&self, i: usize) -> f64 {
@@ -115,7 +115,7 @@ impl<const D: usize, W: DivergenceWeight> Bound<'_, D, W> {
     }
 }
 
-impl<const D: usize, W: DivergenceWeight> PairSum<D> for Bound<'_, D, W> {
+impl<const D: usize, W: DivergenceWeight> PairSum<D> for BoundVelocityDivergence<'_, D, W> {
     const SCALED: bool = true;
     /// Velocity, volume, density, d ln s/dt.
     type Own<L: Lane> = ([L; D], L, L, L);
@@ -153,7 +153,7 @@ impl<const D: usize, W: DivergenceWeight> PairSum<D> for Bound<'_, D, W> {
     }
 }
 
-impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for Bound<'_, D, W> {
+impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for BoundVelocityDivergence<'_, D, W> {
     #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;

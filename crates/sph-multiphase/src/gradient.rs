@@ -8,7 +8,7 @@ use sph_neighbours::{
 
 /// Pressure, volume and density of one side of a pair.
 #[derive(Clone, Copy, Debug)]
-pub struct Side<L = f64> {
+pub struct PairState<L = f64> {
     /// p, Pa.
     pub pressure: L,
     /// V, m^d.
@@ -27,7 +27,7 @@ pub trait PairPressure: Copy + Send + Sync + 'static {
     /// Whether P_ab looks at the densities.
     const DENSITY: bool;
     /// P_ab = P_ba, Pa m^2d.
-    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L;
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L;
 }
 
 /// P_ab = p_a V_a² + p_b V_b²: [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.25.
@@ -38,7 +38,7 @@ impl PairPressure for SquaredVolumes {
     const NAME: &'static str = "Hu–Adams pressure gradient";
     const DENSITY: bool = false;
     #[inline(always)]
-    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L {
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
         here.pressure * here.volume * here.volume + there.pressure * there.volume * there.volume
     }
 }
@@ -51,7 +51,7 @@ impl PairPressure for SumOfPressures {
     const NAME: &'static str = "Colagrossi–Landrini pressure gradient";
     const DENSITY: bool = false;
     #[inline(always)]
-    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L {
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
         here.volume * there.volume * (here.pressure + there.pressure)
     }
 }
@@ -64,7 +64,7 @@ impl PairPressure for BetweenParticles {
     const NAME: &'static str = "Krimi pressure gradient";
     const DENSITY: bool = true;
     #[inline(always)]
-    fn pair<L: Lane>(self, here: Side<L>, there: Side<L>) -> L {
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
         let between = there.density * here.pressure + here.density * there.pressure;
         let volumes = here.volume * here.volume + there.volume * there.volume;
         volumes * between / (here.density + there.density)
@@ -84,7 +84,7 @@ impl<P: PairPressure> PressureGradient<P> {
 
 /// [`PressureGradient`] with its columns.
 #[pair_term(PressureGradient<P>, P::NAME)]
-pub struct Bound<'a, const D: usize, P: PairPressure> {
+pub struct BoundPressureGradient<'a, const D: usize, P: PairPressure> {
     #[value(self.0)]
     weight: P,
     #[both(fields::PRESSURE)]
@@ -99,15 +99,15 @@ pub struct Bound<'a, const D: usize, P: PairPressure> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize, P: PairPressure> PairSum<D> for Bound<'_, D, P> {
+impl<const D: usize, P: PairPressure> PairSum<D> for BoundPressureGradient<'_, D, P> {
     const SCALED: bool = true;
-    type Own<L: Lane> = Side<L>;
+    type Own<L: Lane> = PairState<L>;
     /// Σ P ∇w over its separation, and B without the particle's own part.
     type Sum<L: Lane> = ([L; D], L);
 
     #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Side<L> {
-        Side {
+    fn own<L: Lane>(&self, all: Particles) -> PairState<L> {
+        PairState {
             pressure: all.numbers(self.pressure),
             volume: all.numbers(self.volume),
             density: match P::DENSITY {
@@ -120,32 +120,32 @@ impl<const D: usize, P: PairPressure> PairSum<D> for Bound<'_, D, P> {
     #[inline(always)]
     fn pair<L: Lane>(
         &self,
-        own: &Side<L>,
+        own: &PairState<L>,
         j: usize,
         pair: &LanePair<D, L>,
         sum: &mut Self::Sum<L>,
     ) {
-        let weight = self.weight.pair(*own, self.there(j)) * pair.factor;
+        let weight = self.weight.pair(*own, self.neighbour_state(j)) * pair.factor;
         add_scaled(&mut sum.0, &pair.separation, weight);
     }
 
     #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
-        own: &Side<L>,
+        own: &PairState<L>,
         j: usize,
         pair: &LanePair<D, L>,
         sum: &mut Self::Sum<L>,
     ) {
-        sum.1 += self.weight.pair(*own, self.there(j)) * pair.value;
+        sum.1 += self.weight.pair(*own, self.neighbour_state(j)) * pair.value;
     }
 }
 
-impl<const D: usize, P: PairPressure> Bound<'_, D, P> {
+impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
     #[inline(always)]
-    fn there<L: Lane>(&self, j: usize) -> Side<L> {
+    fn neighbour_state<L: Lane>(&self, j: usize) -> PairState<L> {
         let density = if P::DENSITY { self.density[j] } else { 0.0 };
-        Side {
+        PairState {
             pressure: L::splat(self.pressure[j]),
             volume: L::splat(self.volume[j]),
             density: L::splat(density),
@@ -153,7 +153,7 @@ impl<const D: usize, P: PairPressure> Bound<'_, D, P> {
     }
 }
 
-impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
+impl<const D: usize, P: PairPressure> BoundTerm<D> for BoundPressureGradient<'_, D, P> {
     #[inline(always)]
     fn finish(
         &self,
@@ -168,7 +168,7 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
         }
         // A wall has no density of its own: it is that of the particle.
         for (v, pair) in at.wall.pairs() {
-            let there = Side {
+            let there = PairState {
                 pressure: self.walls.points.pressure[v],
                 volume: self.walls.points.volume[v],
                 density: own.density,
@@ -178,7 +178,7 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for Bound<'_, D, P> {
         }
         for contact in at.contacts {
             let s = contact.element as usize;
-            let there = Side {
+            let there = PairState {
                 pressure: self.walls.elements.pressure[s],
                 volume: self.walls.elements.volume[s],
                 density: own.density,

@@ -13,7 +13,7 @@ use sph_contribution::Stages;
 use sph_neighbours::{Around, Values, walk_into};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
-pub const FILLING: Field<Scalar> = Field::new("filling", "1", "Σ θ V w / γ");
+pub const KERNEL_SUM: Field<Scalar> = Field::new("kernel_sum", "1", "Σ θ V w / γ");
 
 /// d ln V/dt = D{u}, ρ_a = Σ m_b w_ab / Σ V_b w_ab over the particle's own phase, with
 /// D_a{u} = −1/(γ_a d_a) [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as],
@@ -88,14 +88,14 @@ impl Declares for PhaseDensity {
             .both(fields::VOLUME)
             .where_there(fields::PHASE)
             .writes(fields::DENSITY)
-            .writes(FILLING)
+            .writes(KERNEL_SUM)
     }
 }
 
 impl<const D: usize> Stage<World<D>> for PhaseDensity {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut density = world.free.take(fields::DENSITY)?;
-        let mut filling = world.free.take(FILLING)?;
+        let mut kernel_sum = world.free.take(KERNEL_SUM)?;
         let free = &world.free;
         let mass = free.get(fields::MASS)?;
         let volume = free.get(fields::VOLUME)?;
@@ -122,12 +122,12 @@ impl<const D: usize> Stage<World<D>> for PhaseDensity {
         walk_into(world, Values::Both, |_| true, &mut self.sums, sums)?;
         let results = density
             .par_iter_mut()
-            .zip(filling.par_iter_mut())
+            .zip(kernel_sum.par_iter_mut())
             .zip(&self.sums);
         results
             .with_min_len(1024)
             .for_each(|((rho, d), sums)| [*rho, *d] = *sums);
-        world.free.put(FILLING, filling)?;
+        world.free.put(KERNEL_SUM, kernel_sum)?;
         Ok(world.free.put(fields::DENSITY, density)?)
     }
 }
@@ -143,7 +143,7 @@ macro_rules! columns {
                 Access::none()
                     .both(fields::PRESSURE)
                     .both(fields::VOLUME)
-                    .both(FILLING)
+                    .both(KERNEL_SUM)
                     .both(fields::VELOCITY)
                     .here(fields::MASS)
             }
@@ -151,7 +151,7 @@ macro_rules! columns {
                 Ok($bound(Columns {
                     pressure: world.free.get(fields::PRESSURE)?,
                     volume: world.free.get(fields::VOLUME)?,
-                    filling: world.free.get(FILLING)?,
+                    kernel_sum: world.free.get(KERNEL_SUM)?,
                     velocity: world.free.get(fields::VELOCITY)?,
                     mass: world.free.get(fields::MASS)?,
                     wall_pressure: &world.walls.points.pressure,
@@ -169,7 +169,7 @@ macro_rules! columns {
 struct Columns<'a, const D: usize> {
     pressure: &'a [f64],
     volume: &'a [f64],
-    filling: &'a [f64],
+    kernel_sum: &'a [f64],
     velocity: &'a [Vect<D>],
     mass: &'a [f64],
     wall_pressure: &'a [f64],
@@ -198,12 +198,12 @@ impl<const D: usize> PairSum<D> for BoundPressure<'_, D> {
 
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> L {
-        all.numbers::<L>(self.0.pressure) / all.numbers(self.0.filling)
+        all.numbers::<L>(self.0.pressure) / all.numbers(self.0.kernel_sum)
     }
     #[inline(always)]
     fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let c = &self.0;
-        let both = *own + L::splat(c.pressure[j] / c.filling[j]);
+        let both = *own + L::splat(c.pressure[j] / c.kernel_sum[j]);
         let weight = L::splat(c.volume[j]) * both * pair.factor;
         add_scaled(sum, &pair.separation, weight);
     }
@@ -213,7 +213,7 @@ impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let (c, i) = (&self.0, at.particle);
-        let (own, inverse) = (c.pressure[i], 1.0 / c.filling[i]);
+        let (own, inverse) = (c.pressure[i], 1.0 / c.kernel_sum[i]);
         let mut sum = Vect::from(sum);
         for (v, pair) in at.wall.pairs() {
             let pressure = (own + c.wall_pressure[v]) * inverse;
@@ -255,6 +255,6 @@ impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
             let wall = c.elements.velocity[contact.element as usize];
             sum += (velocity - wall).dot(&contact.gradient);
         }
-        rates.scalar += sum * (1.0 / c.filling[i]) * at.inverse_renormalisation;
+        rates.scalar += sum * (1.0 / c.kernel_sum[i]) * at.inverse_renormalisation;
     }
 }

@@ -12,13 +12,13 @@ use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_neighbours::lattice_sum;
 use sph_rheology::state::Laws;
 
-use crate::scattered::{SCATTERED, Scattered};
+use crate::dispersed_fraction::{DISPERSED_FRACTION, DispersedFraction};
 use crate::{InterfaceEntry, offer_interface};
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
 /// is not of the heaviest phase, with v = α χ c̄ (unlike phases only) + β min(h |u_ab·r_ab|/r², c̄) (closing pairs only).
 ///
-/// Symbols: c̄ mean of the reference speeds of sound (m/s); χ the larger [`SCATTERED`] of the two: 1 for a light
+/// Symbols: c̄ mean of the reference speeds of sound (m/s); χ the larger [`DISPERSED_FRACTION`] of the two: 1 for a light
 /// particle alone among heavy ones, 0 for one at a closed interface, which is left to the viscosities of the phases.
 /// A light particle caught in a heavy fluid follows every unevenness of the pressure there, and a soft gas that is
 /// squeezed out leaves with up to five times its speed of sound. α takes the motion of light particles towards and away from heavy
@@ -50,9 +50,9 @@ pub struct InterfaceFriction {
 
 impl<const D: usize> Contribution<D> for InterfaceFriction {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let damping = Damping::of(self, setting.laws);
+        let damping = Damping::new(self, setting.laws);
         let light = damping.wall_density.iter();
-        offer.stage(Scattered {
+        offer.stage(DispersedFraction {
             light: light.map(|density| *density > 0.0).collect(),
         });
         offer.limiter(DampingLimit(damping.clone()));
@@ -71,7 +71,7 @@ struct Damping {
 }
 
 impl Damping {
-    fn of(friction: &InterfaceFriction, laws: &Laws) -> Self {
+    fn new(friction: &InterfaceFriction, laws: &Laws) -> Self {
         let density = laws.iter().map(|l| l.reference().density);
         let heaviest = density.clone().fold(0.0, f64::max);
         let behind_wall = |rho: f64| if rho < heaviest { heaviest } else { 0.0 };
@@ -106,7 +106,7 @@ impl<const D: usize> Limiter<D> for DampingLimit {
 
 /// [`Damping`] with its columns.
 #[pair_term(Damping, "artificial viscosity between phases")]
-struct Bound<'a, const D: usize> {
+struct BoundInterfaceFriction<'a, const D: usize> {
     #[value(self.strength)]
     strength: f64,
     #[value(self.shocks)]
@@ -127,8 +127,8 @@ struct Bound<'a, const D: usize> {
     phase: &'a [u32],
     #[both(fields::DENSITY)]
     density: &'a [f64],
-    #[both(SCATTERED)]
-    scattered: &'a [f64],
+    #[both(DISPERSED_FRACTION)]
+    dispersed_fraction: &'a [f64],
     #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
 }
@@ -138,13 +138,13 @@ struct Bound<'a, const D: usize> {
 struct Own<const D: usize, L> {
     phase: L,
     density: L,
-    scattered: L,
+    dispersed_fraction: L,
     sound: L,
     wall_density: L,
     velocity: [L; D],
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
     type Own<L: Lane> = Own<D, L>;
     type Sum<L: Lane> = [L; D];
 
@@ -157,7 +157,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
         Own {
             phase: all.phases(Some(self.phase)),
             density: all.numbers(self.density),
-            scattered: all.numbers(self.scattered),
+            dispersed_fraction: all.numbers(self.dispersed_fraction),
             sound,
             wall_density,
             velocity: all.vectors(self.velocity),
@@ -178,9 +178,10 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
         let mass = L::splat(self.mass[j]) / (own.density + L::splat(self.density[j]));
         let relative = dot(&minus(&own.velocity, &self.velocity[j]), &pair.separation);
         let rate = relative / pair.distance2.max(L::splat(f64::MIN_POSITIVE));
-        let other = L::splat(self.scattered[j]);
-        let scattered = (own.scattered - other).where_positive(own.scattered, other);
-        let steady = L::splat(self.strength) * scattered * sound;
+        let other = L::splat(self.dispersed_fraction[j]);
+        let dispersed_fraction =
+            (own.dispersed_fraction - other).where_positive(own.dispersed_fraction, other);
+        let steady = L::splat(self.strength) * dispersed_fraction * sound;
         let steady = unlike.where_positive(steady, zero);
         let closing = -(rate * L::splat(self.length));
         let closing = closing.where_positive(closing, zero);
@@ -191,7 +192,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
     /// Without 1/γ: what one particle gets, another loses.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
@@ -220,11 +221,11 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundInterfaceFriction<'_, D> {
     /// v, for a particle and a wall that part at a speed.
     #[inline(always)]
     fn signal(&self, own: &Own<D, f64>, parting: f64) -> f64 {
-        let steady = self.strength * own.scattered * own.sound;
+        let steady = self.strength * own.dispersed_fraction * own.sound;
         steady + self.shocks * (-parting).clamp(0.0, own.sound)
     }
 }

@@ -26,7 +26,7 @@ pub struct InterfaceLimit {
 
 impl InterfaceLimit {
     /// With the equations of state of the phases; none if no mixture of two of them is faster than both.
-    pub fn of(laws: &[Box<dyn BoundState>]) -> Option<Self> {
+    pub fn new(laws: &[Box<dyn BoundState>]) -> Option<Self> {
         let each = || laws.iter().map(|law| law.reference());
         let pairs = each().flat_map(|a| each().map(move |b| mixed_sound(a, b)));
         let squared = pairs.fold(0.0, f64::max);

@@ -27,6 +27,7 @@ mod contribution;
 pub mod damping;
 pub mod diffusion;
 mod dilatation;
+mod dispersed_fraction;
 mod divergence;
 mod gradient;
 mod grenier;
@@ -40,7 +41,6 @@ mod micro_mixing;
 pub mod pressure;
 mod pressure_stage;
 mod repulsion;
-mod scattered;
 mod surface;
 mod surface_tension;
 pub mod viscosity;
@@ -54,9 +54,10 @@ pub use contract::{
     PressureScheme, offer_interface,
 };
 pub use dilatation::Dilatation;
+pub use dispersed_fraction::DISPERSED_FRACTION;
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
 pub use gradient::{
-    BetweenParticles, PairPressure, PressureGradient, Side, SquaredVolumes, SumOfPressures,
+    BetweenParticles, PairPressure, PairState, PressureGradient, SquaredVolumes, SumOfPressures,
 };
 pub use grenier::Grenier;
 pub use grenier_interface::GrenierInterface;
@@ -66,6 +67,5 @@ pub use interface_limit::InterfaceLimit;
 pub use krimi::{Continuity, Krimi};
 pub use micro_mixing::MicroMixing;
 pub use pressure_stage::PressureStage;
-pub use scattered::SCATTERED;
 pub use surface::{ConeTest, FREE_SURFACE, Place, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

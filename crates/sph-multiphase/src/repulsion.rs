@@ -33,7 +33,7 @@ impl<R: Repulsion> Repelling<R> {
 
 /// [`Repelling`] with its columns.
 #[pair_term(Repelling<R>, R::NAME)]
-pub struct Bound<'a, R: Repulsion> {
+pub struct BoundRepulsion<'a, R: Repulsion> {
     #[value(self)]
     term: &'a Repelling<R>,
     #[both(fields::PRESSURE)]
@@ -46,7 +46,7 @@ pub struct Bound<'a, R: Repulsion> {
     phase: &'a [u32],
 }
 
-impl<const D: usize, R: Repulsion> PairSum<D> for Bound<'_, R> {
+impl<const D: usize, R: Repulsion> PairSum<D> for BoundRepulsion<'_, R> {
     /// Pressure, volume, phase.
     type Own<L: Lane> = [L; 3];
     type Sum<L: Lane> = [L; D];
@@ -77,7 +77,7 @@ impl<const D: usize, R: Repulsion> PairSum<D> for Bound<'_, R> {
     }
 }
 
-impl<const D: usize, R: Repulsion> BoundTerm<D> for Bound<'_, R> {
+impl<const D: usize, R: Repulsion> BoundTerm<D> for BoundRepulsion<'_, R> {
     /// Without 1/γ: what one particle gets, another loses.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {

@@ -128,7 +128,7 @@ impl<const D: usize> Stage<World<D>> for ColourGradient {
 
 /// [`SurfaceTension`] with its columns.
 #[pair_term(SurfaceTension, "surface tension")]
-pub struct Bound<'a, const D: usize> {
+pub struct BoundSurfaceTension<'a, const D: usize> {
     #[both(COLOUR_GRADIENT)]
     colour: &'a [Vect<D>],
     #[both(fields::VOLUME)]
@@ -147,12 +147,12 @@ pub struct Bound<'a, const D: usize> {
     isotropic: f64,
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundSurfaceTension<'_, D> {
     /// That of the interface at a particle.
     #[inline(always)]
     fn stress(&self, i: usize) -> Stress<D, f64> {
         let volume = self.volume[i];
-        Stress::of(
+        Stress::new(
             self.colour[i],
             self.tension * volume * volume,
             self.isotropic,
@@ -164,7 +164,7 @@ impl<const D: usize> Bound<'_, D> {
     fn film(&self, i: usize) -> Stress<D, f64> {
         let volume = self.volume[i];
         let film = self.film.get(i).copied().unwrap_or_else(Vect::zeros);
-        Stress::of(film, -self.tension * volume * volume, 1.0)
+        Stress::new(film, -self.tension * volume * volume, 1.0)
     }
 }
 
@@ -179,7 +179,7 @@ pub struct Stress<const D: usize, L> {
 
 impl<const D: usize> Stress<D, f64> {
     #[inline(always)]
-    fn of(colour: Vect<D>, scale: f64, isotropic: f64) -> Self {
+    fn new(colour: Vect<D>, scale: f64, isotropic: f64) -> Self {
         let size = colour.norm();
         Stress {
             isotropic: scale * size * isotropic,
@@ -233,7 +233,7 @@ impl<const D: usize, L: Lane> Stress<D, L> {
     }
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundSurfaceTension<'_, D> {
     /// Stresses of the interface and of the film.
     type Own<L: Lane> = [Stress<D, L>; 2];
     type Sum<L: Lane> = [L; D];
@@ -259,7 +259,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundSurfaceTension<'_, D> {
     /// Without 1/γ: what one particle gets, another loses.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {

@@ -5,6 +5,7 @@
 //! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
 //! * Eddy viscosities ([`EddyViscosityEntry`]) are added to the viscosity of the laws; none is in this crate.
 
+mod body_response;
 mod contract;
 mod coupling;
 mod eddy_viscosity;
@@ -12,14 +13,13 @@ mod espanol_revenga;
 mod friction;
 mod friction_operator;
 mod friction_system;
-mod giving_way;
-mod held_back;
 mod hu_adams_viscosity;
 mod implicit;
 mod interface_distance;
 mod krimi_viscosity;
 mod monaghan_gingold;
 mod morris;
+mod solve_arrest;
 mod solves;
 mod start;
 mod viscosity_source;
@@ -32,13 +32,13 @@ pub use espanol_revenga::{EspanolRevenga, WithTransposed};
 pub use friction::{Across, Choice, OnLattice, PairFriction, PairOperator, ViscousTerm, WallTerm};
 pub use friction_operator::{FrictionEntry, FrictionOperator};
 pub use friction_system::FrictionSystem;
-pub use held_back::HeldBack;
 pub use hu_adams_viscosity::HuAdamsViscosity;
 pub use implicit::{ImplicitViscosity, Lagged};
 pub use interface_distance::INTERFACE_DISTANCE;
 pub use krimi_viscosity::{KrimiViscosity, Strength};
 pub use monaghan_gingold::MonaghanGingold;
 pub use morris::{FirstDifferences, Morris, MorrisTerm};
+pub use solve_arrest::SolveArrest;
 pub use solves::{OuterSolves, Solves};
 pub use viscosity_source::{BoundViscosity, Layers, OwnViscosity, ViscositySource, Within};
 pub use viscous_limit::ViscousLimit;

@@ -35,11 +35,11 @@ pub fn class_rates<const D: usize, const N: usize>(
         let Some(class) = class(&interaction.name()) else {
             continue;
         };
-        interaction.lend(world, &mut |term| {
+        interaction.with_columns(world, &mut |term| {
             let particles = all.par_iter_mut().enumerate().with_min_len(256);
             particles.for_each_init(Rows::default, |rows, (i, sums)| {
-                let mut rates = Rates::of(Vect::zeros());
-                term.row(&surroundings.of(i, rows), &mut rates);
+                let mut rates = Rates::from_acceleration(Vect::zeros());
+                term.row(&surroundings.neighbourhood(i, rows), &mut rates);
                 sums[class].acceleration += rates.acceleration;
                 sums[class].scalar += rates.scalar;
             });

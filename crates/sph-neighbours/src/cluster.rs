@@ -171,7 +171,7 @@ impl<const D: usize> Cluster<'_, D> {
                 particle,
                 free: self.buffers.free[k].row(),
                 wall: self.buffers.walls[k].row(),
-                contacts: self.contacts.of(particle),
+                contacts: self.contacts.of_particle(particle),
                 inverse_renormalisation: self.inverse_renormalisation[k],
                 scaling: self.scaling,
             };
@@ -209,7 +209,10 @@ impl<const D: usize> Cluster<'_, D> {
         let particle = self.members.from + member;
         // Most clusters are away from walls.
         let (wall, contacts) = match self.beside {
-            true => (self.buffers.walls[member].row(), self.contacts.of(particle)),
+            true => (
+                self.buffers.walls[member].row(),
+                self.contacts.of_particle(particle),
+            ),
             false => (Row::empty(), ContactRow::NONE),
         };
         Neighbourhood {

@@ -11,13 +11,13 @@ use crate::lane_pair::LanePair;
 use crate::members::groups;
 use crate::particles::Particles;
 use crate::separation::grow;
-use crate::sweep::{Room, Sweep};
+use crate::sweep::{Sweep, TaskScratch};
 use crate::{CHUNK, World};
 
 /// Goes over the clusters of a world at the present places, block by block.
 pub struct ClusterWalk<'w, const D: usize> {
     sweep: Sweep<'w, D, dyn Sampler>,
-    pool: &'w Pool<Room<D>>,
+    pool: &'w Pool<TaskScratch<D>>,
     lanes: usize,
 }
 
@@ -58,7 +58,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         visit: impl Fn(&mut S, &mut Cluster<'_, D>),
         others: impl Fn(&mut S, Range<usize>),
     ) {
-        let mut room = self.pool.lend();
+        let mut room = self.pool.acquire();
         for cluster in self.sweep.clusters(block) {
             for members in groups(cluster, self.lanes) {
                 let own = members.from..members.from + members.count;

@@ -27,7 +27,7 @@ struct Block {
 }
 
 /// Buffers of a task that builds clusters.
-type Room = (Vec<u32>, Vec<Range<usize>>);
+type TaskScratch = (Vec<u32>, Vec<Range<usize>>);
 
 /// For every free particle, or place on a wall, the free particles that may be within reach: one list for a cluster of at
 /// most [`MOST`](sph_kernels::lanes::MOST) that follow each other.
@@ -47,7 +47,7 @@ impl Clusters {
         grid: &CellGrid<D>,
         reach: f64,
         domain: &Domain<D>,
-        pool: &Pool<Room>,
+        pool: &Pool<TaskScratch>,
     ) {
         self.build_but(points, grid, (reach, domain), pool, None);
     }
@@ -58,7 +58,7 @@ impl Clusters {
         points: &[Vect<D>],
         grid: &CellGrid<D>,
         within: (f64, &Domain<D>),
-        pool: &Pool<Room>,
+        pool: &Pool<TaskScratch>,
         idle: Option<&[bool]>,
     ) {
         self.build_all([points, points], grid, within, pool, idle);
@@ -72,7 +72,7 @@ impl Clusters {
         grid: &CellGrid<D>,
         reach: f64,
         domain: &Domain<D>,
-        pool: &Pool<Room>,
+        pool: &Pool<TaskScratch>,
     ) {
         self.build_all([targets, points], grid, (reach, domain), pool, None);
     }
@@ -82,13 +82,13 @@ impl Clusters {
         [targets, points]: [&[Vect<D>]; 2],
         grid: &CellGrid<D>,
         (reach, domain): (f64, &Domain<D>),
-        pool: &Pool<Room>,
+        pool: &Pool<TaskScratch>,
         idle: Option<&[bool]>,
     ) {
         self.resize(targets.len());
         let width = width();
         let blocks = self.blocks.par_iter_mut().enumerate();
-        let room = || pool.lend();
+        let room = || pool.acquire();
         blocks.for_each_init(room, |room, (b, block)| {
             let (buffer, ranges) = &mut **room;
             let from = b * CHUNK;
@@ -142,7 +142,7 @@ impl Clusters {
             .zip(numbers.par_chunks_mut(CHUNK))
             .enumerate()
             .for_each_init(
-                || pool.lend(),
+                || pool.acquire(),
                 |room, (b, ((block, all), numbers))| {
                     let (scratch, buffer) = &mut **room;
                     block.begin(all);

@@ -239,7 +239,7 @@ struct Place {
 impl<const D: usize> Contacts<D> {
     /// The contacts of a particle.
     #[inline(always)]
-    pub fn of(&self, particle: usize) -> ContactRow<'_, D> {
+    pub fn of_particle(&self, particle: usize) -> ContactRow<'_, D> {
         match self.places.get(particle) {
             Some(place) if place.from < place.to => {
                 self.blocks[place.block as usize].row(place.from..place.to)
@@ -250,7 +250,9 @@ impl<const D: usize> Contacts<D> {
 
     /// The contacts of all particles, by particle.
     pub fn all(&self) -> impl Iterator<Item = Contact<D>> {
-        self.particles.iter().flat_map(|&p| self.of(p as usize))
+        self.particles
+            .iter()
+            .flat_map(|&p| self.of_particle(p as usize))
     }
 
     /// Whether no particle has any.
@@ -298,7 +300,7 @@ mod tests {
     #[test]
     fn contacts_are_found_where_they_were_put() {
         let mut contacts = Contacts::<2>::default();
-        assert!(contacts.of(0).is_empty());
+        assert!(contacts.of_particle(0).is_empty());
         assert!(contacts.take_blocks(4).is_empty());
         let block = |planes: &[&[(u32, f64)]]| {
             let mut block = ContactBlock::default();
@@ -316,14 +318,14 @@ mod tests {
         contacts.place(3, 1, 0..1);
         assert_eq!(contacts.particles, [0, 3]);
         let elements =
-            |k: usize| -> Vec<u32> { contacts.of(k).iter().map(|c| c.element).collect() };
+            |k: usize| -> Vec<u32> { contacts.of_particle(k).iter().map(|c| c.element).collect() };
         assert_eq!(
             [0, 1, 2, 3, 4].map(elements),
             [vec![7, 8, 4], vec![], vec![], vec![9], vec![]]
         );
-        assert_eq!(contacts.of(0).len(), 3);
+        assert_eq!(contacts.of_particle(0).len(), 3);
         assert_eq!(
-            [0, 1, 3].map(|k| contacts.of(k).elements().len()),
+            [0, 1, 3].map(|k| contacts.of_particle(k).elements().len()),
             [3, 0, 1]
         );
         let sizes: Vec<_> = contacts
@@ -332,6 +334,6 @@ mod tests {
             .collect();
         assert_eq!(sizes, [(1.0, 0.0), (2.0, 0.0), (3.0, 2.0), (4.0, 0.0)]);
         contacts.take_blocks(4);
-        assert!(contacts.is_empty() && contacts.of(3).is_empty());
+        assert!(contacts.is_empty() && contacts.of_particle(3).is_empty());
     }
 }

@@ -147,9 +147,9 @@ impl<const D: usize> CouplingsAt<'_, D> {
             out,
         };
         match (kinds.even, kinds.along) {
-            (true, true) => dispatch_at(group.width, Of::<D, true, true>(product)),
-            (true, false) => dispatch_at(group.width, Of::<D, true, false>(product)),
-            (false, true) => dispatch_at(group.width, Of::<D, false, true>(product)),
+            (true, true) => dispatch_at(group.width, ProductBody::<D, true, true>(product)),
+            (true, false) => dispatch_at(group.width, ProductBody::<D, true, false>(product)),
+            (false, true) => dispatch_at(group.width, ProductBody::<D, false, true>(product)),
             (false, false) => product.out.fill(Vect::zeros()),
         }
     }
@@ -219,14 +219,14 @@ struct Product<'a, const D: usize> {
 }
 
 /// [`Product`] of α, of β, or of both.
-struct Of<'a, const D: usize, const EVEN: bool, const ALONG: bool>(Product<'a, D>);
+struct ProductBody<'a, const D: usize, const EVEN: bool, const ALONG: bool>(Product<'a, D>);
 
-impl<const D: usize, const EVEN: bool, const ALONG: bool> Body for Of<'_, D, EVEN, ALONG> {
+impl<const D: usize, const EVEN: bool, const ALONG: bool> Body for ProductBody<'_, D, EVEN, ALONG> {
     type Output = ();
 
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let Of(product) = self;
+        let ProductBody(product) = self;
         let x = places::<D, L>(product.x);
         let own = places::<D, L>(product.own);
         let mut sum = [L::splat(0.0); D];

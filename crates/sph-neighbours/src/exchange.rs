@@ -31,9 +31,9 @@ impl<const D: usize> World<D> {
     /// # Errors
     /// If the particles elsewhere are lost, as everywhere below.
     pub fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {
-        self.team
+        self.communicator
             .as_ref()
-            .map_or(Ok(()), |team| team.largest(values))
+            .map_or(Ok(()), |communicator| communicator.largest(values))
     }
 
     /// The items of all, one's own among them.
@@ -41,7 +41,7 @@ impl<const D: usize> World<D> {
     /// # Errors
     /// As [`largest`](Self::largest).
     pub fn of_all<T: Words>(&self, own: Vec<T>) -> Result<Vec<T>, StepError> {
-        let Some(team) = &self.team else {
+        let Some(communicator) = &self.communicator else {
             return Ok(own);
         };
         let mut words = Vec::new();
@@ -51,7 +51,7 @@ impl<const D: usize> World<D> {
             item.write(&mut words);
             words[length] = (words.len() - length - 1) as u64;
         }
-        let words = team.gather(&words)?;
+        let words = communicator.gather(&words)?;
         let (mut all, mut rest) = (Vec::new(), &words[..]);
         while let Some((length, behind)) = rest.split_first() {
             let (item, others) = behind.split_at((*length as usize).min(behind.len()));
@@ -71,7 +71,7 @@ impl<const D: usize> World<D> {
         owned: impl Fn(usize) -> bool,
         otherwise: impl Fn(usize) -> T,
     ) -> Result<Vec<T>, StepError> {
-        if self.team.is_none() {
+        if self.communicator.is_none() {
             return Ok(list);
         }
         let mut all: Vec<T> = (0..list.len()).map(otherwise).collect();
@@ -90,7 +90,7 @@ impl<const D: usize> World<D> {
     /// Those of the stage, and as [`largest`](Self::largest).
     pub fn run(&mut self, stage: &mut dyn Stage<World<D>>) -> Result<(), StepError> {
         stage.run(self)?;
-        match self.team.is_some() {
+        match self.communicator.is_some() {
             true => self.refresh(&stage.access()),
             false => Ok(()),
         }
@@ -103,8 +103,8 @@ impl<const D: usize> World<D> {
     /// As [`largest`](Self::largest).
     pub fn refresh(&mut self, access: &Access) -> Result<(), StepError> {
         let sums = access.sweep && !access.writes.is_empty();
-        match self.team.clone().filter(|_| sums) {
-            Some(team) => team.tell(&mut self.free, &access.writes),
+        match self.communicator.clone().filter(|_| sums) {
+            Some(communicator) => communicator.update_ghosts(&mut self.free, &access.writes),
             None => Ok(()),
         }
     }

@@ -106,7 +106,7 @@ fn pairs<const D: usize>(world: &World<D>, wanted: &[bool]) -> Vec<Facing> {
     let joined = joined.filter(|([s, t], _)| are_joined(world, *s, *t));
     let joined: BTreeSet<_> = joined.map(|(pair, _)| walls(*pair)).collect();
     all.retain(|(pair, _)| !joined.contains(&walls(*pair)));
-    let outer = OuterPart::of(&*world.kernel);
+    let outer = OuterPart::new(&*world.kernel);
     let all = all.into_par_iter().with_min_len(64);
     let parts = all.map(|(pair, distance)| {
         let part = outer.at(distance) / (2.0 * TAU);
@@ -130,7 +130,7 @@ fn near<const D: usize, N: PartialEq + Sync>(
     let place = |s: usize| world.domain.wrapped(elements.centre[s]);
     let places: Vec<_> = held.iter().map(|s| place(*s)).collect();
     let grid = CellGrid::new(&places, radius, &world.domain);
-    let reach = Reach::of(&held, &places, &number);
+    let reach = Reach::around(&held, &places, &number);
     let before = |t: usize| {
         let mut found = Vec::new();
         let x = place(t);
@@ -157,7 +157,7 @@ fn near<const D: usize, N: PartialEq + Sync>(
 struct Reach<const D: usize, N>(Vec<(N, [Vect<D>; 2])>);
 
 impl<const D: usize, N: PartialEq> Reach<D, N> {
-    fn of(held: &[usize], places: &[Vect<D>], number: impl Fn(usize) -> N) -> Self {
+    fn around(held: &[usize], places: &[Vect<D>], number: impl Fn(usize) -> N) -> Self {
         let mut all: Vec<(N, [Vect<D>; 2])> = Vec::new();
         for (s, x) in held.iter().zip(places) {
             let own = number(*s);
@@ -222,7 +222,7 @@ struct OuterPart {
 }
 
 impl OuterPart {
-    fn of(kernel: &dyn Sampler) -> Self {
+    fn new(kernel: &dyn Sampler) -> Self {
         let (support, dimension) = (kernel.support_radius(), kernel.dimension());
         let sphere = if dimension == 2 { TAU } else { 2.0 * TAU };
         let shell = |r: f64| sphere * r.powi(dimension as i32 - 1) * kernel.at(r).0;

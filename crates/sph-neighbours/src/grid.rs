@@ -21,7 +21,7 @@ pub struct Extent<const D: usize> {
 
 impl<const D: usize> Extent<D> {
     /// That of these points; those that are nowhere do not count.
-    pub fn of(positions: &[Vect<D>]) -> Self {
+    pub fn around(positions: &[Vect<D>]) -> Self {
         let mut finite = positions.iter().filter(|x| x.iter().all(|c| c.is_finite()));
         let first = finite.next().copied().unwrap_or_else(Vect::zeros);
         let (lower, upper) = finite.fold((first, first), |(lower, upper), x| {
@@ -86,7 +86,7 @@ impl<const D: usize> CellGrid<D> {
 
     /// The same in the memory of this grid.
     pub fn renew(&mut self, positions: &[Vect<D>], radius: f64, domain: &Domain<D>) {
-        self.cells(&Extent::of(positions), radius, domain);
+        self.cells(&Extent::around(positions), radius, domain);
         self.sort(positions);
     }
 
@@ -100,7 +100,7 @@ impl<const D: usize> CellGrid<D> {
         domain: &Domain<D>,
     ) {
         self.cells(extent, radius, domain);
-        let own = Extent::of(positions);
+        let own = Extent::around(positions);
         let corners = [own.lower, own.upper].map(|x| {
             let at = |axis| self.coordinate(&x, axis);
             std::array::from_fn::<usize, D, _>(at)

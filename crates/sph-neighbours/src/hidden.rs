@@ -10,7 +10,7 @@ pub struct Blocked {
 
 impl Blocked {
     /// Of pairs in any order.
-    pub fn of(mut pairs: Vec<[u32; 2]>) -> Self {
+    pub fn from_pairs(mut pairs: Vec<[u32; 2]>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();
         Blocked { pairs }
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn a_row_holds_whom_an_index_does_not_see() {
-        let blocked = Blocked::of(vec![[4, 2], [1, 9], [4, 0], [4, 2]]);
+        let blocked = Blocked::from_pairs(vec![[4, 2], [1, 9], [4, 0], [4, 2]]);
         let row = |i: usize| blocked.row(i).collect::<Vec<_>>();
         assert_eq!([row(1), row(2), row(4)], [vec![9], vec![], vec![0, 2]]);
         assert!(blocked.has(4, 0) && !blocked.has(0, 4));

@@ -59,7 +59,7 @@ impl Couplings {
         let rows = a.par_chunks_mut(CHUNK).zip(b.par_chunks_mut(CHUNK));
         let rows = rows.zip(c.par_chunks_mut(CHUNK));
         let blocks = self.blocks.par_iter_mut().zip(rows);
-        let room = || world.lists.pools.numbers.lend();
+        let room = || world.lists.pools.numbers.acquire();
         blocks
             .enumerate()
             .for_each_init(room, |numbers, (block, (kept, ((a, b), c)))| {

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
 use crate::blocks::each_block;
-use crate::kernel_values::SumRoom;
+use crate::kernel_values::SumScratch;
 use crate::lane_pair::LanePair;
 use crate::lane_vector::minus;
 use crate::list::{CHUNK, make_room};
@@ -32,11 +32,11 @@ pub fn kernel_sums<const D: usize>(
     let points = &world.walls.points;
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
-    let scaling = Scaling::of(&world.free, &*world.kernel);
+    let scaling = Scaling::from_store(&world.free, &*world.kernel);
     let (blocked, unseen) = (&world.lists.hidden.particles, &world.lists.hidden.points);
     let limit = kernel.support_radius().powi(2);
     let width = width();
-    let cluster = |room: &mut SumRoom, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
+    let cluster = |room: &mut SumScratch, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
         let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
         let mut inside = std::mem::take(&mut room.inside);
         inside.clear();
@@ -165,13 +165,13 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     });
     let limit = kernel.support_radius().powi(2);
     each_block(out, CHUNK, &|b, out| {
-        let mut room = world.lists.pools.means.lend();
+        let mut room = world.lists.pools.means.acquire();
         let (values, inside, rows) = &mut *room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
                 let own = members.from..members.from + members.count;
                 let mut near = targets[own.clone()].iter();
-                let around = Around {
+                let around = TargetPoints {
                     targets,
                     positions,
                     domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
@@ -212,7 +212,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
 }
 
 /// Some targets and the particles around them.
-struct Around<'a, const D: usize> {
+struct TargetPoints<'a, const D: usize> {
     /// Places of all targets, m.
     targets: &'a [Vect<D>],
     positions: &'a [Vect<D>],
@@ -220,7 +220,7 @@ struct Around<'a, const D: usize> {
     domain: Option<&'a Domain<D>>,
 }
 
-impl<const D: usize> Around<'_, D> {
+impl<const D: usize> TargetPoints<'_, D> {
     /// With a branch for the domain in the loop lanes would be taken apart: it is `WRAPS`, decided before.
     #[inline(always)]
     fn apart<L: Lane, const WRAPS: bool>(&self, x: &[L; D], particle: u32) -> [L; D] {
@@ -234,7 +234,7 @@ impl<const D: usize> Around<'_, D> {
 
 /// Who is within the support of a target, and the squared distances of all targets, `N` numbers for each particle.
 struct DistancesAround<'a, const D: usize> {
-    around: &'a Around<'a, D>,
+    around: &'a TargetPoints<'a, D>,
     members: Members<'a>,
     limit: f64,
     inside: &'a mut [u32],
@@ -274,7 +274,7 @@ impl<const D: usize> DistancesAround<'_, D> {
 
 /// The sums over all particles around some targets.
 struct SumAround<'a, const D: usize, S> {
-    around: &'a Around<'a, D>,
+    around: &'a TargetPoints<'a, D>,
     members: Members<'a>,
     inside: &'a [u32],
     values: &'a [f64],

@@ -50,7 +50,7 @@ impl Values {
 
 /// Buffers of a thread that sums the kernel over particles.
 #[derive(Default)]
-pub(crate) struct SumRoom {
+pub(crate) struct SumScratch {
     pub lanes: Values,
     pub row: Values,
     /// Which candidates some member has within its support.

@@ -23,7 +23,7 @@ pub fn walk_in_lanes<const D: usize, S: PairSum<D>, R: Send>(
 ) -> Result<(), StepError> {
     let sweep = Sweep::new(world, &*world.kernel)?;
     each_block(out, CHUNK, &|block, out| {
-        let mut room = world.lists.pools.sweeps.lend();
+        let mut room = world.lists.pools.sweeps.acquire();
         for cluster in sweep.clusters(block) {
             for members in groups(cluster, width().lanes()) {
                 let own = members.from..members.from + members.count;

@@ -68,7 +68,7 @@ impl NeighbourList {
     /// The same with the buffers of tasks before.
     pub(crate) fn build_on<const D: usize>(
         &mut self,
-        pool: &Pool<(Vec<u32>, Around)>,
+        pool: &Pool<(Vec<u32>, CellRanges)>,
         [targets, sources]: [&[Vect<D>]; 2],
         grid: &CellGrid<D>,
         (reach, domain): (f64, &Domain<D>),
@@ -77,7 +77,7 @@ impl NeighbourList {
         self.blocks
             .resize_with(targets.len().div_ceil(CHUNK), Block::default);
         let reach2 = reach * reach;
-        let room = || pool.lend();
+        let room = || pool.acquire();
         self.blocks
             .par_iter_mut()
             .enumerate()
@@ -149,14 +149,14 @@ impl NeighbourList {
 
 /// The places of a grid around one of its cells; targets that follow one another mostly share them.
 #[derive(Default)]
-pub(crate) struct Around {
+pub(crate) struct CellRanges {
     cell: Option<usize>,
     ranges: Vec<Range<usize>>,
     /// In all ranges.
     places: usize,
 }
 
-impl Around {
+impl CellRanges {
     /// Looks around the cell of a point, unless that has been done.
     fn go_to<const D: usize>(&mut self, x: &Vect<D>, grid: &CellGrid<D>, reach: f64) {
         let cell = Some(grid.cell_of(x));

@@ -35,12 +35,18 @@ impl Owned {
 impl<const D: usize> World<D> {
     /// The particles that count in sums over all.
     pub fn owned(&self) -> Owned {
-        Owned(self.team.as_ref().map(|team| team.own(&self.free)))
+        Owned(
+            self.communicator
+                .as_ref()
+                .map(|communicator| communicator.own(&self.free)),
+        )
     }
 
     /// Particles whose sums over neighbours nobody asks for; `None` if all are asked for.
     pub fn idle(&self) -> Option<Vec<bool>> {
-        self.team.as_ref().and_then(|team| team.idle(&self.free))
+        self.communicator
+            .as_ref()
+            .and_then(|communicator| communicator.idle(&self.free))
     }
 
     /// The elements of walls that count in sums over all.

@@ -5,8 +5,8 @@ use std::ops::Range;
 use sph_core::{Pool, Vect};
 
 use crate::cluster::Buffers;
-use crate::kernel_values::{SumRoom, Values};
-use crate::list::Around;
+use crate::kernel_values::{SumScratch, Values};
+use crate::list::CellRanges;
 use crate::{CellGrid, Rates, Rows, particles};
 
 /// Buffers of the tasks that walk over lists, and of those that build them.
@@ -19,13 +19,13 @@ pub(crate) struct Pools<const D: usize> {
     /// Numbers of all pairs of a cluster.
     pub numbers: Pool<Vec<f64>>,
     /// Of kernel sums, with the candidates that are kept.
-    pub pruned: Pool<(SumRoom, Vec<u32>)>,
+    pub pruned: Pool<(SumScratch, Vec<u32>)>,
     /// Kernel values around a place, who is within the support, and sums.
     pub means: Pool<(Values, Vec<u32>, particles::Rows)>,
     /// Candidates of clusters, with the ranges of cells.
     pub clusters: Pool<(Vec<u32>, Vec<Range<usize>>)>,
     /// Candidates of single particles, with the places around a cell.
-    pub lists: Pool<(Vec<u32>, Around)>,
+    pub lists: Pool<(Vec<u32>, CellRanges)>,
     pub grids: Pool<CellGrid<D>>,
     pub centres: Pool<Vec<Vect<D>>>,
 }

@@ -19,7 +19,7 @@ pub const TRANSPORTED: usize = 7;
 impl<const D: usize> Rates<D> {
     /// An acceleration, and scalars at rest.
     #[inline(always)]
-    pub fn of(acceleration: Vect<D>) -> Self {
+    pub fn from_acceleration(acceleration: Vect<D>) -> Self {
         Rates {
             acceleration,
             scalar: 0.0,

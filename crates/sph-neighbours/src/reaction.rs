@@ -47,9 +47,9 @@ pub fn reactions<const D: usize>(
     let positions = world.free.get(fields::POSITION)?;
     let (walls, lists) = (&world.walls, &world.lists.wall);
     let sees = |i: usize| {
-        let mut elements = walls.contacts.of(i).elements().iter();
+        let mut elements = walls.contacts.of_particle(i).elements().iter();
         let points = if lists.is_empty() { &[] } else { lists.row(i) };
-        let mut slopes = walls.slopes.of(i).iter();
+        let mut slopes = walls.slopes.of_particle(i).iter();
         elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
             || slopes.any(|s| wanted[s.wall as usize])
@@ -84,7 +84,7 @@ fn beside<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> 
         return *x;
     }
     let (i, walls) = (part.particle as usize, &world.walls);
-    let elements = walls.contacts.of(i).elements().iter();
+    let elements = walls.contacts.of_particle(i).elements().iter();
     let mut of_elements = elements.filter(|s| walls.elements.wall[**s as usize] == part.wall);
     let of_points = match world.lists.wall.is_empty() {
         true => &[],

@@ -194,7 +194,7 @@ impl<const D: usize> Scratch<D> {
     }
 
     /// A copy of a row with the sources that count.
-    pub(crate) fn of(row: &Row<'_, D>, counts: impl Fn(u32) -> bool) -> Self {
+    pub(crate) fn copied(row: &Row<'_, D>, counts: impl Fn(u32) -> bool) -> Self {
         let mut kept = Scratch::new();
         for k in (0..row.index.len()).filter(|k| counts(row.index[*k])) {
             kept.index.push(row.index[k]);

@@ -27,7 +27,7 @@ enum SlopeOf<'a, const D: usize> {
 
 impl<'a, const D: usize> Scaling<'a, D> {
     /// Of particles; none if their walls do not scale the kernel.
-    pub(crate) fn of(free: &'a Store<D>, kernel: &'a dyn Sampler) -> Option<Self> {
+    pub(crate) fn from_store(free: &'a Store<D>, kernel: &'a dyn Sampler) -> Option<Self> {
         Some(Scaling {
             scale: free.get(fields::SCALE).ok()?,
             slope: SlopeOf::All(free.get(fields::SCALE_SLOPE).ok()?),

@@ -26,7 +26,7 @@ pub fn shares_at<const D: usize>(
 ) -> Result<Vec<TermShare<D>>, StepError> {
     let surroundings = Surroundings::new(world)?;
     let mut rows = Rows::default();
-    let whole = surroundings.of(particle, &mut rows);
+    let whole = surroundings.neighbourhood(particle, &mut rows);
     let none = Scratch::<D>::new();
     let without = whole.scaling.map(|s| s.with_slope(Vect::zeros()));
     let fluid = Neighbourhood {
@@ -38,9 +38,9 @@ pub fn shares_at<const D: usize>(
     };
     let mut shares = Vec::new();
     for interaction in terms {
-        interaction.lend(world, &mut |term| {
+        interaction.with_columns(world, &mut |term| {
             let of = |neighbourhood: &Neighbourhood<'_, D>| {
-                let mut rates = Rates::of(Vect::zeros());
+                let mut rates = Rates::from_acceleration(Vect::zeros());
                 term.row(neighbourhood, &mut rates);
                 rates
             };

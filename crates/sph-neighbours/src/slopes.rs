@@ -26,7 +26,7 @@ impl<const D: usize> Slopes<D> {
     }
 
     /// Those of a particle.
-    pub fn of(&self, particle: usize) -> &[Slope<D>] {
+    pub fn of_particle(&self, particle: usize) -> &[Slope<D>] {
         let from = self
             .all
             .partition_point(|s| (s.particle as usize) < particle);
@@ -56,7 +56,13 @@ mod tests {
         };
         let mut slopes = Slopes::default();
         slopes.renew([slope(1, 0), slope(1, 2), slope(4, 1)].into_iter());
-        let walls = |particle| slopes.of(particle).iter().map(|s| s.wall).collect();
+        let walls = |particle| {
+            slopes
+                .of_particle(particle)
+                .iter()
+                .map(|s| s.wall)
+                .collect()
+        };
         let found: Vec<Vec<u32>> = (0..6).map(walls).collect();
         assert_eq!(found, [vec![], vec![0, 2], vec![], vec![], vec![1], vec![]]);
     }

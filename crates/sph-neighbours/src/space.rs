@@ -5,12 +5,12 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 
-use crate::{Owned, Team, World};
+use crate::{Communicator, Owned, World};
 
 /// The vectors of a solve, with a value for each particle: copies of particles that are at home elsewhere follow their
 /// owners, and products are those of all rows. Where all particles are here, nothing has to follow.
 pub struct Space<const D: usize> {
-    team: Option<Arc<dyn Team<D>>>,
+    communicator: Option<Arc<dyn Communicator<D>>>,
     owned: Owned,
     particles: usize,
 }
@@ -28,11 +28,11 @@ impl<const D: usize> World<D> {
     /// # Errors
     /// If the particles elsewhere are lost.
     pub fn space(&self) -> Result<Space<D>, StepError> {
-        if let Some(team) = &self.team {
-            team.begin_solve()?;
+        if let Some(communicator) = &self.communicator {
+            communicator.begin_solve()?;
         }
         Ok(Space {
-            team: self.team.clone(),
+            communicator: self.communicator.clone(),
             owned: self.owned(),
             particles: self.free.len(),
         })
@@ -42,7 +42,7 @@ impl<const D: usize> World<D> {
 impl<const D: usize> Space<D> {
     /// Whether all rows are here.
     pub fn is_whole(&self) -> bool {
-        self.team.is_none()
+        self.communicator.is_none()
     }
 
     /// Particles, copies among them.
@@ -57,15 +57,15 @@ impl<const D: usize> Space<D> {
 
     /// Gives copies the values of their owners.
     pub fn refresh(&self, values: &mut [Vect<D>]) {
-        if let Some(team) = &self.team {
-            team.mirror(values);
+        if let Some(communicator) = &self.communicator {
+            communicator.mirror(values);
         }
     }
 
     /// The same of a vector with one number for each particle.
     pub fn refresh_numbers(&self, values: &mut [Vect<1>]) {
-        if let Some(team) = &self.team {
-            team.mirror_scalars(values);
+        if let Some(communicator) = &self.communicator {
+            communicator.mirror_scalars(values);
         }
     }
 
@@ -76,12 +76,12 @@ impl<const D: usize> Space<D> {
         mark: impl Fn(&T) -> bool,
         of: impl Fn(usize, bool) -> T,
     ) {
-        let (Some(team), Some(own)) = (&self.team, self.owned.marks()) else {
+        let (Some(communicator), Some(own)) = (&self.communicator, self.owned.marks()) else {
             return;
         };
         let marks = values.iter().map(|value| f64::from(u8::from(mark(value))));
         let mut marks: Vec<Vect<1>> = marks.map(|mark| Vect::from([mark])).collect();
-        team.mirror_scalars(&mut marks);
+        communicator.mirror_scalars(&mut marks);
         let all = values.iter_mut().zip(own).enumerate();
         for (i, (value, _)) in all.filter(|(_, (_, own))| !**own) {
             *value = of(i, marks[i][0] > 0.0);
@@ -95,23 +95,25 @@ impl<const D: usize> Space<D> {
 
     /// The same of rows of which some are `owned`.
     pub fn inner_of<const C: usize>(&self, owned: &Owned, x: &[Vect<C>], y: &[Vect<C>]) -> f64 {
-        match (&self.team, owned.marks()) {
-            (Some(team), Some(own)) => team.add(inner_of(x, y, own)),
+        match (&self.communicator, owned.marks()) {
+            (Some(communicator), Some(own)) => communicator.add(inner_of(x, y, own)),
             _ => inner(x, y),
         }
     }
 
     /// Whether it holds for all who have rows.
     pub fn all(&self, holds: bool) -> bool {
-        match &self.team {
+        match &self.communicator {
             None => holds,
-            Some(team) => team.most(f64::from(u8::from(!holds))) == 0.0,
+            Some(communicator) => communicator.most(f64::from(u8::from(!holds))) == 0.0,
         }
     }
 
     /// The largest value of all who have rows.
     pub fn largest(&self, value: f64) -> f64 {
-        self.team.as_ref().map_or(value, |team| team.most(value))
+        self.communicator
+            .as_ref()
+            .map_or(value, |communicator| communicator.most(value))
     }
 }
 

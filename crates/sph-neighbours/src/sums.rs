@@ -52,13 +52,13 @@ impl<const D: usize> World<D> {
         let plus = |a: [i128; N], b: [i128; N]| std::array::from_fn(|k| a[k].wrapping_add(b[k]));
         let sum_of = |range: Range<usize>| range.filter_map(each).map(whole).fold([0; N], plus);
         let mut sums = joined(count, BATCH, [0; N], &sum_of, plus);
-        if let Some(team) = &self.team {
+        if let Some(communicator) = &self.communicator {
             let limb = |sum: i128, k: usize| (sum as u128 >> (32 * k)) as u64 & 0xFFFF_FFFF;
             let mut limbs: Vec<u64> = sums
                 .iter()
                 .flat_map(|sum| (0..LIMBS).map(|k| limb(*sum, k)))
                 .collect();
-            team.total(&mut limbs)?;
+            communicator.total(&mut limbs)?;
             for (sum, limbs) in sums.iter_mut().zip(limbs.chunks(LIMBS)) {
                 let joined = |all: u128, (k, limb): (usize, &u64)| {
                     all.wrapping_add(u128::from(*limb) << (32 * k))

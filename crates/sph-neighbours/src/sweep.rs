@@ -85,14 +85,14 @@ pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
     with: &mut WithTerm<'_, D>,
 ) -> Result<(), StepError> {
     let Some((term, rest)) = terms.split_first() else {
-        return with(before.unwrap_or(&Nothing));
+        return with(before.unwrap_or(&NoTerms));
     };
     let term = term.borrow();
     let (own, others) = declared.split_first().unzip();
     world.free.watch(own);
     let others = others.unwrap_or_default();
     let mut looked_up = false;
-    let done = term.lend(world, &mut |bound| {
+    let done = term.with_columns(world, &mut |bound| {
         looked_up = true;
         world.free.unwatch(|| term.name())?;
         match before {
@@ -107,9 +107,9 @@ pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
 }
 
 /// A sweep without terms.
-struct Nothing;
+struct NoTerms;
 
-impl<const D: usize> RowTerm<D> for Nothing {
+impl<const D: usize> RowTerm<D> for NoTerms {
     fn row(&self, _: &Neighbourhood<'_, D>, _: &mut Rates<D>) {}
     fn cluster(&self, _: &mut Cluster<'_, D>, _: &mut [Rates<D>]) {}
 }
@@ -143,10 +143,10 @@ where
     T: RowTerm<D> + ?Sized,
 {
     let sweep = Sweep::new(world, kernel)?;
-    let start = Rates::of(world.gravity + world.driving);
-    let room = || world.lists.pools.sweeps.lend();
+    let start = Rates::from_acceleration(world.gravity + world.driving);
+    let room = || world.lists.pools.sweeps.acquire();
     let half = world.lists.sweep_half.as_ref();
-    let work = |room: &mut Room<D>, block: usize, particles: usize| {
+    let work = |room: &mut TaskScratch<D>, block: usize, particles: usize| {
         let (buffers, rates) = room;
         rates.clear();
         rates.resize(particles, start);
@@ -214,11 +214,11 @@ pub fn accelerations_of<const D: usize>(
     acceleration: &mut [Vect<D>],
 ) -> Result<(), StepError> {
     let sweep = Sweep::new(world, &*world.kernel)?;
-    let start = Rates::of(Vect::zeros());
-    term.lend(world, &mut |bound| {
+    let start = Rates::from_acceleration(Vect::zeros());
+    term.with_columns(world, &mut |bound| {
         let all = acceleration.par_chunks_mut(CHUNK).enumerate();
         all.for_each_init(
-            || world.lists.pools.sweeps.lend(),
+            || world.lists.pools.sweeps.acquire(),
             |room, (c, a)| {
                 let (buffers, rates) = &mut **room;
                 rates.clear();
@@ -237,7 +237,7 @@ pub fn accelerations_of<const D: usize>(
 }
 
 /// Buffers of a thread, and the rates of its block.
-pub(crate) type Room<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
+pub(crate) type TaskScratch<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
 /// What a walk over neighbourhoods looks at.
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
@@ -262,7 +262,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
                 false => &[],
             },
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            scaling: Scaling::of(&world.free, &*world.kernel),
+            scaling: Scaling::from_store(&world.free, &*world.kernel),
             lists: world.lists.nearest(),
             width: width(),
         })
@@ -330,7 +330,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         let contacts = &world.walls.contacts;
         let (mut domain, mut beside) = (None, false);
         for (i, row) in own.zip(&mut buffers.walls) {
-            beside |= !contacts.of(i).is_empty();
+            beside |= !contacts.of_particle(i).is_empty();
             let x = &self.positions[i];
             let near = wrapping(&world.domain, x, world.reach());
             domain = domain.or(near);

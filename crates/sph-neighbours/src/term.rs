@@ -76,7 +76,7 @@ pub trait Interaction<const D: usize>: Send + Sync {
     ///
     /// # Errors
     /// If a column is missing, and those of `with`.
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError>;
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError>;
 }
 
 contract!(
@@ -91,7 +91,7 @@ impl<const D: usize, T: PairTerm<D>> Interaction<D> for T {
     fn access(&self) -> Access {
         PairTerm::access(self)
     }
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         with(&ByPairs(self.bind(world)?))
     }
 }

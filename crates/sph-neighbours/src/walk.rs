@@ -25,7 +25,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             world,
             position: world.free.get(fields::POSITION)?,
             renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            scaling: Scaling::of(&world.free, &*world.kernel),
+            scaling: Scaling::from_store(&world.free, &*world.kernel),
             lists: world.lists.nearest(),
         })
     }
@@ -36,7 +36,11 @@ impl<'w, const D: usize> Surroundings<'w, D> {
     }
 
     /// The neighbourhood of a particle.
-    pub fn of<'a>(&'a self, particle: usize, rows: &'a mut Rows<D>) -> Neighbourhood<'a, D> {
+    pub fn neighbourhood<'a>(
+        &'a self,
+        particle: usize,
+        rows: &'a mut Rows<D>,
+    ) -> Neighbourhood<'a, D> {
         let world = self.world;
         let kernel = &*world.kernel;
         let x = &self.position[particle];
@@ -61,7 +65,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             particle,
             free: rows.free.row(),
             wall: rows.wall.row(),
-            contacts: world.walls.contacts.of(particle),
+            contacts: world.walls.contacts.of_particle(particle),
             inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
             scaling: self.scaling.as_ref(),
         }
@@ -129,8 +133,8 @@ pub fn walk_into<const D: usize, R: Send>(
 ) -> Result<(), StepError> {
     let surroundings = Surroundings::new(world)?;
     let kernel = &*world.kernel;
-    let one = |(rows, w): &mut Room<D>, i: usize| {
-        let rows = surroundings.of(i, rows);
+    let one = |(rows, w): &mut TaskScratch<D>, i: usize| {
+        let rows = surroundings.neighbourhood(i, rows);
         if values == Values::Both {
             for (w, row) in w.iter_mut().zip([rows.free, rows.wall]) {
                 w.resize(row.distance2.len(), 0.0);
@@ -144,7 +148,7 @@ pub fn walk_into<const D: usize, R: Send>(
         of(&Around { rows, free, wall })
     };
     each_block(out, CHUNK, &|block, out| {
-        let mut room = world.lists.pools.walks.lend();
+        let mut room = world.lists.pools.walks.acquire();
         for (out, i) in out.iter_mut().zip(block * CHUNK..) {
             if wanted(i) {
                 *out = one(&mut room, i);
@@ -155,4 +159,4 @@ pub fn walk_into<const D: usize, R: Send>(
 }
 
 /// Buffers of a task: rows, and kernel values of free particles and wall points.
-type Room<const D: usize> = (Rows<D>, [Vec<f64>; 2]);
+type TaskScratch<const D: usize> = (Rows<D>, [Vec<f64>; 2]);

@@ -50,7 +50,9 @@ pub fn wall_parts<const D: usize>(
     let mut ask = |i: usize| asked[i] = wanted(i);
     match world.walls.points.in_sums() && !world.lists.wall.is_empty() {
         true => (0..sweep.particles())
-            .filter(|i| !contacts.of(*i).is_empty() || !world.lists.wall.row(*i).is_empty())
+            .filter(|i| {
+                !contacts.of_particle(*i).is_empty() || !world.lists.wall.row(*i).is_empty()
+            })
             .for_each(&mut ask),
         false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
     }
@@ -61,7 +63,7 @@ pub fn wall_parts<const D: usize>(
     let declared: Vec<_> = terms.iter().map(|term| term.access()).collect();
     with_all(world, &declared, terms, None, &mut |term| {
         let blocks = asked.par_chunks(CHUNK).enumerate();
-        let room = || (world.lists.pools.sweeps.lend(), Apart::default());
+        let room = || (world.lists.pools.sweeps.acquire(), SeparateWalls::default());
         let all = blocks.map_init(room, |(room, apart), (block, asked)| {
             let mut parts = Vec::new();
             if !asked.contains(&true) {
@@ -82,7 +84,7 @@ pub fn wall_parts<const D: usize>(
 }
 
 /// The walls before the members of a cluster, one by one.
-struct Apart<const D: usize> {
+struct SeparateWalls<const D: usize> {
     near: Vec<Near>,
     /// Of members that see several walls.
     pieces: Vec<Piece<D>>,
@@ -115,9 +117,9 @@ struct Piece<const D: usize> {
     acceleration: Vect<D>,
 }
 
-impl<const D: usize> Default for Apart<D> {
+impl<const D: usize> Default for SeparateWalls<D> {
     fn default() -> Self {
-        Apart {
+        SeparateWalls {
             near: Vec::new(),
             pieces: Vec::new(),
             whole: Vec::new(),
@@ -138,11 +140,14 @@ fn sum<const D: usize>(
     rates: &mut Vec<Rates<D>>,
 ) {
     rates.clear();
-    rates.resize(cluster.members().len(), Rates::of(Vect::zeros()));
+    rates.resize(
+        cluster.members().len(),
+        Rates::from_acceleration(Vect::zeros()),
+    );
     term.cluster(cluster, rates);
 }
 
-impl<const D: usize> Apart<D> {
+impl<const D: usize> SeparateWalls<D> {
     /// Looks at the walls of the wanted members of a cluster.
     fn take(&mut self, world: &World<D>, cluster: &Cluster<'_, D>, wanted: impl Fn(usize) -> bool) {
         let set = &world.walls;
@@ -154,7 +159,7 @@ impl<const D: usize> Apart<D> {
             let of_contacts = own.contacts.elements().iter();
             let of_contacts = of_contacts.map(|s| set.elements.wall[*s as usize]);
             self.walls.clear();
-            let of_slopes = set.slopes.of(particle).iter().map(|s| s.wall);
+            let of_slopes = set.slopes.of_particle(particle).iter().map(|s| s.wall);
             for wall in of_points.chain(of_contacts).chain(of_slopes) {
                 if !self.walls.contains(&wall) {
                     self.walls.push(wall);
@@ -165,7 +170,7 @@ impl<const D: usize> Apart<D> {
             let only = match self.walls[..] {
                 [only] => Some(only),
                 _ => {
-                    let pieces = self.walls.iter().map(|wall| Piece::of(world, &own, *wall));
+                    let pieces = self.walls.iter().map(|wall| Piece::new(world, &own, *wall));
                     self.pieces.extend(pieces);
                     None
                 }
@@ -241,7 +246,7 @@ impl<const D: usize> Apart<D> {
 }
 
 impl<const D: usize> Piece<D> {
-    fn of(world: &World<D>, own: &Neighbourhood<'_, D>, wall: u32) -> Self {
+    fn new(world: &World<D>, own: &Neighbourhood<'_, D>, wall: u32) -> Self {
         let set = &world.walls;
         let mut contacts = ContactBlock::default();
         contacts.push_row(own.contacts, |s| set.elements.wall[s as usize] == wall);
@@ -254,10 +259,10 @@ impl<const D: usize> Piece<D> {
         });
         Piece {
             wall,
-            points: Scratch::of(&own.wall, |v| set.points.wall[v as usize] == wall),
+            points: Scratch::copied(&own.wall, |v| set.points.wall[v as usize] == wall),
             deficit: deficit.sum::<f64>().max(0.0),
             contacts,
-            slope: (set.slopes.of(own.particle).iter())
+            slope: (set.slopes.of_particle(own.particle).iter())
                 .filter(|s| s.wall == wall)
                 .fold(Vect::zeros(), |sum, s| sum + s.slope),
             acceleration: Vect::zeros(),
@@ -274,7 +279,7 @@ impl<const D: usize> Piece<D> {
             scaling: scaling.as_ref(),
             ..*own
         };
-        let mut rates = Rates::of(Vect::zeros());
+        let mut rates = Rates::from_acceleration(Vect::zeros());
         term.row(&alone, &mut rates);
         self.acceleration = rates.acceleration;
     }

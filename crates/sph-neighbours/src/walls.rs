@@ -25,7 +25,7 @@ pub struct WallPoints<const D: usize> {
     /// Accelerations of the wall there, m/s²; empty where no wall ever moves.
     pub acceleration: Vec<Vect<D>>,
     /// 1 where the wall rubs, 0 where it slips freely.
-    pub grip: Vec<f64>,
+    pub friction_factor: Vec<f64>,
     /// Slip length, m, and unit normal into the fluid; empty where no wall slips partly.
     pub slip: Vec<(f64, Vect<D>)>,
     /// Which named wall the point belongs to.
@@ -68,7 +68,7 @@ pub struct Elements<const D: usize> {
     /// Accelerations of the wall at the centres, m/s²; empty where no wall ever moves.
     pub acceleration: Vec<Vect<D>>,
     /// 1 where the wall rubs, 0 where it slips freely.
-    pub grip: Vec<f64>,
+    pub friction_factor: Vec<f64>,
     /// Slip length, m; empty where no wall slips partly.
     pub slip: Vec<f64>,
     /// Whether the friction is that of a wall function; empty where no wall has one.

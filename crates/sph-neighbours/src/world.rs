@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Lent, Pool, Scalar, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::pools::Pools;
-use crate::{CellGrid, Clusters, Domain, Extent, Hidden, NeighbourList, SweepHalf, Team, WallSet};
+use crate::{
+    CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallSet,
+};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
 #[derive(Default)]
@@ -81,7 +83,7 @@ pub struct World<const D: usize> {
     /// That of all particles, where others hold some of them; `None` where all are here.
     pub extent: Option<Extent<D>>,
     /// Others who hold particles of this flow; `None` where all are here.
-    pub team: Option<Arc<dyn Team<D>>>,
+    pub communicator: Option<Arc<dyn Communicator<D>>>,
 }
 
 impl<const D: usize> World<D> {
@@ -213,8 +215,8 @@ impl<const D: usize> World<D> {
         &self,
         positions: &[Vect<D>],
         pool: &'s Pool<CellGrid<D>>,
-    ) -> Lent<'s, CellGrid<D>> {
-        let mut grid = pool.lend();
+    ) -> PoolGuard<'s, CellGrid<D>> {
+        let mut grid = pool.acquire();
         match &self.extent {
             None => grid.renew(positions, self.reach(), &self.domain),
             Some(all) => grid.renew_among(all, positions, self.reach(), &self.domain),
@@ -272,7 +274,7 @@ impl<const D: usize> World<D> {
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];
-            let mut wall_grid = pools.grids.lend();
+            let mut wall_grid = pools.grids.acquire();
             wall_grid.renew(summed, reach, domain);
             lists.wall.build_on(
                 &pools.lists,
@@ -288,7 +290,7 @@ impl<const D: usize> World<D> {
         let elements = &self.walls.elements;
         if !elements.centre.is_empty() {
             // An element stands where its corners stood.
-            let mut centres = pools.centres.lend();
+            let mut centres = pools.centres.acquire();
             let all = 0..elements.centre.len();
             centres.clear();
             centres.extend(all.map(|s| elements.centre_from(s, points, domain)));

@@ -101,7 +101,7 @@ fn world(n: usize, seed: u64, order: impl Fn(usize) -> usize) -> World<2> {
         dt: 0.0,
         transported: Vec::new(),
         extent: None,
-        team: None,
+        communicator: None,
     }
 }
 

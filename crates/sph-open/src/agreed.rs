@@ -4,10 +4,10 @@ use sph_core::{StepError, Vect};
 use sph_neighbours::{Words, World};
 
 use crate::Inside;
+use crate::adjacent_fluid::AdjacentFluid;
 use crate::faces::Faces;
-use crate::looked::Looked;
 
-impl<const D: usize> Words for Looked<D> {
+impl<const D: usize> Words for AdjacentFluid<D> {
     fn write(&self, to: &mut Vec<u64>) {
         let inside = &self.inside;
         to.push(u64::from(inside.wet));
@@ -31,7 +31,7 @@ impl<const D: usize> Words for Looked<D> {
     fn read(from: &[u64]) -> Self {
         let real = |k: usize| f64::from_bits(from[k]);
         let vector = |n: usize| Vect::from_fn(|k, _| real(9 + n * D + k));
-        Looked {
+        AdjacentFluid {
             inside: Inside {
                 wet: from[0] != 0,
                 pressure: real(1),
@@ -56,8 +56,8 @@ impl<const D: usize> Faces<D> {
     pub(crate) fn agreed(
         &self,
         world: &World<D>,
-        looked: Vec<Looked<D>>,
-    ) -> Result<Vec<Looked<D>>, StepError> {
+        looked: Vec<AdjacentFluid<D>>,
+    ) -> Result<Vec<AdjacentFluid<D>>, StepError> {
         let owned = world.owned_elements()?;
         let looks = |k: usize| {
             let candidates = || world.lists.of_points.candidates(k);
@@ -67,12 +67,12 @@ impl<const D: usize> Faces<D> {
     }
 
     /// What is seen where no particle is near.
-    pub(crate) fn nothing(&self, k: usize) -> Looked<D> {
+    pub(crate) fn nothing(&self, k: usize) -> AdjacentFluid<D> {
         let (mean_pressure, mean) = match self.memory.dt > 0.0 {
             true => self.memory.mean[k],
             false => (0.0, Vect::zeros()),
         };
-        Looked {
+        AdjacentFluid {
             inside: Inside {
                 mean,
                 mean_pressure,

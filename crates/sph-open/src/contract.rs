@@ -135,7 +135,7 @@ pub struct OpenRefusal {
 
 impl OpenRefusal {
     /// Of a key.
-    pub fn of(key: impl Into<String>, why: impl Into<String>) -> Self {
+    pub fn at_key(key: impl Into<String>, why: impl Into<String>) -> Self {
         OpenRefusal {
             key: key.into(),
             why: why.into(),
@@ -158,7 +158,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     ///
     /// # Errors
     /// The key that does not fit.
-    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal>;
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal>;
     /// Checks it against the elements of its face, which are not known before the walls are built.
     ///
     /// # Errors

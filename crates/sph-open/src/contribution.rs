@@ -164,7 +164,7 @@ impl<const D: usize> OpenBoundaries<D> {
 impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if !setting.kicks_once {
-            return Err(Refusal::of(
+            return Err(Refusal::at_key(
                 "integrator",
                 "",
                 "open faces let mass through once per step: take `[integrator.symplectic-euler]`",

@@ -19,21 +19,21 @@ pub(crate) fn check_table(key: &str, table: &[[f64; 2]]) -> Result<(), OpenRefus
     let finite = table.iter().flatten().all(|x| x.is_finite());
     if table.is_empty() || !rises || !finite {
         let why = "a table has pairs of finite numbers, the first of them rising";
-        return Err(OpenRefusal::of(key, why));
+        return Err(OpenRefusal::at_key(key, why));
     }
     Ok(())
 }
 
 /// Times, s, and factors of a value between which it goes straight: `[[0, 0], [0.5, 1], [10, 1]]`.
-pub(crate) type Course = Option<Vec<[f64; 2]>>;
+pub(crate) type FactorTable = Option<Vec<[f64; 2]>>;
 
 /// The factor at a time.
-pub(crate) fn factor(course: &Course, time: f64) -> f64 {
+pub(crate) fn factor(course: &FactorTable, time: f64) -> f64 {
     course.as_ref().map_or(1.0, |table| between(table, time))
 }
 
 /// The least and the largest of a value over its course.
-pub(crate) fn range(course: &Course, value: f64) -> [f64; 2] {
+pub(crate) fn range(course: &FactorTable, value: f64) -> [f64; 2] {
     let table = course.as_deref().unwrap_or(&[[0.0, 1.0]]);
     let all = || table.iter().map(|[_, factor]| value * factor);
     [
@@ -43,14 +43,17 @@ pub(crate) fn range(course: &Course, value: f64) -> [f64; 2] {
 }
 
 /// Refuses a course that does not last as long as the run.
-pub(crate) fn check_course(course: &Course, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+pub(crate) fn check_course(
+    course: &FactorTable,
+    setting: &OpenSetting<'_>,
+) -> Result<(), OpenRefusal> {
     let Some(table) = course else {
         return Ok(());
     };
     check_table("over_time", table)?;
     let (first, last) = (table[0][0], table[table.len() - 1][0]);
     if first > 0.0 || last < setting.end {
-        return Err(OpenRefusal::of(
+        return Err(OpenRefusal::at_key(
             "over_time",
             format!(
                 "the table lasts from {first} s to {last} s, and the run from 0 to {} s: add what is missing",

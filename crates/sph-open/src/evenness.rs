@@ -85,7 +85,7 @@ impl<const D: usize> Faces<D> {
     /// Pressure of the faces that a particle sees, as far as it is `taken` out of their elements, Pa: 0 where it sees none.
     fn pressure_before(&self, world: &World<D>, taken: &[f64], i: usize) -> f64 {
         let (mut sum, mut weight, mut nearest) = (0.0, 0.0, f64::INFINITY);
-        for contact in world.walls.contacts.of(i) {
+        for contact in world.walls.contacts.of_particle(i) {
             let k = self.open[contact.element as usize];
             if k != CLOSED {
                 let w = contact.gradient.norm();

@@ -18,7 +18,7 @@ const NEAREST: [f64; 2] = [0.8, 0.9];
 const IN_FRONT: f64 = 1e-6;
 
 /// A particle behind a face.
-struct Behind<const D: usize> {
+struct PassedParticle<const D: usize> {
     particle: u32,
     face: usize,
     phase: usize,
@@ -28,7 +28,7 @@ struct Behind<const D: usize> {
     ports: [(usize, Vect<D>); 2],
 }
 
-impl<const D: usize> Behind<D> {
+impl<const D: usize> PassedParticle<D> {
     /// Share of its mass that the second port gets.
     fn part(&self) -> f64 {
         let [(_, apart), second] = self.ports;
@@ -40,7 +40,7 @@ impl<const D: usize> Behind<D> {
 
 /// Who passes faces at the end of a step.
 #[derive(Default)]
-pub(crate) struct Gone<const D: usize> {
+pub(crate) struct Exits<const D: usize> {
     /// Particles here, each with the number of its face.
     pub here: Vec<(u32, usize)>,
     /// Where all stood, those who are at home elsewhere among them, in the order of identities.
@@ -48,7 +48,7 @@ pub(crate) struct Gone<const D: usize> {
 }
 
 /// What a particle that leaves hands over.
-struct Leaver<const D: usize> {
+struct LeavingParticle<const D: usize> {
     identity: u64,
     ports: [usize; 2],
     part: f64,
@@ -57,7 +57,7 @@ struct Leaver<const D: usize> {
     place: Vect<D>,
 }
 
-impl<const D: usize> Words for Leaver<D> {
+impl<const D: usize> Words for LeavingParticle<D> {
     fn write(&self, to: &mut Vec<u64>) {
         let [first, second] = self.ports.map(|port| port as u64);
         to.extend([self.identity, first, second, self.phase as u64]);
@@ -67,7 +67,7 @@ impl<const D: usize> Words for Leaver<D> {
 
     fn read(from: &[u64]) -> Self {
         let real = |k: usize| f64::from_bits(from[k]);
-        Leaver {
+        LeavingParticle {
             identity: from[0],
             ports: [from[1] as usize, from[2] as usize],
             phase: from[3] as usize,
@@ -81,15 +81,15 @@ impl<const D: usize> Words for Leaver<D> {
 /// All leavers, in the order of identities: copies of others' particles are counted where they are at home.
 fn of_all<const D: usize>(
     world: &World<D>,
-    behind: &[Behind<D>],
-) -> Result<Vec<Leaver<D>>, StepError> {
+    behind: &[PassedParticle<D>],
+) -> Result<Vec<LeavingParticle<D>>, StepError> {
     let (position, identity) = (
         world.free.get(fields::POSITION)?,
         world.free.get(fields::IDENTITY)?,
     );
     let owned = world.owned();
-    let counts = |b: &&Behind<D>| owned.has(b.particle as usize);
-    let leaver = |b: &Behind<D>| Leaver {
+    let counts = |b: &&PassedParticle<D>| owned.has(b.particle as usize);
+    let leaver = |b: &PassedParticle<D>| LeavingParticle {
         identity: u64::from(identity[b.particle as usize]),
         ports: b.ports.map(|(port, _)| port),
         part: b.part(),
@@ -135,15 +135,15 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Particles behind an open face, if some particle has waited long enough to leave or to be born; their mass goes to the ports.
-    pub fn leaving(&mut self, world: &World<D>) -> Result<Gone<D>, StepError> {
-        let behind = self.behind(world)?;
+    pub fn leaving(&mut self, world: &World<D>) -> Result<Exits<D>, StepError> {
+        let behind = self.passed_particles(world)?;
         let late = (0..self.elements.len()).filter_map(|k| self.ripeness(k));
         let depths = behind.iter().map(|b| b.depth / self.spacing);
         let mut late = [late.chain(depths).fold(0.0, f64::max)];
         world.largest(&mut late)?;
         self.due = late[0] >= LATE;
         if !self.due {
-            return Ok(Gone::default());
+            return Ok(Exits::default());
         }
         let phases = self.whole.len();
         let all = of_all(world, &behind)?;
@@ -153,21 +153,21 @@ impl<const D: usize> Faces<D> {
             let face = self.face_of[b.ports[0]];
             self.memory.totals[face * phases + b.phase].died.add(b.mass);
         }
-        Ok(Gone {
+        Ok(Exits {
             here: behind.iter().map(|b| (b.particle, b.face)).collect(),
             places: all.iter().map(|b| b.place).collect(),
         })
     }
 
     /// Particles behind an open face.
-    fn behind(&self, world: &World<D>) -> Result<Vec<Behind<D>>, StepError> {
+    fn passed_particles(&self, world: &World<D>) -> Result<Vec<PassedParticle<D>>, StepError> {
         let position = world.free.get(fields::POSITION)?;
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();
         let mut all = Vec::new();
         for &p in &world.walls.contacts.particles {
             // Distances are those of before the move, which is shorter than δr.
-            let mut contacts = world.walls.contacts.of(p as usize).iter();
+            let mut contacts = world.walls.contacts.of_particle(p as usize).iter();
             if !contacts.any(|c| c.distance < self.spacing) {
                 continue;
             }
@@ -181,7 +181,7 @@ impl<const D: usize> Faces<D> {
             if height >= 0.0 || (apart - normal * height).norm() > self.spacing {
                 continue;
             }
-            all.push(Behind {
+            all.push(PassedParticle {
                 particle: p,
                 face: self.face_of[first],
                 phase: phase.map_or(0, |q| q[p as usize] as usize),
@@ -203,7 +203,7 @@ impl<const D: usize> Faces<D> {
     ) -> Option<[(usize, Vect<D>); 2]> {
         let way = |k: usize| world.domain.nearest_image(x - self.places[k].centre);
         let open = || {
-            let contacts = world.walls.contacts.of(p).iter();
+            let contacts = world.walls.contacts.of_particle(p).iter();
             let open = contacts.map(|c| self.open[c.element as usize]);
             open.filter(|k| *k != CLOSED).map(|k| k as usize)
         };

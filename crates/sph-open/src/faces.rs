@@ -7,8 +7,8 @@ use sph_kernels::Sampler;
 use sph_neighbours::{Passed, WallSet};
 use sph_rheology::state::Laws;
 
+use crate::adjacent_fluid::AdjacentFluid;
 use crate::cells::cells;
-use crate::looked::Looked;
 use crate::memory::Memory;
 use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};
@@ -103,7 +103,7 @@ pub(crate) struct Faces<const D: usize> {
     /// Pressure that it takes out before every particle, Pa; zero in between.
     pub before: Vec<f64>,
     /// What was seen before the elements, to be filled again.
-    pub looked: Vec<Looked<D>>,
+    pub looked: Vec<AdjacentFluid<D>>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
 }
@@ -237,7 +237,7 @@ impl<const D: usize> Faces<D> {
             points.share.push(0.0);
             points.volume.push(cell);
             points.pressure.push(0.0);
-            points.grip.push(0.0);
+            points.friction_factor.push(0.0);
             points.wall.push(walls.elements.wall[own[0] as usize]);
             // Where no wall moves or slips these are empty.
             if !points.acceleration.is_empty() {
@@ -303,7 +303,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Hands what the laws say to whoever looks at walls.
-    pub fn tell(&self, walls: &mut WallSet<D>) {
+    pub fn set_walls(&self, walls: &mut WallSet<D>) {
         let first = walls.points.corners;
         for (k, own) in self.elements.iter().enumerate() {
             let v = first + k;

@@ -91,7 +91,7 @@ impl OpenSetting<'_> {
             Some(name) if names().any(|n| n == name) => Ok(()),
             Some(name) => {
                 let near = sph_core::suggestion(name, names());
-                Err(OpenRefusal::of(
+                Err(OpenRefusal::at_key(
                     "phase",
                     format!("there is no phase `{name}`{near}"),
                 ))
@@ -107,7 +107,7 @@ impl OpenSetting<'_> {
         let sound = self.sound_speed;
         match speed.abs() < sound {
             true => Ok(()),
-            false => Err(OpenRefusal::of(
+            false => Err(OpenRefusal::at_key(
                 key,
                 format!(
                     "the fluid would pass with {speed:.4} m/s, and its speed of sound is {sound:.4} m/s: raise \

@@ -6,6 +6,7 @@
 //! * [`waves`] makes waves by paddles and open faces, and tells by gauges what comes back.
 #![doc = include_str!("../README.md")]
 
+mod adjacent_fluid;
 mod agreed;
 mod air;
 mod budget;
@@ -15,11 +16,10 @@ mod contribution;
 mod course;
 mod evenness;
 mod exits;
+mod face_values;
 mod faces;
 mod flux;
 mod laws;
-mod look;
-mod looked;
 mod memory;
 mod passing;
 mod profile;

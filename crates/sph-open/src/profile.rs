@@ -78,7 +78,7 @@ impl Profile {
 
     /// Refuses what is no profile in the dimension of the scene.
     pub(crate) fn check(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
-        let refused = |why: &str| Err(OpenRefusal::of("profile", why));
+        let refused = |why: &str| Err(OpenRefusal::at_key("profile", why));
         match self {
             Profile::Polynomial(c) if c.iter().any(|c| !c.is_finite()) => {
                 return refused("a coefficient is not finite");
@@ -108,7 +108,7 @@ impl Profile {
         match self {
             Profile::Uniform => Ok(()),
             _ if flat => Ok(()),
-            _ => Err(OpenRefusal::of(
+            _ => Err(OpenRefusal::at_key(
                 "profile",
                 "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
                  `uniform`, or draw the face as a `box` with its other five sides in `open`",

@@ -2,7 +2,7 @@
 
 use sph_boundary::{BoundaryError, ThinWall, Wall, WallMotion, WallSetup, WallShape, WallStates};
 use sph_core::{AnyField, StepError, Vect};
-use sph_neighbours::{Sight, WallSet, World};
+use sph_neighbours::{DepthGauge, WallSet, World};
 
 use crate::faces::{SharedFaces, lock};
 
@@ -36,7 +36,7 @@ impl<const D: usize> Wall<D> for OpenWalls<D> {
         self.walls.state(world)?;
         let mut faces = lock(&self.faces);
         faces.look(world)?;
-        faces.tell(&mut world.walls);
+        faces.set_walls(&mut world.walls);
         Ok(())
     }
 
@@ -98,8 +98,8 @@ impl<const D: usize> WallMotion<D> for OpenWalls<D> {
         self.walls.feels(wall)
     }
 
-    fn sights(&self) -> Vec<(usize, Sight<D>)> {
-        self.walls.sights()
+    fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
+        self.walls.depth_gauges()
     }
 
     /// The numbers of the faces stand behind those of the movers.

@@ -76,7 +76,7 @@ impl Subject for Scene {
 
     fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
         match run(&self.0.scene, options, observer) {
-            Ok(summary) => Ok(Ended::of(summary.status, &summary)),
+            Ok(summary) => Ok(Ended::done(summary.status, &summary)),
             Err(error) if options.start.goes_on() && cannot_resume(&error) => Ok(Ended::Unusable),
             Err(RunError::Io(error)) => Err(error),
             Err(error) => Ok(Ended::Failed(known(&error), error.to_string())),

@@ -88,7 +88,7 @@ pub trait Probe<const D: usize>: Send {
     ///
     /// # Errors
     /// If the probe names a phase that is not in the scene: what is wrong with its key `phase`.
-    fn settle(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
         Ok(())
     }
     /// Quantities that are computed for such probes only.

@@ -6,7 +6,7 @@ mod plugin;
 mod quantity;
 mod reduction;
 
-pub(crate) use conditions::Condition;
+pub(crate) use conditions::QuantityBounds;
 pub(crate) use plan::{Measured, Plan, PlannedColumn, Preset};
 pub use plugin::{Reduction, Statistic, Weight, quantile, reduced};
 pub(crate) use quantity::Quantity;

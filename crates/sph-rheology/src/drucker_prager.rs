@@ -114,9 +114,9 @@ impl DruckerPrager {
     }
 
     /// The numbers of a batch.
-    fn bound(&self) -> Bound {
+    fn bound(&self) -> YieldConstants {
         let (slope, constant) = self.cone.coefficients(self.friction_angle, self.cohesion);
-        Bound {
+        YieldConstants {
             slope,
             constant,
             yield_viscosity: self.yield_viscosity(),
@@ -125,13 +125,13 @@ impl DruckerPrager {
 }
 
 /// What does not depend on the particle: M, K, η_y.
-struct Bound {
+struct YieldConstants {
     slope: f64,
     constant: f64,
     yield_viscosity: f64,
 }
 
-impl Bound {
+impl YieldConstants {
     /// τ_y and x = γ̇/γ̇_y of one entry; without strength x is infinite, at rest too.
     fn state(&self, inputs: &Inputs<'_>, k: usize) -> (f64, f64) {
         let (rate, pressure) = inputs.at(k);

@@ -8,8 +8,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sph_io::{Cells, FieldData, IoError, Piece};
 use sph_run::{
-    Books, Frames, Identity, Model, Now, Outlay, RunOptions, SavedState, Schedule, Start, Status,
-    Watch, run, save_state,
+    Frames, Identity, Model, ModelTime, Outlay, RunCounters, RunOptions, SavedState, Schedule,
+    Start, Status, Watch, run, save_state,
 };
 
 /// Thermal diffusivity α, m²/s.
@@ -48,9 +48,14 @@ impl Model for Rod {
     type Error = IoError;
     type Summary = Summary;
 
-    fn begin(&mut self, start: &Start, own: &Path, _: &mut Watch<'_>) -> Result<Books, IoError> {
+    fn begin(
+        &mut self,
+        start: &Start,
+        own: &Path,
+        _: &mut Watch<'_>,
+    ) -> Result<RunCounters, IoError> {
         if *start == Start::Afresh {
-            return Ok(Books::default());
+            return Ok(RunCounters::default());
         }
         let path = own.to_path_buf();
         let saved = SavedState::load(own)?.state();
@@ -59,7 +64,7 @@ impl Model for Rod {
         Ok(books)
     }
 
-    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<Now, IoError> {
+    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, IoError> {
         if limit > self.time {
             let u = &self.temperature;
             let cells = u.len() as f64;
@@ -75,7 +80,7 @@ impl Model for Rod {
             self.time += self.dt;
             self.steps += 1;
         }
-        Ok(Now {
+        Ok(ModelTime {
             time: self.time,
             steps: self.steps,
             dt: self.dt,
@@ -106,14 +111,14 @@ impl Model for Rod {
         frames.map_or(Ok(()), |frames| frames.add(self.time, vec![rod], 1))
     }
 
-    fn save(&mut self, books: &Books, own: &Path) -> Result<(), IoError> {
+    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), IoError> {
         save_state(own, "rod".into(), &(&*self, books))
     }
 
     fn conclude(
         &mut self,
         ended: Result<Status, &mut IoError>,
-        _: &Books,
+        _: &RunCounters,
         _: &mut Watch<'_>,
     ) -> Result<Option<Summary>, IoError> {
         let exact = |x: f64| (PI * x).sin() * (-PI * PI * DIFFUSIVITY * self.time).exp();

@@ -7,7 +7,7 @@ use sph_io::{FolderLock, IoError, SeriesWriter};
 
 use crate::frames::{Frames, Outlay};
 use crate::lock;
-use crate::model::{Books, Model, Now, Status, Wish};
+use crate::model::{Model, ModelTime, Poll, RunCounters, Status};
 use crate::observer::{Command, Progress, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 use crate::schedule::{Due, Schedule};
@@ -32,7 +32,7 @@ pub fn run<M: Model>(
 pub struct Opened {
     folder: PathBuf,
     start: Start,
-    books: Books,
+    books: RunCounters,
     files: Option<Files>,
     _lock: Option<FolderLock>,
 }
@@ -124,7 +124,7 @@ impl Opened {
             Ok(status) => {
                 let film = driver.opened.files.as_ref().map(|f| f.frames.film());
                 let film = film.unwrap_or(Ok(())).map_err(M::Error::from);
-                model.agree(Wish::Written(film))?;
+                model.agree(Poll::Written(film))?;
                 let summary = model.conclude(Ok(status), driver.books(), observer)?;
                 driver.write_summary::<M>(summary.as_ref())?;
                 Ok(summary)
@@ -152,7 +152,7 @@ struct Driver<'a> {
 
 impl Driver<'_> {
     /// The books as they are now.
-    fn books(&mut self) -> &Books {
+    fn books(&mut self) -> &RunCounters {
         let books = &mut self.opened.books;
         books.wall_seconds = self.before + self.started.elapsed().as_secs_f64();
         books
@@ -187,7 +187,7 @@ impl Driver<'_> {
             self.opened.books.time = now.time;
             if stepped {
                 let stop = self.wants_to_stop(&now, observer);
-                match model.agree(Wish::Stop(stop)) {
+                match model.agree(Poll::Stop(stop)) {
                     Ok(false) => {}
                     Ok(true) => {
                         self.save(model)?;
@@ -201,7 +201,7 @@ impl Driver<'_> {
                 let begun = Instant::now();
                 let written = self.write(model, due, observer);
                 self.opened.books.output_seconds += begun.elapsed().as_secs_f64();
-                model.agree(Wish::Written(written))?;
+                model.agree(Poll::Written(written))?;
                 // What was seen is judged.
                 if let Err(error) = model.advance(now.time, observer) {
                     return Ok(Err(error));
@@ -222,7 +222,7 @@ impl Driver<'_> {
     }
 
     /// Tells of a step that is done; whether somebody or the clock on the wall asks to stop.
-    fn wants_to_stop(&mut self, now: &Now, observer: &mut Watch<'_>) -> bool {
+    fn wants_to_stop(&mut self, now: &ModelTime, observer: &mut Watch<'_>) -> bool {
         let command = observer.step(&Progress {
             time: now.time,
             end: self.schedule.end,

@@ -24,7 +24,7 @@ mod trouble;
 pub use drive::{Opened, run};
 pub use frames::{BAD_STATE, BAD_STATE_NEAR, BAD_STATE_PICTURE, Frames, Outlay};
 pub use identity::{FileMark, Identity};
-pub use model::{Books, Model, Now, Status, Wish};
+pub use model::{Model, ModelTime, Poll, RunCounters, Status};
 pub use observer::{Command, Observer, Progress, Watch};
 pub use options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 pub use schedule::{Schedule, next_multiple};

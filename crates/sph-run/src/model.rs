@@ -29,14 +29,14 @@ pub trait Model {
         start: &Start,
         own: &Path,
         observer: &mut Watch<'_>,
-    ) -> Result<Books, Self::Error>;
+    ) -> Result<RunCounters, Self::Error>;
 
     /// One step that does not go beyond a time (s), tried again as the model likes. At a time that is reached nothing
     /// moves: the state is made ready to be looked at, and judged.
     ///
     /// # Errors
     /// An error that ends the run.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Now, Self::Error>;
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime, Self::Error>;
 
     /// Names and units of the columns of `series.csv`.
     fn columns(&self) -> Vec<(String, String)>;
@@ -61,16 +61,16 @@ pub trait Model {
     ///
     /// # Errors
     /// If it cannot be written.
-    fn save(&mut self, books: &Books, own: &Path) -> Result<(), Self::Error>;
+    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), Self::Error>;
 
     /// Common decision of all processes of the run: the error of any, or the wish of any to stop.
     ///
     /// # Errors
     /// A file that one could not write; a process that is gone.
-    fn agree(&mut self, wish: Wish<Self::Error>) -> Result<bool, Self::Error> {
+    fn agree(&mut self, wish: Poll<Self::Error>) -> Result<bool, Self::Error> {
         match wish {
-            Wish::Written(done) => done.map(|()| false),
-            Wish::Stop(stop) => Ok(stop),
+            Poll::Written(done) => done.map(|()| false),
+            Poll::Stop(stop) => Ok(stop),
         }
     }
 
@@ -82,14 +82,14 @@ pub trait Model {
     fn conclude(
         &mut self,
         ended: Result<Status, &mut Self::Error>,
-        books: &Books,
+        books: &RunCounters,
         observer: &mut Watch<'_>,
     ) -> Result<Option<Self::Summary>, Self::Error>;
 }
 
 /// Time and step of a model.
 #[derive(Clone, Copy, Debug)]
-pub struct Now {
+pub struct ModelTime {
     /// Simulated time, s.
     pub time: f64,
     /// Steps taken.
@@ -104,7 +104,7 @@ pub struct Now {
 
 /// A question to all processes of a run.
 #[derive(Debug)]
-pub enum Wish<E> {
+pub enum Poll<E> {
     /// Whether what was due has been written.
     Written(Result<(), E>),
     /// Whether this one wants to stop.
@@ -126,7 +126,7 @@ pub enum Status {
 /// Counts of a driver, kept in checkpoints.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Books {
+pub struct RunCounters {
     /// Simulated time, s.
     pub time: f64,
     /// Rows of the series that were due so far.

@@ -1,6 +1,6 @@
 //! When something is due.
 
-use crate::model::{Books, Status};
+use crate::model::{RunCounters, Status};
 
 /// When rows, fields and checkpoints are due, and when a run is over.
 pub struct Schedule<'a> {
@@ -68,7 +68,7 @@ impl Schedule<'_> {
     }
 
     /// Outputs that are due at a time, s.
-    pub(crate) fn due(&self, time: f64, books: &Books) -> Due {
+    pub(crate) fn due(&self, time: f64, books: &RunCounters) -> Due {
         let written = books.last_row == Some(time);
         Due {
             row: !written && (time >= books.rows as f64 * self.rows || time >= self.end),
@@ -78,17 +78,17 @@ impl Schedule<'_> {
     }
 
     /// The next time that is hit exactly.
-    pub(crate) fn target(&self, books: &Books) -> f64 {
+    pub(crate) fn target(&self, books: &RunCounters) -> f64 {
         let output = books.next_output.filter(|_| self.hits_outputs);
         output.unwrap_or(self.end).min(self.end)
     }
 
-    pub(crate) fn row_written(&self, time: f64, books: &mut Books) {
+    pub(crate) fn row_written(&self, time: f64, books: &mut RunCounters) {
         books.rows = over(time, self.rows) + 1;
         books.last_row = Some(time);
     }
 
-    pub(crate) fn checkpoint_due(&self, time: f64, books: &mut Books) {
+    pub(crate) fn checkpoint_due(&self, time: f64, books: &mut RunCounters) {
         books.checkpoints = over(time, self.checkpoints);
     }
 }

@@ -73,7 +73,7 @@ pub enum Ended {
 
 impl Ended {
     /// Of a run that ended well.
-    pub fn of(status: Status, summary: &impl Serialize) -> Self {
+    pub fn done(status: Status, summary: &impl Serialize) -> Self {
         let summary = serde_json::to_value(summary).unwrap_or(Json::Null);
         match status {
             Status::Done => Ended::Done(summary),

@@ -1,6 +1,7 @@
 //! What a schema cannot say.
 
 pub(crate) mod bounds;
+pub(crate) mod collected;
 pub(crate) mod corners;
 pub(crate) mod dimension;
 pub(crate) mod geometry;
@@ -14,4 +15,3 @@ pub(crate) mod shapes;
 pub(crate) mod time;
 pub(crate) mod walls;
 pub(crate) mod wave;
-pub(crate) mod whole;

@@ -84,8 +84,8 @@ pub use tables::output::Output;
 pub use tables::phase::Phase;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};
-pub use tables::wall::{Condition, FrictionForm, Side, Wall};
+pub use tables::wall::{FluidSide, FrictionForm, SlipCondition, Wall};
 pub use tables::wall_shapes::{
-    Axis, ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
+    ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
 pub use tables::wave::{Heading, Wave, WaveKind};

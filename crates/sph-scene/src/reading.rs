@@ -8,4 +8,5 @@ pub(crate) mod limits;
 pub(crate) mod load;
 pub(crate) mod plugins;
 pub(crate) mod remarks;
+pub(crate) mod renamed;
 pub(crate) mod schema;

@@ -2,7 +2,7 @@
 
 pub(crate) mod body;
 pub(crate) mod body_shapes;
-pub(crate) mod given;
+pub(crate) mod given_keys;
 pub(crate) mod gravity;
 pub(crate) mod motion;
 pub(crate) mod numerics;

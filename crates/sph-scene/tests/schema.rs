@@ -107,7 +107,7 @@ fn walls_and_motions_are_in_the_schema() {
             assert!(keys(of).iter().any(|k| k == name), "{of}.{name}");
         }
     }
-    let condition = schema["$defs"]["Condition"].to_string();
+    let condition = schema["$defs"]["SlipCondition"].to_string();
     assert!(condition.contains("partial-slip"));
     assert!(!keys("Wall").contains(&"path".to_string()));
 }

@@ -1,9 +1,9 @@
 //! How constitutive laws meet particles.
 //!
 //! * [`VelocityGradient`] is a kind of plugin: ∂u_i/∂x_j from a particle's neighbours and walls.
-//!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude; [`RidingStrain`] does both within the sweep.
+//!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude; [`StrainRateTerm`] does both within the sweep.
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
-//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`CarriedAhead`]) tells what of them acts,
+//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`ImplicitElasticStress`]) tells what of them acts,
 //!   and [`Yielded`] how the forces share where a material yields.
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces,
@@ -19,7 +19,7 @@ mod adjoint;
 mod bed_system;
 mod blend;
 mod blended;
-mod carried;
+mod carried_stress;
 mod contribution;
 mod coulomb;
 mod displacement;
@@ -28,17 +28,17 @@ mod effective_pressure;
 mod elastic;
 mod elastic_force;
 mod elastic_sub_steps;
-mod felt;
 mod gathered;
 mod gradient;
 mod gradient_stage;
 mod isotropic;
 mod laplace;
+mod law_inputs;
 mod pore_pressure;
 mod renormalised;
-mod riding_strain;
 mod soil_surface;
 mod strain_rate;
+mod strain_rate_term;
 mod symmetric_difference;
 mod viscosity;
 mod wave_limit;
@@ -47,7 +47,7 @@ mod yielded;
 pub use adjoint::{AdjointDivergence, StressCorrection};
 pub use blend::Blend;
 pub use blended::Blended;
-pub use carried::{CarriedAhead, CarriedStress};
+pub use carried_stress::{CarriedStress, ImplicitElasticStress};
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, StressDivergence};
@@ -55,15 +55,15 @@ pub use effective_pressure::{EffectivePressureEntry, Soils};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;
-pub use felt::Felt;
 pub use gradient::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
 pub use gradient_stage::GradientStage;
 pub use isotropic::Isotropic;
 pub use laplace::{Laplace, PressureSolver};
+pub use law_inputs::LawInputs;
 pub use pore_pressure::PorePressure;
 pub use renormalised::Renormalised;
-pub use riding_strain::RidingStrain;
 pub use strain_rate::StrainRate;
+pub use strain_rate_term::StrainRateTerm;
 pub use symmetric_difference::SymmetricDifference;
 pub use viscosity::ViscosityStage;
 pub use wave_limit::ElasticWaveLimit;

@@ -21,4 +21,4 @@ pub mod step;
 
 pub use error::SolverError;
 pub use sph_contribution::PluginInForce;
-pub use step::{Flow, Left, Snapshot};
+pub use step::{Flow, OutletTotals, Snapshot};

@@ -20,7 +20,7 @@ mod running;
 
 pub use pages::publish::publish;
 pub use pages::table::{rows, write_csv};
-pub use reading::axis::{Axis, Choice, Set};
+pub use reading::axis::{Choice, Set, StudyAxis};
 pub use reading::file::{Combine, StudyFile};
 pub use reading::mistake::{Mistake, Refused};
 pub use reading::options::Options;
@@ -32,7 +32,7 @@ pub use results::Results;
 pub use results::compare::{Change, Comparison, Pair, compare};
 pub use results::frontier::Frontier;
 pub use results::order::Orders;
-pub use results::scaling::{Reign, Scale, SeriesCost};
+pub use results::scaling::{FastestRange, Scale, SeriesCost};
 pub use results::variant_result::{SeriesResult, VariantResult, WallSeconds};
 pub use running::cost::{Cost, Scaling, SolveCost};
 pub use running::execute::{Outcome, execute, to_run};

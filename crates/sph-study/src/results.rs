@@ -143,7 +143,7 @@ impl Results {
                 let orders = self.errors.iter().map(|error| {
                     let points = self.convergence(&one.variants, error);
                     let points: Vec<_> = points.into_iter().map(|(_, p)| p).collect();
-                    (error.clone(), Orders::of(&points))
+                    (error.clone(), Orders::from_points(&points))
                 });
                 one.orders = orders.collect();
             }
@@ -169,7 +169,7 @@ impl Results {
         for series in &self.series {
             let points = self.convergence(&series.variants, self.judged());
             for pair in points.windows(2) {
-                let orders = Orders::of(&[pair[0].1, pair[1].1]);
+                let orders = Orders::from_points(&[pair[0].1, pair[1].1]);
                 found.insert(pair[1].0.clone(), orders.main());
             }
         }

@@ -42,7 +42,7 @@ impl<const D: usize> Contribution<D> for BulkVelocity {
                 offer.hook(*self);
                 Ok(())
             }
-            false => Err(Refusal::of(
+            false => Err(Refusal::at_key(
                 "flow-control",
                 "axis",
                 "the flow rate is held along an axis in which the scene is periodic: name another, or give \

@@ -1,6 +1,6 @@
 //! Closures without a history.
 
-pub(crate) mod behind;
+pub(crate) mod common;
 mod filter;
 mod last_strain;
 pub(crate) mod length;

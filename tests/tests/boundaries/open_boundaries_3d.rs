@@ -87,7 +87,7 @@ fn number(of: &Json, face: &str, key: &str) -> f64 {
 }
 
 #[test]
-fn what_comes_in_less_what_goes_out_is_what_is_held() {
+fn inflow_less_outflow_is_the_change_of_mass() {
     let out = folder();
     let summary = into(out.path(), DUCT, 2, Start::Afresh);
     let passed = passed(&summary);
@@ -102,7 +102,7 @@ fn what_comes_in_less_what_goes_out_is_what_is_held() {
     );
     let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
     let sum = |key: &str| faces.iter().map(|f| number(passed, f, key)).sum::<f64>();
-    let state = FinalState::of(out.path());
+    let state = FinalState::read(out.path());
     let masses = state.columns["mass"].iter().map(|b| f64::from_bits(*b));
     let missing = sum("entered") - sum("left") - sum("held") - (masses.sum::<f64>() - 0.16);
     assert!(
@@ -117,15 +117,15 @@ fn particles_come_and_go_at_the_same_step_with_the_same_bits_on_any_threads_and_
     let outs: Vec<_> = (0..4).map(|_| folder()).collect();
     let path = |k: usize| outs[k].path();
     into(path(0), DUCT, 1, Start::Afresh);
-    let whole = FinalState::of(path(0));
+    let whole = FinalState::read(path(0));
     for (k, threads) in [(1, 2), (2, 4)] {
         into(path(k), DUCT, threads, Start::Afresh);
-        FinalState::of(path(k)).assert_same(&whole, &format!("{threads} threads"));
+        FinalState::read(path(k)).assert_same(&whole, &format!("{threads} threads"));
     }
     let part = DUCT.replace("end = 0.6\n", "end = 0.6\nmax_steps = 60\n");
     into(path(3), &part, 1, Start::Afresh);
     into(path(3), DUCT, 2, Start::Resumed);
-    FinalState::of(path(3)).assert_same(&whole, "resumed");
+    FinalState::read(path(3)).assert_same(&whole, "resumed");
 }
 
 /// A duct without friction with a flow that is the same everywhere: nothing may change it. Bounds are those of the plane.
@@ -139,7 +139,7 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
     let out = folder();
     let summary = into(out.path(), &text, 2, Start::Afresh);
     passed(&summary);
-    let state = FinalState::of(out.path());
+    let state = FinalState::read(out.path());
     let velocity: Vec<f64> = state.columns["velocity"]
         .iter()
         .map(|b| f64::from_bits(*b))

@@ -116,7 +116,7 @@ fn frames(folder: &Path) -> Frames {
         };
         series.write(&frame).expect("a frame");
     }
-    Frames::of(folder).expect("frames")
+    Frames::from_folder(folder).expect("frames")
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn tracks_follow_identities_through_other_orders() {
 }
 
 #[test]
-fn what_was_not_written_is_told_with_what_was() {
+fn missing_and_written_files_are_listed() {
     let folder = tempfile::tempdir().expect("a folder");
     let frames = frames(folder.path());
     let snapshot = frames.read(frames.at(None)).expect("a frame");
@@ -212,7 +212,7 @@ fn what_was_not_written_is_told_with_what_was() {
         &folder.path().join("s.png"),
     );
     assert!(drawn.expect("drawn") > 10);
-    assert!(Frames::of(&folder.path().join("gone")).is_err());
+    assert!(Frames::from_folder(&folder.path().join("gone")).is_err());
 }
 
 /// Two particles beside each other tell of the slope across them by a hair: nothing is guessed from it.

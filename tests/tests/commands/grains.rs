@@ -90,7 +90,7 @@ fn a_scene_of_grains_carries_no_particles_and_the_reverse() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_line_and_nothing_is_written() {
+fn mistakes_are_reported_with_their_line_and_nothing_is_written() {
     let spheres = "0.05 0.05 0.05 0.01\n0.05 0.05 0.065 0.01\n";
     let beyond = "0.05 0.05 -0.05 0.01\n";
     let from_file = |scene: &str| {

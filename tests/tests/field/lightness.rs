@@ -6,13 +6,13 @@ use crate::Field;
 
 const G: f64 = 9.81;
 
-fn of<'a>(series: &'a Table, name: &str) -> &'a [f64] {
+fn column<'a>(series: &'a Table, name: &str) -> &'a [f64] {
     series.column(name).unwrap_or_else(|| panic!("no {name}"))
 }
 
 /// Acceleration upwards: that of the parabola that fits the way.
 fn acceleration(series: &Table) -> f64 {
-    let rows = of(series, "time").iter().zip(of(series, "A.y"));
+    let rows = column(series, "time").iter().zip(column(series, "A.y"));
     let rows: Vec<_> = rows.collect();
     let middle = rows.iter().map(|(t, _)| **t).sum::<f64>() / rows.len() as f64;
     let sum = |power: i32, of_way: bool| -> f64 {
@@ -65,12 +65,12 @@ fn a_light_box_floats_and_does_not_fly() {
     for density in [20.0, 50.0, 100.0] {
         let set = format!("--threads 1 --set wall.a.mover.rigid-body.density={density}");
         let series = run("light-5", &set);
-        let y = of(&series, "A.y");
+        let y = column(&series, "A.y");
         let most = y.iter().fold(0.0, |m: f64, y| m.max(*y));
         // It comes out with no more than its net buoyancy gives it, 27 N over 14 mm: 16 mm at 20 kg/m³, and a
         // spacing is not seen.
         assert!(most < 0.0105 + 0.016 + 0.05, "{density} kg/m³: {most} m up");
-        let late: Vec<f64> = (of(&series, "time").iter().zip(y))
+        let late: Vec<f64> = (column(&series, "time").iter().zip(y))
             .filter(|(t, _)| **t > 1.0)
             .map(|(_, y)| *y)
             .collect();
@@ -89,7 +89,7 @@ fn a_light_box_floats_and_does_not_fly() {
 fn light_boxes_rise_alike_with_implicit_pressure() {
     let end = |more: &str| {
         let series = run("light-box", &format!("--threads 1 {more}"));
-        of(&series, "A.y").last().copied().unwrap_or(f64::NAN)
+        column(&series, "A.y").last().copied().unwrap_or(f64::NAN)
     };
     for density in [20.0, 50.0] {
         let body = format!("--set wall.a.mover.rigid-body.density={density}");
@@ -131,7 +131,7 @@ fn light_boxes_rise_alike_with_implicit_viscosity() {
         let body = "--threads 1 --set wall.a.mover.rigid-body.density=20 --set run.end=0.15";
         let more = format!("{body} --set phase.w.rheology.newtonian.viscosity=100.0 {more}");
         let series = run("light-box", &more);
-        of(&series, "A.y").last().copied().unwrap_or(f64::NAN)
+        column(&series, "A.y").last().copied().unwrap_or(f64::NAN)
     };
     let explicit = end("--set run.safety=0.25");
     let implicit = end("--set implicit-viscosity.backward-euler={}");

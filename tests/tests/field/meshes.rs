@@ -195,7 +195,7 @@ fn a_file_of_facets_is_checked_without_a_scene() {
 }
 
 #[test]
-fn what_is_no_surface_is_refused_with_what_it_is() {
+fn invalid_surfaces_are_refused_with_their_defect() {
     let field = Field::new();
     let text = field.0.read("open_tank.stl");
     field.0.write("empty.stl", "");

@@ -154,7 +154,7 @@ fn bodies_take_the_same_course_on_any_number_of_ranks() {
         );
         assert_eq!(outcome.code, Some(0), "{ranks} ranks: {}", outcome.err);
         (
-            FinalState::of(&field.0.path("r")),
+            FinalState::read(&field.0.path("r")),
             field.0.read("r/series.csv"),
         )
     };

@@ -115,7 +115,7 @@ fn a_tank_that_falls_freely_has_no_pressure() {
 
 /// ½ρω²r² between the middle and 80 mm, with the ω that the syrup has.
 #[test]
-fn what_turns_with_its_box_has_the_pressure_of_the_turn() {
+fn fluid_in_a_rotating_box_has_the_pressure_of_the_rotation() {
     let field = Field::new();
     let done = field.run("spun-box", "");
     assert_eq!(done.code, Some(0), "{}", done.err);

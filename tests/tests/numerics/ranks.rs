@@ -17,7 +17,7 @@ fn ran(bench: &Bench, out: &str, arguments: &str) -> (FinalState, String) {
         "run scene.toml --quiet --out {out} --threads 1 {arguments}"
     ));
     let folder = bench.path(out);
-    (FinalState::of(&folder), series(&folder))
+    (FinalState::read(&folder), series(&folder))
 }
 
 /// The series that all ranks agree on.
@@ -113,7 +113,7 @@ fn an_energy_budget_gives_the_same_bits() {
 
 /// Schemes that go back within a step, where lists are built anew in the middle of many of them.
 #[test]
-fn what_is_kept_within_a_step_follows_its_particles() {
+fn columns_kept_within_a_step_follow_their_particles() {
     for integrator in ["leap-frog", "verlet", "predictor-corrector"] {
         let scene = format!("{DAM_BREAK}\n[integrator.{integrator}]\n");
         same_on_all_ranks(&scene, "--set numerics.skin=0.02 --set run.end=0.1");
@@ -199,12 +199,12 @@ fn a_run_goes_on_with_another_number_of_ranks() {
     assert_eq!(stopped.code, Some(1), "{stopped:?}");
     bench.done(&format!("{out} --ranks 2 --resume --changed"));
     let folder = bench.path("parts");
-    whole.assert_same(&FinalState::of(&folder), "4 ranks, then 2");
+    whole.assert_same(&FinalState::read(&folder), "4 ranks, then 2");
     assert_eq!(row, series(&folder));
 }
 
 #[test]
-fn what_cannot_be_divided_is_refused_before_anything_is_written() {
+fn indivisible_flows_are_refused_before_any_output() {
     let bed = without_references(include_str!("../../../scenes/saturated-bed-at-rest.toml"));
     let laplace = "[effective-pressure.laplace]";
     let sweeps = bed.replace(laplace, &format!("{laplace}\nsolver = \"jacobi\""));
@@ -247,7 +247,7 @@ fn mpirun_gives_the_same_bits() {
         let done = mpirun(&bench, ranks, &out).output().expect("mpirun");
         assert!(done.status.success(), "{done:?}");
         one.assert_same(
-            &FinalState::of(&bench.path(&out)),
+            &FinalState::read(&bench.path(&out)),
             &format!("{ranks} processes"),
         );
         assert_eq!(
@@ -281,7 +281,10 @@ fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
     );
     assert!(!ended.success(), "the run was over before it was killed");
     bench.done("run scene.toml --quiet --out killed --threads 1 --ranks 2 --resume");
-    whole.assert_same(&FinalState::of(&bench.path("killed")), "killed and resumed");
+    whole.assert_same(
+        &FinalState::read(&bench.path("killed")),
+        "killed and resumed",
+    );
     assert_eq!(row, series(&bench.path("killed")));
 }
 

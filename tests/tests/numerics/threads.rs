@@ -12,7 +12,7 @@ fn same_for_all_threads(scene: &str, set: &str) {
         bench.done(&format!(
             "run scene.toml --quiet --out r{threads} --threads {threads} {set}"
         ));
-        FinalState::of(&bench.path(&format!("r{threads}")))
+        FinalState::read(&bench.path(&format!("r{threads}")))
     };
     let one = state(1);
     for threads in [2, 4] {

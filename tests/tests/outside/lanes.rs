@@ -30,8 +30,8 @@ impl<const D: usize> Interaction<D> for OneByOne {
     fn access(&self) -> Access {
         Interaction::<D>::access(&self.0)
     }
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
-        self.0.lend(world, &mut |term| with(&ByRows(term)))
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        self.0.with_columns(world, &mut |term| with(&ByRows(term)))
     }
 }
 
@@ -68,7 +68,7 @@ fn end_of(scene: &str, steps: usize) -> FinalState {
         identity: sph_run::Identity::of_text(scene),
     };
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
-    FinalState::of(folder.path())
+    FinalState::read(folder.path())
 }
 
 const TERM: &str = "[term.artificial-viscosity]\nspeed = 0.3\n";

@@ -1,7 +1,7 @@
 //! Plugins from outside: laws, forces, kernels, movers and kinds that no crate of the workspace knows.
 
-mod births;
 mod embedding;
+mod insertion;
 mod lanes;
 mod open_kind;
 mod outside_mover;

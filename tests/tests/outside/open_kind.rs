@@ -207,9 +207,9 @@ fn one_and_two_threads_and_a_resumed_run_have_the_same_bits() {
     into(two.path(), &[], 2, Start::Afresh).expect("a run");
     into(resumed.path(), &["run.max_steps=5"], 1, Start::Afresh).expect("a beginning");
     into(resumed.path(), &[], 2, Start::Resumed).expect("the rest");
-    let whole = FinalState::of(one.path());
-    whole.assert_same(&FinalState::of(two.path()), "one thread and two");
-    whole.assert_same(&FinalState::of(resumed.path()), "whole and resumed");
+    let whole = FinalState::read(one.path());
+    whole.assert_same(&FinalState::read(two.path()), "one thread and two");
+    whole.assert_same(&FinalState::read(resumed.path()), "whole and resumed");
 }
 
 #[test]

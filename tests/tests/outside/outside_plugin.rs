@@ -66,7 +66,7 @@ impl<const D: usize> Interaction<D> for LinearDrag {
     fn access(&self) -> Access {
         Access::none().here(fields::VELOCITY)
     }
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         with(&BoundDrag {
             velocity: world.free.get(fields::VELOCITY)?,
             rate: 1.0 / self.time,
@@ -262,7 +262,7 @@ fn a_rheology_of_ones_own_is_as_good_as_a_built_in_one() {
         .replace("viscosity = \"1 mPa s\"", "thickness = \"1 mPa s\"");
     let (_, ours) = run_text(&syrup).unwrap();
     let (_, theirs) = run_text(DAM_BREAK).unwrap();
-    let state = |folder: &tempfile::TempDir| FinalState::of(folder.path());
+    let state = |folder: &tempfile::TempDir| FinalState::read(folder.path());
     state(&ours).assert_same(&state(&theirs), "syrup and a Newtonian fluid");
 }
 

@@ -23,7 +23,7 @@ fn cavity(more: &[&str]) -> Finished {
 fn the_cavity_is_within_0_024_from_a_lattice_and_from_disorder_and_better_with_shifting() {
     let bound = 1.5 * CENTRAL_DIFFERENCES;
     let lattice = cavity(&[]).error("u", bound, 0.0179);
-    cavity(&["numerics.disorder=0.2"]).error("u", bound, 0.0172);
+    cavity(&["numerics.jitter=0.2"]).error("u", bound, 0.0172);
     let without = cavity(&["shifting={}"]).error("u", 1.0, 0.0266);
     assert!(lattice <= without, "{lattice}, without shifting {without}");
 }

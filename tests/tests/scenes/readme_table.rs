@@ -47,7 +47,7 @@ fn item<'t>(items: &'t [String], scene: &str) -> Option<&'t String> {
 }
 
 /// What a scene's item tells as its errors.
-fn told<'t>(items: &'t [String], scene: &str) -> Option<&'t str> {
+fn stated<'t>(items: &'t [String], scene: &str) -> Option<&'t str> {
     let (_, errors) = item(items, scene)?.split_once(" Error: ")?;
     errors.split_once(" Time: ").map(|(errors, _)| errors)
 }
@@ -60,7 +60,7 @@ fn the_gallery_and_the_readme_have_what_short_runs_print() {
     let mut wrong = Vec::new();
     for (scene, errors) in ROWS {
         let run = whole(scene);
-        let shown = percentages(told(&all, scene).expect("every scene is on the page"));
+        let shown = percentages(stated(&all, scene).expect("every scene is on the page"));
         assert!(shown.len() >= errors.len(), "{scene}: {shown:?}");
         for (shown, error) in shown.iter().zip(errors) {
             let decimals = shown.split_once('.').map_or(0, |(_, digits)| digits.len());

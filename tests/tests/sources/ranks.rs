@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-/// Crates that divide flows, run their parts, or write a file of each.
-const KNOWS: [&str; 6] = [
+/// Crates that divide flows, run their parts, or write a file of each; and `dem-pfv`, which has no `World` and calls cells
+/// beyond the hull of its triangulation ghosts.
+const KNOWS: [&str; 7] = [
+    "dem-pfv",
     "sph-cli",
     "sph-io",
     "sph-neighbours",
@@ -15,7 +17,7 @@ const KNOWS: [&str; 6] = [
 /// Words that no other crate may say, comments included, and what it has instead.
 const REFUSED: [(&[&str], &str); 4] = [
     (
-        &["rank", "ranks", "team", "Team"],
+        &["rank", "ranks", "communicator", "Communicator"],
         "`World::sums`, `World::largest` and `World::of_all`, which are of all particles",
     ),
     (
@@ -23,7 +25,7 @@ const REFUSED: [(&[&str], &str); 4] = [
         "`World::space`, whose vectors are of all particles",
     ),
     (
-        &["guest", "guests"],
+        &["ghost", "ghosts"],
         "copies, which `World::owned` leaves out",
     ),
     (
@@ -77,11 +79,10 @@ fn no_physics_names_a_rank() {
 
 #[test]
 fn a_word_is_refused_as_a_whole() {
-    let text =
-        "let low = LowRank { base };\n// On all ranks.\nif let Some(team) = &world.team {}\n";
+    let text = "let low = LowRank { base };\n// On all ranks.\nif let Some(communicator) = &world.communicator {}\n";
     let found = refused(text)
         .into_iter()
         .map(|(line, word, _)| (line, word));
-    let expected = [(2, "ranks"), (3, "team"), (3, "team")];
+    let expected = [(2, "ranks"), (3, "communicator"), (3, "communicator")];
     assert!(found.eq(expected.map(|(line, word)| (line, word.to_string()))));
 }

@@ -11,9 +11,9 @@ use crate::triangulation::Vertex;
 
 /// A wall as the fluid sees it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub struct Side {
+pub struct WallBoundary {
     /// What is given there.
-    pub condition: Condition,
+    pub condition: FlowCondition,
     /// Whether fluid sticks to the wall; otherwise it slides, as on a plane of symmetry.
     pub sticks: bool,
 }
@@ -21,7 +21,7 @@ pub struct Side {
 /// What is given at a wall. Pressures are piezometric: zero everywhere in fluid at rest. Where two walls with pressures
 /// meet, the later one counts. The fluid pushes a wall with the pressure inside; a piston's stress is the total one.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub enum Condition {
+pub enum FlowCondition {
     /// No flow: undrained.
     Closed,
     /// One pressure, Pa: drained.
@@ -72,12 +72,12 @@ impl Wave {
     }
 }
 
-impl Side {
+impl WallBoundary {
     /// No flow, and no grip.
     #[must_use]
     pub fn closed() -> Self {
         Self {
-            condition: Condition::Closed,
+            condition: FlowCondition::Closed,
             sticks: false,
         }
     }
@@ -86,7 +86,7 @@ impl Side {
     #[must_use]
     pub fn drained(pressure: f64) -> Self {
         Self {
-            condition: Condition::Pressure(pressure),
+            condition: FlowCondition::Pressure(pressure),
             sticks: false,
         }
     }
@@ -98,11 +98,11 @@ impl Side {
         };
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         match &self.condition {
-            Condition::Closed => Ok(()),
-            Condition::Pressure(p) if !p.is_finite() => bad("is a pressure that is not finite"),
-            Condition::Inflow(v) if !v.is_finite() => bad("is an inflow that is not finite"),
-            Condition::Pressure(_) | Condition::Inflow(_) => Ok(()),
-            Condition::Profile {
+            FlowCondition::Closed => Ok(()),
+            FlowCondition::Pressure(p) if !p.is_finite() => bad("is a pressure that is not finite"),
+            FlowCondition::Inflow(v) if !v.is_finite() => bad("is an inflow that is not finite"),
+            FlowCondition::Pressure(_) | FlowCondition::Inflow(_) => Ok(()),
+            FlowCondition::Profile {
                 axis,
                 places,
                 pressures,
@@ -117,8 +117,8 @@ impl Side {
                 () if !places.is_sorted() => bad("has places that do not ascend"),
                 () => Ok(()),
             },
-            Condition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
-            Condition::Wave(w) => {
+            FlowCondition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
+            FlowCondition::Wave(w) => {
                 let lengths = [w.half_length, w.period.unwrap_or(1.0)];
                 match () {
                     () if w.axis > 2 => bad("is along an axis that is not 0, 1 or 2"),
@@ -136,7 +136,10 @@ impl Side {
 
     /// Whether its values change while the clock runs.
     pub(crate) fn varies(&self) -> bool {
-        matches!(self.condition, Condition::Wave(_) | Condition::Recorded(_))
+        matches!(
+            self.condition,
+            FlowCondition::Wave(_) | FlowCondition::Recorded(_)
+        )
     }
 
     /// Whether both give a pressure, or neither does: then a change needs no new matrix.
@@ -146,26 +149,31 @@ impl Side {
 
     /// Whether it gives a pressure.
     fn presses(&self) -> bool {
-        !matches!(self.condition, Condition::Closed | Condition::Inflow(_))
+        !matches!(
+            self.condition,
+            FlowCondition::Closed | FlowCondition::Inflow(_)
+        )
     }
 
     /// Puts what is given at a time (s) into the conditions of the flow.
     fn give(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
         match &self.condition {
-            Condition::Closed => {}
-            Condition::Pressure(p) => boundary.pressure(pores, wall, |_| Some(*p)),
-            Condition::Profile {
+            FlowCondition::Closed => {}
+            FlowCondition::Pressure(p) => boundary.pressure(pores, wall, |_| Some(*p)),
+            FlowCondition::Profile {
                 axis,
                 places,
                 pressures,
             } => boundary.pressure(pores, wall, |x| {
                 Some(interpolated(places, pressures, x[*axis]))
             }),
-            Condition::Wave(w) => boundary.pressure(pores, wall, |x| Some(w.pressure(&x, time))),
-            Condition::Recorded(r) => {
+            FlowCondition::Wave(w) => {
+                boundary.pressure(pores, wall, |x| Some(w.pressure(&x, time)))
+            }
+            FlowCondition::Recorded(r) => {
                 boundary.pressure(pores, wall, |x| Some(r.pressure(x[r.axis], time)));
             }
-            Condition::Inflow(v) => {
+            FlowCondition::Inflow(v) => {
                 boundary.inflow(pores, wall, *v, |_| true);
             }
         }
@@ -173,7 +181,7 @@ impl Side {
 }
 
 /// The conditions of all walls at a time (s).
-pub(crate) fn boundary(sides: &[Side], pores: &PoreGeometry, time: f64) -> Boundary {
+pub(crate) fn boundary(sides: &[WallBoundary], pores: &PoreGeometry, time: f64) -> Boundary {
     let mut boundary = Boundary::closed(pores);
     for (wall, side) in sides.iter().enumerate() {
         side.give(&mut boundary, pores, wall, time);
@@ -182,14 +190,14 @@ pub(crate) fn boundary(sides: &[Side], pores: &PoreGeometry, time: f64) -> Bound
 }
 
 /// Flux into the pores through every wall, m³/s, from that through each cell with a given pressure.
-pub(crate) fn inflows(sides: &[Side], pores: &PoreGeometry, influx: &[f64]) -> Vec<f64> {
+pub(crate) fn inflows(sides: &[WallBoundary], pores: &PoreGeometry, influx: &[f64]) -> Vec<f64> {
     let mut owners = vec![usize::MAX; influx.len()];
     let around = |wall: usize| pores.mesh().cells_around(Vertex::Wall(wall)).iter();
     for (wall, _) in sides.iter().enumerate().filter(|(_, s)| s.presses()) {
         around(wall).for_each(|c| owners[*c as usize] = wall);
     }
-    let through = |(wall, side): (usize, &Side)| match side.condition {
-        Condition::Inflow(v) => around(wall)
+    let through = |(wall, side): (usize, &WallBoundary)| match side.condition {
+        FlowCondition::Inflow(v) => around(wall)
             .map(|c| v * pores.area_on_wall(*c as usize, wall))
             .sum(),
         _ => (owners.iter().zip(influx))

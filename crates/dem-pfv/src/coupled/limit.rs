@@ -61,7 +61,7 @@ pub(crate) fn strongest_drag(
 ) -> Result<Mode, CoupledError> {
     let bodies = Bodies::new(grains);
     let boundary = silent(pores);
-    let places = Places::of(grains);
+    let places = Places::from_grains(grains);
     let mut mode = bodies.started(mode);
     bodies.normalise(&mut mode);
     for made in 0..MOST {

@@ -86,7 +86,7 @@ impl CoupledSystem {
     /// A system that cannot be solved.
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
-        let mut sides = vec![crate::coupled::Side::closed(); 6];
+        let mut sides = vec![crate::coupled::WallBoundary::closed(); 6];
         let walls = self.grains.walls().iter().enumerate();
         let facing = |sign: f64| {
             let found = walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
@@ -96,8 +96,8 @@ impl CoupledSystem {
         let (Some(low), Some(high)) = (facing(1.0), facing(-1.0)) else {
             return Err(none.into());
         };
-        sides[low] = crate::coupled::Side::drained(0.0);
-        sides[high] = crate::coupled::Side::drained(1.0);
+        sides[low] = crate::coupled::WallBoundary::drained(0.0);
+        sides[high] = crate::coupled::WallBoundary::drained(1.0);
         let boundary = condition::boundary(&sides, geometry, 0.0);
         let viscosity = self.setup.fluid.viscosity;
         let mut system = FlowSystem::new(

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use crate::coupled::edge_forces::EdgeForces;
 use crate::coupled::unit_forces::UnitForces;
 use crate::coupled::{CoupledError, FlowSetup, Vector, condition};
-use crate::flow::{Boundary, Conductance, FlowSystem, Grip, PoreGeometry, Storage, cell_volumes};
+use crate::flow::{
+    Boundary, Conductance, FlowSystem, PoreGeometry, SlipCondition, Storage, cell_volumes,
+};
 use crate::grains::GrainSystem;
 use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
@@ -18,7 +20,7 @@ pub(crate) struct Places {
 }
 
 impl Places {
-    pub fn of(grains: &GrainSystem) -> Self {
+    pub fn from_grains(grains: &GrainSystem) -> Self {
         let walls = grains.walls().iter();
         Self {
             centres: grains.grains().positions().to_vec(),
@@ -62,7 +64,13 @@ impl Pores {
         let spheres = places.centres.iter().zip(radii);
         let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
         let mesh = Triangulation::within(&spheres, &places.planes())?;
-        let grip = |sticks: bool| if sticks { Grip::NoSlip } else { Grip::Slip };
+        let grip = |sticks: bool| {
+            if sticks {
+                SlipCondition::NoSlip
+            } else {
+                SlipCondition::Slip
+            }
+        };
         let grips: Vec<_> = setup.sides.iter().map(|s| grip(s.sticks)).collect();
         let geometry = PoreGeometry::pressed(mesh, &grips, setup.angles, deepest)?;
         let boundary = condition::boundary(&setup.sides, &geometry, time);

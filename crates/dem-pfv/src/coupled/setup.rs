@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::error::number;
-use crate::coupled::{CoupledError, Side};
+use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
 
 /// The fluid in the pores.
@@ -161,7 +161,7 @@ pub struct FlowSetup {
     /// The fluid.
     pub fluid: Fluid,
     /// One side per wall, in the order of the grains' walls.
-    pub sides: Vec<Side>,
+    pub sides: Vec<WallBoundary>,
     /// When pores are found anew.
     pub remeshing: Remeshing,
     /// How solid angles are summed.
@@ -176,7 +176,7 @@ impl FlowSetup {
     pub fn new(fluid: Fluid) -> Self {
         Self {
             fluid,
-            sides: vec![Side::closed(); 6],
+            sides: vec![WallBoundary::closed(); 6],
             remeshing: Remeshing::default(),
             angles: SolidAngles::Signed,
             solver: Solver::Automatic,
@@ -185,7 +185,7 @@ impl FlowSetup {
 
     /// The same with another side at a wall; nothing happens if there is no such wall.
     #[must_use]
-    pub fn side(mut self, wall: usize, side: Side) -> Self {
+    pub fn side(mut self, wall: usize, side: WallBoundary) -> Self {
         if let Some(slot) = self.sides.get_mut(wall) {
             *slot = side;
         }

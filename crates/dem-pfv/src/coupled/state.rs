@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::coupled::pores::{PRESSED, Places, Pores};
 use crate::coupled::system::{Clock, check};
-use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
 use crate::flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
 use crate::grains::{ContactLaw, GrainSystem};
 
@@ -14,7 +14,7 @@ use crate::grains::{ContactLaw, GrainSystem};
 pub struct State {
     grains: crate::grains::State,
     fluid: Fluid,
-    sides: Vec<Side>,
+    sides: Vec<WallBoundary>,
     remeshing: Remeshing,
     angles: SolidAngles,
     solver: Solver,

@@ -4,7 +4,7 @@ use crate::coupled::error::number;
 use crate::coupled::limit::{Mode, StepLimit, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
 use crate::coupled::transfer::transferred;
-use crate::coupled::{CoupledError, FlowSetup, Side, Vector, condition};
+use crate::coupled::{CoupledError, FlowSetup, Vector, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
 use crate::grains::GrainSystem;
 
@@ -77,7 +77,7 @@ impl CoupledSystem {
         law: Box<dyn Conductance>,
     ) -> Result<Self, CoupledError> {
         check(&grains, &setup)?;
-        let places = Places::of(&grains);
+        let places = Places::from_grains(&grains);
         let storage_step = 0.1 * grains.critical_step();
         let radii = grains.grains().radii();
         let pores = Pores::new(
@@ -153,10 +153,10 @@ impl CoupledSystem {
         // Volumes changed, and fluid gave way, over the last step.
         self.store(self.clock.last_step.unwrap_or(step))?;
         self.press()?;
-        let before = Places::of(&self.grains);
+        let before = Places::from_grains(&self.grains);
         self.evaluated = false;
         self.grains.integrate_unchecked(step)?;
-        let here = Places::of(&self.grains);
+        let here = Places::from_grains(&self.grains);
         self.clock.last_step = Some(step);
         let strain = self.measure_rates(&here, step);
         self.clock.strain += strain;
@@ -238,7 +238,7 @@ impl CoupledSystem {
 
     /// Pressures of the rates of now, and the fluid's forces on grains and walls.
     fn press(&mut self) -> Result<(), CoupledError> {
-        if self.setup.sides.iter().any(Side::varies) {
+        if self.setup.sides.iter().any(WallBoundary::varies) {
             self.pores.refresh(&self.setup, self.grains.time());
         }
         let (pores, clock) = (&mut self.pores, &mut self.clock);
@@ -330,7 +330,7 @@ impl CoupledSystem {
     /// # Errors
     /// Grains that overlap or reach into walls by more than half their radius.
     pub fn remesh(&mut self) -> Result<(), CoupledError> {
-        self.rebuild(Places::of(&self.grains))
+        self.rebuild(Places::from_grains(&self.grains))
     }
 
     /// Sets what is given at a wall. Another value costs nothing; another kind of condition makes a new matrix, another
@@ -339,7 +339,7 @@ impl CoupledSystem {
     /// # Errors
     /// A wall that is not there, a condition that means nothing, a stiff fluid without a given pressure; the old
     /// condition stays then.
-    pub fn set_side(&mut self, wall: usize, side: Side) -> Result<(), CoupledError> {
+    pub fn set_side(&mut self, wall: usize, side: WallBoundary) -> Result<(), CoupledError> {
         side.check(wall)?;
         let Some(slot) = self.setup.sides.get_mut(wall) else {
             let problem = "is at no wall: there are six".to_string();

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::flow::facet::Facet;
-use crate::flow::throat::{Grip, Pores, SolidAngles, Throat};
+use crate::flow::throat::{Pores, SlipCondition, SolidAngles, Throat};
 use crate::flow::volume::solid_volume;
 use crate::flow::{FlowError, cell_volumes};
 use crate::triangulation::{Triangulation, Vertex};
@@ -29,7 +29,7 @@ impl PoreGeometry {
     /// of grips of another length than the walls.
     pub fn new(
         mesh: Triangulation,
-        grips: &[Grip],
+        grips: &[SlipCondition],
         angles: SolidAngles,
     ) -> Result<Self, FlowError> {
         Self::pressed(mesh, grips, angles, DEEPEST)
@@ -42,7 +42,7 @@ impl PoreGeometry {
     /// As [`PoreGeometry::new`].
     pub fn pressed(
         mesh: Triangulation,
-        grips: &[Grip],
+        grips: &[SlipCondition],
         angles: SolidAngles,
         deepest: f64,
     ) -> Result<Self, FlowError> {

@@ -10,7 +10,7 @@ use crate::triangulation::{Triangulation, Vertex};
 
 /// How fluid meets a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Grip {
+pub enum SlipCondition {
     /// It sticks: the wall's area counts as wetted and takes its share of the viscous force.
     NoSlip,
     /// It slides, as on a plane of symmetry.
@@ -71,7 +71,7 @@ impl Throat {
 pub struct Pores<'a> {
     pub mesh: &'a Triangulation,
     pub centres: &'a [Vector3<f64>],
-    pub grips: &'a [Grip],
+    pub grips: &'a [SlipCondition],
     pub angles: SolidAngles,
 }
 
@@ -86,7 +86,8 @@ impl Pores<'_> {
         let normal = area.try_normalize(0.0).unwrap_or_default();
         let (sectors, solid, mut wetted) = self.spheres(facet, &shape, area);
         self.walls(facet, &mut wetted);
-        let slips = |v: &&Vertex| matches!(v, Vertex::Wall(w) if self.grips[*w] == Grip::Slip);
+        let slips =
+            |v: &&Vertex| matches!(v, Vertex::Wall(w) if self.grips[*w] == SlipCondition::Slip);
         Throat {
             cells: facet.cells,
             vertices: facet.vertices,
@@ -182,7 +183,7 @@ impl Pores<'_> {
         };
         for (c, v) in facet.vertices.iter().enumerate() {
             if let Vertex::Wall(w) = *v
-                && self.grips[w] == Grip::NoSlip
+                && self.grips[w] == SlipCondition::NoSlip
             {
                 wetted[c] = 0.5
                     * (pi - pj)

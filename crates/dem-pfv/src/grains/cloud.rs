@@ -97,7 +97,7 @@ pub fn uniform_radii(count: usize, smallest: f64, largest: f64, seed: u64) -> Ve
 }
 
 /// Grains at rest for dry pluviation: a cloud of the given porosity above the floor z = `low`, as high as it must be.
-/// Falling and coming to rest is [`crate::grains::settle`]'s work; the friction between grains sets how dense they lie.
+/// Falling and coming to rest is [`crate::grains::step_to_rest`]'s work; the friction between grains sets how dense they lie.
 /// The cross-section is from `low` to `high` in x and y, in m. Source: Catalano 2012, ch. 6 (deposited beds).
 ///
 /// # Errors

@@ -110,7 +110,7 @@ impl Growth {
 ///
 /// # Errors
 /// [`GrainError::NotSettled`] after `most_steps`; what a step may refuse.
-pub fn settle(
+pub fn step_to_rest(
     system: &mut GrainSystem,
     safety: f64,
     tolerance: f64,

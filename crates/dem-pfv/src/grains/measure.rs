@@ -106,7 +106,7 @@ impl GrainSystem {
     /// Σ_c l n ⊗ F, J, over the contacts of a grain.
     fn moment(&self, grain: usize) -> Matrix3<f64> {
         let mut sum = Matrix3::zeros();
-        for (slot, _) in self.table.of(grain).filter(|(slot, _)| slot.active) {
+        for (slot, _) in self.table.slots_of(grain).filter(|(slot, _)| slot.active) {
             let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
             sum += slot.normal * slot.force.transpose() * arm;
         }

@@ -20,7 +20,7 @@ impl GrainSystem {
             .enumerate()
             .for_each(|(grain, (force, torque))| {
                 (*force, *torque) = (Vector::zeros(), Vector::zeros());
-                for (slot, side) in table.of(grain) {
+                for (slot, side) in table.slots_of(grain) {
                     if slot.active {
                         if side == 0 {
                             *force += slot.force;

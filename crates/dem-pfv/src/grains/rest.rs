@@ -60,7 +60,7 @@ impl GrainSystem {
 
     /// Weight of a grain and sum of the sizes of its contact forces, N.
     fn acting(&self, grain: usize) -> f64 {
-        let touching = self.table.of(grain).filter(|(slot, _)| slot.active);
+        let touching = self.table.slots_of(grain).filter(|(slot, _)| slot.active);
         let contacts: f64 = touching.map(|(slot, _)| slot.force.norm()).sum();
         contacts + self.gravity.norm() * self.grains.mass[grain]
     }

@@ -62,11 +62,11 @@ pub(crate) struct Table {
     entries: Vec<u32>,
     /// Where everything was when the table was made.
     #[serde(skip)]
-    then: Then,
+    then: PreviousState,
 }
 
 #[derive(Clone, Debug, Default)]
-struct Then {
+struct PreviousState {
     positions: Vec<Vector>,
     radii: Vec<f64>,
     walls: Vec<Vector>,
@@ -96,7 +96,7 @@ impl Table {
     }
 
     /// Slots of a grain with the side it has in each: 0 for the first body, 1 for the second.
-    pub fn of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
+    pub fn slots_of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
         let range = self.offsets[grain] as usize..self.offsets[grain + 1] as usize;
         self.entries[range].iter().map(|&entry| {
             let slot = &self.slots[(entry >> 1) as usize];
@@ -174,7 +174,7 @@ impl Table {
         self.slots = slots;
         self.carry(&old, &old_ends);
         self.index(grains.len());
-        self.then = Then {
+        self.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
             walls: walls.iter().map(|w| w.point).collect(),

@@ -195,7 +195,7 @@ impl View<'_> {
         }
         law.respond(&mut batch);
         for ((k, ..), contact) in kept.iter().zip(&batch) {
-            settle(&mut group[*k], contact);
+            write_back(&mut group[*k], contact);
         }
     }
 }
@@ -243,13 +243,13 @@ fn sweep(
         }
         law.respond(batch);
         for (contact, &k) in batch.iter().zip(places.iter()) {
-            settle(&mut chunk[k], contact);
+            write_back(&mut chunk[k], contact);
         }
     });
 }
 
 /// Writes an answered contact back, with M = (x_C − x) × F for both bodies.
-fn settle(slot: &mut Slot, contact: &Contact) {
+fn write_back(slot: &mut Slot, contact: &Contact) {
     let turning = contact.normal.cross(&contact.force);
     let lever = contact.radius.map(|r| r - 0.5 * contact.overlap);
     slot.active = true;

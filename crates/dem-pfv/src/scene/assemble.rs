@@ -1,6 +1,8 @@
 //! From a scene to the system at the start of its preparation, and from there to the start of the run.
 
-use crate::coupled::{Condition, CoupledError, CoupledSystem, FlowSetup, Remeshing, Side, Wave};
+use crate::coupled::{
+    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Remeshing, WallBoundary, Wave,
+};
 use crate::grains::{GrainError, GrainSystem};
 use crate::scene::error::DemError;
 use crate::scene::laws::{Laws, throats};
@@ -29,9 +31,9 @@ pub struct Assembled {
 /// What the scene asks for and cannot be, by its key.
 pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled, DemError> {
     let scene = &loaded.scene;
-    let laws = Laws::of(scene)?;
+    let laws = Laws::from_scene(scene)?;
     let mut grains = prepare::grains(loaded, laws, tell)?;
-    let mut origin = Origin::of(scene, &grains);
+    let mut origin = Origin::new(scene, &grains);
     if let Some(test) = &scene.oedometer {
         tell("loading the dry packing slowly");
         origin.dry_strain = Some(prepare::dry_strain(scene, test, &grains)?);
@@ -127,7 +129,7 @@ fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
     Ok(setup)
 }
 
-fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<Side, DemError> {
+fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<WallBoundary, DemError> {
     let wave = |w: &tables::WaveLoad| Wave {
         axis: w.axis.number(),
         crest: w.crest,
@@ -137,15 +139,15 @@ fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<Side, DemEr
         period: w.period,
     };
     let condition = match (table.pressure, table.inflow, &table.wave) {
-        (Some(pressure), ..) => Condition::Pressure(pressure),
-        (_, Some(speed), _) => Condition::Inflow(speed),
-        (.., Some(load)) => Condition::Wave(wave(load)),
+        (Some(pressure), ..) => FlowCondition::Pressure(pressure),
+        (_, Some(speed), _) => FlowCondition::Inflow(speed),
+        (.., Some(load)) => FlowCondition::Wave(wave(load)),
         _ => match &table.recorded {
-            Some(load) => Condition::Recorded(recorded::read(&loaded.source, name, load)?),
-            None => Condition::Closed,
+            Some(load) => FlowCondition::Recorded(recorded::read(&loaded.source, name, load)?),
+            None => FlowCondition::Closed,
         },
     };
-    Ok(Side {
+    Ok(WallBoundary {
         condition,
         sticks: table.sticks,
     })

@@ -21,7 +21,7 @@ pub fn scene(
     source: &Source,
 ) -> Vec<SceneProblem> {
     let mut found = Vec::new();
-    for problems in [Laws::of(scene).err(), throats(scene).err()]
+    for problems in [Laws::from_scene(scene).err(), throats(scene).err()]
         .into_iter()
         .flatten()
     {

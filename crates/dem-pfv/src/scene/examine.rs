@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::scene::columns::headings;
 use crate::scene::error::DemError;
-use crate::scene::foreseen::{Cost, foreseen};
-use crate::scene::laws::told;
+use crate::scene::forecast::{Cost, foreseen};
+use crate::scene::laws::listing;
 use crate::scene::names::{planes, surfaces};
 use crate::scene::read::Loaded;
 use crate::scene::summary::PluginInForce;
@@ -117,20 +117,24 @@ pub fn plugins(scene: &Scene) -> Vec<PluginInForce> {
             });
         }
     };
-    add("contact-law", "grains", told(&scene.grains.contact));
-    add("contact-law", "preparation", told(&scene.start.contact));
+    add("contact-law", "grains", listing(&scene.grains.contact));
+    add("contact-law", "preparation", listing(&scene.start.contact));
     if let Some(given) = &scene.r#box {
-        add("contact-law", "box", told(&given.contact));
+        add("contact-law", "box", listing(&given.contact));
     }
     for (name, wall) in &scene.wall {
-        add("contact-law", &format!("wall {name}"), told(&wall.contact));
+        add(
+            "contact-law",
+            &format!("wall {name}"),
+            listing(&wall.contact),
+        );
     }
     if let Some(fluid) = &scene.fluid {
         let default = || Some(("hydraulic-radius".to_string(), serde_json::json!({})));
         add(
             "conductance",
             "throats",
-            told(&fluid.conductance).or_else(default),
+            listing(&fluid.conductance).or_else(default),
         );
     }
     all

@@ -210,7 +210,7 @@ pub fn picture(
         view: View::Front,
         range,
         ring,
-        ..Picture::of(&points, &values)
+        ..Picture::new(&points, &values)
     };
     Ok(picture.save(path)?)
 }

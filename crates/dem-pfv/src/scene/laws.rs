@@ -86,7 +86,7 @@ impl Laws {
     ///
     /// # Errors
     /// No law for the grains; unknown laws and parameters.
-    pub fn of(scene: &Scene) -> Result<Self, DemError> {
+    pub fn from_scene(scene: &Scene) -> Result<Self, DemError> {
         let Some(between) = contact(&scene.grains.contact, "grains.contact")? else {
             let names: Vec<_> = contact_laws().iter().map(|e| e.name).collect();
             let names = names.join(", ");
@@ -136,7 +136,7 @@ pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
 }
 
 /// Name and parameters of a plugin that a scene names, for listings.
-pub(crate) fn told(plugins: &Plugins) -> Option<(String, Json)> {
+pub(crate) fn listing(plugins: &Plugins) -> Option<(String, Json)> {
     let (name, table) = plugins.first_key_value()?;
     let json = serde_json::to_value(table).unwrap_or(Json::Null);
     Some((name.clone(), json))

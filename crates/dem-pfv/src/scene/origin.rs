@@ -28,7 +28,7 @@ pub struct Origin {
 impl Origin {
     /// Of grains that are ready.
     #[must_use]
-    pub fn of(scene: &Scene, grains: &GrainSystem) -> Self {
+    pub fn new(scene: &Scene, grains: &GrainSystem) -> Self {
         let all = grains.grains();
         let test = scene.oedometer.as_ref();
         let piston = test.and_then(|t| scene.wall.get(&t.wall)?.piston.as_ref());

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use crate::grains::{
-    Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, settle, uniform_radii,
+    Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, step_to_rest, uniform_radii,
 };
-use crate::scene::at_fault::{at_start, named, rows};
+use crate::scene::culprits::{at_start, named, rows};
 use crate::scene::error::DemError;
 use crate::scene::highest_point::highest;
 use crate::scene::laws::Laws;
@@ -113,7 +113,7 @@ fn settled(
     if let Some(fluid) = &scene.fluid {
         system.set_gravity(gravity * (1.0 - fluid.density / scene.grains.density));
     }
-    let steps = settle(
+    let steps = step_to_rest(
         system,
         scene.start.safety,
         tolerance,
@@ -293,7 +293,7 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
 pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Result<f64, DemError> {
     let key = "oedometer";
     let told = |e: GrainError| DemError::at(key, e);
-    let laws = Laws::of(scene)?.all;
+    let laws = Laws::from_scene(scene)?.all;
     let mut dry = GrainSystem::resume(grains.save(), laws).map_err(told)?;
     let wall = planes(scene).iter().position(|p| *p == test.wall);
     let piston = scene.wall.get(&test.wall).and_then(|w| w.piston.as_ref());
@@ -308,8 +308,8 @@ pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Resu
         let share = f64::from(part) / f64::from(test.parts);
         let stress = before + (piston.stress - before) * share;
         dry.walls_mut()[wall].control = crate::grains::Control::Piston { stress, mass };
-        settle(&mut dry, safety, 1e-4, most).map_err(told)?;
+        step_to_rest(&mut dry, safety, 1e-4, most).map_err(told)?;
     }
-    settle(&mut dry, safety, 1e-6, most).map_err(told)?;
+    step_to_rest(&mut dry, safety, 1e-6, most).map_err(told)?;
     Ok((height(grains) - height(&dry)) / height(grains))
 }

@@ -5,16 +5,16 @@ use std::path::Path;
 use std::time::Instant;
 
 use sph_run::{
-    BAD_STATE, BAD_STATE_PICTURE, Books, Frames, Identity, Now, Outlay, RunOptions, SERIES,
-    Schedule, Start, Status, Watch, next_multiple,
+    BAD_STATE, BAD_STATE_PICTURE, Frames, Identity, ModelTime, Outlay, RunCounters, RunOptions,
+    SERIES, Schedule, Start, Status, Watch, next_multiple,
 };
 
 use crate::coupled::CoupledError;
 use crate::scene::assemble::{Assembled, assemble, loads};
-use crate::scene::at_fault;
 use crate::scene::checkpoint::{self, Kept, Progress};
 use crate::scene::columns::{headings, row};
 use crate::scene::compare;
+use crate::scene::culprits;
 use crate::scene::error::{DemError, Failure};
 use crate::scene::examine::plugins;
 use crate::scene::fields::values;
@@ -121,7 +121,7 @@ impl<'a> Running<'a> {
     fn resume(&mut self, changed: bool, own: &Path) -> Result<(), DemError> {
         let scene = &self.loaded.scene;
         let kept = checkpoint::load(&self.options.identity.scene, changed, own)?;
-        let laws = Laws::of(scene)?.all;
+        let laws = Laws::from_scene(scene)?.all;
         let model = Model::resume(kept.model, laws, throats(scene)?);
         self.parts = Some(Assembled {
             model: model.map_err(|e| DemError::Resume(e.to_string()))?,
@@ -132,9 +132,9 @@ impl<'a> Running<'a> {
         Ok(())
     }
 
-    fn now(&self) -> Result<Now, DemError> {
+    fn now(&self) -> Result<ModelTime, DemError> {
         let grains = self.parts()?.model.grains();
-        Ok(Now {
+        Ok(ModelTime {
             time: grains.time(),
             steps: grains.steps(),
             dt: self.progress.dt,
@@ -148,7 +148,12 @@ impl sph_run::Model for Running<'_> {
     type Error = DemError;
     type Summary = Summary;
 
-    fn begin(&mut self, start: &Start, own: &Path, _: &mut Watch<'_>) -> Result<Books, DemError> {
+    fn begin(
+        &mut self,
+        start: &Start,
+        own: &Path,
+        _: &mut Watch<'_>,
+    ) -> Result<RunCounters, DemError> {
         match start {
             Start::Afresh => {}
             Start::Resumed | Start::Changed => self.resume(*start == Start::Changed, own)?,
@@ -166,7 +171,7 @@ impl sph_run::Model for Running<'_> {
         let progress = &self.progress;
         let end = self.loaded.scene.run.end;
         let interval = self.loaded.scene.output.interval(end);
-        Ok(Books {
+        Ok(RunCounters {
             time: self.parts()?.model.grains().time(),
             rows: progress.rows,
             last_row: progress.last_row,
@@ -180,7 +185,7 @@ impl sph_run::Model for Running<'_> {
         })
     }
 
-    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<Now, DemError> {
+    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, DemError> {
         let before = self.now()?;
         if let Some(parts) = self.parts.as_mut().filter(|_| before.time < limit) {
             parts.model.apply(&parts.loads);
@@ -221,9 +226,9 @@ impl sph_run::Model for Running<'_> {
             }
             for field in &scene.output.picture {
                 let range = scene.output.picture_range.as_ref();
-                let given = range.and_then(|all| all.of(field));
+                let given = range.and_then(|all| all.ends(field));
                 let range = given.or_else(|| {
-                    let seen = frames.colours.of(field, &values(field, model, origin))?;
+                    let seen = frames.colours.next(field, &values(field, model, origin))?;
                     if seen.1 {
                         observer.message(&format!(
                             "note: the range of colours of `{field}` is wider from t = {time:.4} s on; \
@@ -240,7 +245,7 @@ impl sph_run::Model for Running<'_> {
         Ok(())
     }
 
-    fn save(&mut self, books: &Books, own: &Path) -> Result<(), DemError> {
+    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), DemError> {
         let scene = &self.loaded.scene;
         let (end, last) = (scene.run.end, self.progress.last_output);
         let progress = &mut self.progress;
@@ -269,7 +274,7 @@ impl sph_run::Model for Running<'_> {
     fn conclude(
         &mut self,
         ended: Result<Status, &mut DemError>,
-        books: &Books,
+        books: &RunCounters,
         observer: &mut Watch<'_>,
     ) -> Result<Option<Summary>, DemError> {
         match ended {
@@ -292,7 +297,7 @@ impl Running<'_> {
         observer: &mut Watch<'_>,
     ) -> Result<(), DemError> {
         if let CoupledError::Grains(error) = &failure.error {
-            failure.named = at_fault::named(self.loaded, error);
+            failure.named = culprits::named(self.loaded, error);
         }
         let Assembled { model, origin, .. } = self.parts()?;
         let out = &self.options.out;
@@ -322,7 +327,7 @@ impl Running<'_> {
         &self,
         status: Status,
         warnings: Vec<String>,
-        books: &Books,
+        books: &RunCounters,
     ) -> Result<Summary, DemError> {
         let parts = self.parts()?;
         let model = &parts.model;

@@ -83,7 +83,7 @@ impl Subject for Scene {
         };
         let resumed = options.start.goes_on();
         match run(&self.0, &options, observer) {
-            Ok(summary) => Ok(Ended::of(summary.status, &summary)),
+            Ok(summary) => Ok(Ended::done(summary.status, &summary)),
             Err(DemError::Resume(_)) if resumed => Ok(Ended::Unusable),
             Err(DemError::Io(error)) if resumed && unusable(&error) => Ok(Ended::Unusable),
             Err(DemError::Io(error)) => Err(error),

@@ -33,7 +33,7 @@ fn quantities_become_si_numbers() {
 }
 
 #[test]
-fn what_nature_does_not_have_is_remarked_upon_and_what_overflows_refused() {
+fn implausible_values_are_remarked_on_and_overflows_refused() {
     assert!(problems("density = 1e12")[0].contains("white dwarfs"));
     assert!(problems("density = 1e12\ngravity = [0, 1e30]")[1].contains("gravity[1]"));
     assert!(problems("density = 1e-60")[0].contains("no run can be right"));

@@ -31,7 +31,7 @@ pub struct Topology {
 
 /// An edge of a facet, whichever way it is travelled.
 #[derive(Clone, Copy)]
-struct Half {
+struct DirectedEdge {
     ends: [u32; 2],
     facet: u32,
     forward: bool,
@@ -39,7 +39,7 @@ struct Half {
 
 /// The facet beyond each edge of a facet, and whether the two run along the edge in one direction: they face different
 /// ways.
-type Beside = Vec<Vec<(u32, bool)>>;
+type EdgeNeighbours = Vec<Vec<(u32, bool)>>;
 
 impl Facets {
     /// How the facets hang together.
@@ -48,7 +48,7 @@ impl Facets {
         for (facet, t) in self.triangles.iter().enumerate() {
             halves.extend((0..3).map(|k| {
                 let (a, b) = (t[k], t[(k + 1) % 3]);
-                Half {
+                DirectedEdge {
                     ends: [a.min(b), a.max(b)],
                     facet: facet as u32,
                     forward: a < b,
@@ -56,7 +56,7 @@ impl Facets {
             }));
         }
         halves.sort_unstable_by_key(|h| (h.ends, h.facet));
-        let mut beside: Beside = vec![Vec::new(); self.triangles.len()];
+        let mut beside: EdgeNeighbours = vec![Vec::new(); self.triangles.len()];
         let (mut loose, mut crowded) = (Vec::new(), 0);
         for run in halves.chunk_by(|a, b| a.ends == b.ends) {
             match run {
@@ -79,7 +79,7 @@ impl Facets {
     }
 
     /// Facets against most of their piece, and the number of pieces.
-    fn flipped_facets(&self, beside: &Beside) -> (Vec<usize>, usize) {
+    fn flipped_facets(&self, beside: &EdgeNeighbours) -> (Vec<usize>, usize) {
         let areas: Vec<f64> = self.areas().collect();
         let mut turned: Vec<Option<bool>> = vec![None; areas.len()];
         let (mut flipped, mut parts) = (Vec::new(), 0);

@@ -10,7 +10,7 @@ use crate::bodies::line::Line;
 use crate::bodies::mooring::Mooring;
 use crate::bodies::prescribed::{self, Prescribed};
 use crate::bodies::shape::{Solid, winding};
-use crate::bodies::six::padded;
+use crate::bodies::spatial_vector::padded;
 use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch};
 
 /// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid
@@ -96,24 +96,24 @@ fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Settled<Option
 }
 
 fn numbers(key: &str, found: usize, expected: &str) -> MoverRefusal {
-    MoverRefusal::of(key, format!("{found} numbers, {expected} are expected"))
+    MoverRefusal::at_key(key, format!("{found} numbers, {expected} are expected"))
 }
 
 impl RigidBody {
     /// Mass, centre and inertia.
     fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Weighed> {
-        let solid = Solid::of(setting.pieces());
-        let solid = solid.map_err(|e| MoverRefusal::of("", e.to_string()))?;
+        let solid = Solid::from_pieces(setting.pieces());
+        let solid = solid.map_err(|e| MoverRefusal::at_key("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
             (Some(mass), None) => mass,
             (None, Some(density)) => density * solid.volume,
             (None, None) => {
                 let why = "a body needs a `density` or a `mass`";
-                return Err(MoverRefusal::of("", why));
+                return Err(MoverRefusal::at_key("", why));
             }
             (Some(_), Some(_)) => {
                 let why = "a body has a `density` or a `mass`, not both";
-                return Err(MoverRefusal::of("mass", why));
+                return Err(MoverRefusal::at_key("mass", why));
             }
         };
         let density = mass / solid.volume;
@@ -125,7 +125,7 @@ impl RigidBody {
             } else {
                 "density"
             };
-            return Err(MoverRefusal::of(
+            return Err(MoverRefusal::at_key(
                 key,
                 format!(
                     "the body is too light: {density:.3} kg/m³ in a fluid of {lightest:.3} kg/m³, of which a fiftieth is the \
@@ -144,7 +144,7 @@ impl RigidBody {
             (Some(given), _) => tensor::<D>(given)?,
             (None, Some(_)) => {
                 let why = "a body with a `centre` of its own needs its `inertia` about it";
-                return Err(MoverRefusal::of("centre", why));
+                return Err(MoverRefusal::at_key("centre", why));
             }
             (None, None) => solid.inertia * density,
         };
@@ -169,7 +169,7 @@ impl RigidBody {
         for (k, freedom) in self.free.as_deref().unwrap_or(there).iter().enumerate() {
             if !there.contains(freedom) {
                 let why = format!("there is no `{}` in {D}D: {}", freedom.name(), names());
-                return Err(MoverRefusal::of(format!("free[{k}]"), why));
+                return Err(MoverRefusal::at_key(format!("free[{k}]"), why));
             }
             free[freedom.index()] = true;
         }
@@ -178,7 +178,7 @@ impl RigidBody {
                 "nothing is free: leave the mover out, or free some of {}",
                 names()
             );
-            return Err(MoverRefusal::of("free", why));
+            return Err(MoverRefusal::at_key("free", why));
         }
         for (freedom, ..) in self.hold.all() {
             if !free[freedom.index()] {
@@ -186,7 +186,10 @@ impl RigidBody {
                     "`{}` is not free, so that nothing has to hold it",
                     freedom.name()
                 );
-                return Err(MoverRefusal::of(format!("hold.{}", freedom.name()), why));
+                return Err(MoverRefusal::at_key(
+                    format!("hold.{}", freedom.name()),
+                    why,
+                ));
             }
         }
         Ok(free)
@@ -195,7 +198,7 @@ impl RigidBody {
     fn moorings<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Vec<Mooring>> {
         let lines = self.line.iter().enumerate();
         lines
-            .map(|(k, line)| Mooring::of(line, k, setting))
+            .map(|(k, line)| Mooring::new(line, k, setting))
             .collect()
     }
 
@@ -257,7 +260,7 @@ fn apart<const D: usize>(setting: &MoverSetting<'_, D>) -> Settled<()> {
                 "the body `{}` overlaps the wall `{name}` at the start",
                 setting.wall
             );
-            return Err(MoverRefusal::of("", why));
+            return Err(MoverRefusal::at_key("", why));
         }
     }
     Ok(())
@@ -290,7 +293,7 @@ fn tensor<const D: usize>(given: &[f64]) -> Settled<Matrix3<f64>> {
     };
     match sound {
         true => Ok(tensor),
-        false => Err(MoverRefusal::of(
+        false => Err(MoverRefusal::at_key(
             "inertia",
             "no body has it: principal moments are positive, and none is more than the sum of the others",
         )),
@@ -298,11 +301,11 @@ fn tensor<const D: usize>(given: &[f64]) -> Settled<Matrix3<f64>> {
 }
 
 impl<const D: usize> Mover<D> for RigidBody {
-    fn settle(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
         if !setting.flush {
             let why = "half a row of fluid clings to these walls and would be carried along: give `[walls.usaw]` the key \
                        `vertices = false`";
-            return Err(MoverRefusal::of("", why));
+            return Err(MoverRefusal::at_key("", why));
         }
         let weighed = self.weighed(setting)?;
         apart(setting)?;

@@ -6,7 +6,7 @@ use sph_core::Vect;
 use crate::bodies::freedom::Freedom;
 use crate::bodies::mooring::{Mooring, Pull};
 use crate::bodies::prescribed::{Prescribed, moved};
-use crate::bodies::six::{blocks, padded, parts, rotation, six, solve};
+use crate::bodies::spatial_vector::{blocks, padded, parts, rotation, six, solve};
 use crate::{Load, RigidState};
 
 /// A body as the equations of motion know it; matrices as it is drawn.
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_locked_stays_and_what_is_free_follows_newton_and_euler() {
+    fn locked_directions_rest_and_free_ones_follow_newton_and_euler() {
         let body = body([true, false, false, false, false, true]);
         let load = Load::<2> {
             force: Vect::<2>::new(3.0, 4.0),

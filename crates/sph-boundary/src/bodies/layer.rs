@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, Vector3};
 
 use crate::Drawing;
-use crate::bodies::six::six;
+use crate::bodies::spatial_vector::six;
 
 /// A* = ρ h Σ ∫ j jᵀ dS with j = (n, (x − c) × n): the inertia of a layer of fluid one smoothing length h thick that goes
 /// with the surface along its normal n.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use sph_core::parameters;
 
 use crate::Drawing;
-use crate::bodies::six::padded;
+use crate::bodies::spatial_vector::padded;
 
 /// A line from a fixed place to a place of the body. It pulls with k (l − l₀) + c l̇ ≥ 0, and never pushes.
 ///

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Matrix6};
 
 use crate::RigidState;
 use crate::bodies::dynamics::Dynamics;
-use crate::bodies::six::{blocks, rotation, solve};
+use crate::bodies::spatial_vector::{blocks, rotation, solve};
 
 impl Dynamics {
     /// The inverse of mass and inertia over what is free at a time.

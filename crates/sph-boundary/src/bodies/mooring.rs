@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::bodies::catenary::Catenary;
 use crate::bodies::line::{Line, crosses};
-use crate::bodies::six::{padded, six};
+use crate::bodies::spatial_vector::{padded, six};
 use crate::{MoverRefusal, MoverSetting};
 
 /// A line, ready to pull.
@@ -45,13 +45,13 @@ impl Mooring {
     ///
     /// # Errors
     /// The key that does not fit: ends of another dimension, no length, too short or slack without weight, through a wall.
-    pub fn of<const D: usize>(
+    pub fn new<const D: usize>(
         line: &Line,
         k: usize,
         setting: &MoverSetting<'_, D>,
     ) -> Result<Self, MoverRefusal> {
         let refuse =
-            |key: &str, why: String| Err(MoverRefusal::of(format!("line[{k}].{key}"), why));
+            |key: &str, why: String| Err(MoverRefusal::at_key(format!("line[{k}].{key}"), why));
         for (key, place) in [("from", &line.from), ("to", &line.to)] {
             if place.len() != D {
                 let why = format!("{} numbers, {D} are expected", place.len());

@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 use sph_core::{Vect, parameters};
 
-use crate::bodies::six::{parts, six};
+use crate::bodies::spatial_vector::{parts, six};
 use crate::{MoverRefusal, RigidState};
 
 /// A time in which the body moves as given: it keeps the velocities that it had, or takes those of a course.
@@ -40,8 +40,9 @@ pub(crate) fn check<const D: usize>(
     let columns = if D == 2 { 4 } else { 7 };
     let mut before = start;
     for (k, one) in all.iter().enumerate() {
-        let refused =
-            |key: &str, why: String| Err(MoverRefusal::of(format!("prescribed[{k}].{key}"), why));
+        let refused = |key: &str, why: String| {
+            Err(MoverRefusal::at_key(format!("prescribed[{k}].{key}"), why))
+        };
         let times = [("from", one.from), ("to", one.to)];
         if let Some((key, time)) = times.into_iter().find(|(_, time)| !time.is_finite()) {
             return refused(key, format!("{time} s is no time"));
@@ -100,7 +101,7 @@ pub(crate) fn check<const D: usize>(
 }
 
 /// Velocities and accelerations of a body along the axes and about them.
-pub(crate) struct Given {
+pub(crate) struct ImposedMotion {
     pub velocity: Vector6<f64>,
     pub acceleration: Vector6<f64>,
 }
@@ -112,7 +113,7 @@ impl Prescribed {
     }
 
     /// What its course says at a time; nothing without a course.
-    pub(crate) fn at(&self, time: f64) -> Option<Given> {
+    pub(crate) fn at(&self, time: f64) -> Option<ImposedMotion> {
         let place = self.course.partition_point(|row| row[0] <= time);
         // A course has two rows at least: it covers a time.
         let last = self.course.len().checked_sub(1).filter(|last| *last > 0)?;
@@ -129,7 +130,7 @@ impl Prescribed {
         let (from, to) = (of(a), of(b));
         let slope = (to - from) / (b[0] - a[0]);
         let gone = (time - a[0]).clamp(0.0, b[0] - a[0]);
-        Some(Given {
+        Some(ImposedMotion {
             velocity: from + slope * gone,
             acceleration: slope,
         })
@@ -139,7 +140,7 @@ impl Prescribed {
 /// The state after a step in which the body has velocities that are given, or keeps its own.
 pub(crate) fn moved<const D: usize>(
     now: &RigidState<D>,
-    given: Option<Given>,
+    given: Option<ImposedMotion>,
     dt: f64,
 ) -> RigidState<D> {
     let mut state = *now;
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_in_order_is_refused_with_its_key() {
+    fn invalid_tables_are_refused_with_their_key() {
         let why = |all: &[Prescribed]| match check::<2>(all, 0.5, [1.0, 1500.0]) {
             Ok(()) => String::new(),
             Err(MoverRefusal { key, why }) => format!("{key}: {why}"),

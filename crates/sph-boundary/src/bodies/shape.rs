@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::bodies::six::padded;
+use crate::bodies::spatial_vector::padded;
 use crate::{Drawing, Polyline, Surface};
 
 /// A solid of density 1.
@@ -65,7 +65,7 @@ impl Solid {
     ///
     /// # Errors
     /// If they enclose nothing.
-    pub fn of<'a>(pieces: impl IntoIterator<Item = &'a Drawing>) -> Result<Self, NoSolid> {
+    pub fn from_pieces<'a>(pieces: impl IntoIterator<Item = &'a Drawing>) -> Result<Self, NoSolid> {
         let mut sum = Moments::default();
         let mut flat = true;
         for piece in pieces {
@@ -191,13 +191,14 @@ mod tests {
 
     #[test]
     fn a_rectangle_and_a_box_have_their_moments_to_rounding() {
-        let solid = Solid::of([&rectangle(false, true)]).unwrap();
+        let solid = Solid::from_pieces([&rectangle(false, true)]).unwrap();
         assert!((solid.volume - 2.0).abs() < 1e-14);
         assert!((solid.centre - Vector3::new(2.0, 2.5, 0.0)).norm() < 1e-14);
         // A (a² + b²)/12
         assert!((solid.inertia[(2, 2)] - 2.0 * 5.0 / 12.0).abs() < 1e-13);
         let solid =
-            Solid::of([&Drawing::Surface(boxed([1.0, 2.0, -1.0], [3.0, 5.0, 3.0]))]).unwrap();
+            Solid::from_pieces([&Drawing::Surface(boxed([1.0, 2.0, -1.0], [3.0, 5.0, 3.0]))])
+                .unwrap();
         assert!((solid.volume - 24.0).abs() < 1e-12);
         assert!((solid.centre - Vector3::new(2.0, 3.5, 1.0)).norm() < 1e-13);
         let expected = Vector3::new(9.0 + 16.0, 4.0 + 16.0, 4.0 + 9.0) * 2.0;
@@ -222,16 +223,28 @@ mod tests {
 
     #[test]
     fn vessels_lines_and_lids_are_no_solids() {
-        assert_eq!(Solid::of([&rectangle(true, true)]), Err(NoSolid::Vessel));
-        assert_eq!(Solid::of([&rectangle(false, false)]), Err(NoSolid::Open));
+        assert_eq!(
+            Solid::from_pieces([&rectangle(true, true)]),
+            Err(NoSolid::Vessel)
+        );
+        assert_eq!(
+            Solid::from_pieces([&rectangle(false, false)]),
+            Err(NoSolid::Open)
+        );
         let mut open = boxed([0.0; 3], [1.0; 3]);
         open.triangles.truncate(10);
-        assert_eq!(Solid::of([&Drawing::Surface(open)]), Err(NoSolid::Open));
+        assert_eq!(
+            Solid::from_pieces([&Drawing::Surface(open)]),
+            Err(NoSolid::Open)
+        );
         let plate = Polyline {
             name: "p".into(),
             points: vec![[0.0, 0.0], [1.0, 0.0]],
             closed: true,
         };
-        assert_eq!(Solid::of([&Drawing::Line(plate)]), Err(NoSolid::Flat));
+        assert_eq!(
+            Solid::from_pieces([&Drawing::Line(plate)]),
+            Err(NoSolid::Flat)
+        );
     }
 }

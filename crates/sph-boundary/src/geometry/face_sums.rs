@@ -75,7 +75,7 @@ impl Walls<3> {
             });
             let whole = integrals.polygon(height, first.normal, edges);
             sum.add(&whole, first.normal);
-            let shell = self.shells.of(part[0].index());
+            let shell = self.shells.shell_of(part[0].index());
             sides.add(shell, whole.gamma);
             if whole.kernel == 0.0 || hidden.contains(&shell) {
                 continue;

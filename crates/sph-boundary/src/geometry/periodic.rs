@@ -25,7 +25,7 @@ impl<const D: usize> PeriodicBox<D> {
     }
 
     /// The box of a flow.
-    pub fn of(domain: &sph_neighbours::Domain<D>) -> Self {
+    pub fn from_domain(domain: &sph_neighbours::Domain<D>) -> Self {
         Self {
             lower: domain.lower.into(),
             upper: domain.upper.into(),

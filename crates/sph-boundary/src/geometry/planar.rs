@@ -5,8 +5,8 @@ use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
 use crate::geometry::checks::check_points;
+use crate::geometry::junctions::bounding;
 use crate::geometry::layers::layers;
-use crate::geometry::meeting::bounding;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::shells::{Gammas, ShellSums};
 use crate::geometry::touching::without_shared;
@@ -27,7 +27,7 @@ impl Walls<2> {
     ) -> Option<Hindrance<2>> {
         let segment = &self.mesh.elements[near.index()];
         let [start, end] = self.mesh.corners_from([x[0], x[1]], near).map(Vect::from);
-        let shell = self.shells.of(near.index());
+        let shell = self.shells.shell_of(near.index());
         let turned = behind.iter().any(|(_, s)| *s == shell);
         let normal = Vect::from(segment.normal) * if turned { -1.0 } else { 1.0 };
         // Only from the fluid's side: the far face of a plate is none of its business.
@@ -83,7 +83,7 @@ impl Walls<2> {
 
 impl WallMesh<2> for Walls<2> {
     type Integrals = Renormalisation2d;
-    type Room = SegmentBatch;
+    type Scratch = SegmentBatch;
 
     fn build(
         walls: &[WallSpec<2>],
@@ -180,7 +180,7 @@ impl WallMesh<2> for Walls<2> {
                 let normal = self.mesh.elements[element as usize].normal;
                 let integral = integrals.weighed(batch, k);
                 sum.add(&integral, element as usize, &self.mesh);
-                sides.add(self.shells.of(element as usize), integral.gamma);
+                sides.add(self.shells.shell_of(element as usize), integral.gamma);
                 if integral.kernel != 0.0 {
                     let share = std::iter::once((element, integral.kernel));
                     contacts.push(normal.into(), distance, share);
@@ -193,7 +193,7 @@ impl WallMesh<2> for Walls<2> {
                     contacts.truncate(planes);
                     for k in from..end {
                         let (element, distance) = batch.seen[k];
-                        let shell = self.shells.of(element as usize);
+                        let shell = self.shells.shell_of(element as usize);
                         let kernel = integrals.weighed(batch, k).kernel;
                         if kernel != 0.0 && sides.behind().all(|(s, _)| s != shell) {
                             let normal = self.mesh.elements[element as usize].normal;

@@ -10,7 +10,7 @@ impl Sets {
     }
 
     /// The lowest number of the set of one.
-    pub fn of(&mut self, number: usize) -> usize {
+    pub fn root(&mut self, number: usize) -> usize {
         let mut at = number;
         while self.0[at] as usize != at {
             self.0[at] = self.0[self.0[at] as usize];
@@ -20,7 +20,7 @@ impl Sets {
     }
 
     pub fn join(&mut self, [a, b]: [usize; 2]) {
-        let (a, b) = (self.of(a), self.of(b));
+        let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;
     }
 }

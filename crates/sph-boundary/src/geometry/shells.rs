@@ -35,7 +35,7 @@ impl Shells {
         let mut shells = 0;
         for node in free {
             ends[node] = true;
-            let of = &mut number[sets.of(node)];
+            let of = &mut number[sets.root(node)];
             if *of == 0 {
                 shells += 1;
                 *of = shells;
@@ -48,7 +48,7 @@ impl Shells {
         Shells {
             rim: rim.collect(),
             of: elements
-                .map(|(e, open)| if open { 0 } else { number[sets.of(e[0])] })
+                .map(|(e, open)| if open { 0 } else { number[sets.root(e[0])] })
                 .collect(),
         }
     }
@@ -65,7 +65,7 @@ impl Shells {
 
     /// Number of the shell of an element, 0 if it is on none.
     #[inline(always)]
-    pub fn of(&self, element: usize) -> u32 {
+    pub fn shell_of(&self, element: usize) -> u32 {
         self.of.get(element).copied().unwrap_or(0)
     }
 }
@@ -151,7 +151,7 @@ mod tests {
     fn only_pieces_with_a_free_end_are_shells() {
         let lines = [[0, 1], [1, 2], [3, 4], [4, 3], [5, 6], [6, 7]].map(|nodes| (nodes, false));
         let shells = Shells::new(lines.into_iter(), 8, [0, 2, 7].into_iter());
-        let of: Vec<u32> = (0..6).map(|k| shells.of(k)).collect();
+        let of: Vec<u32> = (0..6).map(|k| shells.shell_of(k)).collect();
         assert_eq!(of, [1, 1, 0, 0, 2, 2]);
         assert!(!Shells::new(lines[2..4].iter().copied(), 8, [].into_iter()).any());
     }
@@ -160,7 +160,7 @@ mod tests {
     fn a_face_that_fluid_passes_is_on_no_shell() {
         let lines = [([0, 1], false), ([1, 2], true), ([2, 3], false)];
         let shells = Shells::new(lines.into_iter(), 4, [0, 3].into_iter());
-        assert_eq!([0, 1, 2].map(|k| shells.of(k)), [1, 0, 2]);
+        assert_eq!([0, 1, 2].map(|k| shells.shell_of(k)), [1, 0, 2]);
         assert!(shells.is_rim(0) && !shells.is_rim(1));
     }
 

@@ -24,7 +24,7 @@ type Seen<'a> = (&'a NearElement<3>, Closest<3>, Vect<3>, f64);
 
 impl WallMesh<3> for Walls<3> {
     type Integrals = Renormalisation3d;
-    type Room = Weights;
+    type Scratch = Weights;
 
     fn build(
         walls: &[WallSpec<3>],
@@ -148,7 +148,7 @@ impl WallMesh<3> for Walls<3> {
                 (near, closest, offset, offset.norm())
             })
             .filter(|(near, closest, _, distance)| {
-                let shell = self.shells.of(near.index());
+                let shell = self.shells.shell_of(near.index());
                 let turned = behind.iter().any(|(_, s)| *s == shell);
                 let before = if turned {
                     closest.height < 0.0

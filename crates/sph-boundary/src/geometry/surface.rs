@@ -19,7 +19,7 @@ mod outside;
 mod patches;
 mod places;
 mod removal;
-mod seen;
 mod solid_angle;
+mod wetted;
 
 pub use drawn::Surface;

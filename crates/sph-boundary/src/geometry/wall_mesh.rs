@@ -62,7 +62,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
     /// Buffers of a task that finds γ.
-    type Room: Default + Send + Sync + std::fmt::Debug;
+    type Scratch: Default + Send + Sync + std::fmt::Debug;
 
     /// Meshes the walls; queries look up to `reach` metres far.
     ///
@@ -112,7 +112,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         &self,
         integrals: &Self::Integrals,
         points: impl Iterator<Item = (&'a Vect<D>, &'a [NearElement<D>])>,
-        room: &mut Self::Room,
+        room: &mut Self::Scratch,
         contacts: &mut ContactBlock<D>,
         found: &mut Gammas,
     );
@@ -213,7 +213,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         integrals: &Self::Integrals,
         point: &Vect<D>,
         near: &[NearElement<D>],
-        room: &mut Self::Room,
+        room: &mut Self::Scratch,
         contacts: &mut ContactBlock<D>,
     ) -> f64 {
         let mut found = Gammas::default();

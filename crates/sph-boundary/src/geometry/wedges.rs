@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use crate::geometry::sets::Sets;
 
 /// A face at an edge, or a line at a corner.
-pub(crate) struct Beside {
+pub(crate) struct AdjacentFace {
     pub piece: usize,
     /// Whether the fluid is on the side of rising angles.
     pub with: bool,
@@ -14,7 +14,7 @@ pub(crate) struct Beside {
 }
 
 /// Neighbours about an edge or a corner with the fluid between them.
-pub(crate) fn wedges(mut around: Vec<Beside>) -> Vec<[usize; 2]> {
+pub(crate) fn wedges(mut around: Vec<AdjacentFace>) -> Vec<[usize; 2]> {
     // Of two back to back, the one with the fluid before it comes first.
     around.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.with.cmp(&b.with)));
     let next = around.iter().cycle().skip(1);
@@ -35,12 +35,15 @@ pub(crate) fn bound_fluid(
     count: usize,
     severed: &[(usize, Vec<usize>)],
 ) -> Vec<bool> {
-    let ends: HashSet<usize> = severed.iter().map(|(piece, _)| parts.of(*piece)).collect();
+    let ends: HashSet<usize> = severed
+        .iter()
+        .map(|(piece, _)| parts.root(*piece))
+        .collect();
     let mut outside: BTreeMap<usize, bool> = ends.iter().map(|part| (*part, true)).collect();
     for (piece, others) in severed {
-        let whole = others.iter().all(|o| !ends.contains(&parts.of(*o)));
-        *outside.entry(parts.of(*piece)).or_default() &= whole && !others.is_empty();
+        let whole = others.iter().all(|o| !ends.contains(&parts.root(*o)));
+        *outside.entry(parts.root(*piece)).or_default() &= whole && !others.is_empty();
     }
-    let mut bounds = |piece| !outside.get(&parts.of(piece)).copied().unwrap_or(false);
+    let mut bounds = |piece| !outside.get(&parts.root(piece)).copied().unwrap_or(false);
     (0..count).map(&mut bounds).collect()
 }

@@ -114,7 +114,7 @@ pub struct MoverRefusal {
 
 impl MoverRefusal {
     /// Of a key.
-    pub fn of(key: impl Into<String>, why: impl Into<String>) -> Self {
+    pub fn at_key(key: impl Into<String>, why: impl Into<String>) -> Self {
         MoverRefusal {
             key: key.into(),
             why: why.into(),

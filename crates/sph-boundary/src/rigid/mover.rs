@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 use sph_core::{Vect, contract};
-use sph_neighbours::Sight;
+use sph_neighbours::DepthGauge;
 
 use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 
@@ -13,7 +13,7 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     ///
     /// # Errors
     /// The key of its table that does not fit the scene.
-    fn settle(&mut self, _setting: &MoverSetting<'_, D>) -> Result<(), MoverRefusal> {
+    fn prepare(&mut self, _setting: &MoverSetting<'_, D>) -> Result<(), MoverRefusal> {
         Ok(())
     }
     /// How the wall meets others; none if nothing stops it. Its place among walls that touch is then in [`Load`].
@@ -27,7 +27,7 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
         true
     }
     /// Where it looks at the fluid before its wall, in a state; the depth there is then in [`Load`].
-    fn looks(&self, _now: &RigidState<D>) -> Option<Sight<D>> {
+    fn looks(&self, _now: &RigidState<D>) -> Option<DepthGauge<D>> {
         None
     }
     /// What lines pull the wall in a state: the force of each on it, N, and its tension at the other end, N; none if it

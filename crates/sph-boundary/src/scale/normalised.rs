@@ -7,7 +7,7 @@ use sph_neighbours::{Domain, Frame};
 use crate::geometry::wall_mesh::WallMesh;
 use crate::scale::walls::WallScales;
 use crate::{
-    Condition, Drawing, PlanarWalls, Polyline, RigidMotion, SpatialWalls, Surface, WallSetup,
+    Drawing, PlanarWalls, Polyline, RigidMotion, SpatialWalls, Surface, WallCondition, WallSetup,
     WallSpec,
 };
 
@@ -20,7 +20,7 @@ fn kernel() -> impl Kernel {
 fn spec<const D: usize>(drawing: Drawing) -> WallSpec<D> {
     WallSpec {
         drawing,
-        condition: Condition::NoSlip,
+        condition: WallCondition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,

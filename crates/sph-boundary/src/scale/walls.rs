@@ -49,7 +49,7 @@ fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usi
         }
     }
     let mut all = BTreeMap::<usize, Vec<usize>>::new();
-    (0..walls).for_each(|wall| all.entry(sets.of(wall)).or_default().push(wall));
+    (0..walls).for_each(|wall| all.entry(sets.root(wall)).or_default().push(wall));
     all.into_values().collect()
 }
 
@@ -82,7 +82,7 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
         let mut all = Vec::new();
         // The nodes of a map look as far as it reaches.
         let reach = (REACH + 1.0) * h + kernel.support_radius();
-        let domain = PeriodicBox::of(setup.domain);
+        let domain = PeriodicBox::from_domain(setup.domain);
         let build = |own: &[usize]| {
             let specs: Vec<WallSpec<D>> = own.iter().map(|k| setup.walls[*k].clone()).collect();
             let size = element_size(&specs, setup.spacing, ELEMENT * h);

@@ -67,7 +67,7 @@ struct Extent<const D: usize> {
 }
 
 impl<const D: usize> Extent<D> {
-    fn of(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
+    fn around(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
         let none = Extent {
             low: Vect::repeat(f64::INFINITY),
             high: Vect::repeat(f64::NEG_INFINITY),
@@ -126,7 +126,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let free = (0..touches.len()).filter(|k| touches[*k].is_some() && self.groups[*k] == *k);
         for body in free {
             let own = nodes.iter().filter(|n| self.groups[n.wall] == body);
-            let extent = Extent::of(own.map(|n| n.position), reach);
+            let extent = Extent::around(own.map(|n| n.position), reach);
             let seen = |e: &&MeshElement<D>| {
                 let corners = e.corners.map(|c| nodes[c as usize].position);
                 let size = corners.map(|c| (c - e.centre).norm()).into_iter();

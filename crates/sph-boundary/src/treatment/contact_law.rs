@@ -18,7 +18,7 @@ pub(crate) struct Law {
 
 impl Law {
     /// Between two walls, one of which may be fixed, with at least `least` N/m on the smaller face.
-    pub fn of(pair: [Option<Touch>; 2], least: f64) -> Self {
+    pub fn new(pair: [Option<Touch>; 2], least: f64) -> Self {
         let law = |t: Touch| Law {
             stiffness: t.stiffness.max(least / t.face),
             mass: t.mass,
@@ -85,7 +85,7 @@ mod tests {
                 friction: 0.0,
                 dry: false,
             };
-            let law = Law::of([Some(touch), None], 0.0);
+            let law = Law::new([Some(touch), None], 0.0);
             let (mut x, mut v, dt) = (0.0, Vect::<2>::new(-1.0, 0.0), 1e-3 * f64::sqrt(mass));
             for _ in 0..10_000 {
                 if x < 0.0 {

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use sph_core::{AnyField, StepError, Vect, Work, contract};
 use sph_kernels::Kernel;
-use sph_neighbours::{Coulomb, Domain, Sight, WallSet, World};
+use sph_neighbours::{Coulomb, DepthGauge, Domain, WallSet, World};
 
 use crate::{BoundaryError, Drawing, Mover, RigidMotion};
 
 /// How the fluid meets a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Condition {
+pub enum WallCondition {
     /// The fluid sticks to the wall.
     #[default]
     NoSlip,
@@ -26,9 +26,9 @@ pub enum Condition {
     Coulomb(Coulomb),
 }
 
-impl Condition {
+impl WallCondition {
     /// 1 where the wall rubs, 0 where it slips freely.
-    pub fn grip(&self) -> f64 {
+    pub fn friction_factor(&self) -> f64 {
         match self {
             Self::FreeSlip | Self::Coulomb(_) => 0.0,
             Self::NoSlip | Self::PartialSlip { .. } => 1.0,
@@ -58,7 +58,7 @@ pub struct WallSpec<const D: usize> {
     /// Its line or surface; the name is the wall's.
     pub drawing: Drawing,
     /// How the fluid meets it.
-    pub condition: Condition,
+    pub condition: WallCondition,
     /// Velocity of the surface where the wall itself stays (a belt), m/s.
     pub surface_velocity: Vect<D>,
     /// Motion of the wall.
@@ -173,7 +173,7 @@ pub trait WallMotion<const D: usize> {
     }
 
     /// Where movers look at the fluid before their walls, by the numbers of these.
-    fn sights(&self) -> Vec<(usize, Sight<D>)> {
+    fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
         Vec::new()
     }
 

@@ -11,9 +11,9 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, shaped_by_outline};
-use crate::treatment::shepard::Felt;
+use crate::treatment::shepard::EffectiveGravity;
 use crate::{
-    BoundaryError, Condition, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
+    BoundaryError, PlanarWalls, SpatialWalls, Wall, WallCondition, WallEntry, WallSetup, WallSpec,
     WallStates,
 };
 
@@ -53,7 +53,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     fn new(setup: &WallSetup<'_, D>) -> Result<Self, BoundaryError> {
         let support = setup.kernel.support() * setup.smoothing_length;
-        let rough = |w: &&WallSpec<D>| matches!(w.condition, Condition::Coulomb(_));
+        let rough = |w: &&WallSpec<D>| matches!(w.condition, WallCondition::Coulomb(_));
         if let Some(wall) = setup.walls.iter().find(rough) {
             return Err(BoundaryError::NoElements {
                 wall: wall.drawing.name().into(),
@@ -129,7 +129,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             points.volume.push(setup.spacing.powi(D as i32));
             points.pressure.push(0.0);
             let condition = &set_up.outline.specs[*wall].condition;
-            points.grip.push(condition.grip());
+            points.friction_factor.push(condition.friction_factor());
             points.wall.push(*wall as u32);
             if set_up.outline.moves() {
                 points.acceleration.push(Vect::zeros());
@@ -181,7 +181,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             velocity: world.free.get(fields::VELOCITY)?,
             pressure: world.free.get(fields::PRESSURE)?,
             density: world.free.get(fields::DENSITY)?,
-            felt: Felt {
+            felt: EffectiveGravity {
                 gravity: world.gravity,
                 accelerations: &points.acceleration,
             },
@@ -216,7 +216,7 @@ struct Means<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     pressure: &'a [f64],
     density: &'a [f64],
-    felt: Felt<'a, D>,
+    felt: EffectiveGravity<'a, D>,
 }
 
 impl<const D: usize> PairSum<D> for Means<'_, D> {

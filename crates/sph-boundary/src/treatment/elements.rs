@@ -24,7 +24,7 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Version of the near lists, moves and positions for which the contacts were found.
     found_for: (u64, u64, Vec<Vect<D>>),
     /// What was found last, batch by batch; kept for its memory.
-    found: Vec<Found<M::Room>>,
+    found: Vec<Found<M::Scratch>>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
     /// those on no plane's fluid side.
     clearance: Vec<f64>,

@@ -1,7 +1,7 @@
 //! Outlines that move: by prescribed courses and by movers.
 
 use sph_core::Vect;
-use sph_neighbours::{FreeBody, Sight, WallForce};
+use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::groups::is_piece;
@@ -133,7 +133,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Where movers look at the fluid before their walls.
-    pub fn sights(&self) -> Vec<(usize, Sight<D>)> {
+    pub fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
         let look = |k: usize| {
             let mover = self.specs[k].mover.as_ref()?;
             Some((k, mover.looks(&self.states[k])?))

@@ -44,12 +44,12 @@ pub(crate) struct NearLists<const D: usize> {
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
     /// Kept for its memory.
-    room: Room<D>,
+    room: Scratch<D>,
 }
 
 /// What a search needs besides.
 #[derive(Debug, Default)]
-struct Room<const D: usize> {
+struct Scratch<const D: usize> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
     found: Vec<Found<D>>,
@@ -154,7 +154,7 @@ impl<const D: usize> NearLists<D> {
         if *identities == self.identities[..] {
             return;
         }
-        let slots = Slots::of(&self.identities);
+        let slots = Slots::from_identities(&self.identities);
         let row = |&id: &u32| {
             let slot = slots.slot(id);
             slot.map_or(Row::none(), |slot| self.rows[slot as usize])

@@ -8,8 +8,8 @@ use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, Wal
 use crate::geometry::cover::Cover;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
-use crate::treatment::far_sight::far_sight;
 use crate::treatment::groups::{groups, is_piece};
+use crate::treatment::kernel_reach::far_sight;
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// How far queries look, over the support: also those of filling and of a generous skin.
@@ -60,7 +60,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
         }
         let reach = FARTHEST * support;
-        let domain = PeriodicBox::of(setup.domain);
+        let domain = PeriodicBox::from_domain(setup.domain);
         check_reach(setup.walls, &domain)?;
         let mesh = M::build(setup.walls, size, reach, &domain)?;
         let mut outline = Outline {
@@ -211,7 +211,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             points.share.push(node.theta * node.size);
             points.volume.push(spacing.powi(D as i32));
             points.pressure.push(0.0);
-            points.grip.push(condition.grip());
+            points.friction_factor.push(condition.friction_factor());
             points.wall.push(node.wall as u32);
             points.velocity.push(Vect::zeros());
             points.viscous_velocity.push(Vect::zeros());
@@ -241,7 +241,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             elements.measure.push(element.measure);
             elements.volume.push(spacing.powi(D as i32));
             elements.pressure.push(0.0);
-            elements.grip.push(condition.grip());
+            elements.friction_factor.push(condition.friction_factor());
             elements.wall.push(element.wall as u32);
             elements.corners.push(element.corners);
             if moves {
@@ -359,9 +359,9 @@ macro_rules! shaped_by_outline {
                 set_up.is_some_and(|s| s.outline.feels(wall))
             }
 
-            fn sights(&self) -> Vec<(usize, sph_neighbours::Sight<D>)> {
+            fn depth_gauges(&self) -> Vec<(usize, sph_neighbours::DepthGauge<D>)> {
                 let set_up = self.set_up.as_ref();
-                set_up.map_or_else(Vec::new, |s| s.outline.sights())
+                set_up.map_or_else(Vec::new, |s| s.outline.depth_gauges())
             }
 
             fn states(&self) -> WallStates {

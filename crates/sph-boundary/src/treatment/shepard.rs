@@ -27,7 +27,7 @@ pub(crate) fn wall_means<const D: usize>(
         pressure: world.free.get(fields::PRESSURE)?,
         density: world.free.get(fields::DENSITY)?,
         volume: world.free.get(fields::VOLUME)?,
-        felt: Felt {
+        felt: EffectiveGravity {
             gravity: world.gravity,
             accelerations,
         },
@@ -47,13 +47,13 @@ pub(crate) fn wall_means<const D: usize>(
 }
 
 /// g − a_w, m/s².
-pub(crate) struct Felt<'a, const D: usize> {
+pub(crate) struct EffectiveGravity<'a, const D: usize> {
     pub gravity: Vect<D>,
     /// Of the targets; empty where no wall ever moves.
     pub accelerations: &'a [Vect<D>],
 }
 
-impl<const D: usize> Felt<'_, D> {
+impl<const D: usize> EffectiveGravity<'_, D> {
     #[inline(always)]
     pub fn own<L: Lane>(&self, targets: Particles) -> [L; D] {
         targets.each(|t| {
@@ -71,7 +71,7 @@ struct Means<'a, const D: usize> {
     pressure: &'a [f64],
     density: &'a [f64],
     volume: &'a [f64],
-    felt: Felt<'a, D>,
+    felt: EffectiveGravity<'a, D>,
 }
 
 impl<const D: usize> PairSum<D> for Means<'_, D> {

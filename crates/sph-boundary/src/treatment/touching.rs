@@ -106,7 +106,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let [a, b] = n.pair;
             *pairs.entry([a.min(b), a.max(b)]).or_insert_with(|| {
                 gaps.push(self.gap(n.pair));
-                laws.push(Law::of(n.pair.map(|k| touches[k]), least));
+                laws.push(Law::new(n.pair.map(|k| touches[k]), least));
                 laws.len() - 1
             })
         };

@@ -11,9 +11,9 @@ use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};
 use crate::number;
 use crate::scene_file::{AnyScene, Opened, open};
-use crate::telling::layout::{columns, remarks};
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::layout::{columns, remarks};
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 
 /// Above this Mach number the fluid is not nearly incompressible; the default is on it, but for rounding.
 const MACH: f64 = 0.1 * (1.0 + 1e-9);
@@ -30,12 +30,12 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
         if picture.is_some() {
             return Err(Trouble::usage("--picture: it draws scenes, no meshes"));
         }
-        mesh::told(&arguments.scene.scene)?.print(arguments.json);
+        mesh::output(&arguments.scene.scene)?.print(arguments.json);
         return Ok(());
     }
     let opened = open(&arguments.scene)?;
     let drawn = picture.map(|path| drawn(&opened, path)).transpose()?;
-    let mut told = told(&opened, arguments.threads.map(usize::from))?;
+    let mut told = output(&opened, arguments.threads.map(usize::from))?;
     if let Some(path) = drawn {
         told.text
             .push_str(&format!("\npicture\n  {}\n", path.display()));
@@ -51,21 +51,21 @@ fn drawn<'a>(opened: &Opened, path: &'a Path) -> Result<&'a Path, Trouble> {
         let text = "--picture: grains have no place before they are prepared; `output.picture` of a run draws them";
         return Err(Trouble::usage(text));
     };
-    draw_scene(&loaded.scene, path).map_err(|e| Trouble::of(e, &loaded.source))?;
+    draw_scene(&loaded.scene, path).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(path)
 }
 
 /// What follows from a scene, for a number of threads.
-pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
+pub fn output(opened: &Opened, threads: Option<usize>) -> Result<CommandOutput, Trouble> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.unwrap_or(cores);
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::check::told(loaded, &opened.shown),
+        AnyScene::Grains(loaded) => return grains::check::output(loaded, &opened.shown),
     };
     let on = threads.min(cores);
     let examined = examine_and_try(&loaded.scene, on, TRIAL);
-    let (mut examined, tried) = examined.map_err(|e| Trouble::of(e, &loaded.source))?;
+    let (mut examined, tried) = examined.map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     let too_fast = too_fast(&examined);
     examined.warnings.extend(too_fast);
     // Threads beyond the cores of this machine are taken to share a step evenly.
@@ -92,7 +92,7 @@ pub fn told(opened: &Opened, threads: Option<usize>) -> Result<Told, Trouble> {
     let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
     all["threads"] = json!(threads);
     all["estimate"]["hours"] = json!(hours);
-    Ok(Told {
+    Ok(CommandOutput {
         json: all,
         text: text(&examined, &opened.shown, &time),
     })

@@ -10,9 +10,9 @@ use sph_io::{Checkpoint, IoError};
 use sph_run::CHECKPOINT;
 
 use crate::number;
-use crate::telling::layout::columns;
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::layout::columns;
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::CompareArguments;
 use difference::{Difference, differences};
 use tables::Table;
@@ -28,7 +28,7 @@ struct Comparison {
 
 /// Compares the results of two runs.
 pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
-    let (told, same) = told(&arguments.first, &arguments.second)?;
+    let (told, same) = output(&arguments.first, &arguments.second)?;
     told.print(arguments.json);
     match same {
         true => Ok(()),
@@ -37,10 +37,10 @@ pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
 }
 
 /// What differs between the results of two runs, and whether nothing does.
-pub fn told(first: &Path, second: &Path) -> Result<(Told, bool), Trouble> {
+pub fn output(first: &Path, second: &Path) -> Result<(CommandOutput, bool), Trouble> {
     let found = compared(first, second)?;
     let same = found.remarks.is_empty() && found.columns.iter().all(|c| c.same);
-    let told = Told {
+    let told = CommandOutput {
         json: json(&found, same),
         text: text(&found, same, [first, second]),
     };

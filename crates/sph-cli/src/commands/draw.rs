@@ -6,8 +6,8 @@ use sph_core::parse_quantity;
 use sph_io::IoError;
 use sph_io::curves::{DrawError, Frames, Line};
 
-use crate::telling::console;
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::{DrawCommand, ProfileArguments, StreamlineArguments, TrackArguments};
 
 /// Draws what is asked for.
@@ -32,7 +32,7 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     let how = (apart, slice);
     let drawn = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path);
     let lines = drawn.map_err(trouble)?;
-    told(&format!("{lines} lines"), path);
+    report(&format!("{lines} lines"), path);
     Ok(())
 }
 
@@ -56,7 +56,7 @@ fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
     let frames = frames(&arguments.results)?;
     let drawn = sph_io::curves::draw_profile(&frames, &line, &arguments.field, &times, path);
     drawn.map_err(trouble)?;
-    told(&format!("{} profiles", times.len()), path);
+    report(&format!("{} profiles", times.len()), path);
     Ok(())
 }
 
@@ -79,11 +79,11 @@ fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
     let tracks = sph_io::curves::tracks(&frames, &identities).map_err(trouble)?;
     let drawn = sph_io::curves::draw_tracks(&frames, &tracks, &arguments.field, path);
     drawn.map_err(trouble)?;
-    told(&format!("{} tracks", tracks.len()), path);
+    report(&format!("{} tracks", tracks.len()), path);
     Ok(())
 }
 
-fn told(what: &str, path: &Path) {
+fn report(what: &str, path: &Path) {
     let table = path.with_extension("csv");
     let (path, table) = (path.display(), table.display());
     console::out(&format!("{what} in {path} and {table}\n"));
@@ -97,7 +97,7 @@ pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
             "there is no fields.pvd in {folder}: name the folder of a run that writes fields (output.vtk)"
         )));
     }
-    Frames::of(folder).map_err(trouble)
+    Frames::from_folder(folder).map_err(trouble)
 }
 
 /// The file of the picture, if it can be one.

@@ -9,9 +9,9 @@ use crate::arguments::ExplainArguments;
 use crate::commands::check::memory;
 use crate::commands::grains;
 use crate::scene_file::{AnyScene, Opened, open};
-use crate::telling::layout::{columns, columns_and_below, paragraph, parameters};
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::layout::{columns, columns_and_below, paragraph, parameters};
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 
 /// Machines that are listed.
 const SHOWN: usize = 16;
@@ -19,7 +19,7 @@ const SHOWN: usize = 16;
 /// Shows what a scene is made of.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
-    let mut told = told(&opened)?;
+    let mut told = output(&opened)?;
     if let Some(count) = arguments.ranks {
         split(&opened, count.get(), &mut told)?;
     }
@@ -28,28 +28,28 @@ pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
 }
 
 /// What a scene is made of.
-pub fn told(opened: &Opened) -> Result<Told, Trouble> {
+pub fn output(opened: &Opened) -> Result<CommandOutput, Trouble> {
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::explain::told(loaded),
+        AnyScene::Grains(loaded) => return grains::explain::output(loaded),
     };
     let examined = examine(&loaded.scene);
-    let examined = examined.map_err(|e| Trouble::of(RunError::from(e), &loaded.source))?;
-    Ok(Told {
+    let examined = examined.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
+    Ok(CommandOutput {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined),
     })
 }
 
 /// Adds what several machines would have and send.
-fn split(opened: &Opened, count: usize, told: &mut Told) -> Result<(), Trouble> {
+fn split(opened: &Opened, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         return Err(Trouble::usage(
             "--ranks splits scenes of particles, and this is one of grains",
         ));
     };
     let split = ranks(&loaded.scene, count);
-    let split = split.map_err(|e| Trouble::of(RunError::from(e), &loaded.source))?;
+    let split = split.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
     if let Json::Object(json) = &mut told.json {
         json.insert(
             "ranks".into(),
@@ -70,9 +70,9 @@ fn ranks_text(split: &Ranks) -> String {
         "rank",
         "particles",
         "cost",
-        "guests",
+        "ghosts",
         "sends per step",
-        "guests of",
+        "ghosts of",
     ];
     let mut rows = vec![header.map(String::from).to_vec()];
     for (rank, own) in split.ranks.iter().enumerate().take(SHOWN) {
@@ -81,8 +81,8 @@ fn ranks_text(split: &Ranks) -> String {
             rank.to_string(),
             own.particles.to_string(),
             format!("{:.3}", own.cost),
-            own.guests.to_string(),
-            format!("{:.1} kB", 1e-3 * (own.sent * split.bytes_per_guest) as f64),
+            own.ghosts.to_string(),
+            format!("{:.1} kB", 1e-3 * (own.sent * split.bytes_per_ghost) as f64),
             partners.join(", "),
         ]);
     }
@@ -94,9 +94,9 @@ fn ranks_text(split: &Ranks) -> String {
         ));
     }
     text.push_str(&format!(
-        "\nsent to guests: {} bytes for each in an evaluation, all {} when it is new; in each iteration of a solve a vector \
+        "\nsent to ghosts: {} bytes for each in an evaluation, all {} when it is new; in each iteration of a solve a vector \
          besides\n",
-        split.bytes_per_guest, split.bytes_per_newcomer
+        split.bytes_per_ghost, split.bytes_per_newcomer
     ));
     let header = ["after", "bytes", "columns"];
     let mut rows = vec![header.map(String::from).to_vec()];

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sph_particles::{Failure, Findings, Share, Sighting, Suspect};
 
-use crate::telling::layout::{columns, remarks};
+use crate::terminal::layout::{columns, remarks};
 
 /// Terms that are told.
 const TERMS: usize = 6;

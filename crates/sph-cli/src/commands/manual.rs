@@ -5,8 +5,8 @@ use clap_mangen::Man;
 use sph_io::{Durability, write_atomic};
 
 use crate::arguments::Arguments;
-use crate::telling::console;
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::{CompletionArguments, ManArguments};
 
 /// Prints what a shell completes with.

@@ -11,12 +11,12 @@ use sph_io::{Durability, write_atomic};
 use sph_probes::{Reduction, Weight, quantile, reduced};
 
 use crate::commands::draw::{frames, trouble};
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::MeasureArguments;
 
 /// A bound on a quantity, as it was given: the quantity, the value, whether it is a lower one.
-struct Bound<'a> {
+struct QuantityBound<'a> {
     of: &'a str,
     value: &'a str,
     least: bool,
@@ -48,7 +48,7 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
         unit = column.unit;
     }
     let names = names(arguments, &unit);
-    let told = Told {
+    let told = CommandOutput {
         text: csv(&names, &rows),
         json: json!({ "columns": names, "rows": rows }),
     };
@@ -59,7 +59,7 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
             write_atomic(file, Durability::Process, write)?;
             let count = rows.len();
             let file = file.display();
-            Told {
+            CommandOutput {
                 text: format!("{count} frames in {file}\n"),
                 json: told.json,
             }
@@ -114,7 +114,7 @@ fn csv(names: &[String], rows: &[Vec<f64>]) -> String {
     text
 }
 
-fn bounds(arguments: &MeasureArguments) -> Result<Vec<Bound<'_>>, Trouble> {
+fn bounds(arguments: &MeasureArguments) -> Result<Vec<QuantityBound<'_>>, Trouble> {
     let of = |text: &'_ String, least| -> Result<(usize, bool), Trouble> {
         let found = text.find('=').filter(|at| *at > 0);
         let option = if least { "above" } else { "below" };
@@ -126,7 +126,7 @@ fn bounds(arguments: &MeasureArguments) -> Result<Vec<Bound<'_>>, Trouble> {
     let below = arguments.below.iter().map(|text| (text, false));
     let each = above.chain(below).map(|(text, least)| {
         let (at, least) = of(text, least)?;
-        Ok(Bound {
+        Ok(QuantityBound {
             of: &text[..at],
             value: &text[at + 1..],
             least,
@@ -153,7 +153,7 @@ fn counted(
     column: &Column,
     weight: Weight,
     phase: Option<usize>,
-    bounds: &[Bound<'_>],
+    bounds: &[QuantityBound<'_>],
 ) -> Result<Counted, Trouble> {
     let all = 0..column.values.len();
     let of_phase: Vec<usize> = match phase {

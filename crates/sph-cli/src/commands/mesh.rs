@@ -6,9 +6,9 @@ use serde_json::{Value as Json, json};
 use sph_core::number;
 use sph_scene::{Facets, Topology};
 
-use crate::telling::layout::{columns, remarks};
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::layout::{columns, remarks};
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 
 /// Openings that are shown.
 const SHOWN: usize = 10;
@@ -26,7 +26,7 @@ pub fn is_mesh(argument: &str) -> bool {
 }
 
 /// What a file of facets holds.
-pub fn told(file: &str) -> Result<Told, Trouble> {
+pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
     let (facets, odd) = Facets::read(Path::new(file)).map_err(Trouble::usage)?;
     let topology = facets.topology();
     let [low, high] = facets.bounds();
@@ -48,7 +48,7 @@ pub fn told(file: &str) -> Result<Told, Trouble> {
     let mut json = mesh.json();
     json["file"] = json!(file);
     json["remarks"] = json!(said);
-    Ok(Told { json, text })
+    Ok(CommandOutput { json, text })
 }
 
 /// Which way a surface faces once its facets are turned to face one way.

@@ -9,8 +9,8 @@ use sph_scene::Source;
 use crate::arguments::NewArguments;
 use crate::scene_file::{self, AnyScene};
 use crate::shipped;
-use crate::telling::console;
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::trouble::Trouble;
 
 /// A dam break in a box, every line explained.
 const TEMPLATE: &str = include_str!("../../templates/dam-break.toml");

@@ -7,9 +7,9 @@ use sph_particles::Summary;
 use sph_run::Status;
 
 use crate::commands::check::memory;
-use crate::commands::written;
+use crate::commands::file_list;
 use crate::number;
-use crate::telling::layout::{columns, remarks};
+use crate::terminal::layout::{columns, remarks};
 
 /// What the run was, what it cost, how good it is, and where its files are.
 pub fn text(summary: &Summary, out: &Path) -> String {
@@ -24,7 +24,7 @@ pub fn text(summary: &Summary, out: &Path) -> String {
         text.push_str("advice\n");
         text.push_str(&remarks(&summary.advice));
     }
-    text.push_str(&written::ending(out));
+    text.push_str(&file_list::ending(out));
     text
 }
 

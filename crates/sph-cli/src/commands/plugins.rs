@@ -2,17 +2,17 @@
 
 mod choices;
 mod kernel_picture;
+mod law_sample;
 mod page;
 mod picture;
 mod snippet;
-mod specimen;
 
 use serde_json::{Value as Json, json};
 use sph_core::{Parameter, PluginInfo, PluginKind, kinds, parameters, suggestion};
 
-use crate::telling::console;
-use crate::telling::layout::{columns, paragraph};
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::layout::{columns, paragraph};
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::PluginArguments;
 
 /// The kinds of plugins that can be drawn.
@@ -25,7 +25,7 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let Some(kind) = &arguments.kind else {
         let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
         let text = match arguments.markdown {
-            true => page::of(&all),
+            true => page::markdown(&all),
             false => overview(&kinds),
         };
         return shown(arguments, &text, &Json::Array(all));
@@ -149,7 +149,7 @@ fn plugin_text(kind: &PluginKind, plugin: &PluginInfo) -> String {
         text.push_str(&parameter_text(parameter, &schema));
     }
     text.push_str("\nin a scene\n");
-    for line in snippet::of(kind.name, plugin).lines() {
+    for line in snippet::toml_lines(kind.name, plugin).lines() {
         text.push_str(format!("  {line}").trim_end());
         text.push('\n');
     }
@@ -178,7 +178,10 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
         parameter.name, parameter.kind
     );
     text.push_str(&paragraph(6, 98, &parameter.meaning));
-    for (k, choice) in choices::of(schema, &parameter.name).iter().enumerate() {
+    for (k, choice) in choices::choices_of(schema, &parameter.name)
+        .iter()
+        .enumerate()
+    {
         let lead = if k == 0 { "one of " } else { "or " };
         let colon = if choice.meaning.is_empty() { "" } else { ": " };
         let line = format!("{lead}{}{colon}{}", choice.value, choice.meaning);
@@ -206,7 +209,7 @@ fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {
     let schema = (plugin.schema)();
     let all = parameters(&schema).into_iter().map(|p| {
         let required = required(&schema, &p.name);
-        let choices = choices::of(&schema, &p.name).into_iter();
+        let choices = choices::choices_of(&schema, &p.name).into_iter();
         let choices: Vec<String> = choices.map(|c| c.value).collect();
         json!({
             "name": p.name, "type": p.kind, "unit": p.unit, "default": p.default,
@@ -221,6 +224,6 @@ fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {
         "provider": plugin.provider,
         "dimensions": plugin.dimensions,
         "parameters": all.collect::<Vec<_>>(),
-        "snippet": snippet::of(kind, plugin),
+        "snippet": snippet::toml_lines(kind, plugin),
     })
 }

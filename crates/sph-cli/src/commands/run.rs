@@ -9,15 +9,15 @@ use sph_run::{CHECKPOINT, Identity, RunOptions, SUMMARY, Start, Status, Watch};
 use sph_scene::{Loaded, Source};
 
 use crate::arguments::RunArguments;
-use crate::commands::left_behind::{failed_summary, going_on};
+use crate::commands::interrupted::{failed_summary, going_on};
 use crate::commands::{grains, outcome};
 use crate::interrupt;
 use crate::ranks;
 use crate::scene_file::{AnyScene, Opened, open};
-use crate::telling::console;
-use crate::telling::progress::Watcher;
-use crate::telling::told::{Ended, Told};
-use crate::telling::trouble::{Failing, Trouble};
+use crate::terminal::console;
+use crate::terminal::output::{CommandOutput, Ended};
+use crate::terminal::progress::Watcher;
+use crate::terminal::trouble::{Failing, Trouble};
 
 /// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
@@ -69,14 +69,14 @@ fn particles(
 ) -> Result<Ended, Trouble> {
     let mut options = options(arguments, out)?;
     let own = identity(loaded);
-    options.identity = own.map_err(|e| Trouble::of(RunError::from(e), &loaded.source))?;
-    let result = match (ranks::team(), arguments.ranks.map(usize::from)) {
+    options.identity = own.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
+    let result = match (ranks::communicator(), arguments.ranks.map(usize::from)) {
         (Some(_), Some(2..)) => {
             let text =
                 "--ranks divides this process, and mpirun has started several: leave out --ranks";
             return Err(Trouble::usage(text));
         }
-        (Some(team), _) => run_part(&loaded.scene, &options, team, observer),
+        (Some(communicator), _) => run_part(&loaded.scene, &options, communicator, observer),
         (None, Some(ranks @ 2..)) => {
             run_on_threads(&loaded.scene, &options, ranks, observer).map(Some)
         }
@@ -87,7 +87,7 @@ fn particles(
         // Another rank has it.
         return Ok(Ended {
             interrupted: None,
-            told: Told {
+            told: CommandOutput {
                 json: Json::Null,
                 text: String::new(),
             },
@@ -103,7 +103,7 @@ fn grains(
     out: &Path,
     observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
-    if arguments.ranks.is_some_and(|n| n > 1) || ranks::team().is_some() {
+    if arguments.ranks.is_some_and(|n| n > 1) || ranks::communicator().is_some() {
         return Err(Trouble::usage("a scene of grains runs on one rank"));
     }
     if arguments.from.is_some() {
@@ -140,7 +140,7 @@ fn ended(
     let stopped = status != Status::Done;
     Ended {
         interrupted: stopped.then_some((time, steps)),
-        told: Told { json, text },
+        told: CommandOutput { json, text },
     }
 }
 
@@ -211,7 +211,7 @@ fn trouble(
         let again = going_on(arguments, out);
         format!("the last checkpoint stands: {why}, then go on with\n  {again}")
     });
-    let mut trouble = Trouble::of(told, source);
+    let mut trouble = Trouble::in_scene(told, source);
     if let Trouble::Failed {
         summary, advice, ..
     } = &mut trouble

@@ -9,15 +9,15 @@ use crate::arguments::ScenesArguments;
 use crate::gallery::Gallery;
 use crate::scene_file::{self, AnyScene};
 use crate::shipped::{self, Shipped};
-use crate::telling::layout::columns;
-use crate::telling::trouble::Trouble;
-use crate::telling::{console, diagnostics};
+use crate::terminal::layout::columns;
+use crate::terminal::trouble::Trouble;
+use crate::terminal::{console, diagnostics};
 
 /// Lists the shipped scenes.
 pub fn command(arguments: &ScenesArguments) -> Result<(), Trouble> {
     let gallery = Gallery::own();
     if arguments.markdown {
-        console::out(&page::of(gallery));
+        console::out(&page::markdown(gallery));
         return Ok(());
     }
     let all = shipped::all();

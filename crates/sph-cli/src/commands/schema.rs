@@ -1,8 +1,8 @@
 //! `sph schema`.
 
 use crate::arguments::SchemaArguments;
-use crate::telling::console;
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::trouble::Trouble;
 
 /// Prints the JSON schema of scenes with all plugins of this binary.
 pub fn command(arguments: &SchemaArguments) -> Result<(), Trouble> {

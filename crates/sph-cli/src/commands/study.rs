@@ -13,12 +13,12 @@ use crate::arguments::StudyArguments;
 use crate::interrupt;
 use crate::scene_file::{Found, allowed, find, overrides};
 use crate::shipped;
-use crate::telling::console;
-use crate::telling::layout::columns;
-use crate::telling::shell::quoted;
-use crate::telling::study_progress::Watcher;
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::layout::columns;
+use crate::terminal::output::CommandOutput;
+use crate::terminal::shell::quoted;
+use crate::terminal::study_progress::Watcher;
+use crate::terminal::trouble::Trouble;
 
 /// Most series whose orders are told; the report has all.
 const MOST: usize = 12;
@@ -44,7 +44,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
 /// The end of a study.
 pub struct Studied {
     /// Its results.
-    pub told: Told,
+    pub told: CommandOutput,
     /// What is kept and how to go on, if it stopped before its end.
     pub going_on: Option<String>,
 }
@@ -79,7 +79,7 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
     published?;
     let records = &outcome.records;
     Ok(Studied {
-        told: Told {
+        told: CommandOutput {
             json: serde_json::to_value(&results).unwrap_or(Json::Null),
             text: text(&results, &out),
         },

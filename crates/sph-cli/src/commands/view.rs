@@ -11,8 +11,8 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::telling::console;
-use crate::telling::trouble::Trouble;
+use crate::terminal::console;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::ViewArguments;
 use answer::{Answer, answer};
 

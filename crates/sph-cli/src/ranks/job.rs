@@ -32,7 +32,7 @@ impl Job {
             return None;
         }
         let (universe, _) = mpi::initialize_with_threading(Threading::Serialized)?;
-        let rank = Arc::new(MpiRank::here());
+        let rank = Arc::new(MpiRank::current());
         let told = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
             told(panic);

@@ -23,7 +23,7 @@ fn world() -> SimpleCommunicator {
 
 impl MpiRank {
     /// This process; MPI must have been initialised.
-    pub(crate) fn here() -> Self {
+    pub(crate) fn current() -> Self {
         MpiRank {
             rank: world().rank() as usize,
             ranks: world().size() as usize,

@@ -53,11 +53,11 @@ impl Integrator for LeapFrog {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrators::trial::Promise;
+    use crate::integrators::trial::StatedOrders;
 
     #[test]
     fn orders_stability_and_energy_are_as_stated() {
-        let promise = Promise {
+        let promise = StatedOrders {
             sound: 2.0,
             both: 2.0,
             friction: 2.0,

@@ -52,11 +52,11 @@ impl Integrator for SymplecticEuler {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrators::trial::Promise;
+    use crate::integrators::trial::StatedOrders;
 
     #[test]
     fn orders_stability_and_energy_are_as_stated() {
-        let promise = Promise {
+        let promise = StatedOrders {
             sound: 1.0,
             both: 1.0,
             friction: 1.0,

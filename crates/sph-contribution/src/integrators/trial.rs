@@ -144,7 +144,7 @@ impl System for Trial {
 }
 
 /// What a scheme promises on the oscillator.
-pub struct Promise {
+pub struct StatedOrders {
     /// Order without damping.
     pub sound: f64,
     /// Order with spring and damping together.
@@ -157,7 +157,7 @@ pub struct Promise {
     pub energy: f64,
 }
 
-impl Promise {
+impl StatedOrders {
     /// Holds the scheme to it.
     pub fn check(&self, scheme: &mut dyn Integrator) {
         let sound = order(scheme, 0.0);

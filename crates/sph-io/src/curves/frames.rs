@@ -36,7 +36,7 @@ impl Frames {
     ///
     /// # Errors
     /// If there are none, or the list or the first frame cannot be read.
-    pub fn of(folder: &Path) -> Result<Self, DrawError> {
+    pub fn from_folder(folder: &Path) -> Result<Self, DrawError> {
         let mut entries: Vec<Entry> = Vec::new();
         for listed in crate::list_pvd(folder.join("fields.pvd"))? {
             let walls = listed.name == "walls";
@@ -92,7 +92,7 @@ impl Frames {
         for entry in self.entries.iter().rev().step_by(every) {
             values.extend(self.read(entry)?.column(field)?.values);
         }
-        let range = crate::ColourRanges::default().of(field, &values);
+        let range = crate::ColourRanges::default().next(field, &values);
         Ok(range.map(|(range, _)| range))
     }
 

@@ -140,7 +140,7 @@ impl Snapshot {
             diameter: self.spacing,
             walls: &self.walls,
             view: if planar { View::Plane } else { View::Front },
-            ..Picture::of(points, values)
+            ..Picture::new(points, values)
         }
     }
 }

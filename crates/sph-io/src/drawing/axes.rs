@@ -7,14 +7,14 @@ use crate::drawing::ticks::{self, Ticks};
 
 /// One direction of a frame.
 #[derive(Clone, Debug)]
-pub(crate) struct Axis {
+pub(crate) struct PlotAxis {
     pub(crate) lo: f64,
     pub(crate) hi: f64,
     pub(crate) log: bool,
     pub(crate) label: String,
 }
 
-impl Axis {
+impl PlotAxis {
     /// Where `value` is between the ends, from 0 to 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         if self.log {
@@ -37,8 +37,8 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub(crate) struct Axes {
     pub(crate) frame: Rect,
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
+    pub(crate) x: PlotAxis,
+    pub(crate) y: PlotAxis,
     /// Font size of the tick labels in pixels; all lengths go with it.
     pub(crate) size: f64,
     pub(crate) grid: bool,
@@ -132,7 +132,7 @@ impl Axes {
 }
 
 /// Pixels that the tick labels and the label of a vertical axis take.
-pub(crate) fn left_room(axis: &Axis, height: f64, size: f64) -> f64 {
+pub(crate) fn left_room(axis: &PlotAxis, height: f64, size: f64) -> f64 {
     label_room(&y_ticks(axis, height, size), size)
 }
 
@@ -141,7 +141,7 @@ fn label_room(ticks: &Ticks, size: f64) -> f64 {
     widths.fold(0.0, f64::max) + 2.4 * size
 }
 
-fn y_ticks(axis: &Axis, height: f64, size: f64) -> Ticks {
+fn y_ticks(axis: &PlotAxis, height: f64, size: f64) -> Ticks {
     axis.ticks(ticks_within(height / (3.6 * size)))
 }
 

@@ -16,10 +16,10 @@ const FROM_ZERO: f64 = 0.5;
 /// ```
 /// let mut ranges = sph_io::ColourRanges::default();
 /// let values: Vec<f64> = (0..100).map(|k| 0.09 * f64::from(k)).collect();
-/// assert!(ranges.of("speed", &[0.0, 0.0]).is_none());
-/// assert_eq!(ranges.of("speed", &values), Some(([0.0, 9.0], false)));
-/// assert_eq!(ranges.of("speed", &[5.0, 9.0]), Some(([0.0, 9.0], false)));
-/// assert_eq!(ranges.of("speed", &[5.0, 12.0]), Some(([0.0, 20.0], true)));
+/// assert!(ranges.next("speed", &[0.0, 0.0]).is_none());
+/// assert_eq!(ranges.next("speed", &values), Some(([0.0, 9.0], false)));
+/// assert_eq!(ranges.next("speed", &[5.0, 9.0]), Some(([0.0, 9.0], false)));
+/// assert_eq!(ranges.next("speed", &[5.0, 12.0]), Some(([0.0, 20.0], true)));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -27,7 +27,7 @@ pub struct ColourRanges(BTreeMap<String, [f64; 2]>);
 
 impl ColourRanges {
     /// The range for the next picture of a field, and whether it is wider than before; none while all values are alike.
-    pub fn of(&mut self, field: &str, values: &[f64]) -> Option<([f64; 2], bool)> {
+    pub fn next(&mut self, field: &str, values: &[f64]) -> Option<([f64; 2], bool)> {
         let seen = quantiles(values.iter().copied());
         let Some(before) = self.0.get(field).copied() else {
             let range = rounded(seen?)?;
@@ -89,12 +89,15 @@ mod tests {
         let mut values: Vec<f64> = (0..300).map(|k| f64::from(k) * 10.0).collect();
         values.extend([-1e5, f64::NAN, f64::INFINITY]);
         let mut ranges = ColourRanges::default();
-        assert_eq!(ranges.of("pressure", &values), Some(([0.0, 3000.0], false)));
+        assert_eq!(
+            ranges.next("pressure", &values),
+            Some(([0.0, 3000.0], false))
+        );
         // Alike in all later pictures that it holds, also after a restart.
         let text = serde_json::to_string(&ranges).expect("text");
         let mut again: ColourRanges = serde_json::from_str(&text).expect("read");
         assert_eq!(
-            again.of("pressure", &[0.0, 1.0]),
+            again.next("pressure", &[0.0, 1.0]),
             Some(([0.0, 3000.0], false))
         );
     }
@@ -104,19 +107,19 @@ mod tests {
         let mut ranges = ColourRanges::default();
         let mut wider = 0;
         for k in 1..=1000 {
-            let (range, grown) = ranges.of("u", &[0.0, f64::from(k)]).expect("a range");
+            let (range, grown) = ranges.next("u", &[0.0, f64::from(k)]).expect("a range");
             assert_eq!(range[0], 0.0);
             wider += usize::from(grown);
         }
         assert!((5..=11).contains(&wider), "{wider}");
         assert_eq!(
-            ranges.of("x", &[998.2, 1001.0]),
+            ranges.next("x", &[998.2, 1001.0]),
             Some(([998.0, 1001.0], false))
         );
         assert_eq!(
-            ranges.of("x", &[990.0, 1001.0]),
+            ranges.next("x", &[990.0, 1001.0]),
             Some(([981.0, 1001.0], true))
         );
-        assert_eq!(ranges.of("y", &[-3.0, 3.0]), Some(([-3.0, 3.0], false)));
+        assert_eq!(ranges.next("y", &[-3.0, 3.0]), Some(([-3.0, 3.0], false)));
     }
 }

@@ -37,21 +37,21 @@ pub enum Style {
 impl Series {
     /// A line.
     pub fn line(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self::of(name, points, Style::Line)
+        Self::styled(name, points, Style::Line)
     }
 
     /// Markers, for measurements and reference data.
     pub fn markers(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self::of(name, points, Style::Markers)
+        Self::styled(name, points, Style::Markers)
     }
 
     /// A band between the points and the ordinates `upper`.
     pub fn band(name: impl Into<String>, points: Vec<[f64; 2]>, upper: Vec<f64>) -> Self {
-        Self::of(name, points, Style::Band(upper))
+        Self::styled(name, points, Style::Band(upper))
     }
 
     /// Any style.
-    pub fn of(name: impl Into<String>, points: Vec<[f64; 2]>, style: Style) -> Self {
+    pub fn styled(name: impl Into<String>, points: Vec<[f64; 2]>, style: Style) -> Self {
         Self {
             name: name.into(),
             points,

@@ -9,7 +9,7 @@
 
 use std::path::Path;
 
-use crate::drawing::axes::{Axes, Axis, left_room};
+use crate::drawing::axes::{Axes, PlotAxis, left_room};
 use crate::drawing::canvas::{Canvas, SIDES};
 use crate::drawing::class_bar::ClassBar;
 use crate::drawing::colour::{Colour, ColourMap};
@@ -43,7 +43,7 @@ pub enum View {
 ///     title: "Two particles",
 ///     label: "pressure [Pa]",
 ///     diameter: 0.1,
-///     ..Picture::of(&points, &[0.0, 10.0])
+///     ..Picture::new(&points, &[0.0, 10.0])
 /// };
 /// picture.save(folder.path().join("two.png"))?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -92,7 +92,7 @@ pub struct Picture<'a> {
 impl<'a> Picture<'a> {
     /// A picture of a field with everything else at its default: no texts and
     /// walls, automatic window and range, 1200 pixels wide.
-    pub fn of(points: &'a [[f64; 3]], values: &'a [f64]) -> Self {
+    pub fn new(points: &'a [[f64; 3]], values: &'a [f64]) -> Self {
         Self {
             title: "",
             time: None,
@@ -213,7 +213,7 @@ impl<'a> Picture<'a> {
             View::Plane => "y [m]",
             View::Front | View::Above => "z [m]",
         };
-        let axis = |[lo, hi]: [f64; 2], label: &str| Axis {
+        let axis = |[lo, hi]: [f64; 2], label: &str| PlotAxis {
             lo,
             hi,
             log: false,

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use crate::drawing::axes::{Axes, Axis, left_room, shown};
+use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
 use crate::drawing::drawn_series::{Series, Style};
@@ -146,7 +146,7 @@ impl Plot {
     }
 
     /// The axis that holds all points that can be shown, with a margin.
-    fn axis(&self, direction: usize, log: bool, label: &str) -> Axis {
+    fn axis(&self, direction: usize, log: bool, label: &str) -> PlotAxis {
         let logs = [self.log_x, self.log_y];
         let shown = |p: &[f64; 2]| (0..2).all(|i| shown(p[i], logs[i]));
         let values = self.series.iter().flat_map(Series::spots).filter(shown);
@@ -164,7 +164,7 @@ impl Plot {
         let margin = 0.04 * (hi - lo);
         let [lo, hi] = [lo - margin, hi + margin];
         let back = |v: f64| if log { 10_f64.powf(v) } else { v };
-        Axis {
+        PlotAxis {
             lo: back(lo),
             hi: back(hi),
             log,

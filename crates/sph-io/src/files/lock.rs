@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_dead_process_left_is_taken_over() {
+    fn files_of_a_dead_process_are_taken_over() {
         let folder = tempfile::tempdir().unwrap();
         let dead = Holder {
             pid: 1,

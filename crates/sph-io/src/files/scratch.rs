@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_dead_left_goes_and_what_the_living_hold_stays() {
+    fn folders_of_dead_processes_go_and_those_of_running_ones_stay() {
         let place = tempfile::tempdir().unwrap();
         let at = |name: &str| place.path().join(name);
         let dead = at(".sph-data-dead");

@@ -29,7 +29,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn written_values_are_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("summary.json");
         write_json(&path, &serde_json::json!({"steps": 12, "dt": 0.1})).unwrap();
@@ -40,7 +40,7 @@ mod tests {
     }
 
     #[test]
-    fn what_json_cannot_say_leaves_the_file_alone() {
+    fn values_outside_json_leave_the_file_unchanged() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("summary.json");
         let odd = BTreeMap::from([(vec![1], 1)]);

@@ -101,7 +101,7 @@ impl<'a> FieldData<'a> {
         unit: impl Into<Cow<'a, str>>,
         data: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
-        Self::of(name, unit, 1, FieldValues::F64(data.into()))
+        Self::new(name, unit, 1, FieldValues::F64(data.into()))
     }
 
     /// Three reals per point.
@@ -110,7 +110,7 @@ impl<'a> FieldData<'a> {
         unit: impl Into<Cow<'a, str>>,
         data: &'a [[f64; 3]],
     ) -> Self {
-        Self::of(name, unit, 3, FieldValues::F64(data.as_flattened().into()))
+        Self::new(name, unit, 3, FieldValues::F64(data.as_flattened().into()))
     }
 
     /// Two reals per point, padded with a zero: ParaView wants vectors of three.
@@ -120,7 +120,7 @@ impl<'a> FieldData<'a> {
         data: &[[f64; 2]],
     ) -> Self {
         let padded: Vec<f64> = data.iter().flat_map(|v| [v[0], v[1], 0.0]).collect();
-        Self::of(name, unit, 3, FieldValues::F64(padded.into()))
+        Self::new(name, unit, 3, FieldValues::F64(padded.into()))
     }
 
     /// Some reals per point: a tensor, as its components stand in the data.
@@ -130,12 +130,12 @@ impl<'a> FieldData<'a> {
         components: usize,
         data: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
-        Self::of(name, unit, components, FieldValues::F64(data.into()))
+        Self::new(name, unit, components, FieldValues::F64(data.into()))
     }
 
     /// One identity per point.
     pub fn integer(name: impl Into<Cow<'a, str>>, data: impl Into<Cow<'a, [u32]>>) -> Self {
-        Self::of(name, "", 1, FieldValues::U32(data.into()))
+        Self::new(name, "", 1, FieldValues::U32(data.into()))
     }
 
     /// The same values understood as belonging to cells.
@@ -144,7 +144,7 @@ impl<'a> FieldData<'a> {
         self
     }
 
-    fn of(
+    fn new(
         name: impl Into<Cow<'a, str>>,
         unit: impl Into<Cow<'a, str>>,
         components: usize,

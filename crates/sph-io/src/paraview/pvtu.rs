@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
-use crate::paraview::beside::beside;
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::named_files::beside;
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::read_vtu;
 use crate::paraview::xml::{attributes, escape};
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn what_two_ranks_wrote_is_read_as_one_piece() {
+    fn files_of_two_ranks_are_read_as_one_piece() {
         let folder = tempfile::tempdir().unwrap();
         let mut series = PvdSeries::create(folder.path().join("fields.pvd")).unwrap();
         let below = folder.path().join("fields");

@@ -29,7 +29,7 @@ pub fn write_vtu(path: impl AsRef<Path>, piece: &Piece, time: f64) -> Result<()>
     if !time.is_finite() {
         return Err(IoError::input(path, format!("the time is {time}")));
     }
-    let document = Document::of(piece, time).map_err(|e| IoError::write(path, e))?;
+    let document = Document::from_piece(piece, time).map_err(|e| IoError::write(path, e))?;
     write_atomic(path, Durability::Process, |file| {
         file.write_all(document.xml.as_bytes())?;
         file.write_all(&document.appended)?;
@@ -45,7 +45,7 @@ struct Document {
 }
 
 impl Document {
-    fn of(piece: &Piece, time: f64) -> std::io::Result<Self> {
+    fn from_piece(piece: &Piece, time: f64) -> std::io::Result<Self> {
         let points = piece.points.len();
         let cells = piece.cells.len(points);
         let mut doc = Self::default();

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_written_is_read_to_the_last_bit() {
+    fn written_frames_are_read_to_the_last_bit() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("two_words_000003.vtu");
         let piece = sample();
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_or_garbled_is_refused() {
+    fn truncated_and_garbled_files_are_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a_0.vtu");
         let piece = Piece {

@@ -72,7 +72,7 @@ fn fault(path: &Path, bytes: &[u8]) -> Fault {
 }
 
 #[test]
-fn what_is_saved_is_loaded_bit_for_bit() {
+fn a_saved_state_is_loaded_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     let (path, _) = saved(folder.path());
     let back = Checkpoint::load(&path).unwrap();

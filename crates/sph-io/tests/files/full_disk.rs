@@ -88,7 +88,7 @@ fn frame(index: usize, points: usize) -> Frame<'static> {
 }
 
 #[test]
-fn what_is_replaced_keeps_its_former_content() {
+fn a_failed_replacement_keeps_the_former_content() {
     let Some(tiny) = Tiny::mount() else { return };
     let path = tiny.file("run.ckpt");
     checkpoint(1000).save(&path).unwrap();

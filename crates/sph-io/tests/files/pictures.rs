@@ -31,7 +31,7 @@ fn discs_have_the_colours_of_their_values() {
         time: Some(0.1),
         label: "value [1]",
         width: 600,
-        ..Picture::of(&points, &[0.0, f64::NAN, 1.0])
+        ..Picture::new(&points, &[0.0, f64::NAN, 1.0])
     };
     let map = drawn(&picture);
     assert_eq!(map.width(), 600);
@@ -55,7 +55,7 @@ fn a_ring_is_drawn_around_its_place_and_not_outside_the_frame() {
             diameter: 0.3,
             width: 1200,
             ring,
-            ..Picture::of(&points, &[f64::NAN, 1.0, 2.0])
+            ..Picture::new(&points, &[f64::NAN, 1.0, 2.0])
         };
         count(&drawn(&picture), red)
     };
@@ -76,7 +76,7 @@ fn in_front_view_the_nearest_is_on_top() {
             diameter: 1.0,
             view: View::Front,
             width: 400,
-            ..Picture::of(&points, &values)
+            ..Picture::new(&points, &values)
         };
         let map = drawn(&picture);
         assert_eq!(
@@ -102,7 +102,7 @@ fn any_shape_of_scene_gives_a_bounded_picture() {
             let picture = Picture {
                 diameter: 0.01,
                 width,
-                ..Picture::of(&points, &values)
+                ..Picture::new(&points, &values)
             };
             let map = drawn(&picture);
             assert_eq!(map.width(), width.max(200));
@@ -112,12 +112,12 @@ fn any_shape_of_scene_gives_a_bounded_picture() {
             );
         }
     }
-    let nothing = drawn(&Picture::of(&[], &[]));
+    let nothing = drawn(&Picture::new(&[], &[]));
     assert_eq!(nothing.width(), 1200);
     let flat = [[0.0; 3], [1.0, 0.0, 0.0]];
     let huge = drawn(&Picture {
         width: 100_000,
-        ..Picture::of(&flat, &values)
+        ..Picture::new(&flat, &values)
     });
     assert_eq!(huge.width(), 8192);
 }
@@ -131,7 +131,7 @@ fn walls_and_ranges_are_drawn() {
         walls: &wall,
         range: Some([-1.0, 1.0]),
         colours: ColourMap::CoolWarm,
-        ..Picture::of(&points, &[0.0])
+        ..Picture::new(&points, &[0.0])
     };
     let map = drawn(&picture);
     assert!(count(&map, ColourMap::CoolWarm.at(0.5)) > 5000);
@@ -143,9 +143,9 @@ fn misfits_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
     let points = [[0.0; 3]];
-    let good = Picture::of(&points, &[1.0]);
+    let good = Picture::new(&points, &[1.0]);
     let bad = [
-        Picture::of(&points, &[]),
+        Picture::new(&points, &[]),
         Picture {
             diameter: f64::NAN,
             ..good.clone()
@@ -177,7 +177,7 @@ fn plot() -> Plot {
             Series::line("computed", vec![[0.01, 1e-4], [0.1, 1e-2], [0.2, -1.0]]),
             Series::markers("measured", vec![[0.03, 1e-3], [f64::NAN, 1.0]]),
             Series::band("scatter", vec![[0.01, 1e-5], [0.1, 1e-4]], vec![1e-3, 1e-2]),
-            Series::of("others", vec![[0.02, 1e-5], [0.2, 1e-4]], Style::Background),
+            Series::styled("others", vec![[0.02, 1e-5], [0.2, 1e-4]], Style::Background),
         ],
     }
 }
@@ -215,7 +215,7 @@ fn odd_plots_do_no_harm() {
     ];
     for points in odd {
         for log in [false, true] {
-            let series = vec![Series::of("odd", points.clone(), Style::LineAndMarkers)];
+            let series = vec![Series::styled("odd", points.clone(), Style::LineAndMarkers)];
             let plot = Plot {
                 log_x: log,
                 log_y: log,
@@ -244,7 +244,7 @@ fn a_fluid_in_space_shows_its_surface_brighter_where_the_light_falls() {
         view: View::Above,
         range: Some([0.0, 1.0]),
         width: 600,
-        ..Picture::of(&points, &values)
+        ..Picture::new(&points, &values)
     };
     let map = drawn(&picture);
     let brightness = |x: u32, y: u32| pixel(&map, x, y).0.map(u32::from).iter().sum::<u32>();
@@ -267,7 +267,7 @@ fn classes_have_their_names_and_colours_of_their_own() {
         classes: &names,
         labels: &[([0.5, 0.0, 0.0], "between".into())],
         strokes: &[(vec![[0.0; 3], [1.0, 0.0, 0.0]], Colour([1, 2, 3]))],
-        ..Picture::of(&points, &[0.0, 1.0])
+        ..Picture::new(&points, &[0.0, 1.0])
     };
     let map = drawn(&picture);
     for colour in [[0x00, 0x72, 0xb2], [0xd5, 0x5e, 0x00]] {

@@ -60,7 +60,7 @@ fn every_width_has_the_bits_of_single_numbers() {
 }
 
 #[test]
-fn what_is_not_a_number_is_neither_less_nor_positive() {
+fn nan_is_neither_less_nor_positive() {
     let mut x = Lanes::<4>::splat(1.0);
     x.set(2, f64::NAN);
     let chosen = x.where_positive(Lanes::splat(5.0), Lanes::splat(7.0));

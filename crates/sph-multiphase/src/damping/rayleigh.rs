@@ -57,7 +57,7 @@ impl Rayleigh {
 
 impl<const D: usize> Contribution<D> for Rayleigh {
     fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let refuse = |key, text: String| Err(Refusal::of("damping", key, text));
+        let refuse = |key, text: String| Err(Refusal::at_key("damping", key, text));
         if !(self.rate >= 0.0 && self.rate.is_finite()) {
             return refuse(
                 "rate",

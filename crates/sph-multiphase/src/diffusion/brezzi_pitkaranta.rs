@@ -44,7 +44,7 @@ impl<const D: usize> Contribution<D> for BrezziPitkaranta {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let accelerated = *self.accelerations.get_or_insert(setting.carried);
         let smoothing = Smoothing {
-            term: Box::new(self.of(setting.laws)),
+            term: Box::new(self.term(setting.laws)),
             strength: self.strength,
             accelerated: accelerated.then_some(Accelerated::Sweep),
             of_pressures: true,
@@ -64,7 +64,7 @@ impl BrezziPitkaranta {
     }
 
     /// Its term for the phases of a scene.
-    pub fn of(&self, laws: &Laws) -> PressureDiffusion {
+    pub fn term(&self, laws: &Laws) -> PressureDiffusion {
         PressureDiffusion {
             slowness: self.strength / fastest(laws),
             accelerated: self.accelerations == Some(true),
@@ -83,7 +83,7 @@ pub struct PressureDiffusion {
 
 /// [`PressureDiffusion`] with its columns.
 #[pair_term(PressureDiffusion, "Brezzi–Pitkäranta smoother")]
-pub struct Bound<'a, const D: usize> {
+pub struct BoundPressureDiffusion<'a, const D: usize> {
     #[both(fields::PRESSURE)]
     pressure: &'a [f64],
     #[both(fields::DENSITY)]
@@ -98,7 +98,7 @@ pub struct Bound<'a, const D: usize> {
     weight: f64,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundPressureDiffusion<'_, D> {
     const SCALED: bool = true;
     /// Pressure, density, ρA.
     type Own<L: Lane> = (L, L, [L; D]);
@@ -132,7 +132,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundPressureDiffusion<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let density = self.density[at.particle];

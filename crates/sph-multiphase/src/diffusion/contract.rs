@@ -42,7 +42,7 @@ impl<const D: usize> Smoothing<D> {
         if !(setting.pressure_ahead && self.of_pressures) {
             offer
                 .limiters
-                .extend(DiffusionLimit::of(self.strength, laws));
+                .extend(DiffusionLimit::boxed(self.strength, laws));
         }
         if let Some(of) = self.accelerated {
             offer.hook(MeanAcceleration::new(of, fastest(laws)));

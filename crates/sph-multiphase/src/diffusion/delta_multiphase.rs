@@ -79,8 +79,8 @@ impl<const D: usize> Contribution<D> for DeltaMultiphase {
         let smoothing = Smoothing {
             term: Box::new(DeltaTerm {
                 smoother: *self,
-                density: PerPhase::of(laws, |law| law.reference().density),
-                sound_speed: PerPhase::of(laws, |law| law.reference().sound_speed),
+                density: PerPhase::new(laws, |law| law.reference().density),
+                sound_speed: PerPhase::new(laws, |law| law.reference().sound_speed),
                 laws: laws.clone(),
             }),
             strength: self.strength,
@@ -113,7 +113,7 @@ impl DeltaTerm {
 }
 
 impl<const D: usize> PairTerm<D> for DeltaTerm {
-    type Bound<'a> = Bound<'a, D>;
+    type Bound<'a> = BoundDelta<'a, D>;
 
     fn name(&self) -> String {
         "δ-SPH smoother for several phases".into()
@@ -130,14 +130,14 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             })
     }
 
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDelta<'a, D>, StepError> {
         let points = &world.walls.points;
         let elements = &world.walls.elements;
         let beside_walls = |pressure: &[f64]| match self.smoother.walls {
             true => self.compressions(pressure),
             false => Vec::new(),
         };
-        Ok(Bound {
+        Ok(BoundDelta {
             term: self,
             density: world.free.get(fields::DENSITY)?,
             volume: world.free.get(fields::VOLUME)?,
@@ -161,7 +161,7 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
 }
 
 /// [`DeltaTerm`] with its columns.
-pub struct Bound<'a, const D: usize> {
+pub struct BoundDelta<'a, const D: usize> {
     term: &'a DeltaTerm,
     density: &'a [f64],
     volume: &'a [f64],
@@ -177,7 +177,7 @@ pub struct Bound<'a, const D: usize> {
     weight: f64,
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundDelta<'_, D> {
     /// ∇p of what is left alone, Pa/m.
     fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
         (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
@@ -194,7 +194,7 @@ pub struct Own<const D: usize, L> {
     compressibility: L,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
     const SCALED: bool = true;
     type Own<L: Lane> = Own<D, L>;
     type Sum<L: Lane> = L;
@@ -226,7 +226,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
     #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;

@@ -61,7 +61,7 @@ impl<const D: usize> Contribution<D> for DeltaSph {
         let smoothing = Smoothing {
             term: Box::new(DeltaTerm {
                 smoother: *self,
-                sound_speed: PerPhase::of(setting.laws, |law| law.reference().sound_speed),
+                sound_speed: PerPhase::new(setting.laws, |law| law.reference().sound_speed),
             }),
             strength: self.strength,
             accelerated: None,
@@ -122,7 +122,7 @@ pub struct DeltaTerm {
 }
 
 impl<const D: usize> PairTerm<D> for DeltaTerm {
-    type Bound<'a> = Bound<'a, D>;
+    type Bound<'a> = BoundDelta<'a, D>;
 
     fn name(&self) -> String {
         "δ-SPH smoother".into()
@@ -139,8 +139,8 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
         }
     }
 
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
-        Ok(Bound {
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDelta<'a, D>, StepError> {
+        Ok(BoundDelta {
             density: world.free.get(fields::DENSITY)?,
             volume: world.free.get(fields::VOLUME)?,
             gradient: match self.smoother.form {
@@ -155,7 +155,7 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
 }
 
 /// [`DeltaTerm`] with its columns.
-pub struct Bound<'a, const D: usize> {
+pub struct BoundDelta<'a, const D: usize> {
     density: &'a [f64],
     volume: &'a [f64],
     gradient: Option<&'a [Vect<D>]>,
@@ -164,7 +164,7 @@ pub struct Bound<'a, const D: usize> {
     weight: f64,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
     const SCALED: bool = true;
     /// Density, its gradient, phase.
     type Own<L: Lane> = (L, [L; D], L);
@@ -201,7 +201,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let c = self

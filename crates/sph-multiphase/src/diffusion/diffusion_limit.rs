@@ -30,7 +30,7 @@ pub struct DiffusionLimit {
 
 impl DiffusionLimit {
     /// Of a smoother; nothing for one that does nothing.
-    pub fn of<const D: usize>(strength: f64, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
+    pub fn boxed<const D: usize>(strength: f64, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
         let limit = DiffusionLimit {
             strength,
             fastest: fastest(laws),

@@ -138,7 +138,7 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             .here(fields::MASS)
             // Drifts may sort particles between their halves: the shift must be sorted, too.
             .remembers(fields::SHIFT_VELOCITY)
-            .writes(fields::EMPTINESS)
+            .writes(fields::VOID_FRACTION)
             // Normals are sums over what has been summed at neighbours.
             .rings(2)
     }
@@ -160,7 +160,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
         } = self.parameters;
         let (fastest, sound) = (largest_speeds(world)?, &self.speeds);
         let mut shift = world.free.take(fields::SHIFT_VELOCITY)?;
-        let mut emptiness = world.free.take(fields::EMPTINESS)?;
+        let mut void_fraction = world.free.take(fields::VOID_FRACTION)?;
         let phase = world.free.get(fields::PHASE).ok();
         if fastest.iter().any(|u| *u > 0.0) {
             let h = world.kernel.smoothing_length();
@@ -170,7 +170,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
             // would change the pressure by ρc², and a tank at rest would sing.
             let rough = world.walls.points.in_sums();
             let along_walls = along_walls || !world.walls.frames.is_empty();
-            let results = shift.par_iter_mut().zip(&mut emptiness).zip(&self.all);
+            let results = shift.par_iter_mut().zip(&mut void_fraction).zip(&self.all);
             let results = results.enumerate().with_min_len(1024);
             results.for_each(|(i, ((s, empty), even))| {
                 if rough && !world.lists.wall.row(i).is_empty() {
@@ -195,9 +195,9 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
             });
         } else {
             shift.fill(Vect::zeros());
-            emptiness.fill(0.0);
+            void_fraction.fill(0.0);
         }
-        world.free.put(fields::EMPTINESS, emptiness)?;
+        world.free.put(fields::VOID_FRACTION, void_fraction)?;
         Ok(world.free.put(fields::SHIFT_VELOCITY, shift)?)
     }
 }
@@ -226,7 +226,7 @@ const TOWARDS_WALLS: f64 = 0.05;
 fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<D>) {
     let least = TOWARDS_WALLS / world.kernel.smoothing_length();
     let mut whole = Vect::zeros();
-    for contact in world.walls.contacts.of(particle) {
+    for contact in world.walls.contacts.of_particle(particle) {
         // Element by element, so that a flat wall has the same of it however it is divided, and a corner both its normals.
         let normal = world.walls.elements.normal[contact.element as usize];
         let left = (-contact.gradient.norm() / least).exp();
@@ -243,7 +243,7 @@ fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vec
 
 /// Leaves out what leads into a wall that is nearer than half a spacing.
 fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<D>) {
-    for contact in world.walls.contacts.of(particle) {
+    for contact in world.walls.contacts.of_particle(particle) {
         if contact.distance < 0.5 * world.spacing {
             let normal = world.walls.elements.normal[contact.element as usize];
             *shift -= normal * shift.dot(&normal).min(0.0);

@@ -11,7 +11,7 @@ pub(crate) struct PerPhase(Vec<f64>);
 
 impl PerPhase {
     /// A number of every law.
-    pub fn of(laws: &Laws, number: impl Fn(&dyn BoundState) -> f64) -> Self {
+    pub fn new(laws: &Laws, number: impl Fn(&dyn BoundState) -> f64) -> Self {
         PerPhase(laws.iter().map(|law| number(&**law)).collect())
     }
     /// The column read.

@@ -46,7 +46,7 @@ impl<const D: usize> Contribution<D> for RhieChow {
         narrow.accelerations = Some(true);
         offer.stage(PressureSlope);
         let smoothing = Smoothing {
-            term: Box::new(narrow.of(setting.laws)),
+            term: Box::new(narrow.term(setting.laws)),
             strength: self.strength,
             accelerated: Some(Accelerated::Slope),
             of_pressures: true,

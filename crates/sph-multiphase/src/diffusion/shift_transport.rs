@@ -33,7 +33,7 @@ pub struct ShiftTransport {
 
 /// [`ShiftTransport`] with its columns.
 #[pair_term(ShiftTransport, "transport by shifting")]
-pub struct Bound<'a, const D: usize> {
+pub struct BoundShiftTransport<'a, const D: usize> {
     #[value(*self)]
     which: ShiftTransport,
     #[both(fields::SHIFT_VELOCITY)]
@@ -42,8 +42,8 @@ pub struct Bound<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     #[both(fields::DENSITY)]
     density: &'a [f64],
-    #[here(fields::EMPTINESS)]
-    emptiness: &'a [f64],
+    #[here(fields::VOID_FRACTION)]
+    void_fraction: &'a [f64],
     #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
     #[here(fields::MASS)]
@@ -65,7 +65,7 @@ pub struct Own<const D: usize, L> {
     phase: L,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
     type Own<L: Lane> = Own<D, L>;
     /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
     type Sum<L: Lane> = ([L; D], L, L);
@@ -110,7 +110,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundShiftTransport<'_, D> {
     #[inline(always)]
     fn finish(
         &self,
@@ -119,8 +119,8 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         rates: &mut Rates<D>,
     ) {
         let i = at.particle;
-        let emptiness = self.emptiness[i];
-        if emptiness == 0.0 {
+        let void_fraction = self.void_fraction[i];
+        if void_fraction == 0.0 {
             return;
         }
         let mut taken_up = Vect::from(taken_up);
@@ -129,14 +129,15 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         for (v, pair) in at.wall.pairs() {
             let along = shift.dot(&pair.separation) * self.walls.points.share[v] * pair.factor;
             let apart = self.walls.points.velocity[v] - velocity;
-            taken_up += apart * (self.walls.points.volume[v] * self.walls.points.grip[v] * along);
+            taken_up += apart
+                * (self.walls.points.volume[v] * self.walls.points.friction_factor[v] * along);
             rate -= summed * along;
         }
         for contact in at.contacts {
             let s = contact.element as usize;
             let along = shift.dot(&contact.gradient);
             taken_up -= (self.walls.elements.velocity[s] - velocity)
-                * (self.walls.elements.grip[s] * along);
+                * (self.walls.elements.friction_factor[s] * along);
             if self.which.summed {
                 rate += density * along;
             }
@@ -144,7 +145,7 @@ impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
         if self.which.velocity {
             rates.acceleration += taken_up * at.inverse_renormalisation;
         }
-        let back = self.which.relaxation * density * emptiness * rearranged;
+        let back = self.which.relaxation * density * void_fraction * rearranged;
         rates.scalar += (rate - back) * at.inverse_renormalisation;
     }
 }

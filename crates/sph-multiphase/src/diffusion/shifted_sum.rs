@@ -13,18 +13,18 @@ pub struct ShiftedSum;
 
 /// [`ShiftedSum`] with its columns.
 #[pair_term(ShiftedSum, "shifted density sum")]
-pub struct Bound<'a, const D: usize> {
+pub struct BoundShiftedSum<'a, const D: usize> {
     #[both(fields::SHIFT_VELOCITY)]
     shift: &'a [Vect<D>],
-    #[here(fields::EMPTINESS)]
-    emptiness: &'a [f64],
+    #[here(fields::VOID_FRACTION)]
+    void_fraction: &'a [f64],
     #[here(fields::MASS)]
     mass: &'a [f64],
     #[where_there(fields::SCALE_SLOPE)]
     slope: Option<&'a [Vect<D>]>,
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundShiftedSum<'_, D> {
     /// s·∇ln s of a particle, 1/s.
     #[inline(always)]
     fn scale_rate(&self, i: usize) -> f64 {
@@ -32,7 +32,7 @@ impl<const D: usize> Bound<'_, D> {
     }
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundShiftedSum<'_, D> {
     const SCALED: bool = true;
     /// Shift velocity and its part along ∇ ln s.
     type Own<L: Lane> = ([L; D], L);
@@ -62,11 +62,11 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundShiftedSum<'_, D> {
     #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
-        if self.emptiness[i] == 0.0 {
+        if self.void_fraction[i] == 0.0 {
             return;
         }
         if let Some(scale) = at.scale() {

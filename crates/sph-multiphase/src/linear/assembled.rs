@@ -14,7 +14,7 @@ impl<const D: usize> Operator<D> for Matrix<D> {
     }
 
     fn prepared<'a>(&'a self, memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
-        Some(Halved::of(self, memory))
+        Some(Halved::new(self, memory))
     }
 
     fn assembled(&self) -> Option<&Matrix<D>> {

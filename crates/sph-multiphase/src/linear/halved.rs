@@ -32,14 +32,14 @@ enum Kind<'a, const D: usize> {
 
 impl<'a, const D: usize> Halved<'a, D> {
     /// Of a matrix, in the memory of one before.
-    pub(crate) fn of(matrix: &'a Matrix<D>, memory: &'a mut Halves<D>) -> Self {
+    pub(crate) fn new(matrix: &'a Matrix<D>, memory: &'a mut Halves<D>) -> Self {
         let pattern = &matrix.pattern;
         Halved(match &matrix.entries {
             Entries::Scalar(values) => {
-                Kind::Scalar(Parts::of::<D>(pattern, values, &mut memory.scalar))
+                Kind::Scalar(Parts::new::<D>(pattern, values, &mut memory.scalar))
             }
             Entries::Block(values) => {
-                Kind::Block(Parts::of::<D>(pattern, values, &mut memory.block))
+                Kind::Block(Parts::new::<D>(pattern, values, &mut memory.block))
             }
         })
     }
@@ -79,7 +79,7 @@ struct Part<E> {
 }
 
 impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
-    fn of<const D: usize>(
+    fn new<const D: usize>(
         pattern: &Pattern,
         values: &'a Values<E>,
         parts: &'a mut Vec<Part<E>>,
@@ -226,7 +226,7 @@ mod tests {
             vec![Vect::<2>::repeat(f64::NAN); rows as usize],
         ];
         matrix.multiply(&x, &mut products[0]);
-        Halved::of(&matrix, &mut Halves::default()).multiply(&x, &mut products[1]);
+        Halved::new(&matrix, &mut Halves::default()).multiply(&x, &mut products[1]);
         let apart = products[0].iter().zip(&products[1]);
         let apart = apart.map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
         assert!(apart < 1e-13, "{apart:e}");

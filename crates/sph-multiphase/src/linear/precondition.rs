@@ -25,7 +25,7 @@ pub enum Preconditioner {
 }
 
 /// A preconditioner of one matrix.
-pub(crate) enum Bound<'s, const D: usize> {
+pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     Nothing,
     Scalar(&'s [f64]),
     Block(&'s [Block<D>]),
@@ -58,9 +58,9 @@ impl Preconditioner {
         operator: &dyn Operator<D>,
         method: &'static str,
         factors: &'s mut Factors<D>,
-    ) -> Result<Bound<'s, D>, SolveError> {
+    ) -> Result<BoundPreconditioner<'s, D>, SolveError> {
         if self == Preconditioner::None {
-            return Ok(Bound::Nothing);
+            return Ok(BoundPreconditioner::Nothing);
         }
         let missing = || SolveError::NotWhole {
             method: method.into(),
@@ -72,16 +72,14 @@ impl Preconditioner {
         if !self.factorises() {
             let diagonal = operator.diagonal().ok_or_else(missing)?;
             let bound = match diagonal {
-                Diagonal::Scalar(all) => {
-                    inverted::<D, _>(&mut factors.scalar, all, |d| *d).map(Bound::Scalar)
-                }
+                Diagonal::Scalar(all) => inverted::<D, _>(&mut factors.scalar, all, |d| *d)
+                    .map(BoundPreconditioner::Scalar),
                 Diagonal::Block(all) if self == Preconditioner::Jacobi => {
                     inverted::<D, _>(&mut factors.block, all, Entry::<D>::diagonal)
-                        .map(Bound::Block)
+                        .map(BoundPreconditioner::Block)
                 }
-                Diagonal::Block(all) => {
-                    inverted::<D, _>(&mut factors.block, all, |d| *d).map(Bound::Block)
-                }
+                Diagonal::Block(all) => inverted::<D, _>(&mut factors.block, all, |d| *d)
+                    .map(BoundPreconditioner::Block),
             };
             return bound.map_err(failed);
         }
@@ -92,13 +90,13 @@ impl Preconditioner {
                 let factor = &mut factors.incomplete_scalar;
                 let filled = factor.refill::<D>(&matrix.pattern, values, quick);
                 filled.map_err(failed)?;
-                Bound::IncompleteScalar(factor)
+                BoundPreconditioner::IncompleteScalar(factor)
             }
             Entries::Block(values) => {
                 let factor = &mut factors.incomplete_block;
                 let filled = factor.refill::<D>(&matrix.pattern, values, quick);
                 filled.map_err(failed)?;
-                Bound::IncompleteBlock(factor)
+                BoundPreconditioner::IncompleteBlock(factor)
             }
         })
     }
@@ -117,26 +115,26 @@ fn inverted<'s, const D: usize, E: Entry<D>>(
     Ok(inverse)
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundPreconditioner<'_, D> {
     /// Memory that it takes.
     pub fn bytes(&self) -> usize {
         match self {
-            Bound::Nothing => 0,
-            Bound::Scalar(inverse) => size_of_val(*inverse),
-            Bound::Block(inverse) => size_of_val(*inverse),
-            Bound::IncompleteScalar(factor) => factor.bytes(),
-            Bound::IncompleteBlock(factor) => factor.bytes(),
+            BoundPreconditioner::Nothing => 0,
+            BoundPreconditioner::Scalar(inverse) => size_of_val(*inverse),
+            BoundPreconditioner::Block(inverse) => size_of_val(*inverse),
+            BoundPreconditioner::IncompleteScalar(factor) => factor.bytes(),
+            BoundPreconditioner::IncompleteBlock(factor) => factor.bytes(),
         }
     }
 
     /// z ≈ A⁻¹ r.
     pub fn apply(&self, r: &[Vect<D>], z: &mut [Vect<D>]) {
         match self {
-            Bound::Nothing => z.copy_from_slice(r),
-            Bound::Scalar(inverse) => each(inverse, r, z),
-            Bound::Block(inverse) => each(inverse, r, z),
-            Bound::IncompleteScalar(factor) => factor.solve(r, z),
-            Bound::IncompleteBlock(factor) => factor.solve(r, z),
+            BoundPreconditioner::Nothing => z.copy_from_slice(r),
+            BoundPreconditioner::Scalar(inverse) => each(inverse, r, z),
+            BoundPreconditioner::Block(inverse) => each(inverse, r, z),
+            BoundPreconditioner::IncompleteScalar(factor) => factor.solve(r, z),
+            BoundPreconditioner::IncompleteBlock(factor) => factor.solve(r, z),
         }
     }
 }

@@ -62,7 +62,7 @@ fn column<const D: usize>(
     let walls = &world.walls;
     let one = |i: usize| {
         let mut sum = nalgebra::Vector6::zeros();
-        for contact in walls.contacts.of(i) {
+        for contact in walls.contacts.of_particle(i) {
             let s = contact.element as usize;
             if body.is(walls.elements.wall[s] as usize) {
                 sum += body.along(&walls.elements.centre[s], &contact.gradient);

@@ -7,7 +7,7 @@ use sph_rheology::state::BoundState;
 use crate::PressureStage;
 use crate::linear::{Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, ParticleMatrix};
 use crate::pressure::bodies::give_way;
-use crate::pressure::system::{Couplings, Part, Room as ClusterRoom};
+use crate::pressure::system::{ClusterCoefficients, Couplings, Part};
 use crate::{Acting, FREE_SURFACE, Place};
 
 const NAME: &str = "implicit pressure";
@@ -24,7 +24,7 @@ pub(crate) struct SolvePressure<const D: usize> {
     /// The lowest pressure of every law, Pa.
     floors: Vec<f64>,
     solver: Automatic,
-    room: Room<D>,
+    scratch: Scratch<D>,
 }
 
 /// Share of the density that the density constant has to make up for at a surface: the first row lacks some 0.3 of its support,
@@ -32,14 +32,14 @@ pub(crate) struct SolvePressure<const D: usize> {
 const OPEN: f64 = 0.15;
 
 /// What a solve fills anew, kept for its memory.
-struct Room<const D: usize> {
+struct Scratch<const D: usize> {
     rate: Vec<f64>,
     /// The sweep sums accelerations, too; nobody reads them.
     unused: Vec<Vect<D>>,
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
-    rooms: Pool<ClusterRoom>,
+    scratch_pool: Pool<ClusterCoefficients>,
 }
 
 impl<const D: usize> SolvePressure<D> {
@@ -55,13 +55,13 @@ impl<const D: usize> SolvePressure<D> {
             dilatation: [acting.dilatation],
             surfaces: acting.surfaces,
             solver,
-            room: Room {
+            scratch: Scratch {
                 rate: Vec::new(),
                 unused: Vec::new(),
                 parts: Vec::new(),
                 assembly: Assembly::default(),
                 pressure: Vec::new(),
-                rooms: Pool::default(),
+                scratch_pool: Pool::default(),
             },
         }
     }
@@ -91,7 +91,7 @@ impl<const D: usize> Declares for SolvePressure<D> {
 
 impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let x = &mut self.room.pressure;
+        let x = &mut self.scratch.pressure;
         x.clear();
         x.extend(
             world
@@ -113,12 +113,12 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
     fn bytes(&self) -> usize {
         let Assembly {
             pattern, values, ..
-        } = &self.room.assembly;
+        } = &self.scratch.assembly;
         size_of_val(&pattern.starts[..])
             + size_of_val(&pattern.columns[..])
             + size_of_val(&values.diagonal[..])
             + size_of_val(&values.others[..])
-            + size_of_val(&self.room.pressure[..])
+            + size_of_val(&self.scratch.pressure[..])
     }
 }
 
@@ -127,14 +127,14 @@ impl<const D: usize> SolvePressure<D> {
         self.diverge(world)?;
         self.fill_parts(world)?;
         let space = world.space()?;
-        let Room {
+        let Scratch {
             parts,
             assembly,
             pressure: x,
-            rooms,
+            scratch_pool,
             ..
-        } = &mut self.room;
-        let rooms = &*rooms;
+        } = &mut self.scratch;
+        let scratch_pool = &*scratch_pool;
         let system = Couplings {
             owned: space.owned(),
             volume: world.free.get(fields::VOLUME)?,
@@ -148,7 +148,7 @@ impl<const D: usize> SolvePressure<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_own(i),
-            |rows, cluster| system.add(cluster, rows, rooms),
+            |rows, cluster| system.add(cluster, rows, scratch_pool),
             |rows, others| others.for_each(|_| Couplings::<D>::add_other(rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);
@@ -179,7 +179,7 @@ impl<const D: usize> SolvePressure<D> {
 
     /// D{u} of all particles.
     fn diverge(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let Room { rate, unused, .. } = &mut self.room;
+        let Scratch { rate, unused, .. } = &mut self.scratch;
         let n = world.free.len();
         rate.clear();
         rate.resize(n, 0.0);
@@ -200,7 +200,7 @@ impl<const D: usize> SolvePressure<D> {
             false => None,
         };
         let row = world.gravity.norm() * world.spacing;
-        let Room { parts, rate, .. } = &mut self.room;
+        let Scratch { parts, rate, .. } = &mut self.scratch;
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
             let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
@@ -223,7 +223,7 @@ impl<const D: usize> SolvePressure<D> {
     fn spread(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut pressure = world.free.take(fields::PRESSURE)?;
         let phase = world.free.get(fields::PHASE).ok();
-        for (i, (p, x)) in pressure.iter_mut().zip(&self.room.pressure).enumerate() {
+        for (i, (p, x)) in pressure.iter_mut().zip(&self.scratch.pressure).enumerate() {
             *p = x[0].max(self.floors[phase.map_or(0, |k| k[i] as usize)]);
         }
         Ok(world.free.put(fields::PRESSURE, pressure)?)

@@ -42,7 +42,7 @@ pub(crate) struct Part {
 
 /// What a cluster leaves for its rows.
 #[derive(Default)]
-pub(crate) struct Room {
+pub(crate) struct ClusterCoefficients {
     /// c and what it adds to the source, for every candidate, one number per lane each.
     numbers: Vec<f64>,
     /// Columns that are coupled to anybody, and their c, one number per lane.
@@ -63,22 +63,27 @@ impl<const D: usize> Couplings<'_, D> {
     }
 
     /// Adds the rows of a cluster: their sums side by side, in the order of the columns as one row alone would.
-    pub fn add(&self, cluster: &Cluster<'_, D>, rows: &mut Rows<f64, 1>, rooms: &Pool<Room>) {
-        let mut room = rooms.lend();
-        let room = &mut *room;
-        cluster.numbers(self, &mut room.numbers);
+    pub fn add(
+        &self,
+        cluster: &Cluster<'_, D>,
+        rows: &mut Rows<f64, 1>,
+        scratch_pool: &Pool<ClusterCoefficients>,
+    ) {
+        let mut scratch = scratch_pool.acquire();
+        let scratch = &mut *scratch;
+        cluster.numbers(self, &mut scratch.numbers);
         let (couplings, sources) = cluster.dispatch(SideBySide {
             candidates: cluster.candidates(),
-            room,
+            scratch,
         });
         for (lane, i) in cluster.members().enumerate() {
             if !self.is_own(i) {
                 Self::add_other(rows);
                 continue;
             }
-            rows.begin(room.columns.len());
-            let others = room.couplings.chunks_exact(cluster.lanes());
-            for (&column, others) in room.columns.iter().zip(others) {
+            rows.begin(scratch.columns.len());
+            let others = scratch.couplings.chunks_exact(cluster.lanes());
+            for (&column, others) in scratch.columns.iter().zip(others) {
                 rows.couple(column, &others[lane], others[lane] != 0.0);
             }
             let part = self.parts[i];
@@ -136,7 +141,7 @@ impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
 /// Sums of the rows of a cluster.
 struct SideBySide<'a> {
     candidates: &'a [u32],
-    room: &'a mut Room,
+    scratch: &'a mut ClusterCoefficients,
 }
 
 impl Body for SideBySide<'_> {
@@ -145,11 +150,11 @@ impl Body for SideBySide<'_> {
 
     #[inline(always)]
     fn call<L: Lane>(self) -> Self::Output {
-        let Room {
+        let ClusterCoefficients {
             numbers,
             columns,
             couplings,
-        } = self.room;
+        } = self.scratch;
         columns.clear();
         couplings.clear();
         let (mut sum, mut source) = (L::splat(0.0), L::splat(0.0));

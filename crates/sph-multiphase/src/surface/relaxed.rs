@@ -70,7 +70,7 @@ impl<const D: usize> Contribution<D> for ConeTest {
                 plugin: *self,
                 phases: laws.map(|r| (r.density, r.sound_speed)).collect(),
                 energy: 0.0,
-                room: Room::default(),
+                scratch: Scratch::default(),
             });
         }
         Ok(())
@@ -89,12 +89,12 @@ struct Relaxation {
     phases: Vec<(f64, f64)>,
     /// What it has given to the particles, J.
     energy: f64,
-    room: Room,
+    scratch: Scratch,
 }
 
 /// Kept for its memory.
 #[derive(Default)]
-struct Room {
+struct Scratch {
     /// Share of the difference that goes in a step, phase by phase.
     parts: Vec<f64>,
     /// What was given to each batch of particles, J.
@@ -132,7 +132,7 @@ impl Relaxation {
         &self,
         world: &World<D>,
         constant: &mut [f64],
-        room: &mut Room,
+        scratch: &mut Scratch,
         dt: f64,
     ) -> Result<f64, StepError> {
         let h = world.kernel.smoothing_length();
@@ -142,7 +142,7 @@ impl Relaxation {
         let volume = world.free.get(fields::VOLUME)?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.free.get(fields::RENORMALISATION).ok();
-        let Room { parts, given } = room;
+        let Scratch { parts, given } = scratch;
         parts.clear();
         let open = &world.walls.elements.open;
         let part = |c: f64| 1.0 - (-dt * c / (self.plugin.time * h)).exp();
@@ -150,7 +150,7 @@ impl Relaxation {
         let parts = &parts[..];
         let one = |i: usize, constant: &mut f64| -> f64 {
             let phase = phase.map_or(0, |p| p[i] as usize);
-            let mut contacts = world.walls.contacts.of(i).iter();
+            let mut contacts = world.walls.contacts.of_particle(i).iter();
             let inside = surface[i] == Place::Inside.number();
             if inside && contacts.any(|c| open.get(c.element as usize) == Some(&true)) {
                 return 0.0;
@@ -199,9 +199,9 @@ impl<const D: usize> StepHook<D> for Relaxation {
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         let (world, dt) = (&mut *moment.world, moment.dt);
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let mut room = std::mem::take(&mut self.room);
-        let given = self.relax(world, &mut constant, &mut room, dt);
-        self.room = room;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let given = self.relax(world, &mut constant, &mut scratch, dt);
+        self.scratch = scratch;
         self.energy += given?;
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
@@ -225,7 +225,7 @@ mod tests {
             plugin: ConeTest::default(),
             phases: vec![(1000.0, 30.0)],
             energy: 0.0,
-            room: Room::default(),
+            scratch: Scratch::default(),
         }
     }
 

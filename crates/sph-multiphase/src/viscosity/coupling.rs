@@ -15,7 +15,11 @@ pub trait Coupling<const D: usize>: Send + Sync {
     ///
     /// # Errors
     /// If a column is missing, and those of `with`.
-    fn lend(&self, world: &World<D>, with: &mut WithCoupling<'_, D>) -> Result<(), StepError>;
+    fn with_columns(
+        &self,
+        world: &World<D>,
+        with: &mut WithCoupling<'_, D>,
+    ) -> Result<(), StepError>;
 }
 
 /// What is done with a coupling that has its columns.

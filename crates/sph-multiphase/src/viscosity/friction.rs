@@ -85,7 +85,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 pub struct ViscousTerm<F>(pub F, pub ViscositySource, pub Choice);
 
 impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
-    type Bound<'a> = Bound<'a, D, F>;
+    type Bound<'a> = BoundFriction<'a, D, F>;
 
     fn name(&self) -> String {
         F::NAME.into()
@@ -103,7 +103,7 @@ impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
         let points = &world.walls.points;
-        Ok(Bound {
+        Ok(BoundFriction {
             friction: self.0,
             velocity: world.free.get(fields::VELOCITY)?,
             volume: world.free.get(fields::VOLUME)?,
@@ -113,7 +113,7 @@ impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
             wall_velocity: &points.viscous_velocity,
             wall_volume: &points.volume,
             wall_share: &points.share,
-            wall_grip: &points.grip,
+            wall_friction_factor: &points.friction_factor,
             wall_slip: &points.slip,
             wall_friction: match world.walls.elements.wall_function.is_empty() {
                 true => &[],
@@ -140,12 +140,18 @@ fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
 /// Whether the fluid rubs any wall: all may be free-slip.
 fn rubs<const D: usize>(world: &World<D>) -> bool {
     let elements = &world.walls.elements;
-    let mut grips = world.walls.points.grip.iter().chain(&elements.grip);
-    grips.any(|grip| *grip != 0.0) || elements.wall_function.contains(&true)
+    let mut friction_factors = world
+        .walls
+        .points
+        .friction_factor
+        .iter()
+        .chain(&elements.friction_factor);
+    friction_factors.any(|friction_factor| *friction_factor != 0.0)
+        || elements.wall_function.contains(&true)
 }
 
 /// [`ViscousTerm`] with its columns.
-pub struct Bound<'a, const D: usize, F> {
+pub struct BoundFriction<'a, const D: usize, F> {
     friction: F,
     velocity: &'a [Vect<D>],
     volume: &'a [f64],
@@ -155,7 +161,7 @@ pub struct Bound<'a, const D: usize, F> {
     wall_velocity: &'a [Vect<D>],
     wall_volume: &'a [f64],
     wall_share: &'a [f64],
-    wall_grip: &'a [f64],
+    wall_friction_factor: &'a [f64],
     wall_slip: &'a [(f64, Vect<D>)],
     /// Of wall functions; empty where no wall has one.
     wall_friction: &'a [f64],
@@ -172,7 +178,7 @@ pub struct Bound<'a, const D: usize, F> {
 
 /// The particle's own values.
 #[derive(Clone, Copy)]
-pub struct Here<const D: usize> {
+pub struct OwnValues<const D: usize> {
     velocity: Vect<D>,
     viscosity: OwnViscosity<f64>,
     volume: f64,
@@ -214,7 +220,7 @@ pub struct Sum<const D: usize> {
 impl<const D: usize> Sum<D> {
     /// Of free neighbours.
     #[inline(always)]
-    fn of([force, discrete]: [[f64; D]; 2]) -> Self {
+    fn new([force, discrete]: [[f64; D]; 2]) -> Self {
         Sum {
             force: force.into(),
             discrete: discrete.into(),
@@ -224,7 +230,7 @@ impl<const D: usize> Sum<D> {
     }
 }
 
-impl<const D: usize, F: PairFriction<D>> PairSum<D> for Bound<'_, D, F> {
+impl<const D: usize, F: PairFriction<D>> PairSum<D> for BoundFriction<'_, D, F> {
     type Own<L: Lane> = Own<D, L>;
     /// Σ θ η̄ f and Σ θ ½ t·f(t) r_ab of free neighbours.
     type Sum<L: Lane> = [[L; D]; 2];
@@ -272,11 +278,11 @@ impl<const D: usize, F: PairFriction<D>> PairSum<D> for Bound<'_, D, F> {
     }
 }
 
-impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for Bound<'_, D, F> {
+impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for BoundFriction<'_, D, F> {
     #[inline(always)]
     fn finish(&self, sum: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let here = self.here(at.particle);
-        let mut sum = Sum::of(sum);
+        let here = self.own_values(at.particle);
+        let mut sum = Sum::new(sum);
         if self.rubs {
             for (v, pair) in at.wall.pairs() {
                 let (share, volume) = (self.wall_share[v], self.wall_volume[v]);

@@ -104,7 +104,7 @@ impl<const D: usize> FrictionSystem<D> {
     ) -> Result<(), StepError> {
         self.mixes = coupling.mixes_components();
         self.dt = dt;
-        coupling.lend(world, &mut |bound| {
+        coupling.with_columns(world, &mut |bound| {
             let part = Part {
                 coupling: bound,
                 weak,

@@ -12,7 +12,7 @@ use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::linear::{LinearSolver, LowRank, Operator, TimeScheme};
-use crate::viscosity::giving_way::Bodies;
+use crate::viscosity::body_response::Bodies;
 use crate::viscosity::start::{Start, put};
 use crate::viscosity::{Coupling, FrictionSystem, Solves};
 
@@ -150,15 +150,17 @@ impl<const D: usize> ImplicitViscosity<D> {
         dt: f64,
     ) -> Result<(), StepError> {
         let elements = &world.walls.elements;
-        let mut grips = elements.grip.iter().zip(&elements.wall);
+        let mut friction_factors = elements.friction_factor.iter().zip(&elements.wall);
         let rubs = |wall: usize| world.walls.bodies.iter().any(|body| body.is(wall));
-        if !grips.any(|(grip, wall)| *grip > 0.0 && rubs(*wall as usize)) {
+        if !friction_factors
+            .any(|(friction_factor, wall)| *friction_factor > 0.0 && rubs(*wall as usize))
+        {
             return Ok(());
         }
         let share = self.scheme.implicit_share();
         let system = &mut self.system;
         system.fill(&*self.coupling, world, earlier, [share, dt])?;
-        let Some(bodies) = Bodies::of(world, system, earlier, dt)? else {
+        let Some(bodies) = Bodies::new(world, system, earlier, dt)? else {
             return Ok(());
         };
         let mut velocity = ahead.to_vec();

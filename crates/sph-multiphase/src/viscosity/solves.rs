@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::Report;
-use crate::viscosity::HeldBack;
+use crate::viscosity::SolveArrest;
 
 /// What the implicit solves of a run took.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -29,7 +29,7 @@ pub struct Solves {
     pub outer: Option<OuterSolves>,
     /// What held a soil beyond its strength, with stresses of the end of the step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub held_back: Option<HeldBack>,
+    pub held_back: Option<SolveArrest>,
 }
 
 /// What iterating on the viscosity took.

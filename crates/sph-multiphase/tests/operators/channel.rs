@@ -108,7 +108,7 @@ impl Channel {
                 points.share.push(0.5);
                 points.volume.push(SPACING * SPACING);
                 points.pressure.push(0.0);
-                points.grip.push(1.0);
+                points.friction_factor.push(1.0);
                 points.wall.push(0);
                 let elements = &mut walls.elements;
                 elements.centre.push(Vect::<2>::new(x + 0.5 * SPACING, y));
@@ -117,7 +117,7 @@ impl Channel {
                 elements.measure.push(SPACING);
                 elements.volume.push(SPACING * SPACING);
                 elements.pressure.push(0.0);
-                elements.grip.push(1.0);
+                elements.friction_factor.push(1.0);
                 elements.wall.push(0);
                 let first = elements.corners.len() as u32;
                 elements.corners.push([first, first]);

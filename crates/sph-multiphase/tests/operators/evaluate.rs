@@ -53,7 +53,7 @@ pub fn viscosity_column<const D: usize>() -> Box<dyn Interaction<D>> {
 }
 
 pub fn smoother<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-    Box::new(BrezziPitkaranta::with(strength).of(&laws(&[(1000.0, 20.0)])))
+    Box::new(BrezziPitkaranta::with(strength).term(&laws(&[(1000.0, 20.0)])))
 }
 
 /// The offer of a plugin to a scene of two phases with these laws, whose densities are sums or not.
@@ -79,7 +79,7 @@ pub fn offered<const D: usize>(
         moving_wall: None,
         world,
     };
-    let mut offer = Offer::of("`plugin`".into());
+    let mut offer = Offer::new("`plugin`".into());
     plugin.offer(&setting, &mut offer).expect("it fits");
     offer
 }

@@ -3,8 +3,8 @@
 use sph_contribution::Contribution;
 use sph_core::{Role, Vect, fields};
 use sph_multiphase::{
-    COLOUR_GRADIENT, GrenierInterface, InterfaceFriction, MicroMixing, SCATTERED, SurfaceStress,
-    SurfaceTension,
+    COLOUR_GRADIENT, DISPERSED_FRACTION, GrenierInterface, InterfaceFriction, MicroMixing,
+    SurfaceStress, SurfaceTension,
 };
 use sph_neighbours::{Domain, World};
 use sph_rheology::state::{EquationOfState, Laws, Linear, Reference};
@@ -59,7 +59,7 @@ fn force<const D: usize>(world: &mut World<D>, model: &mut dyn Contribution<D>) 
 
 /// Runs what a model must know before the sweep.
 fn scatter<const D: usize>(world: &mut World<D>, model: &mut dyn Contribution<D>) {
-    world.free.add(SCATTERED, Role::Derived);
+    world.free.add(DISPERSED_FRACTION, Role::Derived);
     for mut stage in offered(model, (&laws(), true), world).stages {
         stage.run(world).unwrap();
     }
@@ -292,8 +292,8 @@ fn light_particles_at_a_closed_interface_are_not_scattered() {
     set_phase(&mut cloud, |x| u32::from(light(x)));
     scatter(&mut cloud, &mut InterfaceFriction::default());
     let place = cloud.free.get(fields::POSITION).unwrap();
-    let scattered = cloud.free.get(SCATTERED).unwrap();
-    for (x, s) in place.iter().zip(scattered) {
+    let dispersed_fraction = cloud.free.get(DISPERSED_FRACTION).unwrap();
+    for (x, s) in place.iter().zip(dispersed_fraction) {
         let wanted = f64::from((x - lone).norm() < 1e-9);
         assert_eq!(*s, wanted, "{x}");
     }

@@ -46,8 +46,8 @@ impl<const D: usize> Interaction<D> for OneByOne<D> {
     fn access(&self) -> Access {
         self.0.access()
     }
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
-        self.0.lend(world, &mut |term| with(&ByRows(term)))
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        self.0.with_columns(world, &mut |term| with(&ByRows(term)))
     }
 }
 

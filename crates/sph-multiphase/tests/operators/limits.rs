@@ -72,7 +72,7 @@ fn limit(densities: [f64; 2], sounds: [f64; 2]) -> Option<InterfaceLimit> {
             sound_speed: sounds[k],
         })
     };
-    InterfaceLimit::of(&[law(0), law(1)])
+    InterfaceLimit::new(&[law(0), law(1)])
 }
 
 /// ωΔt of the fastest swing at the limit.

@@ -21,7 +21,7 @@ fn offer<const D: usize>(world: &World<D>, mut shifting: Fickian, summed: bool) 
 
 fn shift<const D: usize>(world: &mut World<D>, shifting: Fickian) -> Vec<Vect<D>> {
     world.free.add(fields::SHIFT_VELOCITY, Role::State);
-    world.free.add(fields::EMPTINESS, Role::Derived);
+    world.free.add(fields::VOID_FRACTION, Role::Derived);
     // So short that the bound of an explicit diffusion does not count.
     world.dt = 1e-4;
     for mut stage in offer(world, shifting, true).stages {
@@ -272,7 +272,7 @@ fn a_summed_density_does_not_notice_the_shift() {
 }
 
 #[test]
-fn what_a_particle_carries_follows_the_fluid() {
+fn carried_columns_follow_the_fluid() {
     let mut cloud = world(disorder::<2>(20, 0.1, 1), open(), 0.05, 2.0);
     set_velocity(&mut cloud, |x| Vect::<2>::new(3.0 * x[1], x[0]));
     set(&mut cloud, fields::DENSITY, |x| 1000.0 + 2.0 * x[1]);
@@ -365,8 +365,8 @@ fn a_density_comes_back_where_particles_are_rearranged() {
         let sense = if turn { -1.0 } else { 1.0 };
         set_velocity(&mut cloud, |x| Vect::<2>::new(sense * x[1], x[0]));
         cloud.free.add(fields::SHIFT_VELOCITY, Role::State);
-        cloud.free.add(fields::EMPTINESS, Role::Derived);
-        set(&mut cloud, fields::EMPTINESS, |_| 0.01);
+        cloud.free.add(fields::VOID_FRACTION, Role::Derived);
+        set(&mut cloud, fields::VOID_FRACTION, |_| 0.01);
         let rates = rates(&cloud, &offer(&cloud, Fickian::default(), true).terms).1;
         let positions = cloud.free.get(fields::POSITION).unwrap();
         let inner = |x: &Vect<2>| (0..2).all(|k| (x[k] - 0.5).abs() < 0.3);

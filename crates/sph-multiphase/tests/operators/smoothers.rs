@@ -342,7 +342,7 @@ fn a_floor_balances_a_hydrostatic_density() {
     walls.volume = vec![spacing * spacing; points.len()];
     walls.velocity = vec![Vect::zeros(); points.len()];
     walls.viscous_velocity = walls.velocity.clone();
-    walls.grip = vec![1.0; points.len()];
+    walls.friction_factor = vec![1.0; points.len()];
     walls.position = points;
     tank.rebuild_lists().unwrap();
     let laws = laws(&[(1000.0, 20.0)]);

@@ -126,8 +126,8 @@ fn without_the_element_term_the_first_row_would_be_half_a_unit_off() {
 #[test]
 fn a_wall_that_slips_freely_gives_no_friction_at_all() {
     let mut channel = Channel::open(10);
-    channel.world.walls.points.grip.fill(0.0);
-    channel.world.walls.elements.grip.fill(0.0);
+    channel.world.walls.points.friction_factor.fill(0.0);
+    channel.world.walls.elements.friction_factor.fill(0.0);
     set_velocity(&mut channel.world, |_| Vect::<2>::new(3.0, 0.0));
     let force = acceleration(&channel.world, viscosity(1.0));
     assert!(force.iter().all(|a| *a == Vect::<2>::zeros()));

@@ -49,7 +49,7 @@ pub fn world<const D: usize>(
         dt: 1.0,
         transported: Vec::new(),
         extent: None,
-        team: None,
+        communicator: None,
     };
     world.rebuild_lists().unwrap();
     world

@@ -93,7 +93,7 @@ fn a_contrast_of_a_million_is_solved() {
 }
 
 #[test]
-fn what_is_not_solved_is_an_error_with_its_history() {
+fn an_unsolved_system_is_an_error_with_its_history() {
     let matrix = scalar::<2>(500, 1e4, 1.0);
     let b = right(500);
     let mut x = vec![Vect::zeros(); 500];

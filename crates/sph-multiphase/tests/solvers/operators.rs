@@ -21,14 +21,14 @@ struct Board {
     sums: Mutex<[f64; 2]>,
 }
 
-/// Half of a ring of particles, each coupled to the next; two guests stand for the ends of the other half.
-struct Half<'b> {
+/// Half of a ring of particles, each coupled to the next; two ghosts stand for the ends of the other half.
+struct HalfRing<'b> {
     rank: usize,
     board: &'b Board,
     own: Option<Matrix<2>>,
 }
 
-impl Operator<2> for Half<'_> {
+impl Operator<2> for HalfRing<'_> {
     fn rows(&self) -> usize {
         ROWS
     }
@@ -99,7 +99,7 @@ fn solved(
     let b = right(2 * ROWS);
     let half = |rank: usize| {
         let own = assembled.then(|| chain(ROWS as u32, false));
-        let half = Half {
+        let half = HalfRing {
             rank,
             board: &board,
             own,
@@ -161,9 +161,9 @@ fn two_hands_with_half_of_the_rows_each_find_the_solution_of_the_whole() {
 }
 
 #[test]
-fn who_needs_entries_says_so_where_there_are_none() {
-    struct Twice;
-    impl Operator<2> for Twice {
+fn a_solver_that_needs_entries_refuses_an_operator_without() {
+    struct TwiceIdentity;
+    impl Operator<2> for TwiceIdentity {
         fn rows(&self) -> usize {
             3
         }
@@ -179,14 +179,14 @@ fn who_needs_entries_says_so_where_there_are_none() {
             "{solved:?}"
         );
     };
-    refused(Cholesky::default().solve(&Twice, &b, &mut x));
+    refused(Cholesky::default().solve(&TwiceIdentity, &b, &mut x));
     let jacobi = ConjugateGradient {
         preconditioner: Preconditioner::Jacobi,
         ..ConjugateGradient::default()
     };
-    refused({ jacobi }.solve(&Twice, &b, &mut x));
+    refused({ jacobi }.solve(&TwiceIdentity, &b, &mut x));
     Automatic::default()
-        .solve(&Twice, &b, &mut x)
+        .solve(&TwiceIdentity, &b, &mut x)
         .expect("a product is enough");
     assert!(x.iter().zip(&b).all(|(x, b)| (x * 2.0 - b).norm() < 1e-7));
 }

@@ -26,8 +26,8 @@ impl<const D: usize> Parts<D> {
     ///
     /// # Errors
     /// As [`any`](Self::any).
-    pub fn settle(&mut self, failed: bool) -> Result<(), PartError> {
-        self.link.settle(failed)
+    pub fn confirm(&mut self, failed: bool) -> Result<(), PartError> {
+        self.link.confirm(failed)
     }
 
     /// After a failure on any rank, on all ranks: tells those that do not know of it, and gives the cause that the first rank

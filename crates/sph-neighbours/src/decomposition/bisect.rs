@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_divided_is_named() {
+    fn indivisible_plugins_are_named() {
         let places = lattice();
         let costs = vec![1.0; places.len()];
         let told = |places: &[Vector2<f64>], costs: &[f64], ranks| {

@@ -45,17 +45,17 @@ impl<const D: usize> Cuts<D> {
     ///
     /// # Errors
     /// Numbers that are not finite; messages that fail.
-    pub fn of(
+    pub fn balanced(
         places: &[Vect<D>],
         costs: &[f64],
         ranks: usize,
-        team: &dyn Transport,
+        communicator: &dyn Transport,
     ) -> Result<Self, CutError> {
         let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
         if let Some(particle) = (0..places.len()).find(|k| !whole(k) || costs[*k].is_infinite()) {
             return Err(DecompositionError::NotFinite { particle }.into());
         }
-        let mean = mean(costs, team)?;
+        let mean = mean(costs, communicator)?;
         let grains = |c: &f64| 1 + (c / (mean * GRAIN)).min(1e6) as u64;
         let costs: Vec<u64> = costs.iter().map(grains).collect();
         let mut cuts = Cuts {
@@ -65,7 +65,7 @@ impl<const D: usize> Cuts<D> {
         let mut groups = vec![Group { first: 0, ranks }];
         while groups.iter().any(|g| g.ranks > 1) {
             let wide: Vec<Group> = groups.iter().copied().filter(|g| g.ranks > 1).collect();
-            cuts.cut(&wide, places, &costs, team)?;
+            cuts.cut(&wide, places, &costs, communicator)?;
             let halves = |g: Group| match g.ranks {
                 1 => vec![g],
                 _ => vec![g.lower(), g.upper()],
@@ -81,7 +81,7 @@ impl<const D: usize> Cuts<D> {
         groups: &[Group],
         places: &[Vect<D>],
         costs: &[u64],
-        team: &dyn Transport,
+        communicator: &dyn Transport,
     ) -> Result<(), CutError> {
         let level = groups.iter().map(|g| g.ranks).max().unwrap_or(1);
         let mut numbers = vec![None; self.ranks];
@@ -105,8 +105,8 @@ impl<const D: usize> Cuts<D> {
                 corners[high] = corners[high].max(x[axis]);
             }
         }
-        team.largest(&mut corners)?;
-        team.total(&mut wanted)?;
+        communicator.largest(&mut corners)?;
+        communicator.total(&mut wanted)?;
         let span = |g: usize, axis: usize| {
             let at = 2 * (g * D + axis);
             (-corners[at], corners[at + 1])
@@ -130,7 +130,7 @@ impl<const D: usize> Cuts<D> {
                     0
                 };
             }
-            team.total(&mut below)?;
+            communicator.total(&mut below)?;
             for (g, group) in groups.iter().enumerate() {
                 let aim = wanted[g] / group.ranks as u64 * group.lower().ranks as u64;
                 let here = middle(&between[g]);
@@ -169,15 +169,15 @@ impl<const D: usize> Cuts<D> {
 }
 
 /// Mean cost of a particle; 1 where nothing costs anything. The same on all ranks, to a share of a thousandth.
-fn mean(costs: &[f64], team: &dyn Transport) -> Result<f64, TransportError> {
+fn mean(costs: &[f64], communicator: &dyn Transport) -> Result<f64, TransportError> {
     let mut most = [costs.iter().copied().fold(0.0, f64::max)];
-    team.largest(&mut most)?;
+    communicator.largest(&mut most)?;
     if most[0] <= 0.0 {
         return Ok(1.0);
     }
     let counted = |c: &f64| (c / most[0] * 1e6) as u64;
     let mut sums = [costs.iter().map(counted).sum(), costs.len() as u64];
-    team.total(&mut sums)?;
+    communicator.total(&mut sums)?;
     Ok((sums[0] as f64 / 1e6 / sums[1].max(1) as f64).max(1e-6) * most[0])
 }
 
@@ -205,9 +205,9 @@ mod tests {
         let places: Vec<_> = (0..60 * 20).map(place).collect();
         let cost = |x: &Vect<2>| if x[0] < 40.0 { 1.0 } else { 5.0 };
         let costs: Vec<f64> = places.iter().map(cost).collect();
-        let whole = Thread::team(1);
+        let whole = Thread::communicator(1);
         for ranks in [1, 2, 3, 5, 8, 16] {
-            let cuts = Cuts::of(&places, &costs, ranks, &whole[0]).expect("cuts");
+            let cuts = Cuts::balanced(&places, &costs, ranks, &whole[0]).expect("cuts");
             let mut shares = vec![0.0; ranks];
             for (x, c) in places.iter().zip(&costs) {
                 shares[cuts.owner(x) as usize] += c;
@@ -222,16 +222,20 @@ mod tests {
                 );
             }
             let split = std::thread::scope(|scope| {
-                let halves = Thread::team(2).into_iter().enumerate().map(|(k, team)| {
-                    let (places, costs) = (&places, &costs);
-                    scope.spawn(move || {
-                        let own = |n: &usize| n % 2 == k;
-                        let own: Vec<usize> = (0..places.len()).filter(own).collect();
-                        let mine: Vec<_> = own.iter().map(|n| places[*n]).collect();
-                        let price: Vec<_> = own.iter().map(|n| costs[*n]).collect();
-                        Cuts::of(&mine, &price, ranks, &team).expect("cuts")
-                    })
-                });
+                let halves =
+                    Thread::communicator(2)
+                        .into_iter()
+                        .enumerate()
+                        .map(|(k, communicator)| {
+                            let (places, costs) = (&places, &costs);
+                            scope.spawn(move || {
+                                let own = |n: &usize| n % 2 == k;
+                                let own: Vec<usize> = (0..places.len()).filter(own).collect();
+                                let mine: Vec<_> = own.iter().map(|n| places[*n]).collect();
+                                let price: Vec<_> = own.iter().map(|n| costs[*n]).collect();
+                                Cuts::balanced(&mine, &price, ranks, &communicator).expect("cuts")
+                            })
+                        });
                 let halves: Vec<_> = halves.collect();
                 halves
                     .into_iter()

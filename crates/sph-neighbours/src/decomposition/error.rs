@@ -50,7 +50,7 @@ pub struct Divided {
     /// That it owns.
     pub own: usize,
     /// Copies of others'.
-    pub guests: usize,
+    pub ghosts: usize,
     /// Its own that others have copies of, each as often as it is sent.
     pub sent: usize,
 }

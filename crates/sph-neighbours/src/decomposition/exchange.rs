@@ -1,8 +1,8 @@
-//! Which columns guests are told, and when.
+//! Which columns ghosts are told, and when.
 
 use sph_core::{Access, AnyField};
 
-/// What guests are told after a stage: the columns that it has summed over neighbours. All else they work out themselves.
+/// What ghosts are told after a stage: the columns that it has summed over neighbours. All else they work out themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exchange {
     /// Place of the stage among all.
@@ -28,7 +28,7 @@ mod tests {
     use sph_core::fields::{ACCELERATION, DENSITY, MASS, POSITION, PRESSURE, VOLUME};
 
     #[test]
-    fn what_is_summed_over_neighbours_is_told_and_nothing_else() {
+    fn only_sums_over_neighbours_are_sent_to_ghosts() {
         let stages = [
             Access::none()
                 .both(POSITION)

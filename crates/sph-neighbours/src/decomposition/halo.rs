@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use sph_core::{FieldError, fields};
 
 use crate::World;
-use crate::decomposition::guests::{Around, Needs};
+use crate::decomposition::ghosts::{Needs, RankBox};
 
-/// Guests: particles that others own and a rank needs, because they are within reach of the box around its own, or of
+/// Ghosts: particles that others own and a rank needs, because they are within reach of the box around its own, or of
 /// a wall that one of its own touches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Halo {
@@ -21,19 +21,19 @@ pub struct Halo {
 }
 
 impl Halo {
-    /// Counts the guests of all ranks, where every particle of a world has an owner; `rings` is how often a stage goes from
+    /// Counts the ghosts of all ranks, where every particle of a world has an owner; `rings` is how often a stage goes from
     /// particles to their neighbours.
     ///
     /// # Errors
     /// If there is no position column.
-    pub fn of<const D: usize>(
+    pub fn new<const D: usize>(
         world: &World<D>,
         owners: &[u32],
         ranks: usize,
         rings: usize,
     ) -> Result<Self, FieldError> {
         let places = world.free.get(fields::POSITION)?;
-        let needs = Needs::of(world, rings);
+        let needs = Needs::new(world, rings);
         let mut halo = Halo {
             ranks,
             owned: vec![0; ranks],
@@ -44,13 +44,13 @@ impl Halo {
         let of = |rank: usize| {
             let own = places.iter().zip(owners);
             let own = own.filter(|(_, o)| **o as usize == rank).map(|(x, _)| x);
-            let around = Around::of(own);
+            let around = RankBox::around(own);
             needs.slots(places, &around, |k| owners[k] as usize != rank)
         };
-        let guests: Vec<Vec<u32>> = (0..ranks).into_par_iter().map(of).collect();
-        for (rank, guests) in guests.into_iter().enumerate() {
-            for guest in guests {
-                let from = owners[guest as usize];
+        let ghosts: Vec<Vec<u32>> = (0..ranks).into_par_iter().map(of).collect();
+        for (rank, ghosts) in ghosts.into_iter().enumerate() {
+            for ghost in ghosts {
+                let from = owners[ghost as usize];
                 *halo.sent.entry([rank as u32, from]).or_default() += 1;
                 halo.given[from as usize] += 1;
             }
@@ -68,8 +68,8 @@ impl Halo {
         self.owned[rank]
     }
 
-    /// Guests that a rank has.
-    pub fn guests(&self, rank: usize) -> usize {
+    /// Ghosts that a rank has.
+    pub fn ghosts(&self, rank: usize) -> usize {
         self.to(rank).map(|(_, count)| count).sum()
     }
 
@@ -78,7 +78,7 @@ impl Halo {
         self.given[rank]
     }
 
-    /// Ranks that a rank has guests of, ascending.
+    /// Ranks that a rank has ghosts of, ascending.
     pub fn partners(&self, rank: usize) -> Vec<usize> {
         self.to(rank).map(|([_, from], _)| *from as usize).collect()
     }

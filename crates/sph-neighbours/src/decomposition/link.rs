@@ -7,7 +7,7 @@ use sph_core::{AnyField, StepError, Store, Vect};
 
 use crate::decomposition::owner::OWNER;
 use crate::decomposition::{PartError, Transport};
-use crate::{Team, World};
+use crate::{Communicator, World};
 
 /// Slots that are sent to, or received from, a rank.
 pub(crate) type Partner = (usize, Vec<u32>);
@@ -15,9 +15,9 @@ pub(crate) type Partner = (usize, Vec<u32>);
 /// Who has copies of whom.
 #[derive(Debug, Default)]
 pub(crate) struct Partners {
-    /// Own particles that others have as guests, by rank.
+    /// Own particles that others have as ghosts, by rank.
     pub sends: Vec<Partner>,
-    /// Guests, by their owner.
+    /// Ghosts, by their owner.
     pub receives: Vec<Partner>,
 }
 
@@ -86,7 +86,7 @@ impl Link {
     }
 
     /// Whether all is well at the end of something in which ranks may have failed, and told each other or not.
-    pub fn settle(&self, failed: bool) -> Result<(), PartError> {
+    pub fn confirm(&self, failed: bool) -> Result<(), PartError> {
         if failed && self.told.swap(false, Ordering::Relaxed) {
             return Err(PartError::Elsewhere);
         }
@@ -126,7 +126,7 @@ impl Link {
         sends.map(|(rank, slots)| (*rank, pack(slots))).collect()
     }
 
-    /// Sends messages to those who have copies, and does some `work` meanwhile; gives what comes for the guests, owner by owner.
+    /// Sends messages to those who have copies, and does some `work` meanwhile; gives what comes for the ghosts, owner by owner.
     fn swapped(
         &self,
         out: Vec<(usize, Vec<u8>)>,
@@ -139,8 +139,8 @@ impl Link {
         Ok(self.transport.swap_during(out, &from, work)?)
     }
 
-    /// Gives guests the values of their owners in the columns that are `wanted`.
-    pub fn tell<const D: usize>(
+    /// Gives ghosts the values of their owners in the columns that are `wanted`.
+    pub fn update_ghosts<const D: usize>(
         &self,
         free: &mut Store<D>,
         wanted: impl Fn(&AnyField) -> bool,
@@ -152,7 +152,7 @@ impl Link {
     }
 
     /// The same; does some `work` while the messages are on their way.
-    pub fn tell_during<const D: usize>(
+    pub fn update_ghosts_during<const D: usize>(
         &self,
         world: &mut World<D>,
         wanted: impl Fn(&AnyField) -> bool,
@@ -205,7 +205,7 @@ impl Link {
     }
 }
 
-impl<const D: usize> Team<D> for Link {
+impl<const D: usize> Communicator<D> for Link {
     fn own(&self, free: &Store<D>) -> Vec<bool> {
         let rank = self.transport.rank() as u32;
         let owners = free.unwatched(OWNER).unwrap_or(&[]);
@@ -213,8 +213,13 @@ impl<const D: usize> Team<D> for Link {
     }
 
     fn idle(&self, free: &Store<D>) -> Option<Vec<bool>> {
-        let guests = || Team::<D>::own(self, free).iter().map(|own| !own).collect();
-        (self.rings == 1).then(guests)
+        let ghosts = || {
+            Communicator::<D>::own(self, free)
+                .iter()
+                .map(|own| !own)
+                .collect()
+        };
+        (self.rings == 1).then(ghosts)
     }
 
     fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {
@@ -234,8 +239,8 @@ impl<const D: usize> Team<D> for Link {
         Ok(words.map(|b| u64::from_le_bytes(*b)).collect())
     }
 
-    fn tell(&self, free: &mut Store<D>, columns: &[AnyField]) -> Result<(), StepError> {
-        Ok(Link::tell(self, free, |f| columns.contains(f))?)
+    fn update_ghosts(&self, free: &mut Store<D>, columns: &[AnyField]) -> Result<(), StepError> {
+        Ok(Link::update_ghosts(self, free, |f| columns.contains(f))?)
     }
 
     fn begin_solve(&self) -> Result<(), StepError> {

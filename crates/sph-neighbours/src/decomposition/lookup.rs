@@ -18,7 +18,7 @@ impl<const D: usize> Parts<D> {
         let rank = transport.rank();
         let owners = now.get(OWNER)?;
         let now = now.get(fields::IDENTITY)?;
-        let then = Slots::of(earlier.get(fields::IDENTITY)?);
+        let then = Slots::from_identities(earlier.get(fields::IDENTITY)?);
         let wanted = now.iter().filter(|id| then.slot(**id).is_none());
         let wanted: Vec<u8> = wanted.flat_map(|id| id.to_le_bytes()).collect();
         let all = transport.all(&wanted)?;
@@ -42,7 +42,7 @@ impl<const D: usize> Parts<D> {
         };
         let messages = sends.map(message).collect();
         self.receive(earlier, messages)?;
-        let then = Slots::of(earlier.get(fields::IDENTITY)?);
+        let then = Slots::from_identities(earlier.get(fields::IDENTITY)?);
         let missing = sph_core::FieldError::Missing(fields::IDENTITY.name);
         let order = now.iter().map(|id| then.slot(*id));
         let order: Option<Vec<u32>> = order.collect();

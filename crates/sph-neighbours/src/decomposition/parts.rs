@@ -1,6 +1,6 @@
-//! A rank's part of a flow: its own particles, and guests, which are copies of others' that are near.
+//! A rank's part of a flow: its own particles, and ghosts, which are copies of others' that are near.
 //!
-//! Guests take part in every step as if they were the rank's own. Only what is summed over neighbours comes out wrong for them,
+//! Ghosts take part in every step as if they were the rank's own. Only what is summed over neighbours comes out wrong for them,
 //! since some of their neighbours are missing: it is overwritten with what their owner found. All that follows from a
 //! particle's own columns is the same on both ranks, to the bit.
 
@@ -9,7 +9,7 @@ use std::sync::{Arc, PoisonError};
 
 use sph_core::{AnyField, Role, Store, Vect, fields};
 
-use crate::decomposition::guests::{Around, Needs};
+use crate::decomposition::ghosts::{Needs, RankBox};
 use crate::decomposition::link::{Link, Partner, Partners};
 use crate::decomposition::owner::OWNER;
 use crate::decomposition::{Cuts, DecompositionError, Divided, PartError, Thread, Transport};
@@ -62,20 +62,20 @@ impl<const D: usize> Parts<D> {
         if ranks > particles {
             return Err(DecompositionError::TooManyRanks { ranks, particles }.into());
         }
-        let cuts = match Thread::team(1).first() {
-            Some(alone) => Cuts::of(&reference, &vec![1.0; particles], ranks, alone)?,
+        let cuts = match Thread::communicator(1).first() {
+            Some(alone) => Cuts::balanced(&reference, &vec![1.0; particles], ranks, alone)?,
             None => return Err(crate::decomposition::DecompositionError::NoRanks.into()),
         };
         let owners: Vec<u32> = reference.iter().map(|x| cuts.owner(x)).collect();
         world.free.add(OWNER, Role::State);
         world.free.set_index(OWNER.name, &owners)?;
-        world.extent = Some(Extent::of(&reference));
+        world.extent = Some(Extent::around(&reference));
         let around = |r: usize| {
             let own = reference.iter().zip(&owners);
-            Around::of(own.filter(|(_, o)| **o as usize == r).map(|(x, _)| x))
+            RankBox::around(own.filter(|(_, o)| **o as usize == r).map(|(x, _)| x))
         };
-        let around: Vec<Around<D>> = (0..ranks).map(around).collect();
-        let needs = Needs::of(world, rings);
+        let around: Vec<RankBox<D>> = (0..ranks).map(around).collect();
+        let needs = Needs::new(world, rings);
         let here =
             |k: &usize| owners[*k] == rank || needs.at(&reference[*k], &around[rank as usize]);
         let kept: Vec<u32> = (0..particles).filter(here).map(|k| k as u32).collect();
@@ -86,7 +86,7 @@ impl<const D: usize> Parts<D> {
         drop(needs);
         world.free.keep_slots(&kept);
         let link = Arc::new(Link::new(transport, rings));
-        world.team = Some(link.clone());
+        world.communicator = Some(link.clone());
         let points = world.lists.reference_points().clone();
         world.build_lists_from(places, points, world.lists.time);
         let parts = Parts {
@@ -95,7 +95,7 @@ impl<const D: usize> Parts<D> {
             changes: [0; 2],
             builds: BUILDS_TO_LOOK - 1,
         };
-        parts.know_guests(&world.free, sends)?;
+        parts.know_ghosts(&world.free, sends)?;
         Ok(parts)
     }
 
@@ -123,16 +123,16 @@ impl<const D: usize> Parts<D> {
     pub fn divided(&self, free: &Store<D>) -> Divided {
         let partners = self.link.partners();
         let count = |all: &[Partner]| all.iter().map(|(_, slots)| slots.len()).sum::<usize>();
-        let guests = count(&partners.receives);
+        let ghosts = count(&partners.receives);
         Divided {
-            own: free.len() - guests,
-            guests,
+            own: free.len() - ghosts,
+            ghosts,
             sent: count(&partners.sends),
         }
     }
 
-    /// Finds the guests, by their owners; drops partners with whom there is nothing to share.
-    fn know_guests(&self, free: &Store<D>, mut sends: Vec<Partner>) -> Result<(), PartError> {
+    /// Finds the ghosts, by their owners; drops partners with whom there is nothing to share.
+    fn know_ghosts(&self, free: &Store<D>, mut sends: Vec<Partner>) -> Result<(), PartError> {
         let owners = free.get(OWNER)?;
         let rank = self.link.transport.rank();
         let ranks = self.link.transport.ranks();
@@ -149,29 +149,29 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Gives guests the values of their owners in the columns that are `wanted`.
+    /// Gives ghosts the values of their owners in the columns that are `wanted`.
     ///
     /// # Errors
     /// Another rank that has failed; messages that fail.
-    pub fn tell(
+    pub fn update_ghosts(
         &mut self,
         free: &mut Store<D>,
         wanted: impl Fn(&AnyField) -> bool,
     ) -> Result<(), PartError> {
-        self.link.tell(free, wanted)
+        self.link.update_ghosts(free, wanted)
     }
 
     /// The same; does some `work` while the messages are on their way.
     ///
     /// # Errors
     /// As [`tell`](Self::tell).
-    pub fn tell_during(
+    pub fn update_ghosts_during(
         &self,
         world: &mut World<D>,
         wanted: impl Fn(&AnyField) -> bool,
         work: impl FnMut(&mut World<D>),
     ) -> Result<(), PartError> {
-        self.link.tell_during(world, wanted, work)
+        self.link.update_ghosts_during(world, wanted, work)
     }
 
     /// Whether each of so many particles is sent to another rank.
@@ -200,7 +200,7 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Gives every particle to the rank that owns its place, finds all guests anew, and builds the lists. `cost` is that of every
+    /// Gives every particle to the rank that owns its place, finds all ghosts anew, and builds the lists. `cost` is that of every
     /// particle of this rank.
     ///
     /// # Errors
@@ -223,7 +223,7 @@ impl<const D: usize> Parts<D> {
         let own = world.free.len();
         let around = self.around(world)?;
         let places = world.free.get(fields::POSITION)?.to_vec();
-        let needs = Needs::of(world, self.link.rings);
+        let needs = Needs::new(world, self.link.rings);
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
         let sends: Vec<Partner> = self.link.transport.others().iter().map(to).collect();
         drop(needs);
@@ -235,7 +235,7 @@ impl<const D: usize> Parts<D> {
         }
         let sends = sorted(sends, order.as_deref(), own);
         world.rebuild_lists_in(order.as_deref())?;
-        self.know_guests(&world.free, sends)
+        self.know_ghosts(&world.free, sends)
     }
 
     /// Cuts the space anew where the parts have become uneven.
@@ -268,12 +268,12 @@ impl<const D: usize> Parts<D> {
         let places: Vec<Vect<D>> = own()
             .map(|(k, _)| world.domain.wrapped(position[k]))
             .collect();
-        self.cuts = Cuts::of(&places, &costs, ranks, &*self.link.transport)?;
+        self.cuts = Cuts::balanced(&places, &costs, ranks, &*self.link.transport)?;
         self.changes[1] += 1;
         Ok(())
     }
 
-    /// Particles go to the rank that owns their place; guests must have been dropped.
+    /// Particles go to the rank that owns their place; ghosts must have been dropped.
     fn move_house(&mut self, world: &mut World<D>) -> Result<(), PartError> {
         let (rank, ranks) = (self.link.transport.rank(), self.link.transport.ranks());
         let places = world.free.get(fields::POSITION)?.iter();
@@ -292,7 +292,7 @@ impl<const D: usize> Parts<D> {
         self.receive(&mut world.free, leavers)
     }
 
-    /// Guests come in behind the rank's own.
+    /// Ghosts come in behind the rank's own.
     fn deliver(&mut self, world: &mut World<D>, sends: &[Partner]) -> Result<(), PartError> {
         let messages = self.pack(world, sends);
         self.receive(&mut world.free, messages)
@@ -336,14 +336,14 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Boxes around what each rank owns.
-    fn around(&self, world: &World<D>) -> Result<Vec<Around<D>>, PartError> {
-        let own = Around::of(world.free.get(fields::POSITION)?.iter());
+    fn around(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
+        let own = RankBox::around(world.free.get(fields::POSITION)?.iter());
         let numbers = own.lower.iter().chain(own.upper.iter());
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
         let read = |message: Vec<u8>| {
             let numbers = message.as_chunks::<8>().0;
             let at = |k: usize| numbers.get(k).map_or(f64::NAN, |b| f64::from_le_bytes(*b));
-            Around {
+            RankBox {
                 lower: Vect::from_fn(|k, _| at(k)),
                 upper: Vect::from_fn(|k, _| at(D + k)),
             }
@@ -359,7 +359,7 @@ impl<const D: usize> Parts<D> {
 
     /// The extent of the particles of all ranks; `own` are those of this one.
     fn extent(&self, own: &[Vect<D>]) -> Result<Extent<D>, PartError> {
-        let around = Around::of(own.iter());
+        let around = RankBox::around(own.iter());
         let numbers = around
             .lower
             .iter()
@@ -377,7 +377,7 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// The slots that are sent, after the particles have been sorted, ascending: then the guests of a rank are in the same order as
+/// The slots that are sent, after the particles have been sorted, ascending: then the ghosts of a rank are in the same order as
 /// the particles that their owner sends.
 fn sorted(sends: Vec<Partner>, order: Option<&[u32]>, own: usize) -> Vec<Partner> {
     let Some(order) = order else {

@@ -17,25 +17,25 @@ pub struct Thread {
 
 impl Thread {
     /// So many ranks that know each other. A rank that is dropped has ended: whoever waits for it is told.
-    pub fn team(ranks: usize) -> Vec<Thread> {
-        let mut team: Vec<Thread> = Vec::with_capacity(ranks);
+    pub fn communicator(ranks: usize) -> Vec<Thread> {
+        let mut communicator: Vec<Thread> = Vec::with_capacity(ranks);
         let mut rows: Vec<Vec<Sender<Vec<u8>>>> = Vec::with_capacity(ranks);
         for rank in 0..ranks {
             let (row, from) = (0..ranks)
                 .map(|_| channel())
                 .unzip::<_, _, Vec<_>, Vec<_>>();
             rows.push(row);
-            team.push(Thread {
+            communicator.push(Thread {
                 rank,
                 to: Vec::new(),
                 from: from.into_iter().map(Mutex::new).collect(),
             });
         }
         // What a receiver has for a sender belongs to the sender.
-        for (sender, rank) in team.iter_mut().enumerate() {
+        for (sender, rank) in communicator.iter_mut().enumerate() {
             rank.to = rows.iter().map(|row| row[sender].clone()).collect();
         }
-        team
+        communicator
     }
 }
 
@@ -75,9 +75,9 @@ mod tests {
     /// What every rank finds.
     fn each<T: Send>(ranks: usize, work: impl Fn(&Thread) -> T + Sync) -> Vec<T> {
         std::thread::scope(|scope| {
-            let team = Thread::team(ranks);
+            let communicator = Thread::communicator(ranks);
             let work = &work;
-            let all: Vec<_> = team
+            let all: Vec<_> = communicator
                 .into_iter()
                 .map(|rank| scope.spawn(move || work(&rank)))
                 .collect();
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn who_waits_for_a_rank_that_has_ended_is_told() {
+    fn waiting_for_an_ended_rank_is_an_error() {
         let found = each(3, |at| match at.rank() {
             1 => Ok(()),
             _ => at.total(&mut [1]),

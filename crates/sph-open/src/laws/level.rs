@@ -2,7 +2,7 @@
 
 use sph_core::plugin;
 
-use crate::course::{Course, check_course, factor};
+use crate::course::{FactorTable, check_course, factor};
 use crate::laws::imposed_pressure;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
@@ -24,18 +24,18 @@ pub struct Level {
     pub level: f64,
     /// Times, s, and factors of the level, straight between them; it must cover the run.
     #[parameter(default)]
-    pub over_time: Course,
+    pub over_time: FactorTable,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
     #[parameter(default)]
     pub phase: Option<String>,
 }
 
 impl<const D: usize> OpenBoundary<D> for Level {
-    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         if setting.gravity == 0.0 {
             let why =
                 "a level needs gravity: set `numerics.gravity`, or take `open-boundary.pressure`";
-            return Err(OpenRefusal::of("level", why));
+            return Err(OpenRefusal::at_key("level", why));
         }
         setting.check_phase(&self.phase)?;
         check_course(&self.over_time, setting)

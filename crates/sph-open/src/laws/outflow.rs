@@ -38,13 +38,13 @@ pub struct Outflow {
 }
 
 impl<const D: usize> OpenBoundary<D> for Outflow {
-    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         match (self.velocity, self.memory) {
-            (None, None) => Err(OpenRefusal::of(
+            (None, None) => Err(OpenRefusal::at_key(
                 "",
                 "it needs the `velocity` far away, or the `memory` over which the fluid's own is averaged",
             )),
-            (Some(_), Some(_)) => Err(OpenRefusal::of(
+            (Some(_), Some(_)) => Err(OpenRefusal::at_key(
                 "memory",
                 "the velocity far away is given, and nothing is averaged: take one of the two out",
             )),

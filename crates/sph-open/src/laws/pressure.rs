@@ -2,7 +2,7 @@
 
 use sph_core::plugin;
 
-use crate::course::{Course, check_course, factor};
+use crate::course::{FactorTable, check_course, factor};
 use crate::laws::imposed_pressure;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
@@ -25,14 +25,14 @@ pub struct Pressure {
     pub pressure: f64,
     /// Times, s, and factors of the pressure, straight between them; it must cover the run.
     #[parameter(default)]
-    pub over_time: Course,
+    pub over_time: FactorTable,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
     #[parameter(default)]
     pub phase: Option<String>,
 }
 
 impl<const D: usize> OpenBoundary<D> for Pressure {
-    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         setting.check_phase(&self.phase)?;
         check_course(&self.over_time, setting)
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use sph_core::plugin;
 
-use crate::course::{Course, check_course, factor, range};
+use crate::course::{FactorTable, check_course, factor, range};
 use crate::laws::imposed_velocity;
 use crate::{
     Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
@@ -35,7 +35,7 @@ pub struct VelocityInlet {
     pub profile: Profile,
     /// Times, s, and factors of the velocity, straight between them; it must cover the run.
     #[parameter(default)]
-    pub over_time: Course,
+    pub over_time: FactorTable,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
     #[parameter(default)]
     pub phase: Option<String>,
@@ -45,7 +45,7 @@ pub struct VelocityInlet {
 }
 
 impl<const D: usize> OpenBoundary<D> for VelocityInlet {
-    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         setting.check_phase(&self.phase)?;
         self.profile.check(setting)?;
         check_course(&self.over_time, setting)?;

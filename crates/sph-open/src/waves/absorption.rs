@@ -41,7 +41,7 @@ pub(crate) struct Absorption {
 
 impl Absorption {
     /// For waves with their motion at the still level, tuned to a period; `least` is the least lag, s.
-    pub fn of(
+    pub fn tuned(
         paddle: Paddle,
         waves: &[Component],
         (ramp, period, least): (f64, f64, f64),
@@ -138,7 +138,7 @@ mod tests {
      {
         let peak = TAU / 1.2;
         let piston = Paddle::Piston;
-        let own = Absorption::of(piston, &[], (0.0, 1.2, 0.0), false, WATER);
+        let own = Absorption::tuned(piston, &[], (0.0, 1.2, 0.0), false, WATER);
         let at = |omega: f64| comes_back(piston, omega, response(&own, omega));
         assert!(at(peak) < 1e-12, "{}", at(peak));
         let long = (WATER[1] / WATER[0]).sqrt();
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn a_flap_has_no_advance() {
         let (peak, flap) = (TAU / 1.2, Paddle::Flap(0.0));
-        let own = Absorption::of(flap, &[], (0.0, 1.2, 0.0), false, WATER);
+        let own = Absorption::tuned(flap, &[], (0.0, 1.2, 0.0), false, WATER);
         assert_eq!(own.lag, 0.0);
         let e = flap.near_field(peak, WATER[0], WATER[1]);
         let left = -0.5 * e * own.gain / peak;
@@ -171,7 +171,7 @@ mod tests {
             phase: 0.4,
         };
         let period = TAU / 5.0;
-        let own = Absorption::of(Paddle::Piston, &[wave], (0.0, period, 0.0), true, WATER);
+        let own = Absorption::tuned(Paddle::Piston, &[wave], (0.0, period, 0.0), true, WATER);
         let made = |t: f64| own.made.at(t).value + own.first;
         let mut state = [0.0; 2];
         for n in 0..1000 {

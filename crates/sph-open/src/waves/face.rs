@@ -2,7 +2,7 @@
 
 use sph_boundary::{Drawing, MoverSetting, RigidState};
 use sph_core::Vect;
-use sph_neighbours::Sight;
+use sph_neighbours::DepthGauge;
 
 /// Unit axis about which a flap turns forward, up × along; along z in the plane.
 pub(crate) fn forward<const D: usize>(along: &Vect<D>) -> [f64; 3] {
@@ -26,7 +26,7 @@ pub(crate) struct Face<const D: usize> {
 
 impl<const D: usize> Face<D> {
     /// The foremost of a wall; none if it has no breadth.
-    pub fn of(
+    pub fn foremost(
         setting: &MoverSetting<'_, D>,
         along: Vect<D>,
         hinge: Option<Vect<D>>,
@@ -62,13 +62,13 @@ impl<const D: usize> Face<D> {
     }
 
     /// Where it looks.
-    pub fn sight(&self, now: &RigidState<D>) -> Sight<D> {
+    pub fn gauge(&self, now: &RigidState<D>) -> DepthGauge<D> {
         let [way, _] = self.movement(now);
         let (place, lean) = match self.arm {
             None => (self.place + self.along * way, 0.0),
             Some(arm) => (self.place, (way / arm).tan()),
         };
-        Sight {
+        DepthGauge {
             place,
             along: self.along,
             lean,
@@ -127,7 +127,7 @@ mod tests {
 
     /// What is added can be read off again, of a piston and of a flap, along any direction.
     #[test]
-    fn what_is_added_is_found_again() {
+    fn added_files_are_found_again() {
         for arm in [None, Some(0.5)] {
             let face = Face::<3> {
                 along: Vect::<3>::new(0.6, -0.8, 0.0),

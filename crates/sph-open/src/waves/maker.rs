@@ -7,7 +7,7 @@ use sph_boundary::{
     SinePart, Translation,
 };
 use sph_core::{Vect, plugin};
-use sph_neighbours::Sight;
+use sph_neighbours::DepthGauge;
 
 use crate::waves::absorption::{Absorption, MEAN_WAY};
 use crate::waves::face::{Face, forward};
@@ -83,7 +83,7 @@ struct Feedback<const D: usize> {
 type Settled<T> = Result<T, MoverRefusal>;
 
 fn refuse<T>(key: &str, why: impl Into<String>) -> Settled<T> {
-    Err(MoverRefusal::of(key, why))
+    Err(MoverRefusal::at_key(key, why))
 }
 
 impl<const D: usize> WaveMaker<D> {
@@ -204,7 +204,7 @@ impl<const D: usize> WaveMaker<D> {
         }
         let hinge = self.hinge.as_ref().map(|h| Vect::from_column_slice(h));
         let reach = 2.0 * setting.smoothing_length;
-        let Some(face) = Face::of(setting, along, hinge, self.level, reach) else {
+        let Some(face) = Face::foremost(setting, along, hinge, self.level, reach) else {
             return refuse("absorb", "the paddle has no breadth across the waves");
         };
         let [_, period] = self.waves.size();
@@ -217,15 +217,15 @@ impl<const D: usize> WaveMaker<D> {
         let timing = (ramp, period, least);
         Ok(Some(Feedback {
             face,
-            absorption: Absorption::of(paddle, &waves, timing, second, water),
+            absorption: Absorption::tuned(paddle, &waves, timing, second, water),
         }))
     }
 }
 
 impl<const D: usize> Mover<D> for WaveMaker<D> {
-    fn settle(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
         let water = self.water(setting)?;
-        let faulty = |(key, why): (&str, String)| MoverRefusal::of(key, why);
+        let faulty = |(key, why): (&str, String)| MoverRefusal::at_key(key, why);
         self.waves.check(water[0], water[1], 0.0).map_err(faulty)?;
         let [_, period] = self.waves.size();
         let ramp = self.ramp.unwrap_or(2.0 * period);
@@ -273,8 +273,8 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
     fn feels(&self) -> bool {
         false
     }
-    fn looks(&self, now: &RigidState<D>) -> Option<Sight<D>> {
-        self.feedback.as_ref().map(|f| f.face.sight(now))
+    fn looks(&self, now: &RigidState<D>) -> Option<DepthGauge<D>> {
+        self.feedback.as_ref().map(|f| f.face.gauge(now))
     }
     fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
         let plan = self.motion.state(time + dt);

@@ -89,7 +89,7 @@ impl Settled {
 }
 
 fn refuse<T>(key: &str, why: impl Into<String>) -> Result<T, OpenRefusal> {
-    Err(OpenRefusal::of(key, why))
+    Err(OpenRefusal::at_key(key, why))
 }
 
 impl WaveFace {
@@ -134,7 +134,7 @@ impl WaveFace {
         }
         let mut waves = Vec::new();
         if let Some(asked) = &self.waves {
-            let faulty = |(key, why): (&str, String)| OpenRefusal::of(key, why);
+            let faulty = |(key, why): (&str, String)| OpenRefusal::at_key(key, why);
             asked.check(depth, gravity, self.current).map_err(faulty)?;
             waves = asked.components_on(depth, gravity, self.current);
             if waves.is_empty() {
@@ -171,7 +171,7 @@ impl WaveFace {
 }
 
 impl<const D: usize> OpenBoundary<D> for WaveFace {
-    fn settle(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         setting.check_phase(&self.phase)?;
         let settled = self.settled(setting.gravity)?;
         setting.check_speed("current", settled.orbits.fastest())?;
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_water_can_do_is_refused_at_its_key() {
+    fn impossible_waves_are_refused_at_their_key() {
         let waves = "waves = { regular = { height = 0.08, period = 1.2 } }\n";
         let of = |more: &str| refusal(&format!("level = 0.5\n{more}"));
         let blocked = of(&format!("current = -1.0\n{waves}"));
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn who_imposes_is_who_lets_in() {
+    fn faces_that_impose_the_flow_are_those_that_let_fluid_in() {
         let yields = |more: &str| {
             let settled = law(&format!("level = 0.5\nperiod = 1.2\n{more}")).settled(9.81);
             settled.expect("a law").yields

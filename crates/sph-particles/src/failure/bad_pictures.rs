@@ -67,7 +67,7 @@ pub fn draw<const D: usize>(
         view: view::<D>(),
         range: range(&values),
         ring,
-        ..Picture::of(&points, &values)
+        ..Picture::new(&points, &values)
     };
     let mut written = Vec::new();
     let mut save = |picture: &Picture<'_>, name: &str| {

@@ -91,7 +91,7 @@ impl Findings {
 }
 
 impl Share {
-    fn of<const D: usize>(share: &TermShare<D>, kinds: &[(String, &str)]) -> Self {
+    fn new<const D: usize>(share: &TermShare<D>, kinds: &[(String, &str)]) -> Self {
         let kind = kinds.iter().find(|(name, _)| *name == share.name);
         Share {
             term: share.name.clone(),
@@ -141,7 +141,7 @@ pub(crate) fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<us
 /// What acts on a particle at the state of the last evaluation, largest first.
 pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
     let terms = shares_at(&flow.world, &flow.forces(), particle).unwrap_or_default();
-    let of = |share| Share::of(share, &flow.kinds);
+    let of = |share| Share::new(share, &flow.kinds);
     let mut shares: Vec<Share> = terms.iter().map(of).collect();
     let world = &flow.world;
     for (term, a) in [("gravity", &world.gravity), ("driving", &world.driving)] {
@@ -192,7 +192,7 @@ mod tests {
     use crate::setup::assemble;
 
     const SCENE: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\n\
-         numerics = { spacing = 0.02, gravity = [0, -9.81], disorder = 0.2, velocity_noise = 0.1 }\n\
+         numerics = { spacing = 0.02, gravity = [0, -9.81], jitter = 0.2, velocity_noise = 0.1 }\n\
          smoother.brezzi-pitkaranta = {}\nviscous-operator.morris = {}\nwalls.usaw = {}\n\
          wall.tank = { polyline = [[0, 0.6], [0, 0], [0.4, 0], [0.4, 0.6]] }\n\
          phase.a = { density = 1000, velocity_scale = 2, rheology.newtonian = { viscosity = 1 } }\n\
@@ -213,7 +213,7 @@ mod tests {
                 .fold(flow.world.gravity, |a, s| a + s.rates.acceleration);
             worst = worst.max((sum - whole).norm() / whole.norm());
             let touched = shares.iter().any(|s| s.of_walls.acceleration.norm() > 0.0);
-            let sees = !flow.world.walls.contacts.of(k).is_empty();
+            let sees = !flow.world.walls.contacts.of_particle(k).is_empty();
             assert_eq!(
                 touched, sees,
                 "particle {k} feels walls where there are some"

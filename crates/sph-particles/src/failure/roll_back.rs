@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use sph_core::{StepError, Vect, fields};
-use sph_run::{BAD_STATE, Books, CHECKPOINT, Status, Watch};
+use sph_run::{BAD_STATE, CHECKPOINT, RunCounters, Status, Watch};
 
 use crate::failure::bad_pictures;
 use crate::failure::error::{Failure, RunError};
@@ -11,7 +11,7 @@ use crate::failure::findings::{Findings, Suspect, place_of, shares_on, sighting,
 use crate::failure::remedies::remedies;
 use crate::failure::trouble::trouble;
 use crate::results::summary::Summary;
-use crate::running::course::{Known, Running};
+use crate::running::course::{DerivedState, Running};
 use crate::running::output::write_everything;
 use crate::setup::Leak;
 
@@ -102,7 +102,7 @@ impl<const D: usize> Running<'_, D> {
     pub(crate) fn find_out(
         &mut self,
         failure: &mut Failure,
-        books: &Books,
+        books: &RunCounters,
     ) -> Result<Option<Summary>, RunError> {
         // The bad state, as far as it can be had.
         let _ = self.gather(false);
@@ -178,11 +178,11 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Back to the last good state, which becomes the checkpoint; what acted on the particle there.
-    fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &Books) {
+    fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &RunCounters) {
         let Some(snapshot) = self.good.state() else {
             return self.offer_an_earlier_checkpoint(failure);
         };
-        self.known = Known::default();
+        self.known = DerivedState::default();
         let back = snapshot.restore(&mut self.parts.flow);
         let good = back.and_then(|()| self.evaluate());
         if self.agreed(good.err()).is_some() {

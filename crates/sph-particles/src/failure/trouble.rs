@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_finite_survives_a_file() {
+    fn values_that_are_not_finite_survive_a_file() {
         let cause = StepError::Bad {
             quantity: "position",
             particle: 7,

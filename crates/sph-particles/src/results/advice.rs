@@ -132,7 +132,7 @@ mod tests {
 
     type Pairs = [(&'static str, f64)];
 
-    fn told(shares: &Pairs, limits: &Pairs, stages: &Pairs) -> Vec<String> {
+    fn messages(shares: &Pairs, limits: &Pairs, stages: &Pairs) -> Vec<String> {
         advice(&Costs {
             steps: 1000,
             wall_seconds: 100.0,
@@ -170,7 +170,7 @@ mod tests {
     #[test]
     fn a_viscous_run_is_told_what_its_plugin_says_and_what_it_may_bring() {
         let limits = [("viscosity", 1e-5), ("sound", 2.34e-4), ("force", 1.0)];
-        let told = told(&[("viscosity", 0.9), ("sound", 0.1)], &limits, &[]);
+        let told = messages(&[("viscosity", 0.9), ("sound", 0.1)], &limits, &[]);
         assert_eq!(told.len(), 1);
         assert!(told[0].contains("solve for it") && told[0].contains("`sound`, is 23 times"));
     }
@@ -178,23 +178,23 @@ mod tests {
     #[test]
     fn a_bound_without_a_remedy_is_told_of_the_spacing_and_a_solver_of_its_tolerance() {
         let limits = [("elastic wave", 1e-5), ("sound", 1e-4)];
-        let told_of = told(&[("elastic wave", 1.0)], &limits, &[]);
+        let told_of = messages(&[("elastic wave", 1.0)], &limits, &[]);
         assert!(told_of[0].contains("spacing") && told_of[0].contains("10 times"));
         let solves = [("implicit viscosity", 90.0), ("interactions (a)", 1.0)];
-        let told_of = told(&[], &[], &solves);
+        let told_of = messages(&[], &[], &solves);
         assert!(told_of[0].contains("tolerance"), "{told_of:?}");
     }
 
     #[test]
     fn nothing_is_said_where_nothing_is_to_be_gained() {
         let limits = [("viscosity", 1e-5), ("sound", 1.1e-5)];
-        assert!(told(&[("viscosity", 0.9)], &limits, &[]).is_empty());
-        assert!(told(&[("sound", 0.5)], &[("sound", 1.0)], &[]).is_empty());
+        assert!(messages(&[("viscosity", 0.9)], &limits, &[]).is_empty());
+        assert!(messages(&[("sound", 0.5)], &[("sound", 1.0)], &[]).is_empty());
         let sweep = [("interactions (a)", 9.0), ("output", 1.0)];
-        assert!(told(&[], &[], &sweep).is_empty());
+        assert!(messages(&[], &[], &sweep).is_empty());
         let brief = [("interactions (a)", 1.0), ("output", 3.0)];
-        assert!(told(&[], &[], &brief).is_empty(), "seconds");
-        let told = told(&[], &[], &[("interactions (a)", 10.0), ("output", 30.0)]);
+        assert!(messages(&[], &[], &brief).is_empty(), "seconds");
+        let told = messages(&[], &[], &[("interactions (a)", 10.0), ("output", 30.0)]);
         assert!(told[0].contains("75 %"), "{told:?}");
     }
 

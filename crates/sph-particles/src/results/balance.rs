@@ -83,7 +83,7 @@ impl<const D: usize> Balance<D> {
     }
 
     /// The sums of a flow.
-    pub fn of(flow: &Flow<D>) -> Result<Self, FieldError> {
+    pub fn from_flow(flow: &Flow<D>) -> Result<Self, FieldError> {
         let free = &flow.world.free;
         let mass = free.get(fields::MASS)?;
         let velocity = free.get(fields::VELOCITY)?;

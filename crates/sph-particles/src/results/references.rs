@@ -105,7 +105,7 @@ fn against_field<const D: usize>(
         values,
         exact,
         components,
-    } = Compared::of(&flow.world, field, solution)?;
+    } = Compared::with_solution(&flow.world, field, solution)?;
     let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
     let (value, unit) = match reference.norm() {
         Norm::L2 => (norm::l2(&values, &exact, volume, components), "1"),
@@ -173,7 +173,7 @@ fn against_series<const D: usize>(
         Ok(table) => table,
         Err(gone) => return Ok(Err(gone.to_string())),
     };
-    let samples = match Samples::of(reference, &table, times, values) {
+    let samples = match Samples::from_table(reference, &table, times, values) {
         Some(samples) => samples,
         None => return Ok(Err("no time of the reference lies within the run".into())),
     };
@@ -197,7 +197,12 @@ struct Samples {
 
 impl Samples {
     /// At the instants of a table that count; none if none does.
-    fn of(reference: &Reference, table: &Table, times: &[f64], values: &[f64]) -> Option<Self> {
+    fn from_table(
+        reference: &Reference,
+        table: &Table,
+        times: &[f64],
+        values: &[f64],
+    ) -> Option<Self> {
         let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
             let column = table.columns[k].values.iter();
             column.map(|v| v * scale + offset).collect()

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_run::{Books, SERIES, SUMMARY, Status};
-use sph_solver::Left;
+use sph_run::{RunCounters, SERIES, SUMMARY, Status};
+use sph_solver::OutletTotals;
 
 use crate::failure::error::{Failure, RunError};
 use crate::results::advice;
@@ -22,7 +22,7 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         status: Status,
         failure: Option<&Failure>,
-        books: &Books,
+        books: &RunCounters,
     ) -> Result<Summary, RunError> {
         let flow = &self.shown().flow;
         let world = &flow.world;
@@ -35,7 +35,7 @@ impl<const D: usize> Running<'_, D> {
             Status::Failed => BTreeMap::new(),
             _ => self.compare(&mut warnings)?,
         };
-        let balance = Balance::of(flow)?;
+        let balance = Balance::from_flow(flow)?;
         let drift = self.drift(&balance);
         let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
         let steps = self.counters.steps;
@@ -74,7 +74,7 @@ impl<const D: usize> Running<'_, D> {
             particle_steps_per_second: over(work, working),
             nanoseconds_per_pair: over(1e9 * working * (threads * ranks) as f64, work * neighbours),
             bytes_per_particle: world.free.bytes_per_particle(),
-            memory: Memory::of(self.scene, &self.parts.flow, solves as f64)?,
+            memory: Memory::estimate(self.scene, &self.parts.flow, solves as f64)?,
             list_builds: world.lists.builds,
             dt_limiters,
             dt_limits,
@@ -98,7 +98,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// What has left by whatever the scene names, and by the border of the domain if anything did.
-    fn left(&self) -> BTreeMap<String, Left> {
+    fn left(&self) -> BTreeMap<String, OutletTotals> {
         let flow = &self.parts.flow;
         let named = flow.outlets.labels().len();
         let all = flow.left().enumerate();
@@ -163,7 +163,7 @@ impl<const D: usize> Running<'_, D> {
         let [highest, ..] = extrema.peaks;
         Drift {
             mass: over(
-                balance.mass + flow.mass_left() - flow.world.free.born().mass - mass,
+                balance.mass + flow.mass_left() - flow.world.free.inserted().mass - mass,
                 mass,
             ),
             momentum: over(momentum, extrema.momentum_scale),

@@ -83,7 +83,7 @@ fn draw<const D: usize>(scene: &Scene, path: &Path) -> Result<(), RunError> {
         classes: &classes,
         window: (D == 2).then_some(window),
         view: if D == 2 { View::Plane } else { View::Above },
-        ..Picture::of(&places, &values)
+        ..Picture::new(&places, &values)
     };
     Ok(picture.save(path)?)
 }

@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use sph_run::{Status, Trouble};
-use sph_solver::{Left, PluginInForce};
+use sph_solver::{OutletTotals, PluginInForce};
 
 use crate::Findings;
 use crate::setup::{Memory, Relaxation};
@@ -37,7 +37,7 @@ pub struct RankShare {
     /// Particles that it owned.
     pub particles: u64,
     /// Copies of others'.
-    pub guests: u64,
+    pub ghosts: u64,
     /// Messages to neighbours per step.
     pub messages_per_step: f64,
     /// Bytes in them per step.
@@ -145,7 +145,7 @@ pub struct Summary {
     pub escaped: usize,
     /// What has left by outlets, by `outlet.NAME.PHASE`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub left: BTreeMap<String, Left>,
+    pub left: BTreeMap<String, OutletTotals>,
     /// What relaxing the first particles did, if the scene asked for it.
     #[serde(default)]
     pub relaxation: Option<Relaxation>,

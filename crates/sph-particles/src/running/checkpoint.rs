@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sph_boundary::{Wall, WallStates};
-use sph_core::{Born, Plain, Role, Vect, fields};
+use sph_core::{Inserted, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 use sph_neighbours::WallForce;
 use sph_run::Identity;
@@ -99,7 +99,7 @@ pub fn save<const D: usize, T: Serialize>(
             dt: world.dt.to_bits(),
             list_builds: world.lists.builds,
             born: Some({
-                let born = world.free.born();
+                let born = world.free.inserted();
                 (born.identities, born.mass.to_bits(), born.particles)
             }),
             list_time: Some(world.lists.time.to_bits()),
@@ -215,7 +215,7 @@ fn fill<const D: usize>(
 ) -> Result<(), RunError> {
     if let Some((identities, mass, particles)) = clock.born {
         let mass = f64::from_bits(mass);
-        let known = flow.world.free.born().identities;
+        let known = flow.world.free.inserted().identities;
         let comes_in = flow.nursery.is_some();
         let sound = if comes_in {
             identities >= known
@@ -225,7 +225,7 @@ fn fill<const D: usize>(
         if !(sound && mass >= 0.0 && mass.is_finite()) {
             return Err(refused(path, "its births are not the scene's"));
         }
-        flow.world.free.set_born(Born {
+        flow.world.free.set_inserted(Inserted {
             identities,
             mass,
             particles,
@@ -332,7 +332,7 @@ fn set_clock<const D: usize>(
 fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>, RunError> {
     let free = &flow.world.free;
     let mut seen = HashSet::new();
-    let given = free.born().identities;
+    let given = free.inserted().identities;
     let mut new = |id: u32| id < given && seen.insert(id);
     let positions = free.get(fields::POSITION)?;
     Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {

@@ -14,7 +14,7 @@ pub(crate) struct Colours {
 }
 
 impl Colours {
-    pub fn of(scene: &Scene, pressure: f64) -> Self {
+    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
         let scales = scene.phase.values().filter_map(|p| p.velocity_scale);
         Colours {
             given: scene.output.picture_range.clone(),
@@ -30,7 +30,7 @@ impl Colours {
         values: &[f64],
         seen: &mut ColourRanges,
     ) -> (Option<[f64; 2]>, Option<String>) {
-        let given = self.given.as_ref().and_then(|all| all.of(field));
+        let given = self.given.as_ref().and_then(|all| all.ends(field));
         let scale = match field {
             _ if field == fields::PRESSURE.name => self.pressure,
             _ if field == fields::VELOCITY.name => self.speed,
@@ -40,7 +40,7 @@ impl Colours {
         if let Some(range) = given.or(scaled) {
             return (Some(range), None);
         }
-        let Some((range, wider)) = seen.of(field, values) else {
+        let Some((range, wider)) = seen.next(field, values) else {
             return (None, None);
         };
         let [low, high] = range.map(sph_core::number::plain);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use sph_io::ColourRanges;
-use sph_run::{Books, Trouble};
+use sph_run::{RunCounters, Trouble};
 use sph_scene::Scene;
 
 /// Counters of a run, as they stand in a checkpoint.
@@ -70,8 +70,8 @@ const ROUNDING: f64 = 1e-9;
 
 impl Counters {
     /// What the driver counts, at a time (s).
-    pub(crate) fn books(&self, time: f64) -> Books {
-        Books {
+    pub(crate) fn books(&self, time: f64) -> RunCounters {
+        RunCounters {
             time,
             rows: self.rows,
             last_row: self.last_row.map(f64::from_bits),
@@ -86,7 +86,7 @@ impl Counters {
     }
 
     /// Takes over what the driver has counted.
-    pub(crate) fn take(&mut self, books: &Books) {
+    pub(crate) fn take(&mut self, books: &RunCounters) {
         self.rows = books.rows;
         self.last_row = books.last_row.map(f64::to_bits);
         self.series_position = books.series;

@@ -34,7 +34,7 @@ pub(crate) struct Running<'a, const D: usize> {
     /// The state before the last step.
     pub(crate) good: LastGood<D>,
     /// Knowledge of the present state.
-    pub(crate) known: Known,
+    pub(crate) known: DerivedState,
     /// The last step that was tried, s, and what limited it.
     pub(crate) tried: (f64, &'static str),
     /// Bounds of the step at hand.
@@ -63,7 +63,7 @@ impl<const D: usize> LastGood<D> {
 
 /// Work done with the present state.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Known {
+pub(crate) struct DerivedState {
     /// Its derived columns are computed.
     pub(crate) evaluated: bool,
     /// The first rank has all of it; with all that is derived from it.

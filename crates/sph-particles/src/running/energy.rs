@@ -40,7 +40,11 @@ pub(crate) struct EnergyWatch {
 
 impl EnergyWatch {
     /// Of a scene; `so_far` is what a run that is resumed has seen.
-    pub fn of<const D: usize>(scene: &Scene, flow: &Flow<D>, so_far: Option<[u64; 5]>) -> Self {
+    pub fn from_scene<const D: usize>(
+        scene: &Scene,
+        flow: &Flow<D>,
+        so_far: Option<[u64; 5]>,
+    ) -> Self {
         let world = &flow.world;
         let around = |k: usize| world.domain.periodic[k] && world.gravity[k] != 0.0;
         let kinds = flow.kinds.iter().map(|(_, kind)| kind);
@@ -88,7 +92,7 @@ impl EnergyWatch {
             return None;
         }
         self.warned = true;
-        Some(format!("warning: at t = {time:.4} s {}", self.told()))
+        Some(format!("warning: at t = {time:.4} s {}", self.message()))
     }
 
     /// What stands in the summary, if there is anything to tell: a warning, and advice.
@@ -98,18 +102,18 @@ impl EnergyWatch {
             "`[probe.NAME] kind = \"energy-budget\"` tells what makes the energy; {damping} takes sound that walls feed, also \
              beside a smoother"
         );
-        (self.share > TOLD).then(|| [self.told(), advice])
+        (self.share > TOLD).then(|| [self.message(), advice])
     }
 
     /// Why the run has no result, if it made too much energy.
     pub fn verdict(&self) -> Option<StepError> {
         (self.share > GROSS).then(|| StepError::Stage {
             stage: "energy".into(),
-            reason: format!("{}, and no result of such a run is right", self.told()),
+            reason: format!("{}, and no result of such a run is right", self.message()),
         })
     }
 
-    fn told(&self) -> String {
+    fn message(&self) -> String {
         let [.., rise] = self.so_far.unwrap_or_default();
         format!(
             "the energy of a flow that nothing drives has risen by {rise:.3e} J, {:.1} % of what moves in it",

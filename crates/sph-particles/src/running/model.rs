@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use sph_core::StepError;
-use sph_run::{Books, Frames, Model, Now, Start, Status, Watch, Wish};
+use sph_run::{Frames, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
 
 use crate::failure::error::RunError;
 use crate::results::summary::Summary;
 use crate::running::beginning::begin;
-use crate::running::course::{Known, Running};
+use crate::running::course::{DerivedState, Running};
 use crate::running::energy::EnergyWatch;
 use crate::running::output::shows_depths;
 use crate::running::ranked;
@@ -24,7 +24,7 @@ impl<const D: usize> Model for Running<'_, D> {
         start: &Start,
         own: &Path,
         observer: &mut Watch<'_>,
-    ) -> Result<Books, RunError> {
+    ) -> Result<RunCounters, RunError> {
         let (scene, identity) = (self.scene, &self.options.identity);
         let flow = &mut self.parts.flow;
         self.counters = begin(scene, identity, start, own, flow, observer)?;
@@ -43,13 +43,13 @@ impl<const D: usize> Model for Running<'_, D> {
                 sums.recall(&gathered);
             }
         }
-        self.energy = EnergyWatch::of(scene, &self.parts.flow, self.counters.energies);
+        self.energy = EnergyWatch::from_scene(scene, &self.parts.flow, self.counters.energies);
         self.recall_extrema(start.goes_on());
         Ok(self.counters.books(self.parts.flow.world.time))
     }
 
     /// Steps that fail are tried again with half of their length, from the state before.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Now, RunError> {
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime, RunError> {
         self.judge()?;
         let ready = |running: &Self| limit <= running.parts.flow.world.time;
         let mut done = ready(self);
@@ -68,7 +68,7 @@ impl<const D: usize> Model for Running<'_, D> {
             if done {
                 return Ok(self.now());
             }
-            self.known = Known::default();
+            self.known = DerivedState::default();
             match self.step(limit)? {
                 Ok(()) => done = true,
                 Err(cause) => self.go_back(cause, observer)?,
@@ -113,16 +113,16 @@ impl<const D: usize> Model for Running<'_, D> {
         Ok(())
     }
 
-    fn save(&mut self, books: &Books, own: &Path) -> Result<(), RunError> {
+    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), RunError> {
         self.known.written = true;
         self.gather(false)?;
         self.save_gathered(books, own)
     }
 
-    fn agree(&mut self, wish: Wish<RunError>) -> Result<bool, RunError> {
+    fn agree(&mut self, wish: Poll<RunError>) -> Result<bool, RunError> {
         match wish {
-            Wish::Written(written) => self.all_have_written(written).map(|()| false),
-            Wish::Stop(stop) => {
+            Poll::Written(written) => self.all_have_written(written).map(|()| false),
+            Poll::Stop(stop) => {
                 let any = self.parts.flow.any_rank(stop);
                 any.map_err(|cause| self.failed(cause))
             }
@@ -132,7 +132,7 @@ impl<const D: usize> Model for Running<'_, D> {
     fn conclude(
         &mut self,
         ended: Result<Status, &mut RunError>,
-        books: &Books,
+        books: &RunCounters,
         _: &mut Watch<'_>,
     ) -> Result<Option<Summary>, RunError> {
         match ended {
@@ -152,10 +152,10 @@ impl<const D: usize> Model for Running<'_, D> {
 }
 
 impl<const D: usize> Running<'_, D> {
-    fn now(&self) -> Now {
+    fn now(&self) -> ModelTime {
         let (dt, limiter) = self.tried;
         let world = &self.parts.flow.world;
-        Now {
+        ModelTime {
             time: world.time,
             steps: self.counters.steps,
             dt,

@@ -28,10 +28,10 @@ pub fn run_on_threads(
         ..options.clone()
     };
     std::thread::scope(|scope| {
-        let mut team = Thread::team(ranks).into_iter();
-        let first = team.next();
+        let mut communicator = Thread::communicator(ranks).into_iter();
+        let first = communicator.next();
         let part = |rank: Thread| move || run_part(scene, options, Arc::new(rank), &mut ());
-        let others: Vec<_> = team.map(|rank| scope.spawn(part(rank))).collect();
+        let others: Vec<_> = communicator.map(|rank| scope.spawn(part(rank))).collect();
         let first = match first {
             Some(first) => run_part(scene, options, Arc::new(first), observer),
             None => Err(RunError::at("--ranks", "there must be one at least")),

@@ -52,11 +52,11 @@ pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outla
 
 impl Outputs {
     /// What a scene shows, whose fluid at rest has a pressure (Pa).
-    pub fn of(scene: &Scene, pressure: f64) -> Self {
+    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
         Outputs {
             fields: scene.output.fields.clone(),
             pictures: scene.output.picture.clone(),
-            colours: Colours::of(scene, pressure),
+            colours: Colours::from_scene(scene, pressure),
             title: scene.title.clone(),
             phases: scene.phase.keys().cloned().collect(),
         }
@@ -194,7 +194,7 @@ fn map<const D: usize>(
         view: View::Plane,
         range,
         colours: ColourMap::Viridis,
-        ..Picture::of(&points, values)
+        ..Picture::new(&points, values)
     };
     Ok(picture.save(path)?)
 }
@@ -219,7 +219,7 @@ fn picture<const D: usize>(
         view: if D == 2 { View::Plane } else { View::Above },
         range,
         colours: ColourMap::Viridis,
-        ..Picture::of(points, &values)
+        ..Picture::new(points, &values)
     };
     Ok(picture.save(path)?)
 }

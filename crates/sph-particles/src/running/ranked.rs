@@ -108,8 +108,11 @@ impl<const D: usize> Running<'_, D> {
         }
         whole.world.walls.follow(&flow.world.walls);
         whole.loads.clone_from(&flow.loads);
-        whole.world.free.set_taken(flow.world.free.taken().to_vec());
-        whole.world.free.set_born(flow.world.free.born());
+        whole
+            .world
+            .free
+            .set_removed(flow.world.free.removed().to_vec());
+        whole.world.free.set_inserted(flow.world.free.inserted());
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {
@@ -165,11 +168,11 @@ impl<const D: usize> Running<'_, D> {
         let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
         let own = [
             divided.own as f64,
-            divided.guests as f64,
+            divided.ghosts as f64,
             traffic.messages as f64 / steps,
             traffic.bytes as f64 / steps,
             traffic.moved as f64,
-            Memory::of(self.scene, flow, solved as f64)?.total(),
+            Memory::estimate(self.scene, flow, solved as f64)?.total(),
             near.particles as f64,
             near.neighbours as f64,
             near.accompanied as f64,
@@ -184,7 +187,7 @@ impl<const D: usize> Running<'_, D> {
             let at = |k: usize| numbers.get(k).map_or(0.0, |b| f64::from_le_bytes(*b));
             let share = RankShare {
                 particles: at(0) as u64,
-                guests: at(1) as u64,
+                ghosts: at(1) as u64,
                 messages_per_step: at(2),
                 bytes_per_step: at(3),
                 moved: at(4) as u64,
@@ -210,7 +213,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return own;
         };
-        match parts.settle(own.is_some()) {
+        match parts.confirm(own.is_some()) {
             Ok(()) => None,
             Err(elsewhere) => Some(own.unwrap_or_else(|| elsewhere.into())),
         }
@@ -224,7 +227,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return written;
         };
-        match parts.settle(written.is_err()) {
+        match parts.confirm(written.is_err()) {
             Err(PartError::Elsewhere) if written.is_err() => written,
             Err(other) => Err(StepError::from(other).into()),
             Ok(()) => Ok(()),

@@ -9,7 +9,7 @@ use sph_scene::Scene;
 
 use crate::failure::error::RunError;
 use crate::running::counters::Counters;
-use crate::running::course::{Known, LastGood, Running};
+use crate::running::course::{DerivedState, LastGood, Running};
 use crate::running::departure::DepartureWatch;
 use crate::running::energy::EnergyWatch;
 use crate::running::mach::MachWatch;
@@ -47,13 +47,13 @@ pub(crate) fn ready<'a, const D: usize>(
         whole: None,
         counters: Counters::begin(),
         extrema: Extrema::NONE,
-        outputs: Outputs::of(scene, parts.pressure),
+        outputs: Outputs::from_scene(scene, parts.pressure),
         good: LastGood::default(),
-        known: Known::default(),
+        known: DerivedState::default(),
         tried: (0.0, "none"),
         limits: Vec::new(),
         mach: MachWatch::default(),
-        energy: EnergyWatch::of(scene, &parts.flow, None),
+        energy: EnergyWatch::from_scene(scene, &parts.flow, None),
         departure: DepartureWatch::default(),
         shares: Vec::new(),
         around: Nearby::NONE,

@@ -71,7 +71,7 @@ impl Extrema {
         probes: &Probes<D>,
         dt: f64,
     ) -> Result<(Vec<f64>, Balance<D>), RunError> {
-        let balance = Balance::of(flow)?;
+        let balance = Balance::from_flow(flow)?;
         let mut row = vec![flow.world.time, dt];
         row.extend(balance.momentum.iter());
         row.extend([

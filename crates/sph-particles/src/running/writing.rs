@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use sph_probes::Probe;
-use sph_run::{Books, Frames, Watch};
+use sph_run::{Frames, RunCounters, Watch};
 
 use crate::failure::error::RunError;
 use crate::results::balance::Balance;
@@ -31,9 +31,9 @@ impl<const D: usize> Running<'_, D> {
         frames: Option<&mut Frames>,
     ) -> Result<Vec<String>, RunError> {
         let parts = self.parts.flow.parts.as_ref();
-        let team = parts.map(|p| (p.transport().rank(), p.transport().ranks()));
+        let communicator = parts.map(|p| (p.transport().rank(), p.transport().ranks()));
         let together = self.scene.output.vtk && !shows_depths(self.scene);
-        let among = team.filter(|(_, ranks)| together && *ranks > 1);
+        let among = communicator.filter(|(_, ranks)| together && *ranks > 1);
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         match (frames, among) {
             (Some(frames), among) => {
@@ -86,7 +86,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    pub(crate) fn stage_seconds(&self, books: &Books) -> BTreeMap<String, f64> {
+    pub(crate) fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
         for timing in self.parts.flow.timings() {
             *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
@@ -96,7 +96,11 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Writes a checkpoint of the state that the first rank has.
-    pub(crate) fn save_gathered(&mut self, books: &Books, own: &Path) -> Result<(), RunError> {
+    pub(crate) fn save_gathered(
+        &mut self,
+        books: &RunCounters,
+        own: &Path,
+    ) -> Result<(), RunError> {
         if !self.writes() {
             return Ok(());
         }

@@ -5,32 +5,32 @@ use std::sync::Arc;
 use sph_boundary::Wall;
 use sph_contribution::integrators::Integrator;
 use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
-use sph_core::{Born, Role, Store, fields};
+use sph_core::{Inserted, Role, Store, fields};
 use sph_multiphase::Formulation;
 use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_rheology::state::{Laws, Lift, Lifted, Reference};
 use sph_scene::Scene;
-use sph_solver::setup::{Choices, Given, Planned, Planning, joined, shown};
-use sph_solver::step::{Nursery, Outlets, Swing, accounts};
+use sph_solver::setup::{Choices, FlowInputs, Planned, Planning, joined, shown};
+use sph_solver::step::{NewParticleDefaults, Outlets, VariableGravity, accounts};
 use sph_solver::{Flow, SolverError};
 
 use crate::setup::domain::{extent, height, pressure_at_rest};
 use crate::setup::field_error;
+use crate::setup::initial_world::InitialWorld;
 use crate::setup::leaks::Leak;
 use crate::setup::output_fields::check_output_fields;
 use crate::setup::placement::Placed;
 use crate::setup::probe_setup;
 use crate::setup::relaxation::Relaxation;
-use crate::setup::room::Room;
 use crate::setup::shapes::Drawn;
 use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
 use crate::setup::wall_speeds::speeds;
-use crate::setup::{lattices, movers, open_faces, swing};
+use crate::setup::{lattices, movers, open_faces, variable_gravity};
 
 /// How far the fastest point of a wall goes within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
@@ -72,16 +72,16 @@ pub(crate) fn assembled<const D: usize>(
     let mut drawn = drawn_of::<D>(scene)?;
     let mut choices = chosen::<D>(scene)?;
     let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
-    movers::settle(scene, &mut drawn, &mut choices, &laws)?;
+    movers::prepare(scene, &mut drawn, &mut choices, &laws)?;
     let speeds = wall_speeds(scene, &drawn, &laws)?;
-    let opened = open_faces::settle(scene, &mut drawn, &mut choices, &laws)?;
-    let room = Room::for_share(scene, &drawn, &mut choices, &mut share)?;
+    let opened = open_faces::prepare(scene, &mut drawn, &mut choices, &laws)?;
+    let room = InitialWorld::for_share(scene, &drawn, &mut choices, &mut share)?;
     let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
     let (leaks, room) = (room.leaks, room.world);
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
     let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let mut ground = Ground::of(&choices.rheologies);
+    let mut ground = Ground::from_rheologies(&choices.rheologies);
     let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
     let constant = constant_viscosities(scene, &choices.rheologies);
     let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
@@ -105,7 +105,7 @@ pub(crate) fn assembled<const D: usize>(
     let planned = about.plan(&world, &mut parts)?;
     ground.saturated = planned.offer.saturated;
     world.transported = planned.transported.clone();
-    let given = Given {
+    let given = FlowInputs {
         walls,
         laws,
         kinematic_viscosities,
@@ -146,14 +146,14 @@ pub(crate) fn assembled<const D: usize>(
 
 /// Walls and bodies of a scene, if they fit into memory.
 fn drawn_of<const D: usize>(scene: &Scene) -> Result<Drawn<D>, SolverError> {
-    let drawn = Drawn::<D>::of(scene)?;
+    let drawn = Drawn::<D>::from_scene(scene)?;
     crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
     Ok(drawn)
 }
 
 /// The plugins of a scene, with all probes ready.
 fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
-    let mut choices = Choices::<D>::of(scene).map_err(SolverError::Scene)?;
+    let mut choices = Choices::<D>::from_scene(scene).map_err(SolverError::Scene)?;
     choices.probes.extend(field_error::probes(scene)?);
     probe_setup::prepare(scene, &mut choices.probes)?;
     Ok(choices)
@@ -179,9 +179,9 @@ fn nursery<const D: usize>(
     formulation: Arc<dyn Formulation<D>>,
     columns: Vec<OwnColumn<D>>,
     flow: &Flow<D>,
-) -> Option<Nursery<D>> {
+) -> Option<NewParticleDefaults<D>> {
     let some = !flow.gates.is_empty();
-    some.then(|| Nursery::new(scene, formulation, columns))
+    some.then(|| NewParticleDefaults::new(scene, formulation, columns))
 }
 
 /// Refuses walls that are faster than sound in the slowest phase.
@@ -295,7 +295,7 @@ fn filled_columns<const D: usize>(
     placed: &Placed<D>,
 ) -> Result<(Store<D>, Outlets), SolverError> {
     let mut free = state(scene, formulation, parts, placed.positions.len())?;
-    let outlets = Outlets::of(scene, (&placed.positions, &placed.body), &mut free)
+    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free)
         .map_err(SolverError::Scene)?;
     give_places(scene, &mut free, placed)?;
     Ok((free, outlets))
@@ -316,9 +316,9 @@ fn give_places<const D: usize>(
         let of = placed.body.iter().map(|body| phases[*body as usize]);
         *free.get_mut(fields::PHASE)? = of.collect();
     }
-    free.set_born(Born {
+    free.set_inserted(Inserted {
         identities: count,
-        ..Born::default()
+        ..Inserted::default()
     });
     Ok(())
 }
@@ -343,11 +343,11 @@ fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
     choices: &Choices<D>,
-) -> Result<(Laws, Option<Swing<D>>, Lift), SolverError> {
-    let swing = swing::of::<D>(scene)?;
+) -> Result<(Laws, Option<VariableGravity<D>>, Lift), SolverError> {
+    let swing = variable_gravity::from_scene::<D>(scene)?;
     let more = swing
         .as_ref()
-        .map(|s| swing::head(s, scene, &drawn.regions));
+        .map(|s| variable_gravity::head(s, scene, &drawn.regions));
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
     let speeds = sound_speeds(scene, (head + more.unwrap_or(0.0)).sqrt())?;
     let phases = scene.phase.values().zip(speeds);

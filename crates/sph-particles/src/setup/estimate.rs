@@ -122,7 +122,7 @@ fn neighbours<const D: usize>(scene: &Scene) -> f64 {
 }
 
 impl Size {
-    fn of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Self {
+    fn from_scene<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Self {
         let spacing = scene.numerics.spacing;
         let particles = estimate(&drawn.regions, spacing);
         let wall_points = drawn.measure / spacing.powi(D as i32 - 1);
@@ -143,8 +143,8 @@ impl Size {
 /// If a wall or a body cannot be drawn.
 pub fn size(scene: &Scene) -> Result<Size, SolverError> {
     Ok(match scene.dimension {
-        3 => Size::of(scene, &Drawn::<3>::of(scene)?),
-        _ => Size::of(scene, &Drawn::<2>::of(scene)?),
+        3 => Size::from_scene(scene, &Drawn::<3>::from_scene(scene)?),
+        _ => Size::from_scene(scene, &Drawn::<2>::from_scene(scene)?),
     })
 }
 
@@ -157,7 +157,7 @@ pub fn refuse_the_absurd<const D: usize>(
         particles,
         wall_points: points,
         bytes: needed,
-    } = Size::of(scene, drawn);
+    } = Size::from_scene(scene, drawn);
     let limit = memory_available().unwrap_or(64e9);
     // Indices are 32 bits wide.
     if needed < limit && particles + points < 4e9 {

@@ -197,7 +197,7 @@ fn memory<const D: usize>(
         system += hooked.hook.bytes(&mut flow.world, dt)?;
     }
     system += flow.stages.iter().map(|stage| stage.bytes()).sum::<usize>();
-    Ok(Memory::of(scene, flow, system as f64)?)
+    Ok(Memory::estimate(scene, flow, system as f64)?)
 }
 
 /// Smoothing length, speeds and dimensionless numbers.

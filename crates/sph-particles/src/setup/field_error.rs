@@ -21,7 +21,7 @@ impl Compared {
     ///
     /// # Errors
     /// If there is no such field, or the solution does not give it.
-    pub fn of<const D: usize>(
+    pub fn with_solution<const D: usize>(
         world: &World<D>,
         field: &str,
         solution: &dyn Solution<D>,
@@ -67,7 +67,7 @@ impl<const D: usize> Probe<D> for ErrorProbe<D> {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let compared = Compared::of(world, &self.field, &*self.solution);
+        let compared = Compared::with_solution(world, &self.field, &*self.solution);
         let compared = compared.map_err(|reason| StepError::Stage {
             stage: "references".into(),
             reason,

@@ -56,7 +56,7 @@ pub fn remarks<const D: usize>(
     body_of: &[u32],
 ) -> Result<Vec<String>, SolverError> {
     // Settled or far displaced particles stand on no lattice.
-    if scene.numerics.relax.is_some() || scene.disorder() > OFF_LATTICE {
+    if scene.numerics.relax.is_some() || scene.jitter() > OFF_LATTICE {
         return Ok(Vec::new());
     }
     let world = &flow.world;

@@ -21,7 +21,7 @@ pub struct Layers<'a, const D: usize> {
 impl<'a, const D: usize> Layers<'a, D> {
     /// The bodies of a scene with gravity, if it has several or one below a level surface or a wave; the
     /// weight over a place in the only body is that up to its top.
-    pub fn of(scene: &Scene, regions: &'a [Region<D>]) -> Option<Self> {
+    pub fn from_scene(scene: &Scene, regions: &'a [Region<D>]) -> Option<Self> {
         let gravity = scene.gravity::<D>();
         let up = -gravity.try_normalize(0.0)?;
         let ends = |c: &Shape<D>| matches!(c, Shape::Side { .. } | Shape::OverWave(_));
@@ -125,7 +125,7 @@ mod tests {
     fn weight(bodies: &str, x: f64, y: f64) -> f64 {
         let scene = scene(bodies);
         let regions = scene.regions::<2>();
-        let layers = Layers::of(&scene, &regions).expect("layers");
+        let layers = Layers::from_scene(&scene, &regions).expect("layers");
         layers.weight(&Vect::from([x, y]))
     }
 
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn one_plain_body_has_no_layers() {
         let plain = scene("body.a = { phase = \"water\", box = [[0, 0], [1, 1]] }");
-        assert!(Layers::of(&plain, &plain.regions::<2>()).is_none());
+        assert!(Layers::from_scene(&plain, &plain.regions::<2>()).is_none());
         let only =
             "body.a = { phase = \"water\", box = [[0, 0], [1, 1]], below = { level = 0.3 } }";
         assert!((weight(only, 0.5, 0.1) - 2000.0).abs() < 1e-6);

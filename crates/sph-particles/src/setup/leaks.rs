@@ -33,7 +33,7 @@ pub(crate) fn leaks<const D: usize>(
     if walls.elements.corners.is_empty() {
         return Vec::new();
     }
-    let skins = Skins::of(walls, &world.domain);
+    let skins = Skins::new(walls, &world.domain);
     let about = About {
         scene,
         world,

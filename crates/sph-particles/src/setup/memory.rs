@@ -65,7 +65,7 @@ impl Memory {
     ///
     /// # Errors
     /// If there is no position column.
-    pub fn of<const D: usize>(
+    pub fn estimate<const D: usize>(
         scene: &Scene,
         flow: &Flow<D>,
         system: f64,

@@ -15,7 +15,7 @@ use crate::setup::shapes::Drawn;
 ///
 /// # Errors
 /// The keys that do not fit.
-pub(crate) fn settle<const D: usize>(
+pub(crate) fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,
     choices: &mut Choices<D>,
@@ -44,7 +44,7 @@ pub(crate) fn settle<const D: usize>(
             gravity: scene.gravity::<D>(),
             flush,
         };
-        if let Err(refusal) = mover.settle(&setting) {
+        if let Err(refusal) = mover.prepare(&setting) {
             let path = scene.mover(&wall).map(|c| c.inside(&refusal.key));
             problems.push(SceneProblem::new(path.unwrap_or_default(), refusal.why));
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_boundary::{Condition, Wall};
+use sph_boundary::{Wall, WallCondition};
 use sph_contribution::Part;
 use sph_core::fields::RENORMALISATION;
 use sph_core::{SceneProblem, Shape};
@@ -23,7 +23,7 @@ const ROOM: f64 = 0.5;
 ///
 /// # Errors
 /// The keys that do not fit.
-pub(crate) fn settle<const D: usize>(
+pub(crate) fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,
     choices: &mut Choices<D>,
@@ -53,7 +53,7 @@ pub(crate) fn settle<const D: usize>(
         dimension: D,
     };
     let refused = given.iter().filter_map(|(wall, law)| {
-        let refusal = law.settle(&setting).err()?;
+        let refusal = law.prepare(&setting).err()?;
         Some(SceneProblem::new(
             path(scene, wall, &refusal.key),
             refusal.why,
@@ -66,7 +66,7 @@ pub(crate) fn settle<const D: usize>(
     for spec in &mut drawn.walls {
         if given.iter().any(|(name, _)| name == spec.drawing.name()) {
             spec.open = true;
-            spec.condition = Condition::FreeSlip;
+            spec.condition = WallCondition::FreeSlip;
         }
     }
     let given: Vec<(String, Arc<dyn OpenBoundary<D>>)> = given

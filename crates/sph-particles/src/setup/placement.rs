@@ -25,7 +25,7 @@ pub struct Placed<const D: usize> {
 }
 
 /// Where a place is, as the walls see it.
-enum Side<'a, const D: usize> {
+enum WallSide<'a, const D: usize> {
     Fluid,
     TooNear,
     Behind(&'a dyn Wall<D>),
@@ -44,7 +44,7 @@ pub fn place<const D: usize>(
     };
     let periodic = scene.numerics.periodic.bounds::<D>();
     let mut filled = fill(regions, spacing, offset, &periodic);
-    let (disorder, seed) = (scene.disorder(), scene.numerics.seed);
+    let (disorder, seed) = (scene.jitter(), scene.numerics.seed);
     if disorder > 0.0 {
         disturb(&mut filled, spacing, disorder, seed, &periodic);
     }
@@ -63,19 +63,21 @@ pub fn place<const D: usize>(
         let held = |position: &[f64; D]| {
             let x = Vect::from(*position);
             let side = match walls {
-                Some(walls) if walls.clearance(&x, TOO_NEAR * spacing).is_some() => Side::TooNear,
-                Some(walls) if !walls.contains(&x) => Side::Behind(walls),
-                _ => Side::Fluid,
+                Some(walls) if walls.clearance(&x, TOO_NEAR * spacing).is_some() => {
+                    WallSide::TooNear
+                }
+                Some(walls) if !walls.contains(&x) => WallSide::Behind(walls),
+                _ => WallSide::Fluid,
             };
             (x, side)
         };
         let all: Vec<_> = filled.positions.par_iter().map(held).collect();
         for (x, side) in all {
             match side {
-                Side::Fluid => kept.push(x),
-                Side::TooNear => dropped += usize::from(!clipped),
-                Side::Behind(_) if clipped => behind.push(x),
-                Side::Behind(walls) => {
+                WallSide::Fluid => kept.push(x),
+                WallSide::TooNear => dropped += usize::from(!clipped),
+                WallSide::Behind(_) if clipped => behind.push(x),
+                WallSide::Behind(walls) => {
                     problems.push(through_a_wall(name, &x, walls, spacing));
                     break;
                 }

@@ -29,7 +29,7 @@ pub fn prepare<const D: usize>(
             true => "gauge",
             false => "probe",
         };
-        if let Err(why) = probe.settle(&known) {
+        if let Err(why) = probe.prepare(&known) {
             problems.push(SceneProblem::new(format!("{kind}.{name}.phase"), why));
         }
         if let Err(why) = learn(scene, name, &mut **probe) {
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use sph_solver::setup::Choices;
 
-    fn told(keys: &str) -> String {
+    fn messages(keys: &str) -> String {
         let text = format!(
             "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
              phase.air = {{ density = 1, rheology.newtonian = {{ viscosity = 1 }} }}\n\
@@ -94,7 +94,7 @@ mod tests {
         );
         let scene = sph_scene::parse(&text, "t.toml", &[]);
         let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
-        let mut choices = Choices::<2>::of(&scene).unwrap_or_else(|e| panic!("{e:?}"));
+        let mut choices = Choices::<2>::from_scene(&scene).unwrap_or_else(|e| panic!("{e:?}"));
         let done = prepare(&scene, &mut choices.probes);
         done.err().map_or(String::new(), |e| e.to_string())
     }
@@ -102,17 +102,17 @@ mod tests {
     #[test]
     fn phases_and_columns_are_looked_up() {
         assert_eq!(
-            told("probe.e = { kind = \"extent\", phase = \"water\" }"),
+            messages("probe.e = { kind = \"extent\", phase = \"water\" }"),
             ""
         );
-        let wrong = told("gauge.e = { kind = \"extent\", phase = \"wter\" }");
+        let wrong = messages("gauge.e = { kind = \"extent\", phase = \"wter\" }");
         assert_eq!(
             wrong,
             "gauge.e.phase: there is no phase called `wter`, did you mean `water`?"
         );
-        let wrong = told("probe.e = { kind = \"line\", file = \"nosuch.csv\" }");
+        let wrong = messages("probe.e = { kind = \"line\", file = \"nosuch.csv\" }");
         assert!(wrong.starts_with("probe.e.file: cannot read"), "{wrong}");
-        let wrong = told("probe.e = { kind = \"front\", phase = \"air\" }");
+        let wrong = messages("probe.e = { kind = \"front\", phase = \"air\" }");
         assert!(wrong.starts_with("reference.r.probe: no probe has a column `e.highest`"));
     }
 }

@@ -17,10 +17,10 @@ pub struct RankUse {
     /// Its cost over the mean.
     pub cost: f64,
     /// Particles of others that it needs.
-    pub guests: usize,
+    pub ghosts: usize,
     /// Particles that it sends, each as often as it is sent.
     pub sent: usize,
-    /// Ranks that it has guests of.
+    /// Ranks that it has ghosts of.
     pub partners: Vec<usize>,
 }
 
@@ -31,7 +31,7 @@ pub struct ExchangeUse {
     pub stage: String,
     /// Columns.
     pub columns: Vec<String>,
-    /// Bytes per guest.
+    /// Bytes per ghost.
     pub bytes: usize,
 }
 
@@ -44,9 +44,9 @@ pub struct Ranks {
     pub imbalance: f64,
     /// What is sent after which stage.
     pub exchanges: Vec<ExchangeUse>,
-    /// Bytes per guest in an evaluation.
-    pub bytes_per_guest: usize,
-    /// Bytes of a guest that is new, with all its columns.
+    /// Bytes per ghost in an evaluation.
+    pub bytes_per_ghost: usize,
+    /// Bytes of a ghost that is new, with all its columns.
     pub bytes_per_newcomer: usize,
 }
 
@@ -67,7 +67,7 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let places = world.free.get(fields::POSITION)?;
     let costs = costs(world);
     let owners = bisect(places, &costs, ranks).map_err(|e| SolverError::at("", e.to_string()))?;
-    let halo = Halo::of(world, &owners, ranks, flow.rings())?;
+    let halo = Halo::new(world, &owners, ranks, flow.rings())?;
     let mut cost = vec![0.0; ranks];
     let all = owners.iter().zip(&costs);
     all.for_each(|(owner, c)| cost[*owner as usize] += c);
@@ -77,14 +77,14 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let one = |rank: usize| RankUse {
         particles: halo.owned(rank),
         cost: cost[rank] / mean,
-        guests: halo.guests(rank),
+        ghosts: halo.ghosts(rank),
         sent: halo.sent(rank),
         partners: halo.partners(rank),
     };
     Ok(Ranks {
         ranks: (0..ranks).map(one).collect(),
         imbalance: largest / mean - 1.0,
-        bytes_per_guest: exchanges.iter().map(|e| e.bytes).sum(),
+        bytes_per_ghost: exchanges.iter().map(|e| e.bytes).sum(),
         bytes_per_newcomer: world.free.bytes_per_particle(),
         exchanges,
     })

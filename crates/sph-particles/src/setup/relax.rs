@@ -42,7 +42,7 @@ pub fn relax<const D: usize>(
     let surface =
         |x: &Vect<D>, walls: &dyn Wall<D>| near_surface(drawn, &domain, x, walls, support);
     let (most, tolerance) = (settings.steps as usize, settings.tolerance);
-    settle(world, walls, &surface, most, tolerance).map(Some)
+    relax_positions(world, walls, &surface, most, tolerance).map(Some)
 }
 
 /// Whether air is within a support: a place of the fluid's side that belongs to no body.
@@ -78,7 +78,7 @@ fn near_surface<const D: usize>(
 ///
 /// # Errors
 /// If a wall stage fails.
-fn settle<const D: usize>(
+fn relax_positions<const D: usize>(
     world: &mut World<D>,
     walls: &mut dyn Wall<D>,
     surface: &(dyn Fn(&Vect<D>, &dyn Wall<D>) -> bool + Sync),
@@ -108,7 +108,7 @@ fn settle<const D: usize>(
                 .filter(|(_, held)| !**held)
         };
         let contacts = &world.walls.contacts;
-        let inner = free().filter(|((i, _), _)| contacts.of(*i).is_empty());
+        let inner = free().filter(|((i, _), _)| contacts.of_particle(*i).is_empty());
         let inner: Vec<f64> = inner.map(|((_, c), _)| c.value).collect();
         let mean = match inner.len() {
             0 => 1.0,
@@ -155,7 +155,7 @@ fn advance<const D: usize>(
     let found = world.free.get(fields::RENORMALISATION).is_ok();
     let (stride, clearance) = (STRIDE * spacing, CLEARANCE * spacing);
     let reaches = world.kernel.support_radius() > stride + clearance;
-    let far = |i: usize| found && reaches && world.walls.contacts.of(i).is_empty();
+    let far = |i: usize| found && reaches && world.walls.contacts.of_particle(i).is_empty();
     for (i, ((x, c), held)) in position.iter_mut().zip(all).zip(held).enumerate() {
         if *held {
             continue;
@@ -205,7 +205,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
             row.fill(x, &points.position, candidates, NOBODY, domain, kernel);
             add(row.row(), values, &|v| points.share[v as usize]);
         }
-        let contacts = world.walls.contacts.of(i).iter();
+        let contacts = world.walls.contacts.of_particle(i).iter();
         // What the walls add to the gradient: −∇γ, or ∇ ln s times the sum.
         let wall = match slope {
             Some(slope) => slope[i] * -(whole * sum),

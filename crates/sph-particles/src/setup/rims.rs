@@ -37,7 +37,7 @@ pub(crate) struct Skins<const D: usize> {
 }
 
 impl<const D: usize> Skins<D> {
-    pub fn of(walls: &WallSet<D>, domain: &Domain<D>) -> Self {
+    pub fn new(walls: &WallSet<D>, domain: &Domain<D>) -> Self {
         let (points, elements) = (&walls.points.position, &walls.elements);
         let (of_point, of_element, count) = joined(points.len(), &elements.corners);
         let rims = match D {

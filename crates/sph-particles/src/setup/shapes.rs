@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sph_boundary::{
-    Bend, BoundaryError, Condition, Course, Drawing, Polyline, RigidMotion, Surface, WallSpec,
+    Bend, BoundaryError, Course, Drawing, Polyline, RigidMotion, Surface, WallCondition, WallSpec,
     thin_plate,
 };
 use sph_core::plausible::Quantity;
@@ -43,7 +43,7 @@ impl<const D: usize> Drawn<D> {
     ///
     /// # Errors
     /// If a file cannot be read or a shape is refused; the message points at the key.
-    pub fn of(scene: &Scene) -> Result<Self, SolverError> {
+    pub fn from_scene(scene: &Scene) -> Result<Self, SolverError> {
         let mut drawn = Drawn {
             walls: Vec::new(),
             bounds: None,
@@ -60,12 +60,12 @@ impl<const D: usize> Drawn<D> {
             let place = format!("wall.{name}");
             let motion = motion_of::<D>(wall, &place, scene.run.end)?;
             let condition = match wall.condition {
-                sph_scene::Condition::NoSlip => Condition::NoSlip,
-                sph_scene::Condition::FreeSlip => Condition::FreeSlip,
-                sph_scene::Condition::PartialSlip => Condition::PartialSlip {
+                sph_scene::SlipCondition::NoSlip => WallCondition::NoSlip,
+                sph_scene::SlipCondition::FreeSlip => WallCondition::FreeSlip,
+                sph_scene::SlipCondition::PartialSlip => WallCondition::PartialSlip {
                     length: wall.slip_length.unwrap_or(0.0),
                 },
-                sph_scene::Condition::Coulomb => Condition::Coulomb(Coulomb {
+                sph_scene::SlipCondition::Coulomb => WallCondition::Coulomb(Coulomb {
                     coefficient: wall.friction_coefficient.unwrap_or(0.0),
                     literal: wall.friction_form == Some(FrictionForm::Literal),
                 }),

@@ -17,11 +17,11 @@ pub enum Share<const D: usize> {
     /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
     Blank,
     /// Columns and plugins alone, without a particle, among walls that stand already: for what others gather.
-    Columns(Option<Box<Standing<D>>>),
+    Columns(Option<Box<ExistingWalls<D>>>),
 }
 
 /// Walls that stand already: the plugin, and what pair sums know of them.
-pub type Standing<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
+pub type ExistingWalls<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
 
 /// Refuses what cannot be divided between ranks.
 pub fn refuse_the_indivisible<const D: usize>(

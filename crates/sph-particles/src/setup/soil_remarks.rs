@@ -26,7 +26,7 @@ pub struct Ground {
 
 impl Ground {
     /// From the plugins of a scene.
-    pub fn of(rheologies: &[Box<dyn Rheology>]) -> Self {
+    pub fn from_rheologies(rheologies: &[Box<dyn Rheology>]) -> Self {
         let laws = || rheologies.iter();
         Ground {
             soil: laws().map(|law| law.needs().pressure).collect(),
@@ -80,7 +80,7 @@ impl Ground {
         }
         let world = &flow.world;
         let up = -world.gravity.normalize();
-        let phase = Phases::of(flow)?;
+        let phase = Phases::new(flow)?;
         let (mut above, mut all) = (0_usize, 0_usize);
         let heights: Vec<f64> = world
             .free
@@ -118,7 +118,7 @@ impl Ground {
 struct Phases<'a>(Option<&'a [u32]>);
 
 impl<'a> Phases<'a> {
-    fn of<const D: usize>(flow: &'a Flow<D>) -> Result<Self, SolverError> {
+    fn new<const D: usize>(flow: &'a Flow<D>) -> Result<Self, SolverError> {
         let free = &flow.world.free;
         Ok(Phases(match free.has(fields::PHASE.name) {
             true => Some(free.get(fields::PHASE)?),
@@ -141,7 +141,7 @@ fn hanging<const D: usize>(
     };
     let world = &flow.world;
     let up = -world.gravity.normalize();
-    let phase = Phases::of(flow)?;
+    let phase = Phases::new(flow)?;
     let position = world.free.get(fields::POSITION)?;
     let reach = GAP * world.spacing;
     let cell = |x: &Vect<D>| -> [i64; D] { std::array::from_fn(|k| (x[k] / reach).floor() as i64) };

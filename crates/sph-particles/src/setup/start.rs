@@ -82,7 +82,7 @@ fn give_state<const D: usize>(
 ) -> Result<(), SolverError> {
     let Start { scene, drawn, .. } = given;
     let world = &mut flow.world;
-    let layers = Layers::of(scene, &drawn.regions);
+    let layers = Layers::from_scene(scene, &drawn.regions);
     let phase_of = phases_of_bodies(scene);
     let mut states = Vec::new();
     for (k, ((name, body), region)) in scene.body.iter().zip(&drawn.regions).enumerate() {

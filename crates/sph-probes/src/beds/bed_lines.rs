@@ -60,7 +60,7 @@ struct Drawn {
 
 impl BedLines {
     fn draw(&self, world: &World<2>) -> Result<Drawn, StepError> {
-        let bed = Counted::of(world, Some(&self.phase), self.number)?;
+        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;
@@ -99,7 +99,7 @@ impl Probe<2> for BedLines {
         ]
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
     }

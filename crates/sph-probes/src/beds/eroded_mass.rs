@@ -53,13 +53,13 @@ impl<const D: usize> Probe<D> for ErodedMass {
         suffixes.map(|s| ProbeColumn::named(s, "kg")).into()
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let bed = Counted::of(world, Some(&self.phase), self.number)?;
+        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
         let sign = match self.direction {
             Direction::Forward => 1.0,
             Direction::Backward => -1.0,
@@ -67,7 +67,7 @@ impl<const D: usize> Probe<D> for ErodedMass {
         let is_out = |x: f64| self.beyond.is_some_and(|end| sign * (x - end) > 0.0);
         let positions = world.free.get(fields::POSITION)?.iter();
         let all = positions.zip(world.free.get(fields::MASS)?).enumerate();
-        let taken = world.free.taken().iter();
+        let taken = world.free.removed().iter();
         let taken = taken.filter(|t| Some(t.phase) == self.number);
         let (mut out, mut risen) = (taken.map(|t| t.mass).sum(), 0.0);
         for (_, (x, mass)) in all.filter(|(k, _)| bed.has(*k)) {

@@ -79,7 +79,7 @@ impl ScourMap {
     }
 
     fn cells(&self, world: &World<3>) -> Result<Vec<Cell>, StepError> {
-        let bed = Counted::of(world, Some(&self.phase), self.number)?;
+        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
         let grid = self.grid(world.spacing);
         let cell = |k: usize, x: f64| {
             let n = ((x - grid.corner[k]) / grid.width[k]).floor() as i64;
@@ -128,7 +128,7 @@ impl Probe<3> for ScourMap {
         ]
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
     }

@@ -18,6 +18,6 @@ pub struct KineticEnergy {}
 impl Preset for KineticEnergy {
     fn plan(&self, _: usize) -> Plan<'_> {
         let energy = PlannedColumn::new("", Quantity::KineticEnergy, Reduce::Sum);
-        Plan::of(None, vec![energy.in_unit("J")])
+        Plan::of_phase(None, vec![energy.in_unit("J")])
     }
 }

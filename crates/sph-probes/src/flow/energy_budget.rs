@@ -136,7 +136,7 @@ impl<const D: usize> Probe<D> for EnergyBudget {
         all.map(|suffix| ProbeColumn::named(&suffix, "J")).collect()
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         let strangers = scene.strangers.iter();
         self.strangers = strangers.map(|kind| work_of_stranger(kind)).collect();
         Ok(())

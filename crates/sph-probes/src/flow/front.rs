@@ -3,7 +3,7 @@
 use sph_core::{Axis, parameters, plugin};
 
 use crate::ProbeEntry;
-use crate::measure::{Condition, Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce};
 
 /// Which of the two ends of a phase along an axis.
 #[parameters]
@@ -59,10 +59,12 @@ impl Preset for Front {
         let along = Quantity::Coordinate(self.axis as usize);
         let front = PlannedColumn::new("", along, reduce).and_spacings(spacings);
         let upright = || Quantity::Coordinate(dimension - 1);
-        let below = self.below.map(|height| Condition::below(upright(), height));
+        let below = self
+            .below
+            .map(|height| QuantityBounds::below(upright(), height));
         Plan {
             conditions: below.into_iter().collect(),
-            ..Plan::of(self.phase.as_deref(), vec![front.in_unit("m")])
+            ..Plan::of_phase(self.phase.as_deref(), vec![front.in_unit("m")])
         }
     }
 }

@@ -55,7 +55,7 @@ impl<const D: usize> Probe<D> for Level {
         ProbeColumn::only("m")
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
             self.number = Some(phase::number(name, scene.phases)?);
         }
@@ -67,7 +67,7 @@ impl<const D: usize> Probe<D> for Level {
         let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
         let mut foot = carried(world, drawn, self.follows.as_deref())?;
         foot[D - 1] = 0.0;
-        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
+        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
         // Only the particles whose support meets the vertical line matter.
         let mut near = column(world, &foot)?;
         near.retain(|(_, _, k)| counted.has(*k));

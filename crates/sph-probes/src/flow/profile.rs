@@ -107,7 +107,7 @@ fn fitted_velocity<const D: usize>(
         return Ok(None);
     }
     for (v, place) in points.position.iter().enumerate() {
-        let volume = points.share[v] * points.volume[v] * points.grip[v];
+        let volume = points.share[v] * points.volume[v] * points.friction_factor[v];
         add(place, &points.viscous_velocity[v], volume);
     }
     let spectrum = matrix.clone().symmetric_eigen().eigenvalues;

@@ -29,7 +29,7 @@ impl Preset for FieldRange {
             let field = Quantity::Column(self.field.clone());
             PlannedColumn::new(suffix, field, reduce).over(self.scale)
         };
-        Plan::of(
+        Plan::of_phase(
             None,
             vec![column(".min", Reduce::Min), column(".max", Reduce::Max)],
         )

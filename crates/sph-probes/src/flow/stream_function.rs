@@ -144,7 +144,7 @@ impl Probe<2> for StreamFunction {
         let velocity = world.free.get(fields::VELOCITY)?;
         let [low, high] = self.corners.map(Vect::from);
         // A correction looks at the neighbours of neighbours.
-        let near = Near::of(world, low, high, 1 + self.corrections as usize)?;
+        let near = Near::new(world, low, high, 1 + self.corrections as usize)?;
         if near.is_empty() {
             return Ok(vec![f64::NAN; 3]);
         }

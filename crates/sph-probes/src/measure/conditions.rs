@@ -8,23 +8,23 @@ use crate::phases::phase::Counted;
 
 /// Bounds on a quantity: a particle on a bound does not count.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Condition {
+pub(crate) struct QuantityBounds {
     pub of: Quantity,
     pub above: f64,
     pub below: f64,
 }
 
-impl Condition {
+impl QuantityBounds {
     /// above < quantity.
     pub fn above(of: Quantity, above: f64) -> Self {
         let below = f64::INFINITY;
-        Condition { of, above, below }
+        QuantityBounds { of, above, below }
     }
 
     /// quantity < below.
     pub fn below(of: Quantity, below: f64) -> Self {
         let above = f64::NEG_INFINITY;
-        Condition { of, above, below }
+        QuantityBounds { of, above, below }
     }
 }
 
@@ -35,9 +35,9 @@ impl Condition {
 pub(crate) fn counted<const D: usize>(
     world: &World<D>,
     (name, number): (Option<&str>, Option<u32>),
-    conditions: &[Condition],
+    conditions: &[QuantityBounds],
 ) -> Result<(Vec<usize>, Vec<usize>), StepError> {
-    let phase = Counted::of(world, name, number)?;
+    let phase = Counted::in_phase(world, name, number)?;
     let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
     let mut all = of_phase.clone();
     for condition in conditions {

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::conditions::{Condition, counted};
+use super::conditions::{QuantityBounds, counted};
 use super::quantity::Quantity;
 use super::reduction::{Reduce, Weighed};
 use crate::phases::phase;
@@ -60,7 +60,7 @@ impl PlannedColumn {
 /// A measurement: which particles count, with which weight, and what of them is reduced.
 pub(crate) struct Plan<'a> {
     pub phase: Option<&'a str>,
-    pub conditions: Vec<Condition>,
+    pub conditions: Vec<QuantityBounds>,
     pub weight: Option<Quantity>,
     pub columns: Vec<PlannedColumn>,
     /// The axis and the width of slices, in spacings, in which the columns are curves.
@@ -71,7 +71,7 @@ pub(crate) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     /// Columns of all particles of a phase.
-    pub fn of(phase: Option<&'a str>, columns: Vec<PlannedColumn>) -> Self {
+    pub fn of_phase(phase: Option<&'a str>, columns: Vec<PlannedColumn>) -> Self {
         Plan {
             phase,
             conditions: Vec::new(),
@@ -178,7 +178,7 @@ impl<const D: usize, P: Preset> Probe<D> for Measured<P> {
         self.named::<D>()
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = self.preset.plan(D).phase {
             self.number = Some(phase::number(name, scene.phases)?);
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use sph_core::{Axis, parameters, plugin};
 
-use super::conditions::Condition;
+use super::conditions::QuantityBounds;
 use super::plan::{Measured, Plan, PlannedColumn, Preset};
 use super::quantity::{Quantity, unit_of};
 use super::reduction::{Reduce, Weighed};
@@ -210,9 +210,9 @@ impl Preset for Statistic {
         let quantiles =
             quantiles.map(|q| self.column(&suffix(format!("q{q}")), Reduce::Quantile(*q)));
         let above = self.above.iter();
-        let above = above.map(|(name, least)| Condition::above(Quantity::named(name), *least));
+        let above = above.map(|(name, least)| QuantityBounds::above(Quantity::named(name), *least));
         let below = self.below.iter();
-        let below = below.map(|(name, most)| Condition::below(Quantity::named(name), *most));
+        let below = below.map(|(name, most)| QuantityBounds::below(Quantity::named(name), *most));
         Plan {
             conditions: above.chain(below).collect(),
             weight: match self.weight {
@@ -222,7 +222,7 @@ impl Preset for Statistic {
             },
             slices: self.along.map(|axis| (axis as usize, self.slice)),
             fitted: self.fit.map(|axis| axis as usize),
-            ..Plan::of(self.phase.as_deref(), reduced.chain(quantiles).collect())
+            ..Plan::of_phase(self.phase.as_deref(), reduced.chain(quantiles).collect())
         }
     }
 }

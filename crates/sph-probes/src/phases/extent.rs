@@ -49,7 +49,7 @@ impl Preset for Extent {
         let columns = [lowest, highest].map(|column| column.in_unit("m"));
         Plan {
             weight,
-            ..Plan::of(self.phase.as_deref(), columns.into())
+            ..Plan::of_phase(self.phase.as_deref(), columns.into())
         }
     }
 }

@@ -43,7 +43,7 @@ impl<const D: usize> Probe<D> for Interface {
         ProbeColumn::only("m")
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         self.number = Some(phase::number(&self.phase, scene.phases)?);
         Ok(())
     }
@@ -52,7 +52,7 @@ impl<const D: usize> Probe<D> for Interface {
         let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
         let mut foot = carried(world, drawn, self.follows.as_deref())?;
         foot[D - 1] = 0.0;
-        let counted = Counted::of(world, Some(&self.phase), self.number)?;
+        let counted = Counted::in_phase(world, Some(&self.phase), self.number)?;
         let near = column(world, &foot)?;
         // Share of the phase less one half, if the place is not empty.
         let excess = |z: f64| -> Option<f64> {

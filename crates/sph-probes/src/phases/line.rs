@@ -70,7 +70,7 @@ pub struct Line {
 impl Line {
     /// The line over the reference.
     fn drawn(&self, world: &World<2>) -> Result<Columns, StepError> {
-        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
+        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         // Particles far away from the reference make no columns: these must fit into memory.
         let xs = || self.reference.iter().map(|[x, _]| *x);
@@ -113,7 +113,7 @@ impl Probe<2> for Line {
         ]
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
             self.number = Some(phase::number(name, scene.phases)?);
         }

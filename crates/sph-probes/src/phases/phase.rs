@@ -30,7 +30,7 @@ impl<'a> Counted<'a> {
     ///
     /// # Errors
     /// If the phase is named and nobody told its number.
-    pub fn of<const D: usize>(
+    pub fn in_phase<const D: usize>(
         world: &'a World<D>,
         name: Option<&str>,
         number: Option<u32>,

@@ -26,6 +26,6 @@ impl Preset for PhaseEnergy {
         let kinetic = PlannedColumn::new(".kinetic", Quantity::KineticEnergy, Reduce::Sum);
         let potential = PlannedColumn::new(".potential", Quantity::PotentialEnergy, Reduce::Sum);
         let columns = [kinetic, potential].map(|column| column.in_unit("J"));
-        Plan::of(self.phase.as_deref(), columns.into())
+        Plan::of_phase(self.phase.as_deref(), columns.into())
     }
 }

@@ -30,6 +30,6 @@ impl Preset for PhaseVolume {
         let unit = if dimension == 2 { "m²" } else { "m³" };
         let volume = Quantity::Column(fields::VOLUME.name.into());
         let sum = PlannedColumn::new("", volume, Reduce::Sum).in_unit(unit);
-        Plan::of(self.phase.as_deref(), vec![sum.over(self.scale)])
+        Plan::of_phase(self.phase.as_deref(), vec![sum.over(self.scale)])
     }
 }

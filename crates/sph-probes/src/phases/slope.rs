@@ -44,7 +44,7 @@ impl Probe<2> for SurfaceSlope {
         vec![column(".angle", "rad"), column(".rms", "m")]
     }
 
-    fn settle(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
+    fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
         if let Some(name) = &self.phase {
             self.number = Some(phase::number(name, scene.phases)?);
         }
@@ -52,7 +52,7 @@ impl Probe<2> for SurfaceSlope {
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
-        let counted = Counted::of(world, self.phase.as_deref(), self.number)?;
+        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let [first, last] = self.between;
         let columns = ((last - first) / world.spacing).round().max(0.0);

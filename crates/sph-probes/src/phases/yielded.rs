@@ -3,7 +3,7 @@
 use sph_core::{fields, plugin};
 
 use crate::ProbeEntry;
-use crate::measure::{Condition, Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce};
 
 /// Share of the particles whose strain rate is above a threshold, γ̇ > γ̇_y, and the mean strain
 /// rate of those, 1/s.
@@ -38,8 +38,8 @@ impl Preset for Yielded {
             PlannedColumn::new(".mean", rate(), Reduce::Mean).in_unit("1/s"),
         ];
         Plan {
-            conditions: vec![Condition::above(rate(), self.strain_rate)],
-            ..Plan::of(self.phase.as_deref(), columns)
+            conditions: vec![QuantityBounds::above(rate(), self.strain_rate)],
+            ..Plan::of_phase(self.phase.as_deref(), columns)
         }
     }
 }

@@ -29,7 +29,7 @@ impl Near {
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn of(
+    pub fn new(
         world: &World<2>,
         low: Vect<2>,
         high: Vect<2>,

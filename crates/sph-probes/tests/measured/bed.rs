@@ -51,7 +51,7 @@ fn probe(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
     let table = toml::from_str(keys).unwrap();
     let mut probe = registry.find(kind).unwrap().build::<2>(&table).unwrap();
     let phases = ["sand", "water"].map(String::from);
-    probe.settle(&super::common::scene(&phases)).unwrap();
+    probe.prepare(&super::common::scene(&phases)).unwrap();
     probe
 }
 
@@ -88,7 +88,7 @@ fn the_three_curves_are_the_lines_they_were_made_from() {
 }
 
 #[test]
-fn what_moves_is_weighed_and_its_lowest_point_is_told() {
+fn a_moving_bed_is_weighed_with_its_lowest_point() {
     let found = measured("bed-lines", "phase = \"sand\"");
     assert!((found[0] - 20.0 * 5.0).abs() < 1e-12, "{found:?}");
     // The lower edge of the second row at the first particle.

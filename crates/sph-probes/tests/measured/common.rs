@@ -22,7 +22,7 @@ pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
         dt: 1.0,
         transported: Vec::new(),
         extent: None,
-        team: None,
+        communicator: None,
     }
 }
 

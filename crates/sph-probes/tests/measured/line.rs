@@ -95,7 +95,7 @@ fn points_without_a_column_lower_the_share_alone() {
 }
 
 #[test]
-fn what_is_no_line_is_refused() {
+fn invalid_lines_are_refused() {
     let mut probe = probe("");
     assert_eq!(probe.file(), Some("line.csv"));
     assert!(probe.learn(Vec::new()).is_err());

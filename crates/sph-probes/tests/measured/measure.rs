@@ -30,7 +30,7 @@ fn built(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
     let table = toml::from_str(keys).unwrap();
     let mut probe = registry.find(kind).unwrap().build::<2>(&table).unwrap();
     let names = ["air", "water"].map(String::from);
-    probe.settle(&super::common::scene(&names)).unwrap();
+    probe.prepare(&super::common::scene(&names)).unwrap();
     probe
 }
 

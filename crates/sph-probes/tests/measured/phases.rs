@@ -54,7 +54,7 @@ fn built(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
 
 fn measured(kind: &str, keys: &str) -> Vec<f64> {
     let mut probe = built(kind, keys);
-    probe.settle(&super::common::scene(&names())).unwrap();
+    probe.prepare(&super::common::scene(&names())).unwrap();
     probe.measure(&world()).unwrap()
 }
 
@@ -167,7 +167,7 @@ fn fronts_go_either_way_and_leave_strays_behind() {
 }
 
 #[test]
-fn what_strains_faster_than_the_threshold_has_yielded() {
+fn strain_rates_above_the_threshold_count_as_yielded() {
     let mut world = world();
     world.free.add(fields::STRAIN_RATE, Role::Derived);
     let heights: Vec<f64> = world.free.get(fields::POSITION).unwrap()[..]
@@ -181,7 +181,7 @@ fn what_strains_faster_than_the_threshold_has_yielded() {
         .for_each(|(rate, y)| *rate = if *y < 0.2 { 4.0 } else { y * 0.5 });
     let measured = |keys: &str| {
         let mut probe = built("yielded", keys);
-        probe.settle(&super::common::scene(&names())).unwrap();
+        probe.prepare(&super::common::scene(&names())).unwrap();
         probe.measure(&world).unwrap()
     };
     // Four of 24 rows; all of them are water, 80 of 200 particles.
@@ -200,7 +200,7 @@ fn the_slope_is_that_of_the_heap() {
             x[1] += dip * x[0];
         }
         let mut probe = built("slope", "between = [0.2, 0.8]");
-        probe.settle(&super::common::scene(&names())).unwrap();
+        probe.prepare(&super::common::scene(&names())).unwrap();
         probe.measure(&world).unwrap()
     };
     for dip in [0.0, -0.4, 0.7] {
@@ -250,7 +250,7 @@ fn an_unknown_phase_has_a_near_name() {
             _ => "",
         };
         let mut probe = built(kind, &format!("{at}phase = \"watr\""));
-        let why = probe.settle(&super::common::scene(&names())).unwrap_err();
+        let why = probe.prepare(&super::common::scene(&names())).unwrap_err();
         assert_eq!(
             why, "there is no phase called `watr`, did you mean `water`?",
             "{kind}"
@@ -275,7 +275,7 @@ fn the_only_phase_is_everything() {
     world.free = bare;
     let mut probe = built("phase-volume", "phase = \"water\"");
     probe
-        .settle(&super::common::scene(&["water".into()]))
+        .prepare(&super::common::scene(&["water".into()]))
         .unwrap();
     assert!((probe.measure(&world).unwrap()[0] - 1.2).abs() < 1e-12);
 }

@@ -38,7 +38,7 @@ fn probe(keys: &str) -> Box<dyn Probe<3>> {
     let entry = registry.find("scour-map").unwrap();
     let mut probe = entry.build::<3>(&toml::from_str(&keys).unwrap()).unwrap();
     probe
-        .settle(&super::common::scene(&["sand", "water"].map(String::from)))
+        .prepare(&super::common::scene(&["sand", "water"].map(String::from)))
         .unwrap();
     probe
 }

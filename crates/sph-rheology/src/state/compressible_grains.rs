@@ -46,7 +46,7 @@ impl EquationOfState for CompressibleGrains {
     fn bind(&self, reference: Reference) -> Box<dyn BoundState> {
         let range = (self.largest_fraction - self.smallest_fraction).max(0.0);
         let dilatancy = range * range / self.largest_fraction.powi(3);
-        Box::new(Bound {
+        Box::new(BoundGrains {
             reference,
             stiffness: reference.density * reference.sound_speed.powi(2),
             shear: (self.grain_diameter / reference.sound_speed).powi(2) * dilatancy,
@@ -55,7 +55,7 @@ impl EquationOfState for CompressibleGrains {
 }
 
 #[derive(Debug)]
-struct Bound {
+struct BoundGrains {
     reference: Reference,
     /// ρ₀c₀² = 1/K_t, Pa.
     stiffness: f64,
@@ -63,7 +63,7 @@ struct Bound {
     shear: f64,
 }
 
-impl BoundState for Bound {
+impl BoundState for BoundGrains {
     fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
         for (p, rho) in pressure.iter_mut().zip(density) {
             *p = self.stiffness * (rho / self.reference.density - 1.0).max(0.0);

@@ -20,7 +20,7 @@ pub struct Linear {
 
 impl EquationOfState for Linear {
     fn bind(&self, reference: Reference) -> Box<dyn BoundState> {
-        Box::new(Bound {
+        Box::new(BoundLinear {
             background: self.background_pressure,
             reference,
         })
@@ -28,12 +28,12 @@ impl EquationOfState for Linear {
 }
 
 #[derive(Debug)]
-struct Bound {
+struct BoundLinear {
     background: f64,
     reference: Reference,
 }
 
-impl BoundState for Bound {
+impl BoundState for BoundLinear {
     fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
         let c2 = self.reference.sound_speed.powi(2);
         for (p, rho) in pressure.iter_mut().zip(density) {

@@ -33,7 +33,7 @@ pub struct Tait {
 
 impl EquationOfState for Tait {
     fn bind(&self, reference: Reference) -> Box<dyn BoundState> {
-        Box::new(Bound {
+        Box::new(BoundTait {
             law: *self,
             reference,
             stiffness: reference.density * reference.sound_speed.powi(2) / self.exponent,
@@ -42,13 +42,13 @@ impl EquationOfState for Tait {
 }
 
 #[derive(Debug)]
-struct Bound {
+struct BoundTait {
     law: Tait,
     reference: Reference,
     stiffness: f64,
 }
 
-impl Bound {
+impl BoundTait {
     /// ∫ p/ρ² dρ of the uncut law from the reference state, J/kg.
     fn elastic_energy(&self, density: f64) -> f64 {
         let x = density / self.reference.density;
@@ -62,7 +62,7 @@ impl Bound {
     }
 }
 
-impl BoundState for Bound {
+impl BoundState for BoundTait {
     fn pressure(&self, density: &[f64], pressure: &mut [f64]) {
         let inverse = 1.0 / self.reference.density;
         let (b, background) = (self.stiffness, self.law.background_pressure);

@@ -32,12 +32,12 @@ fn shear(rate: f64) -> Matrix3<f64> {
 }
 
 /// One particle under one law.
-struct Specimen<'a, L> {
+struct LawSample<'a, L> {
     law: &'a L,
     stress: Symmetric,
 }
 
-impl<L: Rheology> Specimen<'_, L> {
+impl<L: Rheology> LawSample<'_, L> {
     fn inputs<'b>(rate: &'b [f64; 1], pressure: &'b [f64; 1]) -> Inputs<'b> {
         Inputs {
             strain_rate: rate,
@@ -73,8 +73,8 @@ impl<L: Rheology> Specimen<'_, L> {
     }
 }
 
-fn fresh<L>(law: &L) -> Specimen<'_, L> {
-    Specimen {
+fn fresh<L>(law: &L) -> LawSample<'_, L> {
+    LawSample {
         law,
         stress: Symmetric::ZERO,
     }
@@ -209,7 +209,7 @@ fn damping_is_a_viscosity_of_the_solid_alone() {
     let viscosity = |law: &DruckerPrager, x: f64| {
         let rate = [x * law.yield_stress(P) / law.yield_viscosity()];
         let mut eta = [0.0];
-        law.viscosity(&Specimen::<DruckerPrager>::inputs(&rate, &[P]), &mut eta);
+        law.viscosity(&LawSample::<DruckerPrager>::inputs(&rate, &[P]), &mut eta);
         eta[0] / law.yield_viscosity()
     };
     assert_eq!(viscosity(&damped, 0.0), 0.3);
@@ -231,7 +231,7 @@ fn liquid_forgets_and_is_solid_again_below_nine_tenths() {
     let law = plastic();
     let knee = law.yield_stress(P) / law.yield_viscosity();
     let mut soil = fresh(&law);
-    let at = |soil: &mut Specimen<'_, DruckerPrager>, x: f64| {
+    let at = |soil: &mut LawSample<'_, DruckerPrager>, x: f64| {
         soil.advance(&shear(x * knee), P, 1e-6);
         magnitude(&soil.stress)
     };

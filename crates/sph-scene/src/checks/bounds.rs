@@ -14,7 +14,7 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
     let near = ROUNDING * spacing;
     let mut filled = [false; D];
     for (name, body) in &scene.body {
-        let Some(region) = Region::<D>::of(body) else {
+        let Some(region) = Region::<D>::from_body(body) else {
             continue;
         };
         let key = body.keys().given()[0];

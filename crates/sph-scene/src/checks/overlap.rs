@@ -21,7 +21,7 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     // What walls cut away may overlap; that shows once there are walls.
     let whole = scene.body.iter().filter(|(_, b)| !b.needs_walls());
     let (names, regions): (Vec<&String>, Vec<Region<D>>) = whole
-        .filter_map(|(name, body)| Some((name, Region::of(body)?)))
+        .filter_map(|(name, body)| Some((name, Region::from_body(body)?)))
         .unzip();
     let placed: Vec<_> = regions
         .iter()

@@ -8,9 +8,9 @@ use crate::checks::motion::{self, TABLES};
 use crate::checks::problems::Problems;
 use crate::checks::shapes::keys_of_shape;
 use crate::geometry::wall_geometry::has_ending;
-use crate::tables::given::given;
+use crate::tables::given_keys::given;
 use crate::tables::wall_shapes::{Face, Wedge};
-use crate::{Condition, Side, Wall};
+use crate::{FluidSide, SlipCondition, Wall};
 
 /// Checks everything of a wall that has a place in space.
 pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut Problems) {
@@ -51,14 +51,16 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
         }
     }
     match (wall.condition, wall.slip_length) {
-        (Condition::PartialSlip, None) => found.add(
+        (SlipCondition::PartialSlip, None) => found.add(
             format!("{path}.condition"),
             "`partial-slip` needs the key `slip_length`",
         ),
-        (Condition::NoSlip | Condition::FreeSlip | Condition::Coulomb, Some(_)) => found.add(
-            format!("{path}.slip_length"),
-            "a slip length belongs to `condition = \"partial-slip\"`",
-        ),
+        (SlipCondition::NoSlip | SlipCondition::FreeSlip | SlipCondition::Coulomb, Some(_)) => {
+            found.add(
+                format!("{path}.slip_length"),
+                "a slip length belongs to `condition = \"partial-slip\"`",
+            )
+        }
         _ => {}
     }
     let of_friction = given([
@@ -66,11 +68,11 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
         ("friction_form", wall.friction_form.is_some()),
     ]);
     match wall.condition {
-        Condition::Coulomb if wall.friction_coefficient.is_none() => found.add(
+        SlipCondition::Coulomb if wall.friction_coefficient.is_none() => found.add(
             format!("{path}.condition"),
             "`coulomb` needs the key `friction_coefficient`",
         ),
-        Condition::Coulomb => {}
+        SlipCondition::Coulomb => {}
         _ => {
             for key in of_friction {
                 let message = format!("`{key}` belongs to `condition = \"coulomb\"`");
@@ -129,7 +131,7 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
             "only a `polyline` or a `file` is turned round; choose `fluid`",
         );
     }
-    if wall.flip && wall.fluid.is_some_and(|side| side != Side::AsDrawn) {
+    if wall.flip && wall.fluid.is_some_and(|side| side != FluidSide::AsDrawn) {
         misplaced(
             "flip",
             "`fluid` says which way the file faces: leave one of the two out",
@@ -157,7 +159,7 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
             "fluid",
             "the fluid is on the left of travel along a `polyline`; turn the corners round, or give a `polygon`",
         ),
-        (Some(Side::AsDrawn), None, None) => misplaced(
+        (Some(FluidSide::AsDrawn), None, None) => misplaced(
             "fluid",
             "only a `file` is drawn one way: choose `inside` or `outside`",
         ),

@@ -40,8 +40,8 @@ impl Chosen {
     ///
     /// # Errors
     /// A column that is not there, or a unit that is none of what it holds.
-    pub fn of(form: &Form, cells: &[&str]) -> Result<Self, String> {
-        let heads: Vec<Head> = cells.iter().map(|c| Head::of(c)).collect();
+    pub fn from_heads(form: &Form, cells: &[&str]) -> Result<Self, String> {
+        let heads: Vec<Head> = cells.iter().map(|c| Head::parse(c)).collect();
         let place = |name: &String| {
             let found = heads.iter().position(|h| h.name == *name);
             let number = name.parse::<usize>().ok().filter(|n| *n > 0);
@@ -78,7 +78,7 @@ struct Head {
 }
 
 impl Head {
-    fn of(cell: &str) -> Self {
+    fn parse(cell: &str) -> Self {
         let cell = cell.trim().trim_matches('"');
         let cut = cell.find(['[', '(']).or(cell.find('/'));
         let (name, unit) = cut.map_or((cell, ""), |k| cell.split_at(k));

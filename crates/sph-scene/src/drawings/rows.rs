@@ -116,12 +116,12 @@ fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
             none => {
                 let named = numbers.iter().all(Option::is_none);
                 let said = match named {
-                    true => Chosen::of(form, &heads(content)),
+                    true => Chosen::from_heads(form, &heads(content)),
                     // A comment may say anything.
                     false => Some(heads(comment))
                         .filter(|heads| heads.len() == columns)
-                        .and_then(|heads| Chosen::of(form, &heads).ok())
-                        .map_or_else(|| Chosen::of(form, &[]), Ok),
+                        .and_then(|heads| Chosen::from_heads(form, &heads).ok())
+                        .map_or_else(|| Chosen::from_heads(form, &[]), Ok),
                 };
                 let first = none.insert(said.map_err(at_line)?);
                 if named {

@@ -43,7 +43,7 @@ pub fn fill<const D: usize>(
         ),
         Offset::Half => (ROUNDING * spacing, 1e-3 * spacing),
     };
-    let mut taken = Taken::new(spacing);
+    let mut taken = OccupiedCells::new(spacing);
     let mut doubtful = Vec::new();
     let mut filled = Vec::with_capacity(bodies.len());
     for (body, region) in placed.iter().enumerate() {
@@ -95,15 +95,15 @@ fn offsets<const D: usize>() -> Vec<[i64; D]> {
 }
 
 /// Particles near surfaces, in cells as wide as the least distance.
-struct Taken<const D: usize> {
+struct OccupiedCells<const D: usize> {
     least: f64,
     cells: HashMap<[i64; D], Vec<[f64; D]>>,
     around: Vec<[i64; D]>,
 }
 
-impl<const D: usize> Taken<D> {
+impl<const D: usize> OccupiedCells<D> {
     fn new(spacing: f64) -> Self {
-        Taken {
+        OccupiedCells {
             least: 0.75 * spacing,
             cells: HashMap::new(),
             around: offsets(),

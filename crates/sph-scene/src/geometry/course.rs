@@ -9,7 +9,7 @@ use crate::drawings::heading::Form;
 use crate::drawings::rows::{self, Row};
 use crate::geometry::vector::{array, unit};
 use crate::reading::limits::TIMES;
-use crate::tables::given::given;
+use crate::tables::given_keys::given;
 use crate::tables::motion::{Motion, Rotation, Translate};
 
 /// All courses of a motion.

@@ -6,7 +6,7 @@ use sph_core::{BoxTree, bounds};
 
 use crate::geometry::polygon::crosses_ray;
 use crate::tables::wall_shapes::Face;
-use crate::{Polygon, Side};
+use crate::{FluidSide, Polygon};
 
 /// A line of straight edges with the fluid on the left of travel.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,8 +81,8 @@ const PASSED: usize = 200_000_000;
 ///
 /// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
 /// number of others shows in the number of edges that a ray from one of its corners to the right passes.
-pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, Unsided> {
-    if side == Side::AsDrawn {
+pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, Unsided> {
+    if side == FluidSide::AsDrawn {
         return Ok(lines);
     }
     if let Some(open) = lines.iter().position(|l| !l.closed) {
@@ -118,7 +118,7 @@ pub(crate) fn oriented(lines: Vec<Line>, side: Side) -> Result<Vec<Line>, Unside
             return Err(Unsided::Tangled);
         }
         let anticlockwise = polygons[k].area() > 0.0;
-        let wanted = (side == Side::Inside) == within.is_multiple_of(2);
+        let wanted = (side == FluidSide::Inside) == within.is_multiple_of(2);
         turned.push(match anticlockwise == wanted {
             true => line,
             false => line.reversed(),
@@ -153,12 +153,12 @@ mod tests {
         let square = |r: f64| Line::closed(vec![[-r, -r], [r, -r], [r, r], [-r, r]]);
         let lines = vec![square(1.0), square(3.0), square(2.0).reversed()];
         let area = |l: &Line| Polygon::new(l.points.clone()).area();
-        let inside = oriented(lines.clone(), Side::Inside).unwrap();
+        let inside = oriented(lines.clone(), FluidSide::Inside).unwrap();
         assert_eq!(
             inside.iter().map(area).collect::<Vec<_>>(),
             [4.0, 36.0, -16.0]
         );
-        let outside = oriented(lines, Side::Outside).unwrap();
+        let outside = oriented(lines, FluidSide::Outside).unwrap();
         assert_eq!(
             outside.iter().map(area).collect::<Vec<_>>(),
             [-4.0, -36.0, 16.0]

@@ -95,7 +95,7 @@ fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<Met>, usize
     for first in 0..n {
         // The lowest of those that it meets.
         let mut met: Option<(usize, [f64; 2])> = None;
-        let whole = tree.overlapping(tree.of(first), &mut |second| {
+        let whole = tree.overlapping(tree.corners(first), &mut |second| {
             if second <= first || met.is_some_and(|(k, _)| k < second) {
                 return ControlFlow::Continue(());
             }

@@ -22,7 +22,7 @@ impl<const D: usize> Region<D> {
     }
 
     /// The region of a body, if the body gives a shape or bounds what it fills by a box.
-    pub fn of(body: &Body) -> Option<Self> {
+    pub fn from_body(body: &Body) -> Option<Self> {
         Some(Region {
             base: body.keys().shape()?,
             cuts: cuts(body),

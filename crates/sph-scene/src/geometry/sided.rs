@@ -4,7 +4,7 @@ use scene_text::surface::{Facets, Opening};
 use sph_core::{SceneProblem, number};
 
 use crate::geometry::vector::point;
-use crate::{Side, Wall};
+use crate::{FluidSide, Wall};
 
 /// Open surfaces of a smaller [sense](Facets::sense) than this have no inside: a flat plate has 0, a cube without a
 /// lid 0.4.
@@ -35,8 +35,8 @@ impl Wall {
             return at("file", why);
         }
         let facets = facets.turned(&topology.flipped);
-        let side = match self.side().unwrap_or(Side::AsDrawn) {
-            Side::AsDrawn => match odd.filter(|_| !self.align) {
+        let side = match self.side().unwrap_or(FluidSide::AsDrawn) {
+            FluidSide::AsDrawn => match odd.filter(|_| !self.align) {
                 None => self.flip.then_some(true),
                 Some(k) => {
                     let why = format!(
@@ -47,7 +47,7 @@ impl Wall {
                 }
             },
             side if topology.openings.is_empty() => {
-                Some((facets.volume() > 0.0) != (side == Side::Outside))
+                Some((facets.volume() > 0.0) != (side == FluidSide::Outside))
             }
             side => {
                 let sense = facets.sense();
@@ -59,7 +59,7 @@ impl Wall {
                     );
                     return at("fluid", why);
                 }
-                Some((sense > 0.0) != (side == Side::Outside))
+                Some((sense > 0.0) != (side == FluidSide::Outside))
             }
         };
         Ok(match side {

@@ -3,11 +3,12 @@
 use std::collections::HashMap;
 
 use scene_text::surface::{Facets, Welder, cross, dot, minus};
+use sph_core::Axis;
 
 use crate::Polygon;
 use crate::geometry::triangulate::triangulate;
 use crate::geometry::vector::unit;
-use crate::tables::wall_shapes::{Axis, Face};
+use crate::tables::wall_shapes::Face;
 
 /// A box without the faces in `open`.
 pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3], open: &[Face]) -> Facets {

@@ -1,7 +1,7 @@
 //! The geometry of a wall as lines or facets.
 
 use scene_text::surface::Facets;
-use sph_core::{SceneProblem, bounds, unit_factor};
+use sph_core::{Axis, SceneProblem, bounds, unit_factor};
 
 use crate::drawings::heading::Form;
 use crate::drawings::rows;
@@ -12,8 +12,8 @@ use crate::geometry::solid;
 use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
 use crate::reading::limits::{LINES, WALL_CORNERS};
-use crate::tables::wall_shapes::{Axis, Face, Wedge};
-use crate::{Side, Wall};
+use crate::tables::wall_shapes::{Face, Wedge};
+use crate::{FluidSide, Wall};
 
 /// Curves of drawings become lines within this many spacings.
 const TOLERANCE: f64 = 0.05;
@@ -27,7 +27,7 @@ const LEAST: f64 = 2.0;
 impl Wall {
     /// The lines of a wall in the plane, with the fluid on the left of travel; files are read.
     ///
-    /// A `polyline` is given as it stands: whoever calls makes a plate of one that has a
+    /// A `polyline` is given as it stands: the caller makes a plate of one that has a
     /// `thickness`. `place` is the path of the wall in the scene: `wall.tank`.
     ///
     /// # Errors
@@ -49,9 +49,9 @@ impl Wall {
         let open_box = self.bounds.is_some() && !self.open.is_empty();
         let side = match self.side() {
             Some(side) if !open_box => side,
-            _ => Side::AsDrawn,
+            _ => FluidSide::AsDrawn,
         };
-        let turned = self.flip || open_box && self.side() == Some(Side::Outside);
+        let turned = self.flip || open_box && self.side() == Some(FluidSide::Outside);
         let lines = oriented(drawn, side).map_err(|why| match why {
             Unsided::Open(open) => {
                 let message = format!(
@@ -113,7 +113,7 @@ impl Wall {
                     .solid(spacing / factor)
                     .ok_or_else(|| problem("a geometry in space is missing".to_string()))?;
                 match self.side() {
-                    Some(Side::Inside) => outward.flipped(),
+                    Some(FluidSide::Inside) => outward.flipped(),
                     _ => outward,
                 }
             }

@@ -10,13 +10,14 @@ use thiserror::Error;
 use toml::{Table, Value};
 
 use crate::Scene;
-use crate::checks::whole;
+use crate::checks::collected;
 use crate::reading::columns;
 use crate::reading::hints;
 use crate::reading::kinematic;
 use crate::reading::limits;
 use crate::reading::plugins::Plugins;
 use crate::reading::remarks;
+use crate::reading::renamed;
 use crate::reading::schema;
 
 /// A valid scene and the text it came from.
@@ -137,7 +138,7 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let plugins = take_plugins(&mut table).map_err(unread)?;
     let mut scene: Scene = table.try_into().map_err(unread)?;
     scene.plugins = plugins;
-    let mut problems = whole::scene(&mut scene, source);
+    let mut problems = collected::scene(&mut scene, source);
     add_new(&mut problems, mistakes);
     if !problems.is_empty() {
         return Err(diagnosed(hints::added(problems, &whole)));
@@ -174,15 +175,20 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     if !problems.is_empty() {
         return Err(diagnosed(problems));
     }
-    problems.extend(whole::tables(&table));
+    let former = renamed::replace(&mut table).unwrap_or_else(|both| {
+        problems.push(both);
+        Vec::new()
+    });
+    problems.extend(collected::tables(&table));
     problems.extend(columns::convert(&mut table));
     let mut written = table.clone();
     kinematic::to_dynamic(&mut written);
     let mut value = Value::Table(table);
-    let remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
+    let mut remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
         problems.extend(found);
         Vec::new()
     });
+    remarks.extend(former);
     match problems.is_empty() {
         true => Ok((value, remarks)),
         false => {

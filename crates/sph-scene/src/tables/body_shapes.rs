@@ -1,8 +1,6 @@
 //! The tables that give a shape of a body: `disc`, `ellipse`, `sphere`, `cylinder`, `cone`, `extrusion`.
 
-use sph_core::parameters;
-
-use crate::tables::wall_shapes::Axis;
+use sph_core::{Axis, parameters};
 
 /// A disc or a sphere.
 #[parameters]

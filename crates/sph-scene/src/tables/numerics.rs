@@ -77,7 +77,7 @@ pub struct Numerics {
     pub delayed_yield: bool,
     /// Largest random displacement of a particle at the start along each axis, as a fraction of the spacing; if left out 0, and 0.01 in a scene that shifts particles, which a perfect lattice keeps from doing so.
     #[parameter(unit: "1", min: 0.0, below: 0.5)]
-    pub disorder: Option<f64>,
+    pub jitter: Option<f64>,
     /// Largest random velocity of a particle at the start along each axis, m/s, on top of its own.
     #[parameter(default, unit: "m/s", min: 0.0)]
     pub velocity_noise: f64,

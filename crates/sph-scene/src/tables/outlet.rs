@@ -1,8 +1,8 @@
 //! The table `[outlet.NAME]`: where particles leave the flow.
 
-use sph_core::parameters;
+use sph_core::{Axis, parameters};
 
-use crate::{Axis, Heading};
+use crate::Heading;
 
 /// A place where particles leave the flow: a box, or all that is beyond a plane across an axis.
 ///

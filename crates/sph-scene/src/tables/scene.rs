@@ -86,10 +86,10 @@ impl Scene {
 
     /// Largest displacement of a particle at the start along each axis over the spacing: that of the scene, or
     /// [`OFF_LATTICE`] where it shifts.
-    pub fn disorder(&self) -> f64 {
+    pub fn jitter(&self) -> f64 {
         let shifted = self.choice("shifting").is_some();
         let unless_given = if shifted { OFF_LATTICE } else { 0.0 };
-        self.numerics.disorder.unwrap_or(unless_given)
+        self.numerics.jitter.unwrap_or(unless_given)
     }
 
     /// The bodies' shapes, in the order of `body`.
@@ -97,7 +97,7 @@ impl Scene {
     /// A body that fills the walls has none unless a `box` bounds it and is left out: where
     /// there is one ([`Scene::fills_walls`]), ask [`Scene::regions_within`].
     pub fn regions<const D: usize>(&self) -> Vec<Region<D>> {
-        self.body.values().filter_map(Region::of).collect()
+        self.body.values().filter_map(Region::from_body).collect()
     }
 
     /// Whether a body fills what the walls enclose.
@@ -119,7 +119,7 @@ impl Scene {
         bounds: Option<([f64; D], [f64; D])>,
     ) -> Result<Vec<Region<D>>, SceneProblem> {
         let region = |(name, body): (&String, &Body)| match body.fill {
-            None => Region::of(body)
+            None => Region::from_body(body)
                 .ok_or_else(|| SceneProblem::new(format!("body.{name}"), "a shape is missing")),
             Some(_) => Region::enclosed(body, bounds)
                 .map_err(|(key, why)| SceneProblem::new(format!("body.{name}.{key}"), why)),

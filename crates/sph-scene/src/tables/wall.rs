@@ -6,7 +6,7 @@ use sph_core::parameters;
 
 use crate::Motion;
 use crate::reading::plugins::{AnyPlugins, Plugins};
-use crate::tables::given::given;
+use crate::tables::given_keys::given;
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
@@ -65,7 +65,7 @@ pub struct Wall {
     /// Turn of the geometry, before it is shifted.
     pub rotate: Option<Rotate>,
     /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
-    pub fluid: Option<Side>,
+    pub fluid: Option<FluidSide>,
     /// Whether a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
     #[parameter(default)]
     pub flip: bool,
@@ -75,7 +75,7 @@ pub struct Wall {
     pub align: bool,
     /// Whether the fluid sticks to the wall.
     #[parameter(default)]
-    pub condition: Condition,
+    pub condition: SlipCondition,
     /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
     #[parameter(unit: "m", above: 0.0)]
     pub slip_length: Option<f64>,
@@ -108,7 +108,7 @@ pub struct Wall {
 
 /// What a wall does to the velocity along it.
 #[parameters]
-pub enum Condition {
+pub enum SlipCondition {
     /// The fluid moves with the wall.
     #[default]
     NoSlip,
@@ -132,7 +132,7 @@ pub enum FrictionForm {
 
 /// On which side of a closed geometry the fluid is.
 #[parameters]
-pub enum Side {
+pub enum FluidSide {
     /// Inside: a tank, a pipe.
     Inside,
     /// Outside: an obstacle.
@@ -159,11 +159,11 @@ impl Wall {
     }
 
     /// The side of the fluid in force; none for a polyline.
-    pub fn side(&self) -> Option<Side> {
+    pub fn side(&self) -> Option<FluidSide> {
         let default = match (&self.polyline, &self.file) {
             (Some(_), _) => return None,
-            (_, Some(_)) => Side::AsDrawn,
-            _ => Side::Inside,
+            (_, Some(_)) => FluidSide::AsDrawn,
+            _ => FluidSide::Inside,
         };
         Some(self.fluid.unwrap_or(default))
     }

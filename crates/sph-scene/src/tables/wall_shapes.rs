@@ -1,6 +1,6 @@
 //! Shapes of walls that a scene gives by a few numbers.
 
-use sph_core::parameters;
+use sph_core::{Axis, parameters};
 
 /// A face of a box, or a direction along an axis.
 #[parameters]
@@ -40,17 +40,6 @@ impl Face {
     pub fn name(self) -> &'static str {
         ["x-", "x+", "y-", "y+", "z-", "z+"][self as usize]
     }
-}
-
-/// An axis of space.
-#[parameters]
-pub enum Axis {
-    /// The first.
-    X,
-    /// The second.
-    Y,
-    /// The third.
-    Z,
 }
 
 /// A disc as a regular polygon, its corners on the circle.

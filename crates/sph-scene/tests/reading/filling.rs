@@ -226,7 +226,7 @@ fn scene(bodies: &str) -> Scene {
 }
 
 #[test]
-fn what_fills_the_walls_counts_from_their_box() {
+fn a_body_that_fills_the_walls_counts_from_their_box() {
     let bodies = "body.a = { phase = \"water\", fill = \"walls\" }\n\
                   body.b = { phase = \"water\", box = [[3, 3], [4, 4]] }\n\
                   body.c = { phase = \"water\", fill = \"walls\", box = [[-9, -9], [9, 0.5]], \

@@ -6,6 +6,7 @@ mod filling;
 mod kinds;
 mod motion;
 mod overrides;
+mod renamed;
 mod robust;
 mod scenes;
 mod stl;

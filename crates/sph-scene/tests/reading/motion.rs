@@ -2,7 +2,7 @@
 
 use super::common::scene;
 use sph_core::course::{Course, Translation};
-use sph_scene::{Condition, Courses};
+use sph_scene::{Courses, SlipCondition};
 use tempfile::tempdir;
 
 fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses<2>, String> {
@@ -106,6 +106,6 @@ fn partial_slip_has_a_length() {
     let wall = &scene(folder.path(), 2, text).wall["w"];
     assert_eq!(
         (wall.condition, wall.slip_length),
-        (Condition::PartialSlip, Some(0.02))
+        (SlipCondition::PartialSlip, Some(0.02))
     );
 }

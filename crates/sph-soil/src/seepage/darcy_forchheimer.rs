@@ -83,7 +83,7 @@ impl DarcyForchheimer {
             given.or_else(rule).ok_or_else(|| {
                 let why = "the resistance follows from the diameter of the grains: give \
                            `grain_diameter`, or both `permeability` and `forchheimer`";
-                Refusal::of(KIND, "", why)
+                Refusal::at_key(KIND, "", why)
             })
         };
         let n = self.porosity;
@@ -101,7 +101,7 @@ const KIND: &str = "seepage";
 impl<const D: usize> Contribution<D> for DarcyForchheimer {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if setting.density.value != fields::DENSITY_CONSTANT {
-            return Err(Refusal::of(
+            return Err(Refusal::at_key(
                 KIND,
                 "",
                 "particles give and take mass, which is known with densities that are sums over positions: take \
@@ -113,13 +113,13 @@ impl<const D: usize> Contribution<D> for DarcyForchheimer {
             found.ok_or_else(|| {
                 let near = suggestion(name, setting.phases.iter().map(String::as_str));
                 let why = format!("there is no phase called `{name}`{near}");
-                Refusal::of(KIND, key, why)
+                Refusal::at_key(KIND, key, why)
             })
         };
         let (soil, water) = (number("soil", &self.soil)?, number("water", &self.water)?);
         if soil == water {
             let why = format!("`{}` is the soil: name the phase in its pores", self.water);
-            return Err(Refusal::of(KIND, "water", why));
+            return Err(Refusal::at_key(KIND, "water", why));
         }
         let reference = setting.laws[water].reference();
         let water = PoreWater {

@@ -81,7 +81,7 @@ impl Exchange {
         let surroundings = Surroundings::new(world)?;
         let mut rows = Rows::default();
         for a in touched {
-            let free = surroundings.of(a, &mut rows).free;
+            let free = surroundings.neighbourhood(a, &mut rows).free;
             for (k, &b) in free.index.iter().enumerate() {
                 let b = b as usize;
                 // A pair of two that are uneven is met twice.

@@ -97,7 +97,7 @@ impl AdjointDivergence {
 }
 
 impl<const D: usize> PairTerm<D> for AdjointDivergence {
-    type Bound<'a> = Bound<'a, D>;
+    type Bound<'a> = BoundAdjoint<'a, D>;
 
     fn name(&self) -> String {
         "adjoint stress divergence".into()
@@ -111,12 +111,12 @@ impl<const D: usize> PairTerm<D> for AdjointDivergence {
             .here(fields::MASS)
     }
 
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundAdjoint<'a, D>, StepError> {
         let stress = world.free.get(fields::CARRIED_STRESS)?;
         let correction = world.free.get(fields::STRESS_CORRECTION)?;
         let both = stress.iter().zip(correction);
         let points = &world.walls.points;
-        Ok(Bound {
+        Ok(BoundAdjoint {
             stress: both
                 .map(|(t, c)| {
                     (t.matrix() * in_space(c).transpose())
@@ -133,7 +133,7 @@ impl<const D: usize> PairTerm<D> for AdjointDivergence {
 }
 
 /// [`AdjointDivergence`] with its columns.
-pub struct Bound<'a, const D: usize> {
+pub struct BoundAdjoint<'a, const D: usize> {
     /// τCᵀ.
     stress: Vec<SMatrix<f64, D, D>>,
     volume: &'a [f64],
@@ -142,7 +142,7 @@ pub struct Bound<'a, const D: usize> {
     wall_share: &'a [f64],
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundAdjoint<'_, D> {
     /// τCᵀ, row by row.
     type Own<L: Lane> = [[L; D]; D];
     type Sum<L: Lane> = [L; D];
@@ -169,7 +169,7 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundAdjoint<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;

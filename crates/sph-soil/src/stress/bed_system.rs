@@ -20,7 +20,7 @@ pub(crate) enum Part {
 impl Part {
     /// The pressure that is not solved for, Pa.
     /// Soil with a Δρ, at its surface or not; `top` over Δρ is the pressure there, m²/s².
-    pub fn of(density: Option<f64>, surface: bool, top: f64) -> Self {
+    pub fn new(density: Option<f64>, surface: bool, top: f64) -> Self {
         match density {
             None => Part::Outside,
             Some(density) if surface => Part::Surface(density, top * density),
@@ -58,7 +58,7 @@ pub(crate) struct Couplings<'a, const D: usize> {
 
 /// What a cluster leaves for its rows.
 #[derive(Default)]
-pub(crate) struct Room {
+pub(crate) struct ClusterCoefficients {
     /// c and what it adds to the source, for every candidate, one number per lane each.
     numbers: Vec<f64>,
     /// Columns that are coupled to anybody, and their c, one number per lane.
@@ -79,23 +79,28 @@ impl<const D: usize> Couplings<'_, D> {
     }
 
     /// Adds the rows of a cluster: their sums side by side, in the order of the columns as one row alone would.
-    pub fn add(&self, cluster: &Cluster<'_, D>, rows: &mut Rows<f64, 1>, rooms: &Pool<Room>) {
-        let mut room = rooms.lend();
-        let room = &mut *room;
-        cluster.numbers(self, &mut room.numbers);
+    pub fn add(
+        &self,
+        cluster: &Cluster<'_, D>,
+        rows: &mut Rows<f64, 1>,
+        scratch_pool: &Pool<ClusterCoefficients>,
+    ) {
+        let mut scratch = scratch_pool.acquire();
+        let scratch = &mut *scratch;
+        cluster.numbers(self, &mut scratch.numbers);
         let (diagonals, sources) = cluster.dispatch(SideBySide {
             parts: self.parts,
             candidates: cluster.candidates(),
-            room,
+            scratch,
         });
         for (lane, i) in cluster.members().enumerate() {
             if !self.is_solved(i) {
                 self.add_known(i, rows);
                 continue;
             }
-            rows.begin(room.columns.len());
-            let couplings = room.couplings.chunks_exact(cluster.lanes());
-            for (&column, couplings) in room.columns.iter().zip(couplings) {
+            rows.begin(scratch.columns.len());
+            let couplings = scratch.couplings.chunks_exact(cluster.lanes());
+            for (&column, couplings) in scratch.columns.iter().zip(couplings) {
                 let coupling = couplings[lane];
                 rows.couple(column, &coupling, coupling != 0.0);
             }
@@ -131,7 +136,7 @@ impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
 struct SideBySide<'a> {
     parts: &'a [Part],
     candidates: &'a [u32],
-    room: &'a mut Room,
+    scratch: &'a mut ClusterCoefficients,
 }
 
 impl Body for SideBySide<'_> {
@@ -140,11 +145,11 @@ impl Body for SideBySide<'_> {
 
     #[inline(always)]
     fn call<L: Lane>(self) -> Self::Output {
-        let Room {
+        let ClusterCoefficients {
             numbers,
             columns,
             couplings,
-        } = self.room;
+        } = self.scratch;
         columns.clear();
         couplings.clear();
         let zero = L::splat(0.0);

@@ -39,17 +39,17 @@ impl<const D: usize> Blended<D> {
     pub fn solid(term: Box<dyn Interaction<D>>) -> Self {
         Blended {
             term,
-            share: fields::SOLID_SHARE,
+            share: fields::SOLID_FRACTION,
             apart: Vec::new(),
         }
     }
 }
 
 /// Phases of all particles, and which of them act wholly.
-type Apart<'a> = (&'a [u32], &'a [bool]);
+type ExemptPhases<'a> = (&'a [u32], &'a [bool]);
 
 impl<const D: usize> Blended<D> {
-    fn apart<'a>(&'a self, world: &'a World<D>) -> Result<Option<Apart<'a>>, StepError> {
+    fn apart<'a>(&'a self, world: &'a World<D>) -> Result<Option<ExemptPhases<'a>>, StepError> {
         match self.apart.is_empty() {
             true => Ok(None),
             false => Ok(Some((world.free.get(fields::PHASE)?, &self.apart))),
@@ -70,22 +70,23 @@ impl<const D: usize> Interaction<D> for Blended<D> {
         }
     }
 
-    fn lend(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         let share = world.free.get(self.share)?;
         let apart = self.apart(world)?;
-        self.term
-            .lend(world, &mut |term| with(&Bound { term, share, apart }))
+        self.term.with_columns(world, &mut |term| {
+            with(&BoundBlended { term, share, apart })
+        })
     }
 }
 
 /// [`Blended`] with its columns.
-struct Bound<'a, const D: usize> {
+struct BoundBlended<'a, const D: usize> {
     term: &'a dyn RowTerm<D>,
     share: &'a [f64],
-    apart: Option<Apart<'a>>,
+    apart: Option<ExemptPhases<'a>>,
 }
 
-impl<const D: usize> RowTerm<D> for Bound<'_, D> {
+impl<const D: usize> RowTerm<D> for BoundBlended<'_, D> {
     fn row(&self, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let share = self.share[at.particle];
         if share == 1.0 {
@@ -104,10 +105,10 @@ impl<const D: usize> RowTerm<D> for Bound<'_, D> {
 }
 
 fn nothing<const D: usize>() -> Rates<D> {
-    Rates::of(Vect::zeros())
+    Rates::from_acceleration(Vect::zeros())
 }
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundBlended<'_, D> {
     /// The part of neighbours that act wholly.
     fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
         let mut rates = nothing();
@@ -119,13 +120,13 @@ impl<const D: usize> Bound<'_, D> {
         if kept.is_empty() {
             return rates;
         }
-        fn of<T: Copy>(kept: &[usize], column: &[T]) -> Vec<T> {
+        fn selected<T: Copy>(kept: &[usize], column: &[T]) -> Vec<T> {
             kept.iter().map(|k| column[*k]).collect()
         }
-        let index = of(&kept, at.free.index);
-        let separation = of(&kept, at.free.separation);
-        let distance2 = of(&kept, at.free.distance2);
-        let factor = of(&kept, at.free.factor);
+        let index = selected(&kept, at.free.index);
+        let separation = selected(&kept, at.free.separation);
+        let distance2 = selected(&kept, at.free.distance2);
+        let factor = selected(&kept, at.free.factor);
         let none = Row {
             index: &[],
             separation: &[],

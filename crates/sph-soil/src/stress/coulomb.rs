@@ -58,8 +58,15 @@ impl CoulombFriction {
             let coulomb = elements.coulomb[c.element as usize];
             coulomb.coefficient > 0.0 && !coulomb.literal
         };
-        let slides =
-            |i: usize| soil.rubs(i) && world.walls.contacts.of(i).iter().any(|c| rubbed(&c));
+        let slides = |i: usize| {
+            soil.rubs(i)
+                && world
+                    .walls
+                    .contacts
+                    .of_particle(i)
+                    .iter()
+                    .any(|c| rubbed(&c))
+        };
         Ok(soil.pressed(&wall_parts(world, terms, slides)?))
     }
 
@@ -84,7 +91,7 @@ impl CoulombFriction {
             velocity[particle as usize] += pull.change;
         }
         world.free.put(fields::VELOCITY, velocity)?;
-        felt(world, &pulls, dt)
+        wall_forces(world, &pulls, dt)
     }
 
     fn soil<'a, const D: usize>(&'a self, world: &'a World<D>) -> Result<Soil<'a, D>, StepError> {
@@ -149,7 +156,7 @@ struct Pull<const D: usize> {
 }
 
 /// Forces on every wall in a kick of `dt`, in the order of their numbers.
-fn felt<const D: usize>(
+fn wall_forces<const D: usize>(
     world: &World<D>,
     pulls: &[Pull<D>],
     dt: f64,
@@ -170,7 +177,7 @@ fn felt<const D: usize>(
                 let s = c.element as usize;
                 elements.wall[s] as usize == wall && elements.coulomb[s].coefficient > 0.0
             };
-            let rubbed = contacts.of(i).iter().filter(rubbed);
+            let rubbed = contacts.of_particle(i).iter().filter(rubbed);
             let gradient: f64 = rubbed.map(|c| c.gradient.norm()).sum();
             if gradient == 0.0 || !owned.has(i) {
                 return None;
@@ -197,7 +204,7 @@ fn felt<const D: usize>(
 
 /// Sums over the particles before an element.
 #[derive(Clone, Copy, Default)]
-struct Before {
+struct ElementSums {
     /// What they press on it, N.
     force: f64,
     /// Σ V_a|∇γ_as|.
@@ -229,7 +236,7 @@ impl<const D: usize> Soil<'_, D> {
     fn pressed(&self, parts: &[WallPart<D>]) -> Vec<f64> {
         let elements = &self.world.walls.elements;
         let contacts = &self.world.walls.contacts;
-        let mut before = vec![Before::default(); elements.centre.len()];
+        let mut before = vec![ElementSums::default(); elements.centre.len()];
         for WallPart {
             particle,
             wall,
@@ -237,7 +244,7 @@ impl<const D: usize> Soil<'_, D> {
         } in parts
         {
             let i = *particle as usize;
-            let own = contacts.of(i);
+            let own = contacts.of_particle(i);
             let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == *wall;
             let all: f64 = own.iter().filter(on_wall).map(|c| c.gradient.norm()).sum();
             for contact in own.iter().filter(on_wall) {
@@ -268,7 +275,7 @@ impl<const D: usize> Soil<'_, D> {
         }
         let elements = &self.world.walls.elements;
         let (mut along, mut strength) = (Vect::<D>::zeros(), 0.0);
-        for contact in self.world.walls.contacts.of(i) {
+        for contact in self.world.walls.contacts.of_particle(i) {
             let s = contact.element as usize;
             let coulomb = elements.coulomb[s];
             if coulomb.coefficient == 0.0 {
@@ -303,7 +310,7 @@ impl<const D: usize> Soil<'_, D> {
     }
 }
 
-impl Before {
+impl ElementSums {
     /// N_s over the weights; only what presses makes friction.
     fn pressed(&self, effective: Option<&[f64]>) -> f64 {
         let [between, whole] = self.tractions;

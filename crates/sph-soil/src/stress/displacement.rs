@@ -8,7 +8,7 @@ use sph_neighbours::{
 };
 
 use crate::stress::divergence::{PLACE, Sum};
-use crate::stress::{Blend, ElasticForce, ElasticForceEntry, Felt};
+use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
 
 /// f_a = min(1, τ_y/|τ|)_a [L^E{𝒢, X} + D{J}]_a: second differences of the displacement instead of a divergence.
 ///
@@ -44,8 +44,8 @@ pub struct Displacement {
 }
 
 impl<const D: usize> ElasticForce<D> for Displacement {
-    fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>> {
-        let moduli = felt.laws.iter();
+    fn term(&self, law_inputs: &LawInputs) -> Box<dyn Interaction<D>> {
+        let moduli = law_inputs.laws.iter();
         let moduli = moduli.map(|law| law.elastic().map_or(0.0, |e| e.shear_modulus()));
         Box::new(DisplacementForce {
             moduli: moduli.collect(),
@@ -73,7 +73,7 @@ pub struct DisplacementForce {
 }
 
 impl<const D: usize> PairTerm<D> for DisplacementForce {
-    type Bound<'a> = Bound<'a, D>;
+    type Bound<'a> = BoundDisplacement<'a, D>;
 
     fn name(&self) -> String {
         "elastic force of the displacement".into()
@@ -82,10 +82,10 @@ impl<const D: usize> PairTerm<D> for DisplacementForce {
     fn access(&self) -> Access {
         let access = Access::none()
             .both(fields::ELASTIC_DISPLACEMENT)
-            .both(fields::ELASTIC_TURN)
-            .both(fields::SOLID_SHARE)
+            .both(fields::STRESS_ROTATION)
+            .both(fields::SOLID_FRACTION)
             .both(fields::VOLUME)
-            .here(fields::HELD_SHARE)
+            .here(fields::YIELD_FACTOR)
             .here(fields::MASS);
         match self.moduli.len() {
             1 => access,
@@ -93,12 +93,12 @@ impl<const D: usize> PairTerm<D> for DisplacementForce {
         }
     }
 
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Bound<'a, D>, StepError> {
+    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDisplacement<'a, D>, StepError> {
         let phase = match self.moduli.len() {
             1 => None,
             _ => Some(world.free.get(fields::PHASE)?),
         };
-        let shares = world.free.get(fields::SOLID_SHARE)?.iter().enumerate();
+        let shares = world.free.get(fields::SOLID_FRACTION)?.iter().enumerate();
         let solids = shares.map(|(i, share)| Solid {
             modulus: self.moduli[phase.map_or(0, |p| p[i] as usize)],
             share: match self.choice.blend {
@@ -107,16 +107,16 @@ impl<const D: usize> PairTerm<D> for DisplacementForce {
             },
         });
         let points = &world.walls.points;
-        Ok(Bound {
+        Ok(BoundDisplacement {
             solids: solids.collect(),
             displacement: world.free.get(fields::ELASTIC_DISPLACEMENT)?,
-            turn: world.free.get(fields::ELASTIC_TURN)?,
-            held: world.free.get(fields::HELD_SHARE)?,
+            turn: world.free.get(fields::STRESS_ROTATION)?,
+            held: world.free.get(fields::YIELD_FACTOR)?,
             volume: world.free.get(fields::VOLUME)?,
             mass: world.free.get(fields::MASS)?,
             wall_volume: &points.volume,
             wall_share: &points.share,
-            wall_grip: &points.grip,
+            wall_friction_factor: &points.friction_factor,
             elements: &world.walls.elements,
             scale: self.choice.on_lattice.scale(WithTransposed, world),
             spacing: world.spacing,
@@ -140,7 +140,7 @@ impl Solid {
 }
 
 /// [`DisplacementForce`] with its columns.
-pub struct Bound<'a, const D: usize> {
+pub struct BoundDisplacement<'a, const D: usize> {
     solids: Vec<Solid>,
     displacement: &'a [Vect<D>],
     turn: &'a [Symmetric],
@@ -149,7 +149,7 @@ pub struct Bound<'a, const D: usize> {
     mass: &'a [f64],
     wall_volume: &'a [f64],
     wall_share: &'a [f64],
-    wall_grip: &'a [f64],
+    wall_friction_factor: &'a [f64],
     elements: &'a Elements<D>,
     /// Of the operator.
     scale: f64,
@@ -166,7 +166,7 @@ pub struct Own<const D: usize, L> {
     volume: L,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
     type Own<L: Lane> = Own<D, L>;
     type Sum<L: Lane> = [L; D];
 
@@ -212,26 +212,26 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundDisplacement<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (displacement, volume) = (self.displacement[i], self.volume[i]);
         let stiffness = self.solids[i].stiffness();
-        let mut sum = Sum::of(sum);
+        let mut sum = Sum::new(sum);
         for (v, pair) in at.wall.pairs() {
             let force = WithTransposed.force(volume, self.wall_volume[v], &displacement, &pair);
-            let rubbing = self.wall_share[v] * self.wall_grip[v];
+            let rubbing = self.wall_share[v] * self.wall_friction_factor[v];
             sum.force += force * (rubbing * self.scale * stiffness);
         }
         for contact in at.contacts {
-            let grip = self.elements.grip[contact.element as usize];
+            let friction_factor = self.elements.friction_factor[contact.element as usize];
             let gradient = contact.gradient.norm();
-            let stiffness = self.scale * stiffness * grip;
+            let stiffness = self.scale * stiffness * friction_factor;
             let distance = contact.distance.max(self.spacing);
             sum.force -= displacement * (2.0 * stiffness * gradient / distance);
-            sum.normal += contact.gradient * (1.0 - grip);
-            sum.rubbing += gradient * grip;
+            sum.normal += contact.gradient * (1.0 - friction_factor);
+            sum.rubbing += gradient * friction_factor;
         }
         let factor = self.held[i] * volume / self.mass[i];
         rates.acceleration += sum.completed(at.inverse_renormalisation) * factor;

@@ -6,7 +6,7 @@ use sph_neighbours::{
     pair_term,
 };
 
-use crate::stress::{Blend, ElasticForce, ElasticForceEntry, Felt};
+use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
 
 /// The divergence of the remembered stress, cut to the yield stress: nested first differences.
 ///
@@ -37,7 +37,7 @@ pub struct Divergence {
 }
 
 impl<const D: usize> ElasticForce<D> for Divergence {
-    fn term(&self, _: &Felt) -> Box<dyn Interaction<D>> {
+    fn term(&self, _: &LawInputs) -> Box<dyn Interaction<D>> {
         StressDivergence::boxed()
     }
     fn blend(&self) -> Blend {
@@ -78,7 +78,7 @@ impl StressDivergence {
 
 /// [`StressDivergence`] with its columns.
 #[pair_term(StressDivergence, self.name)]
-pub struct Bound<'a, const D: usize> {
+pub struct BoundStressDivergence<'a, const D: usize> {
     #[both(self.stress)]
     stress: &'a [Symmetric],
     #[both(fields::VOLUME)]
@@ -105,7 +105,7 @@ pub struct Sum<const D: usize> {
 impl<const D: usize> Sum<D> {
     /// Of free neighbours.
     #[inline(always)]
-    pub(crate) fn of(force: [f64; D]) -> Self {
+    pub(crate) fn new(force: [f64; D]) -> Self {
         Sum {
             force: force.into(),
             slipping: Vect::zeros(),
@@ -134,7 +134,7 @@ impl<const D: usize> Sum<D> {
 /// Where the components of a symmetric tensor stand.
 pub(crate) const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
-impl<const D: usize> Bound<'_, D> {
+impl<const D: usize> BoundStressDivergence<'_, D> {
     /// τ V².
     #[inline(always)]
     fn weighted(&self, i: usize) -> [f64; 6] {
@@ -142,7 +142,7 @@ impl<const D: usize> Bound<'_, D> {
     }
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
+impl<const D: usize> PairSum<D> for BoundStressDivergence<'_, D> {
     /// τ V².
     type Own<L: Lane> = [L; 6];
     type Sum<L: Lane> = [L; D];
@@ -165,31 +165,31 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
     }
 }
 
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
+impl<const D: usize> BoundTerm<D> for BoundStressDivergence<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (stress, volume) = (self.stress[i], self.volume[i]);
-        let mut sum = Sum::of(sum);
+        let mut sum = Sum::new(sum);
         for (v, pair) in at.wall.pairs() {
             let squares =
                 volume * volume + self.walls.points.volume[v] * self.walls.points.volume[v];
             let weight = self.walls.points.share[v] * squares * pair.factor;
             let force = stress.apply(&pair.separation) * weight;
-            let grip = self.walls.points.grip[v];
-            sum.force += force * grip;
-            sum.slipping += force * (1.0 - grip);
+            let friction_factor = self.walls.points.friction_factor[v];
+            sum.force += force * friction_factor;
+            sum.slipping += force * (1.0 - friction_factor);
         }
         for contact in at.contacts {
             let s = contact.element as usize;
             let there = self.walls.elements.volume[s];
             let squares = volume * volume + there * there;
             let force = stress.apply(&contact.gradient) * (squares / there);
-            let grip = self.walls.elements.grip[s];
-            sum.force -= force * grip;
-            sum.slipping -= force * (1.0 - grip);
-            sum.normal += contact.gradient * (1.0 - grip);
-            sum.rubbing += contact.gradient.norm() * grip;
+            let friction_factor = self.walls.elements.friction_factor[s];
+            sum.force -= force * friction_factor;
+            sum.slipping -= force * (1.0 - friction_factor);
+            sum.normal += contact.gradient * (1.0 - friction_factor);
+            sum.rubbing += contact.gradient.norm() * friction_factor;
         }
         rates.acceleration += sum.completed(at.inverse_renormalisation) / self.mass[i];
     }

@@ -7,21 +7,21 @@ use sph_neighbours::World;
 use sph_rheology::{Elastic, Yielding, jaumann};
 
 use crate::stress::strain_rate::in_space;
-use crate::stress::{Felt, GradientStage, StrainRate};
+use crate::stress::{GradientStage, LawInputs, StrainRate};
 
 /// Advances [`ELASTIC_STRESS`](fields::ELASTIC_STRESS) while positions drift, with the velocities
 /// of the drift: together with the kick this is symplectic, and undamped elastic waves keep their
 /// energy.
 ///
 /// Where the force is made of displacements, [`ELASTIC_DISPLACEMENT`](fields::ELASTIC_DISPLACEMENT) and
-/// [`ELASTIC_TURN`](fields::ELASTIC_TURN) go with it, and the stress is not cut.
+/// [`STRESS_ROTATION`](fields::STRESS_ROTATION) go with it, and the stress is not cut.
 ///
 /// Leaves velocity gradients and strain rates of the drift for the next evaluation.
 pub struct ElasticMotion<const D: usize> {
     /// The gradient of the velocity.
     pub gradient: GradientStage<D>,
     /// The laws and what they feel.
-    pub felt: Felt,
+    pub law_inputs: LawInputs,
     /// Whether the force is made of displacements.
     pub displaced: bool,
     /// Gradients of a run of particles, kept for their memory.
@@ -56,13 +56,13 @@ impl<const D: usize> ElasticMotion<D> {
         }
         let mut stress = world.free.take(fields::ELASTIC_STRESS)?;
         let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
-        self.felt
+        self.law_inputs
             .each(world, &mut stress, |law, inputs, run, out| {
                 let Some(elastic) = law.elastic() else {
                     out.fill(Symmetric::ZERO);
                     return;
                 };
-                let mut gradients = self.gradients.lend();
+                let mut gradients = self.gradients.acquire();
                 gradients.clear();
                 gradients.extend(gradient[run].iter().map(in_space));
                 elastic.advance(inputs, &gradients, dt, out);
@@ -73,7 +73,7 @@ impl<const D: usize> ElasticMotion<D> {
     /// Advances displacements, turns and stresses together.
     fn displace(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let stress = world.free.take(fields::ELASTIC_STRESS)?;
-        let turn = world.free.take(fields::ELASTIC_TURN)?;
+        let turn = world.free.take(fields::STRESS_ROTATION)?;
         let displacement = world.free.take(fields::ELASTIC_DISPLACEMENT)?;
         let all = stress.into_iter().zip(turn).zip(displacement);
         let memory = all.map(|((stress, turn), displacement)| Memory {
@@ -84,7 +84,7 @@ impl<const D: usize> ElasticMotion<D> {
         let mut memory: Vec<Memory<D>> = memory.collect();
         let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
         let velocity = world.free.get(fields::VELOCITY)?;
-        self.felt
+        self.law_inputs
             .each(world, &mut memory, |law, inputs, run, out| {
                 let Some(elastic) = law.elastic() else {
                     return;
@@ -106,7 +106,7 @@ impl<const D: usize> ElasticMotion<D> {
         let turn = memory.iter().map(|m| m.turn).collect();
         let displacement = memory.iter().map(|m| m.displacement).collect();
         free.put(fields::ELASTIC_STRESS, stress)?;
-        free.put(fields::ELASTIC_TURN, turn)?;
+        free.put(fields::STRESS_ROTATION, turn)?;
         Ok(free.put(fields::ELASTIC_DISPLACEMENT, displacement)?)
     }
 }
@@ -116,7 +116,7 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
         "elastic motion".into()
     }
     fn access(&self) -> Access {
-        let access = self.gradient.access().and(self.felt.access());
+        let access = self.gradient.access().and(self.law_inputs.access());
         let access = access
             .remembers(fields::ELASTIC_STRESS)
             .remembers(fields::VELOCITY_GRADIENT)
@@ -126,7 +126,7 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
             true => access
                 .here(fields::VELOCITY)
                 .remembers(fields::ELASTIC_DISPLACEMENT)
-                .remembers(fields::ELASTIC_TURN),
+                .remembers(fields::STRESS_ROTATION),
         }
     }
     fn phases(&self) -> &'static [StepPhase] {

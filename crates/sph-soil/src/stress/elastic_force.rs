@@ -3,12 +3,12 @@
 use sph_core::{Work, contract};
 use sph_neighbours::Interaction;
 
-use crate::stress::{Blend, Felt};
+use crate::stress::{Blend, LawInputs};
 
 /// The force of an elastic material.
 pub trait ElasticForce<const D: usize>: Send {
     /// As a term of the sweep, for the laws of a scene.
-    fn term(&self, felt: &Felt) -> Box<dyn Interaction<D>>;
+    fn term(&self, law_inputs: &LawInputs) -> Box<dyn Interaction<D>>;
     /// What is blended where the material yields.
     fn blend(&self) -> Blend;
     /// Whether the stress is that of the end of the step: what the step adds is then solved for with the viscosity, and elastic

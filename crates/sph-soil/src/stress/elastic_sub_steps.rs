@@ -5,7 +5,7 @@ use sph_contribution::{Kick, OutsideForce, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{World, accelerations_of};
 
-use crate::stress::{CarriedStress, ElasticMotion, Felt};
+use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
 
 /// u and τ over a step of the flow, N times, at places, volumes, pressures and viscosities that stay:
 ///
@@ -27,7 +27,7 @@ use crate::stress::{CarriedStress, ElasticMotion, Felt};
 pub struct ElasticSubSteps<const D: usize> {
     term: OutsideForce<D>,
     motion: ElasticMotion<D>,
-    felt: Felt,
+    law_inputs: LawInputs,
     longest: f64,
     touched: Vec<bool>,
     acceleration: Vec<Vect<D>>,
@@ -39,11 +39,16 @@ pub struct ElasticSubSteps<const D: usize> {
 
 impl<const D: usize> ElasticSubSteps<D> {
     /// For a force that reads no velocity, the motion of its stresses, the laws of the scene, and the longest sub-step, s.
-    pub fn new(term: OutsideForce<D>, motion: ElasticMotion<D>, felt: Felt, longest: f64) -> Self {
+    pub fn new(
+        term: OutsideForce<D>,
+        motion: ElasticMotion<D>,
+        law_inputs: LawInputs,
+        longest: f64,
+    ) -> Self {
         ElasticSubSteps {
             term,
             motion,
-            felt,
+            law_inputs,
             longest,
             touched: Vec::new(),
             acceleration: Vec::new(),
@@ -77,7 +82,7 @@ impl<const D: usize> ElasticSubSteps<D> {
     /// Who carries stress or has a neighbour that does.
     fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
         let carries: Vec<bool> = self
-            .felt
+            .law_inputs
             .laws
             .iter()
             .map(|l| l.elastic().is_some())
@@ -113,7 +118,7 @@ impl<const D: usize> StepHook<D> for ElasticSubSteps<D> {
     fn access(&self) -> Access {
         let access = StepHook::access(&self.motion).and(self.term.access());
         access
-            .and(CarriedStress(self.felt.clone()).access())
+            .and(CarriedStress(self.law_inputs.clone()).access())
             .both(fields::POSITION)
             .here(fields::ACCELERATION)
             .where_there(fields::PHASE)
@@ -161,7 +166,7 @@ impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
         self.mean.extend(before.iter().map(|u| -u * more));
         for step in 1..=count {
             if step > 1 {
-                CarriedStress(self.felt.clone()).run(world)?;
+                CarriedStress(self.law_inputs.clone()).run(world)?;
             }
             let touched = &self.touched;
             accelerations_of(world, &*self.term, |i| touched[i], &mut self.acceleration)?;

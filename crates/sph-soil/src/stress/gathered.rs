@@ -86,7 +86,7 @@ impl<const D: usize> Gathered<D> {
         let weight = (apart * (share * factor)).transpose();
         let velocity = (points.viscous_velocity[v] - own) * weight;
         let kind = if points.ports { OPEN } else { WALLS };
-        self.add([velocity, -apart * weight], points.grip[v], kind);
+        self.add([velocity, -apart * weight], points.friction_factor[v], kind);
     }
 
     /// Adds a wall element.
@@ -96,20 +96,20 @@ impl<const D: usize> Gathered<D> {
         let weight = -contact.gradient.transpose();
         let foot = elements.normal[s] * contact.distance;
         let velocity = (elements.velocity[s] - own) * weight;
-        let grip = elements.grip[s];
+        let friction_factor = elements.friction_factor[s];
         let kind = match elements.open.get(s) {
             Some(true) => OPEN,
             _ => WALLS,
         };
-        self.add([velocity, -foot * weight], grip, kind);
-        self.slipping[kind].facing += contact.gradient * (1.0 - grip);
+        self.add([velocity, -foot * weight], friction_factor, kind);
+        self.slipping[kind].facing += contact.gradient * (1.0 - friction_factor);
     }
 
     #[inline(always)]
-    fn add(&mut self, added: [SMatrix<f64, D, D>; 2], grip: f64, kind: usize) {
+    fn add(&mut self, added: [SMatrix<f64, D, D>; 2], friction_factor: f64, kind: usize) {
         for (k, added) in added.iter().enumerate() {
-            self.sums[k] += added * grip;
-            self.slipping[kind].sums[k] += added * (1.0 - grip);
+            self.sums[k] += added * friction_factor;
+            self.slipping[kind].sums[k] += added * (1.0 - friction_factor);
         }
     }
 

@@ -9,7 +9,7 @@ use sph_multiphase::linear::{
 use sph_neighbours::{Space, World, walk_in_lanes};
 
 use crate::stress::PorePressure;
-use crate::stress::bed_system::{Couplings, Part, Room as ClusterRoom, start};
+use crate::stress::bed_system::{ClusterCoefficients, Couplings, Part, start};
 use crate::stress::effective_pressure::{EffectivePressureEntry, Soils};
 use crate::stress::soil_surface::Grains;
 
@@ -106,7 +106,7 @@ impl Laplace {
                     sweeps: self.iterations.unwrap_or(100_000),
                 }),
             },
-            room: Room::default(),
+            scratch: Scratch::default(),
         }
     }
 }
@@ -115,7 +115,7 @@ impl<const D: usize> Contribution<D> for Laplace {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if !setting.soils.contains(&true) {
             let why = "no law of this scene feels a pressure: take this table out";
-            return Err(Refusal::of("effective-pressure", "", why));
+            return Err(Refusal::at_key("effective-pressure", "", why));
         }
         let both = setting.soils.iter().zip(setting.laws.iter());
         let soils = both.map(|(soil, law)| soil.then(|| law.reference().density));
@@ -145,16 +145,16 @@ struct Solve<const D: usize> {
     /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
     /// The memory of former solves.
-    room: Room,
+    scratch: Scratch,
 }
 
 /// What a solve fills anew, kept for its memory.
 #[derive(Default)]
-struct Room {
+struct Scratch {
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
-    rooms: Pool<ClusterRoom>,
+    scratch_pool: Pool<ClusterCoefficients>,
 }
 
 impl<const D: usize> Declares for Solve<D> {
@@ -189,31 +189,35 @@ impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn bytes(&self) -> usize {
         let Assembly {
             pattern, values, ..
-        } = &self.room.assembly;
+        } = &self.scratch.assembly;
         size_of_val(&pattern.starts[..])
             + size_of_val(&pattern.columns[..])
             + size_of_val(&values.diagonal[..])
             + size_of_val(&values.others[..])
-            + size_of_val(&self.room.pressure[..])
+            + size_of_val(&self.scratch.pressure[..])
     }
 }
 
 impl<const D: usize> Solve<D> {
     fn solve(&mut self, world: &mut World<D>) -> Result<Report, StepError> {
-        let mut room = std::mem::take(&mut self.room);
-        let solved = self.solve_in(world, &mut room);
-        self.room = room;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let solved = self.solve_in(world, &mut scratch);
+        self.scratch = scratch;
         solved
     }
 
-    fn solve_in(&mut self, world: &mut World<D>, room: &mut Room) -> Result<Report, StepError> {
-        let Room {
+    fn solve_in(
+        &mut self,
+        world: &mut World<D>,
+        scratch: &mut Scratch,
+    ) -> Result<Report, StepError> {
+        let Scratch {
             parts,
             assembly,
             pressure: x,
-            rooms,
-        } = room;
-        let rooms = &*rooms;
+            scratch_pool,
+        } = scratch;
+        let scratch_pool = &*scratch_pool;
         self.parts(world, parts)?;
         let space = world.space()?;
         self.refresh(world, &space, parts)?;
@@ -226,7 +230,7 @@ impl<const D: usize> Solve<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_solved(i),
-            |rows, cluster| system.add(cluster, rows, rooms),
+            |rows, cluster| system.add(cluster, rows, scratch_pool),
             |rows, others| others.for_each(|i| system.add_known(i, rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);
@@ -295,7 +299,7 @@ impl<const D: usize> Solve<D> {
     ) -> Result<(), StepError> {
         let (buoyant, top) = (self.densities(world)?, self.top(world));
         let surface = |part: &Part| matches!(part, Part::Surface(..));
-        let of = |i: usize, surface: bool| Part::of(buoyant(i), surface, top);
+        let of = |i: usize, surface: bool| Part::new(buoyant(i), surface, top);
         space.refresh_marked(parts, surface, of);
         Ok(())
     }
@@ -310,7 +314,7 @@ impl<const D: usize> Solve<D> {
         parts.resize(volume.len(), Part::Outside);
         walk_in_lanes(world, &grains, soil, parts, |sums, rows| {
             let surface = grains.at_surface(world, positions, sums, rows);
-            Part::of(buoyant(rows.particle), surface, top)
+            Part::new(buoyant(rows.particle), surface, top)
         })
     }
 }

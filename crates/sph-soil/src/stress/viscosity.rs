@@ -3,13 +3,13 @@
 use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::World;
 
-use crate::stress::{Blend, Felt};
+use crate::stress::{Blend, LawInputs};
 
 /// η of every particle by the law of its phase; where phases differ or a law depends on the flow. Where forces are
 /// blended it is that of the liquid alone.
 pub struct ViscosityStage {
     /// The laws and what they feel.
-    pub felt: Felt,
+    pub law_inputs: LawInputs,
     /// Whether there is an eddy viscosity to add.
     pub eddies: bool,
 }
@@ -19,7 +19,7 @@ impl Declares for ViscosityStage {
         "rheology".into()
     }
     fn access(&self) -> Access {
-        let access = self.felt.access().writes(fields::VISCOSITY);
+        let access = self.law_inputs.access().writes(fields::VISCOSITY);
         match self.eddies {
             true => access.here(fields::EDDY_VISCOSITY),
             false => access,
@@ -29,9 +29,9 @@ impl Declares for ViscosityStage {
 
 impl<const D: usize> Stage<World<D>> for ViscosityStage {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let blend = self.felt.blend;
+        let blend = self.law_inputs.blend;
         let mut viscosity = world.free.take(fields::VISCOSITY)?;
-        self.felt
+        self.law_inputs
             .each(world, &mut viscosity, |law, inputs, _, out| {
                 match law.elastic().filter(|elastic| elastic.blends()) {
                     Some(elastic) if blend == Blend::Forces => {

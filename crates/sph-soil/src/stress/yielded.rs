@@ -4,11 +4,11 @@ use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::World;
 use sph_rheology::Yielding;
 
-use crate::stress::Felt;
+use crate::stress::LawInputs;
 
-/// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_SHARE`](fields::SOLID_SHARE) and
-/// [`HELD_SHARE`](fields::HELD_SHARE) from the remembered stress; 1 in phases without an elastic part.
-pub struct Yielded(pub Felt);
+/// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_FRACTION`](fields::SOLID_FRACTION) and
+/// [`YIELD_FACTOR`](fields::YIELD_FACTOR) from the remembered stress; 1 in phases without an elastic part.
+pub struct Yielded(pub LawInputs);
 
 impl Declares for Yielded {
     fn name(&self) -> String {
@@ -19,8 +19,8 @@ impl Declares for Yielded {
             .access()
             .here(fields::ELASTIC_STRESS)
             .writes(fields::FRICTION_SHARE)
-            .writes(fields::SOLID_SHARE)
-            .writes(fields::HELD_SHARE)
+            .writes(fields::SOLID_FRACTION)
+            .writes(fields::YIELD_FACTOR)
     }
 }
 
@@ -36,8 +36,8 @@ impl<const D: usize> Stage<World<D>> for Yielded {
         type Share = fn(&Yielding) -> f64;
         let columns: [(_, Share); 3] = [
             (fields::FRICTION_SHARE, |y| y.friction),
-            (fields::SOLID_SHARE, |y| y.solid),
-            (fields::HELD_SHARE, |y| y.held),
+            (fields::SOLID_FRACTION, |y| y.solid),
+            (fields::YIELD_FACTOR, |y| y.held),
         ];
         for (field, share) in columns {
             let column = world.free.get_mut(field)?;

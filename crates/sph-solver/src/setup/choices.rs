@@ -78,7 +78,7 @@ impl<const D: usize> Choices<D> {
     ///
     /// # Errors
     /// All unknown names and wrong parameters at once.
-    pub fn of(scene: &Scene) -> Result<Self, Vec<SceneProblem>> {
+    pub fn from_scene(scene: &Scene) -> Result<Self, Vec<SceneProblem>> {
         let mut plugins = plugins(scene);
         let walls = match scene.wall.is_empty() {
             true => None,

@@ -122,7 +122,7 @@ impl<const D: usize> Planning<'_, D> {
         let one = |(kind, part): &mut Part<D>| {
             let chosen = self.scene.choice(kind);
             let path = chosen.map_or(format!("[{kind}]"), |c| format!("`{}`", c.path));
-            let mut offer = Offer::of(path);
+            let mut offer = Offer::new(path);
             let offered = part.offer(self.setting, &mut offer);
             offered.map_err(|r| self.refused(r))?;
             Ok((*kind, offer))

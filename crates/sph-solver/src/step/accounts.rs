@@ -9,7 +9,7 @@ use sph_scene::Scene;
 use crate::defaults;
 use crate::error::SolverError;
 use crate::setup::choices::own_accounts;
-use crate::step::books::Books;
+use crate::step::energy_budget::EnergyBudget;
 use crate::step::flow::Flow;
 
 /// Opens the books of a flow, if a probe reads them.
@@ -37,7 +37,7 @@ pub fn open<const D: usize>(
             "particles come in or leave, and their energy is not booked: take the probe out".into()
         }
         _ => {
-            let books = Books::open(formulation, flow, &own_accounts(scene))?;
+            let books = EnergyBudget::open(formulation, flow, &own_accounts(scene))?;
             flow.observers.push(Box::new(books));
             return Ok(());
         }

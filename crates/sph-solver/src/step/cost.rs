@@ -16,7 +16,7 @@ pub fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
     }
     let cost = |i: usize| {
         let candidates = world.lists.free.candidates(i).len();
-        candidates as f64 + CONTACT * contacts.of(i).len() as f64
+        candidates as f64 + CONTACT * contacts.of_particle(i).len() as f64
     };
     (0..world.free.len()).map(cost).collect()
 }

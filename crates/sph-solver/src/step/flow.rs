@@ -18,17 +18,17 @@ use sph_rheology::state::Laws;
 
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
 use crate::step::declared::Columns;
+use crate::step::ghosts::run_and_update_ghosts;
 use crate::step::guard;
-use crate::step::guests::run_and_tell;
 use crate::step::hooks::{Hooked, Hooks};
-use crate::step::kept_image::KeptImage;
 use crate::step::kept_rates::Kept;
-use crate::step::nursery::Nursery;
+use crate::step::new_particles::NewParticleDefaults;
 use crate::step::observer::{Boundary, Observer, Seen};
 use crate::step::outlets::Outlets;
+use crate::step::saved_particles::SavedParticles;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::Work;
-use crate::step::swing::Swing;
+use crate::step::variable_gravity::VariableGravity;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
@@ -72,7 +72,7 @@ pub struct Flow<const D: usize> {
     /// Accelerations and scalar rates of the kept state.
     pub(crate) kept_rates: Kept<D>,
     /// The same particles, where some of them may go to another rank.
-    pub(crate) kept_image: KeptImage<D>,
+    pub(crate) kept_image: SavedParticles<D>,
     /// Equations of state, in the order of the phase numbers.
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
@@ -85,11 +85,11 @@ pub struct Flow<const D: usize> {
     pub remedies: Vec<(&'static str, String)>,
     pub(crate) timings: Vec<Timing>,
     /// What gravity changes by, if it does.
-    pub(crate) swing: Option<Swing<D>>,
+    pub(crate) swing: Option<VariableGravity<D>>,
     /// Where particles leave.
     pub outlets: Outlets,
     /// What newborn particles begin with, where some may come in.
-    pub nursery: Option<Nursery<D>>,
+    pub nursery: Option<NewParticleDefaults<D>>,
     /// Observers of the boundaries within a step, where a probe asks for one.
     pub(crate) observers: Vec<Box<dyn Observer<D>>>,
     /// What this process has of a flow that is divided between several.
@@ -238,7 +238,7 @@ impl<const D: usize> Flow<D> {
             }
             let start = Instant::now();
             let walls = self.walls.as_deref_mut().map(|walls| walls as _);
-            run_and_tell(stage, access, self.parts.as_ref(), &mut self.world, walls)?;
+            run_and_update_ghosts(stage, access, self.parts.as_ref(), &mut self.world, walls)?;
             self.timings[MOTION + 1 + k].spent += start.elapsed();
         }
         Ok(())

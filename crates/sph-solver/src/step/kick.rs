@@ -17,8 +17,8 @@ const BATCH: usize = 2048;
 impl<const D: usize> Flow<D> {
     /// Velocities and evolved scalars: value += Δt rate, and all hooks.
     pub(crate) fn kick_over(&mut self, dt: f64) -> Result<(), StepError> {
-        let felt = self.felt();
-        self.load_walls(&felt)?;
+        let force_requests = self.force_requests();
+        self.load_walls(&force_requests)?;
         self.look_before_walls()?;
         self.on_walls.clear();
         self.run_hooks(StepPhase::BeforeKick, dt)?;
@@ -43,11 +43,11 @@ impl<const D: usize> Flow<D> {
         self.observe(Boundary::Kicked, dt)?;
         self.run_hooks(StepPhase::AfterKick, dt)?;
         self.observe(Boundary::KickEnds, dt)?;
-        self.load_walls_more(&felt)
+        self.load_walls_more(&force_requests)
     }
 
     /// Whether the mover of each wall asks for forces; empty if none does.
-    fn felt(&self) -> Vec<bool> {
+    fn force_requests(&self) -> Vec<bool> {
         let Some(walls) = &self.walls else {
             return Vec::new();
         };
@@ -61,13 +61,13 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Measures what the terms of the sweep do to walls whose movers ask for it, with the velocities of the sweep.
-    fn load_walls(&mut self, felt: &[bool]) -> Result<(), StepError> {
-        if felt.is_empty() || self.world.lists.builds == 0 {
+    fn load_walls(&mut self, force_requests: &[bool]) -> Result<(), StepError> {
+        if force_requests.is_empty() || self.world.lists.builds == 0 {
             return Ok(());
         }
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
-        self.loads = reactions(&self.world, &terms, felt)?;
-        let facing = facing_forces(&self.world, felt)?;
+        self.loads = reactions(&self.world, &terms, force_requests)?;
+        let facing = facing_forces(&self.world, force_requests)?;
         self.loads
             .iter_mut()
             .zip(&facing)
@@ -80,25 +80,25 @@ impl<const D: usize> Flow<D> {
         let Some(walls) = &self.walls else {
             return Ok(());
         };
-        let sights = walls.sights();
-        if sights.is_empty() {
+        let depth_gauges = walls.depth_gauges();
+        if depth_gauges.is_empty() {
             return Ok(());
         }
         (self.loads).resize(self.world.walls.names.len(), WallForce::zero());
-        for (wall, sight) in sights {
-            self.loads[wall].depth = sight.depth(&self.world)?;
+        for (wall, gauge) in depth_gauges {
+            self.loads[wall].depth = gauge.depth(&self.world)?;
         }
         Ok(())
     }
 
     /// Adds what acts outside of the sweep: it has taken the velocities that it left.
-    fn load_walls_more(&mut self, felt: &[bool]) -> Result<(), StepError> {
-        if felt.is_empty() || self.world.lists.builds == 0 {
+    fn load_walls_more(&mut self, force_requests: &[bool]) -> Result<(), StepError> {
+        if force_requests.is_empty() || self.world.lists.builds == 0 {
             return Ok(());
         }
         if !self.outside.is_empty() {
             let outside: Vec<_> = self.outside.iter().map(|f| &**f).collect();
-            let more = reactions(&self.world, &outside, felt)?;
+            let more = reactions(&self.world, &outside, force_requests)?;
             let walls = self.loads.iter_mut().zip(more);
             walls.for_each(|(whole, more)| {
                 whole.force += more.force;

@@ -2,15 +2,15 @@
 
 use rayon::prelude::*;
 use sph_contribution::even_out;
-use sph_core::{StepError, Taken, Vect, fields};
+use sph_core::{Removed, StepError, Vect, fields};
 use sph_neighbours::Words;
 use sph_scene::Scene;
 
 use crate::Flow;
-use crate::step::outlets::Left;
+use crate::step::outlets::OutletTotals;
 
 /// A particle that leaves.
-struct Leaver<const D: usize> {
+struct LeavingParticle<const D: usize> {
     identity: u32,
     /// Number of the count in which it is.
     count: usize,
@@ -18,7 +18,7 @@ struct Leaver<const D: usize> {
     mass: f64,
 }
 
-impl<const D: usize> Words for Leaver<D> {
+impl<const D: usize> Words for LeavingParticle<D> {
     fn write(&self, to: &mut Vec<u64>) {
         to.extend([u64::from(self.identity), self.count as u64]);
         let numbers = [&self.mass].into_iter().chain(self.position.iter());
@@ -26,7 +26,7 @@ impl<const D: usize> Words for Leaver<D> {
     }
 
     fn read(from: &[u64]) -> Self {
-        Leaver {
+        LeavingParticle {
             identity: from[0] as u32,
             count: from[1] as usize,
             mass: f64::from_bits(from[2]),
@@ -49,15 +49,15 @@ impl<const D: usize> Flow<D> {
 
     /// Counts the exits of all gates behind the outlets, and behind these the border of the domain where walls end freely.
     pub fn know_exits(&mut self, scene: &Scene) {
-        let mut taken = self.world.free.taken().to_vec();
+        let mut taken = self.world.free.removed().to_vec();
         let exits = self.gates.iter().flat_map(|gate| gate.exits());
         for (exit, name) in (self.outlets.all.len() as u32..).zip(exits) {
             for (phase, of) in scene.phase.keys().enumerate() {
                 self.outlets.labels.push(format!("open.{name}.{of}"));
-                taken.push(Taken {
+                taken.push(Removed {
                     outlet: exit,
                     phase: phase as u32,
-                    ..Taken::default()
+                    ..Removed::default()
                 });
             }
         }
@@ -68,14 +68,14 @@ impl<const D: usize> Flow<D> {
             self.outlets.border = Some(border);
             for (phase, of) in scene.phase.keys().enumerate() {
                 self.outlets.labels.push(format!("domain.{of}"));
-                taken.push(Taken {
+                taken.push(Removed {
                     outlet: border as u32,
                     phase: phase as u32,
-                    ..Taken::default()
+                    ..Removed::default()
                 });
             }
         }
-        self.world.free.set_taken(taken);
+        self.world.free.set_removed(taken);
     }
 
     /// Takes out whom gates let out, and counts them.
@@ -166,7 +166,7 @@ impl<const D: usize> Flow<D> {
         let phases = self.laws.len();
         // Copies of others' particles leave as their owners do, who count them.
         let left = left.filter(|(k, _)| owned.has(*k));
-        let leavers = left.map(|(k, exit)| Leaver {
+        let leavers = left.map(|(k, exit)| LeavingParticle {
             identity: identity[k],
             count: exit * phases + phase.map_or(0, |p| p[k] as usize),
             position: position[k],
@@ -174,33 +174,33 @@ impl<const D: usize> Flow<D> {
         });
         let mut leavers = self.world.of_all(leavers.collect())?;
         leavers.sort_unstable_by_key(|leaver| leaver.identity);
-        let mut taken = self.world.free.taken().to_vec();
+        let mut taken = self.world.free.removed().to_vec();
         for leaver in &leavers {
             let count = &mut taken[leaver.count];
             count.mass += leaver.mass;
             count.particles += 1;
         }
-        self.world.free.set_taken(taken);
+        self.world.free.set_removed(taken);
         Ok(leavers.iter().map(|leaver| leaver.position).collect())
     }
 
     /// What a resumed run has counted: mass as bits, and particles.
     pub fn recount(&mut self, left: &[[u64; 2]]) {
-        let mut taken = self.world.free.taken().to_vec();
+        let mut taken = self.world.free.removed().to_vec();
         for (count, [mass, particles]) in taken.iter_mut().zip(left) {
             (count.mass, count.particles) = (f64::from_bits(*mass), *particles);
         }
-        self.world.free.set_taken(taken);
+        self.world.free.set_removed(taken);
     }
 
     /// Mass that has left, kg.
     pub fn mass_left(&self) -> f64 {
-        self.world.free.taken().iter().map(|t| t.mass).sum()
+        self.world.free.removed().iter().map(|t| t.mass).sum()
     }
 
     /// What has left, by the labels of the outlets and phases.
-    pub fn left(&self) -> impl Iterator<Item = (&String, Left)> {
-        let taken = self.world.free.taken().iter().map(|t| Left {
+    pub fn left(&self) -> impl Iterator<Item = (&String, OutletTotals)> {
+        let taken = self.world.free.removed().iter().map(|t| OutletTotals {
             mass: t.mass,
             particles: t.particles,
         });

@@ -1,7 +1,7 @@
 //! Where particles leave the flow.
 
 use serde::{Deserialize, Serialize};
-use sph_core::{SceneProblem, Store, Taken, Vect};
+use sph_core::{Removed, SceneProblem, Store, Vect};
 use sph_scene::{Outlet, Scene};
 
 /// The outlets of a scene.
@@ -17,7 +17,7 @@ pub struct Outlets {
 
 /// What has left by an outlet of a phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Left {
+pub struct OutletTotals {
     /// Mass, kg (per metre of depth in 2D).
     pub mass: f64,
     /// Number of particles.
@@ -29,7 +29,7 @@ impl Outlets {
     ///
     /// # Errors
     /// If a body stands in one at the start.
-    pub fn of<const D: usize>(
+    pub fn from_scene<const D: usize>(
         scene: &Scene,
         (places, bodies): (&[Vect<D>], &[u32]),
         free: &mut Store<D>,
@@ -39,10 +39,10 @@ impl Outlets {
         for (outlet, (name, place)) in scene.outlet.iter().enumerate() {
             for (phase, of) in scene.phase.keys().enumerate() {
                 labels.push(format!("outlet.{name}.{of}"));
-                taken.push(Taken {
+                taken.push(Removed {
                     outlet: outlet as u32,
                     phase: phase as u32,
-                    ..Taken::default()
+                    ..Removed::default()
                 });
             }
             let mut starts = places.iter().zip(bodies);
@@ -57,7 +57,7 @@ impl Outlets {
                 problems.push(SceneProblem::new(format!("outlet.{name}"), message));
             }
         }
-        free.set_taken(taken);
+        free.set_removed(taken);
         match problems.is_empty() {
             true => Ok(Outlets {
                 all: scene.outlet.values().cloned().collect(),

@@ -87,11 +87,11 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Tells guests all that their owners know.
+    /// Tells ghosts all that their owners know.
     pub fn tell_all(&mut self) -> Result<(), StepError> {
         match &mut self.parts {
             None => Ok(()),
-            Some(parts) => Ok(parts.tell(&mut self.world.free, |_| true)?),
+            Some(parts) => Ok(parts.update_ghosts(&mut self.world.free, |_| true)?),
         }
     }
 

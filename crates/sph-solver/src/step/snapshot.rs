@@ -65,7 +65,7 @@ impl<const D: usize> Snapshot<D> {
         if now == then {
             return Ok(None);
         }
-        let slots = Slots::of(then);
+        let slots = Slots::from_identities(then);
         let place = |id: &u32| {
             slots
                 .slot(*id)

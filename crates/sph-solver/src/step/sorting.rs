@@ -23,7 +23,7 @@ impl<const D: usize> Flow<D> {
         if *now == earlier {
             return Ok(());
         }
-        let slots = Slots::of(&earlier);
+        let slots = Slots::from_identities(&earlier);
         let order: Vec<u32> = now.iter().filter_map(|&id| slots.slot(id)).collect();
         self.world.free.permute_derived(&order);
         Ok(())

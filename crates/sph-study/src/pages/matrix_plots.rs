@@ -59,7 +59,7 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
             "" => frontier.scene.clone(),
             name => name.to_string(),
         };
-        series.push(Series::of(name, points, Style::LineAndMarkers));
+        series.push(Series::styled(name, points, Style::LineAndMarkers));
     }
     let quantity = first.errors.first().cloned();
     let judged = quantity.clone().unwrap_or("density".into());
@@ -69,7 +69,7 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
         for (name, bound) in [("end of green", green), ("end of yellow", yellow)] {
             if *bound > 0.0 {
                 let line = ends.iter().map(|x| [*x, *bound]).collect();
-                series.push(Series::of(name, line, Style::Dashes));
+                series.push(Series::styled(name, line, Style::Dashes));
             }
         }
     }

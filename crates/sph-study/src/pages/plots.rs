@@ -26,7 +26,7 @@ pub fn work_precision(results: &Results) -> Plot {
     let mut all = drawn(results, of);
     if results.pareto.len() > 1 {
         let line = time_and_error(&results.pareto);
-        all.push(Series::of("Pareto", line, Style::Highlight));
+        all.push(Series::styled("Pareto", line, Style::Highlight));
     }
     Plot {
         title: results.title.clone(),
@@ -74,8 +74,8 @@ fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>
             continue;
         }
         match results.series.len() <= MOST || best.contains(&series.name.as_str()) {
-            true => named.push(Series::of(name, points, Style::LineAndMarkers)),
-            false => others.push(Series::of(name, points, Style::Background)),
+            true => named.push(Series::styled(name, points, Style::LineAndMarkers)),
+            false => others.push(Series::styled(name, points, Style::Background)),
         }
     }
     named.extend(others);

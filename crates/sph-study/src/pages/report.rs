@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_between_backticks_is_code() {
+    fn text_between_backticks_is_code() {
         assert_eq!(
             marked("`a<b` and `c`"),
             "<code>a&lt;b</code> and <code>c</code>"

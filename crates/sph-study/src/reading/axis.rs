@@ -19,7 +19,7 @@ pub struct Set {
 
 /// A direction in which variants differ.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct StudyAxis {
     /// Name in tables and plots.
     pub name: String,
     /// The places on it.
@@ -37,7 +37,7 @@ pub struct Choice {
     pub sets: Vec<Set>,
 }
 
-impl Axis {
+impl StudyAxis {
     /// Whether its places set a key of the scene, or something around or in it.
     pub fn touches(&self, key: &str) -> bool {
         let within = |inner: &str, outer: &str| {
@@ -57,13 +57,13 @@ const AXES: usize = 100;
 ///
 /// # Errors
 /// Every axis that is not one, with its place in the file.
-pub fn axes(given: &[file::Axis]) -> Result<Vec<Axis>, Vec<SceneProblem>> {
+pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProblem>> {
     if given.len() > AXES {
         let message = format!("{} axes are more than {AXES}", given.len());
         return Err(vec![SceneProblem::new("vary", message)]);
     }
     let mut problems = Vec::new();
-    let mut axes: Vec<Axis> = Vec::new();
+    let mut axes: Vec<StudyAxis> = Vec::new();
     for (k, axis) in given.iter().enumerate() {
         let at = format!("vary[{k}]");
         match one(axis, &at) {
@@ -85,7 +85,7 @@ pub fn axes(given: &[file::Axis]) -> Result<Vec<Axis>, Vec<SceneProblem>> {
 ///
 /// # Errors
 /// What it lacks, with its place in the file.
-pub(crate) fn one(axis: &file::Axis, at: &str) -> Result<Axis, Vec<SceneProblem>> {
+pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<SceneProblem>> {
     let problem = |key: &str, message: &str| vec![SceneProblem::new(format!("{at}{key}"), message)];
     let (name, choices) = match (&axis.key, &axis.values, &axis.entries) {
         (Some(key), Some(values), None) => {
@@ -143,7 +143,7 @@ pub(crate) fn one(axis: &file::Axis, at: &str) -> Result<Axis, Vec<SceneProblem>
     let mut seen = BTreeSet::new();
     match choices.iter().find(|c| !seen.insert(&c.label)) {
         Some(twice) => Err(problem("", &format!("`{}` is there twice", twice.label))),
-        None => Ok(Axis { name, choices }),
+        None => Ok(StudyAxis { name, choices }),
     }
 }
 
@@ -200,10 +200,10 @@ pub fn label(value: &Value) -> String {
 mod tests {
     use super::*;
 
-    fn parsed(text: &str) -> Result<Vec<Axis>, String> {
+    fn parsed(text: &str) -> Result<Vec<StudyAxis>, String> {
         #[derive(serde::Deserialize)]
         struct Vary {
-            vary: Vec<file::Axis>,
+            vary: Vec<file::AxisTable>,
         }
         let Vary { vary } = toml::from_str(text).unwrap();
         axes(&vary).map_err(|all| all[0].to_string())
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_axis_is_told() {
+    fn invalid_axes_are_refused() {
         for (axis, message) in [
             ("key = 'a'", "either `key` and `values`"),
             ("key = 'a'\nvalues = []", "needs a value"),

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sph_core::{SceneProblem, suggestion};
 use toml::Value;
 
-use crate::reading::axis::{Axis, label};
+use crate::reading::axis::{StudyAxis, label};
 use crate::reading::file::Combine;
 
 /// Most variants of a study.
@@ -27,7 +27,7 @@ pub struct Combination {
 /// # Errors
 /// Axes that cannot be paired, conditions that name nothing, too many variants.
 pub fn combinations(
-    axes: &[Axis],
+    axes: &[StudyAxis],
     combine: Combine,
     skip: &[BTreeMap<String, Value>],
 ) -> Result<Vec<Combination>, Vec<SceneProblem>> {
@@ -38,7 +38,8 @@ pub fn combinations(
     let all = all.map_err(|p| vec![p])?;
     let skipped = conditions(axes, skip)?;
     let left_out = |choices: &Vec<usize>| {
-        let holds = |condition: &Condition| condition.iter().all(|(k, c)| c.contains(&choices[*k]));
+        let holds =
+            |condition: &AxisChoices| condition.iter().all(|(k, c)| c.contains(&choices[*k]));
         skipped.iter().any(holds)
     };
     let kept: Vec<_> = all.into_iter().filter(|c| !left_out(c)).collect();
@@ -48,7 +49,7 @@ pub fn combinations(
     }
 }
 
-fn product(axes: &[Axis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
+fn product(axes: &[StudyAxis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
     let mut all: Vec<Vec<usize>> = vec![Vec::new()];
     for axis in axes {
         if all.len().saturating_mul(axis.choices.len()) > MOST {
@@ -64,7 +65,7 @@ fn product(axes: &[Axis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
     Ok(all)
 }
 
-fn zipped(axes: &[Axis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
+fn zipped(axes: &[StudyAxis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
     let count = axes.first().map_or(1, |a| a.choices.len());
     if let Some(k) = axes.iter().position(|a| a.choices.len() != count) {
         let message = format!(
@@ -79,12 +80,12 @@ fn zipped(axes: &[Axis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
 }
 
 /// Number of an axis with those of its choices, all of which must hold.
-type Condition = Vec<(usize, Vec<usize>)>;
+type AxisChoices = Vec<(usize, Vec<usize>)>;
 
 fn conditions(
-    axes: &[Axis],
+    axes: &[StudyAxis],
     skip: &[BTreeMap<String, Value>],
-) -> Result<Vec<Condition>, Vec<SceneProblem>> {
+) -> Result<Vec<AxisChoices>, Vec<SceneProblem>> {
     let mut problems = Vec::new();
     let mut all = Vec::new();
     for (n, given) in skip.iter().enumerate() {
@@ -95,7 +96,7 @@ fn conditions(
                 "an empty condition skips everything",
             ));
         }
-        let mut condition = Condition::new();
+        let mut condition = AxisChoices::new();
         for (name, labels) in given {
             match choices(axes, name, labels) {
                 Ok(found) => condition.push(found),
@@ -110,7 +111,7 @@ fn conditions(
     }
 }
 
-fn choices(axes: &[Axis], name: &str, labels: &Value) -> Result<(usize, Vec<usize>), String> {
+fn choices(axes: &[StudyAxis], name: &str, labels: &Value) -> Result<(usize, Vec<usize>), String> {
     let names = || axes.iter().map(|a| a.name.as_str());
     let axis = axes.iter().position(|a| a.name == name).ok_or_else(|| {
         let near = suggestion(name, names());
@@ -133,7 +134,7 @@ fn choices(axes: &[Axis], name: &str, labels: &Value) -> Result<(usize, Vec<usiz
     Ok((axis, found?))
 }
 
-fn named(axes: &[Axis], all: Vec<Vec<usize>>) -> Vec<Combination> {
+fn named(axes: &[StudyAxis], all: Vec<Vec<usize>>) -> Vec<Combination> {
     let mut taken = BTreeSet::new();
     let name = |choices: &Vec<usize>| {
         let parts = axes.iter().zip(choices);
@@ -207,13 +208,13 @@ mod tests {
     use super::*;
     use crate::reading::axis::Choice;
 
-    fn axis(name: &str, labels: &[&str]) -> Axis {
+    fn axis(name: &str, labels: &[&str]) -> StudyAxis {
         let choice = |l: &&str| Choice {
             label: (*l).into(),
             slug: (*l).into(),
             sets: Vec::new(),
         };
-        Axis {
+        StudyAxis {
             name: name.into(),
             choices: labels.iter().map(choice).collect(),
         }

@@ -29,7 +29,7 @@ pub struct StudyFile {
     pub set: Table,
     /// What is varied.
     #[parameter(default)]
-    pub vary: Vec<Axis>,
+    pub vary: Vec<AxisTable>,
     /// Instead of `vary`: axes that are gone along one by one, each from harmless to absurd, until it breaks.
     #[parameter(default)]
     pub axis: Vec<Ladder>,
@@ -66,7 +66,7 @@ pub struct StudyFile {
 
 /// One direction in which variants differ.
 #[parameters]
-pub struct Axis {
+pub struct AxisTable {
     /// Name in tables and plots; the last part of `key` if left out.
     pub name: Option<String>,
     /// Key of the scene that takes the `values`.

@@ -3,7 +3,7 @@
 use sph_core::{SceneProblem, suggestion};
 use sph_scene::{Override, Source};
 
-use crate::reading::axis::{self, Axis, Choice, label};
+use crate::reading::axis::{self, Choice, StudyAxis, label};
 use crate::reading::combine::{MOST, combinations, safe};
 use crate::reading::file::{self, Bounds, Combine, StudyFile};
 use crate::reading::mistake::Refused;
@@ -17,8 +17,8 @@ use crate::running::verdict::QUANTITIES;
 const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
 
 /// The axes of such a study as a table has them.
-pub fn columns() -> Vec<Axis> {
-    let axis = |name: &&str| Axis {
+pub fn columns() -> Vec<StudyAxis> {
+    let axis = |name: &&str| StudyAxis {
         name: (*name).to_string(),
         choices: Vec::new(),
     };
@@ -45,7 +45,7 @@ pub fn read(
         }
     }
     if !problems.is_empty() {
-        return Err(Refused::of(source, &problems));
+        return Err(Refused::in_study(source, &problems));
     }
     let mut variants = Vec::new();
     let mut mistakes = Vec::new();
@@ -54,13 +54,13 @@ pub fn read(
             sets.extend(axis::sets(&file.axis[k].set, &format!("axis[{k}].set"))?);
             Ok(sets)
         });
-        let common = common.map_err(|p| Refused::of(source, &[p]))?;
+        let common = common.map_err(|p| Refused::in_study(source, &[p]))?;
         let all = combinations(&found.axes, Combine::Product, &[]);
-        let all = all.map_err(|problems| Refused::of(source, &problems))?;
+        let all = all.map_err(|problems| Refused::in_study(source, &problems))?;
         if variants.len() + all.len() > MOST {
             let message = format!("with this axis there are more than {MOST} variants");
             let problem = SceneProblem::new(format!("axis[{k}]"), message);
-            return Err(Refused::of(source, &[problem]));
+            return Err(Refused::in_study(source, &[problem]));
         }
         let errors = &file.axis[k].error;
         let reader = Reader {
@@ -99,7 +99,7 @@ struct Found {
     ladder: Ladder,
     scene: SceneText,
     /// The ladder itself, the combinations, the values.
-    axes: [Axis; 3],
+    axes: [StudyAxis; 3],
 }
 
 /// What is wrong with the study as a whole.
@@ -179,7 +179,7 @@ fn one(
         slug: given.name.clone(),
         sets: Vec::new(),
     };
-    let axis = |k: usize, choices| Axis {
+    let axis = |k: usize, choices| StudyAxis {
         name: COLUMNS[k].to_string(),
         choices,
     };
@@ -204,8 +204,8 @@ fn one(
 }
 
 /// The values of an axis, whose labels alone name folders.
-fn values(given: &file::Ladder, at: &str) -> Result<Axis, Vec<SceneProblem>> {
-    let plain = file::Axis {
+fn values(given: &file::Ladder, at: &str) -> Result<StudyAxis, Vec<SceneProblem>> {
+    let plain = file::AxisTable {
         name: Some(given.name.clone()),
         key: given.key.clone(),
         values: given.values.clone(),

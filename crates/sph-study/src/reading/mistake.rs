@@ -36,7 +36,7 @@ impl std::error::Error for Refused {}
 
 impl Refused {
     /// Problems of the study file itself.
-    pub(crate) fn of(source: &Source, problems: &[SceneProblem]) -> Self {
+    pub(crate) fn in_study(source: &Source, problems: &[SceneProblem]) -> Self {
         Refused::from_diagnostics(source, source.diagnose(problems))
     }
 
@@ -53,14 +53,14 @@ impl Refused {
 }
 
 /// Who put what on top of a scene, so that its mistakes are shown where they were made.
-pub(crate) struct Blame<'a> {
+pub(crate) struct OverrideSources<'a> {
     /// The study file.
     pub study: &'a Source,
     /// For every override of the scene the path in the study file that gives it, if it does.
     pub given_by: &'a [Option<String>],
 }
 
-impl Blame<'_> {
+impl OverrideSources<'_> {
     /// The mistakes of a scene: in the study file if it made them.
     pub fn place(&self, scene: &Source, found: &[Diagnostic]) -> Vec<Mistake> {
         let place = |d: &Diagnostic| {
@@ -74,7 +74,7 @@ impl Blame<'_> {
                 "" => d.message.clone(),
                 key => format!("{key}: {}", d.message),
             };
-            Refused::of(self.study, &[SceneProblem::new(path, message)]).mistakes
+            Refused::in_study(self.study, &[SceneProblem::new(path, message)]).mistakes
         };
         found.iter().flat_map(place).collect()
     }

@@ -6,11 +6,11 @@ use sph_core::{RegistryError, SceneProblem, suggestion, typed};
 use sph_scene::{Override, Source, read_text};
 use toml::Table;
 
-use crate::reading::axis::{self, Axis};
+use crate::reading::axis::{self, StudyAxis};
 use crate::reading::combine::{combinations, fits};
 use crate::reading::file::StudyFile;
 use crate::reading::ladder;
-use crate::reading::mistake::{Blame, Refused};
+use crate::reading::mistake::{OverrideSources, Refused};
 use crate::reading::reader::{Reader, refinement};
 use crate::reading::rung::Ladder;
 use crate::reading::scene_text::{FindScene, SceneText};
@@ -28,7 +28,7 @@ pub struct Study {
     /// Names of the references that are judged, the first one by plots.
     pub errors: Vec<String>,
     /// What is varied.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<StudyAxis>,
     /// Key over which the order of convergence is computed.
     pub refinement: Option<String>,
     /// Axes that are gone along until they break, instead of what is varied.
@@ -71,7 +71,7 @@ impl Study {
         only: &[String],
     ) -> Result<Self, ReadError> {
         let source = Source::new(text, &path.display().to_string(), &[]);
-        let refused = |problems: Vec<SceneProblem>| Refused::of(&source, &problems);
+        let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
         let table = source.table();
         let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
         let file = study_file(&table).map_err(refused)?;
@@ -116,7 +116,7 @@ impl Study {
             Err(problems) => problems,
         };
         let scene = variant.subject.source();
-        let blame = Blame {
+        let blame = OverrideSources {
             study: &self.source,
             given_by: &variant.given_by,
         };
@@ -143,7 +143,7 @@ struct Parts<'a> {
 impl Parts<'_> {
     /// Variants of one scene.
     fn varied(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
-        let refused = |problems: Vec<SceneProblem>| Refused::of(&source, &problems);
+        let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
         let axes = axis::axes(&file.vary).map_err(refused)?;
         let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
         let errors = file.error.paths("error");

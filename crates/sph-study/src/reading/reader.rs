@@ -7,10 +7,10 @@ use sph_run::Subject;
 use sph_scene::{Override, Source};
 use toml::{Table, Value};
 
-use crate::reading::axis::{Axis, Set};
+use crate::reading::axis::{Set, StudyAxis};
 use crate::reading::combine::{Combination, fits};
 use crate::reading::file::StudyFile;
-use crate::reading::mistake::{Blame, Mistake, Refused};
+use crate::reading::mistake::{Mistake, OverrideSources, Refused};
 use crate::reading::scene_text::SceneText;
 use crate::reading::variant::Variant;
 use crate::running::fingerprint::fingerprint;
@@ -23,7 +23,7 @@ pub(crate) struct Reader<'a> {
     pub file: &'a StudyFile,
     pub source: &'a Source,
     pub scene: &'a SceneText,
-    pub axes: &'a [Axis],
+    pub axes: &'a [StudyAxis],
     /// What every variant sets.
     pub common: Vec<Set>,
     /// What is put on top of every variant from outside.
@@ -35,7 +35,7 @@ pub(crate) struct Reader<'a> {
 }
 
 /// The key over which the order of convergence is computed.
-pub(crate) fn refinement(file: &StudyFile, axes: &[Axis]) -> Option<String> {
+pub(crate) fn refinement(file: &StudyFile, axes: &[StudyAxis]) -> Option<String> {
     let varied = || axes.iter().any(|a| a.touches(REFINEMENT));
     let given = file.refinement.clone();
     given.or_else(|| varied().then(|| REFINEMENT.to_string()))
@@ -85,7 +85,7 @@ impl Reader<'_> {
 
     fn one(&self, combination: &Combination, only: &[String]) -> Result<Variant, Vec<Mistake>> {
         let (overrides, given_by) = self.overrides(&combination.choices);
-        let blame = Blame {
+        let blame = OverrideSources {
             study: self.source,
             given_by: &given_by,
         };
@@ -107,7 +107,7 @@ impl Reader<'_> {
             problems.push(SceneProblem::new("refinement", why.clone()));
         }
         if !problems.is_empty() {
-            return Err(Refused::of(self.source, &problems).mistakes);
+            return Err(Refused::in_study(self.source, &problems).mistakes);
         }
         let unreadable = |problem: SceneProblem| {
             let found = subject.source().diagnose(&[problem]);

@@ -50,7 +50,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    fn of(first: Option<f64>, second: Option<f64>) -> Self {
+    fn new(first: Option<f64>, second: Option<f64>) -> Self {
         let ratio = first.zip(second).map(|(a, b)| b / a);
         Pair {
             first,
@@ -91,15 +91,15 @@ pub fn compare(first: &Results, second: &Results) -> Comparison {
     let change = |a: &crate::VariantResult| {
         let b = second.variant(&a.name)?;
         let error = |name: &String| {
-            let pair = Pair::of(a.error(name), b.error(name));
+            let pair = Pair::new(a.error(name), b.error(name));
             (name.clone(), pair)
         };
         Some(Change {
             name: a.name.clone(),
             status: [a.status, b.status].map(|s| s.name().to_string()),
             errors: first.errors.iter().map(error).collect(),
-            wall_seconds: Pair::of(a.wall_seconds.min, b.wall_seconds.min),
-            steps: Pair::of(Some(a.steps as f64), Some(b.steps as f64)),
+            wall_seconds: Pair::new(a.wall_seconds.min, b.wall_seconds.min),
+            steps: Pair::new(Some(a.steps as f64), Some(b.steps as f64)),
         })
     };
     let variants: Vec<Change> = first.variants.iter().filter_map(change).collect();
@@ -189,13 +189,13 @@ mod tests {
 
     #[test]
     fn pairs_have_ratios_where_there_are_two_numbers() {
-        let pair = Pair::of(Some(2.0), Some(1.0));
+        let pair = Pair::new(Some(2.0), Some(1.0));
         assert_eq!(
             (pair.ratio, pair.text().as_str()),
             (Some(0.5), "2 → 1  ×0.500")
         );
-        assert_eq!(Pair::of(Some(2.0), Some(2.0)).text(), "2");
-        assert_eq!(Pair::of(None, Some(2.0)).text(), "– → 2");
-        assert_eq!(Pair::of(Some(0.0), Some(2.0)).ratio, None);
+        assert_eq!(Pair::new(Some(2.0), Some(2.0)).text(), "2");
+        assert_eq!(Pair::new(None, Some(2.0)).text(), "– → 2");
+        assert_eq!(Pair::new(Some(0.0), Some(2.0)).ratio, None);
     }
 }

@@ -54,12 +54,12 @@ impl Frontier {
             }
         }
         let one = |(ladder, _, found): (usize, usize, Vec<&VariantResult>)| {
-            Frontier::of(&study.ladders[ladder], &found)
+            Frontier::from_ladder(&study.ladders[ladder], &found)
         };
         all.into_iter().map(one).collect()
     }
 
-    fn of(ladder: &Ladder, found: &[&VariantResult]) -> Self {
+    fn from_ladder(ladder: &Ladder, found: &[&VariantResult]) -> Self {
         let colour = |v: &VariantResult| v.verdict.as_ref().map(|verdict| verdict.colour);
         // The values before the first that is not so.
         let last = |holds: &dyn Fn(Option<Colour>) -> bool| {

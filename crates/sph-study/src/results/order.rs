@@ -13,7 +13,7 @@ pub struct Orders {
 
 impl Orders {
     /// Orders of points of refinement and error, both positive, from coarse to fine.
-    pub fn of(points: &[[f64; 2]]) -> Self {
+    pub fn from_points(points: &[[f64; 2]]) -> Self {
         let logs: Vec<[f64; 2]> = points.iter().map(|p| p.map(f64::ln)).collect();
         let order = |p: &[[f64; 2]]| (p[1][1] - p[0][1]) / (p[1][0] - p[0][0]);
         let finest = logs.len().checked_sub(3).map(|k| &logs[k..]);
@@ -48,7 +48,7 @@ mod tests {
     #[test]
     fn a_power_law_has_its_exponent_as_order() {
         let points = [0.4, 0.2, 0.1, 0.05].map(|h: f64| [h, 3.0 * h.powf(1.7)]);
-        let orders = Orders::of(&points);
+        let orders = Orders::from_points(&points);
         assert_eq!(orders.between.len(), 3);
         let all = orders.between.iter().chain(&orders.finest_three);
         assert!(
@@ -59,11 +59,11 @@ mod tests {
 
     #[test]
     fn the_fit_takes_the_three_finest_and_needs_them() {
-        let orders = Orders::of(&[[8.0, 1.0], [4.0, 16.0], [2.0, 4.0], [1.0, 1.0]]);
+        let orders = Orders::from_points(&[[8.0, 1.0], [4.0, 16.0], [2.0, 4.0], [1.0, 1.0]]);
         assert!((orders.main().unwrap() - 2.0).abs() < 1e-12);
-        let two = Orders::of(&[[0.2, 4.0], [0.1, 2.0]]);
+        let two = Orders::from_points(&[[0.2, 4.0], [0.1, 2.0]]);
         assert_eq!(two.finest_three, None);
         assert!((two.main().unwrap() - 1.0).abs() < 1e-12);
-        assert_eq!(Orders::of(&[]), Orders::default());
+        assert_eq!(Orders::from_points(&[]), Orders::default());
     }
 }

@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_slower_and_no_better_is_left_out() {
+    fn slower_and_less_accurate_variants_are_left_out() {
         let points = [
             ("slow", [3.0, 0.1]),
             ("worse", [2.0, 0.5]),

@@ -21,7 +21,7 @@ pub struct Scale {
     /// One per series of the study that has run.
     pub series: Vec<SeriesCost>,
     /// Stretches of sizes with one fastest, in the order of size within each group.
-    pub fastest: Vec<Reign>,
+    pub fastest: Vec<FastestRange>,
 }
 
 /// The cost of a series against size.
@@ -37,7 +37,7 @@ pub struct SeriesCost {
 
 /// Sizes at which one competitor is the fastest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reign {
+pub struct FastestRange {
     /// Labels on the axes that do not compete.
     pub among: String,
     /// The fastest.
@@ -66,14 +66,14 @@ impl Scale {
                 .collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let (Some(between), Some(first)) = (&scaling.between, all.first()) else {
-                costs.push(SeriesCost::of(&one.name, points));
+                costs.push(SeriesCost::from_points(&one.name, points));
                 continue;
             };
             let others = axes.iter().filter(|a| *a != between && !refining(a));
             let others: Vec<&str> = others.map(|a| first.values[a].as_str()).collect();
             let group = groups.entry(others.join(", ")).or_default();
             group.push((first.values[between].clone(), points.clone()));
-            costs.push(SeriesCost::of(&one.name, points));
+            costs.push(SeriesCost::from_points(&one.name, points));
         }
         let fastest = groups
             .iter()
@@ -93,7 +93,7 @@ impl Scale {
                 Some(p) => format!("{}: exponent {p:.2}", s.name),
                 None => s.name.clone(),
             };
-            Series::of(name, s.points.clone(), Style::LineAndMarkers)
+            Series::styled(name, s.points.clone(), Style::LineAndMarkers)
         };
         Plot {
             title: title.to_string(),
@@ -129,7 +129,7 @@ impl Scale {
 }
 
 impl SeriesCost {
-    fn of(name: &str, points: Vec<[f64; 2]>) -> Self {
+    fn from_points(name: &str, points: Vec<[f64; 2]>) -> Self {
         let logs: Vec<[f64; 2]> = points.iter().map(|p| p.map(f64::ln)).collect();
         SeriesCost {
             name: name.to_string(),
@@ -142,7 +142,7 @@ impl SeriesCost {
 }
 
 /// Who is the fastest of some competitors, from the least to the largest size.
-fn reigns(among: &str, all: &[Competitor]) -> Vec<Reign> {
+fn reigns(among: &str, all: &[Competitor]) -> Vec<FastestRange> {
     let mut sizes: Vec<f64> = all.iter().flat_map(|(_, p)| p).map(|p| p[0]).collect();
     sizes.sort_by(f64::total_cmp);
     sizes.dedup();
@@ -151,7 +151,7 @@ fn reigns(among: &str, all: &[Competitor]) -> Vec<Reign> {
         let there = (0..all.len()).filter_map(|k| Some((k, cost(k, n)?)));
         there.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
     };
-    let mut found: Vec<(usize, Reign)> = Vec::new();
+    let mut found: Vec<(usize, FastestRange)> = Vec::new();
     let mut before = f64::NAN;
     for n in sizes {
         let Some(k) = best(n) else { continue };
@@ -168,7 +168,7 @@ fn reigns(among: &str, all: &[Competitor]) -> Vec<Reign> {
                 let among = among.to_string();
                 found.push((
                     k,
-                    Reign {
+                    FastestRange {
                         among,
                         name,
                         particles,
@@ -205,7 +205,7 @@ mod tests {
         // 1e-6 n = 1e-8 n^1.5 at n = 10⁴; 2e-6 n is never the fastest.
         let linear = law(1e-6, 1.0);
         let steep = law(1e-8 / 3f64.sqrt(), 1.5);
-        assert!((SeriesCost::of("", steep.clone()).exponent.unwrap() - 1.5).abs() < 1e-12);
+        assert!((SeriesCost::from_points("", steep.clone()).exponent.unwrap() - 1.5).abs() < 1e-12);
         let all = [
             ("linear".to_string(), linear),
             ("steep".to_string(), steep),
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn who_gives_up_early_is_followed_by_who_goes_on() {
+    fn a_rank_that_stops_early_is_followed_by_the_others() {
         let all = [
             ("direct".to_string(), vec![[1e2, 1.0], [1e4, 50.0]]),
             (

@@ -69,7 +69,7 @@ pub(crate) struct SolvesTold {
 }
 
 impl SolveCost {
-    pub(crate) fn of(solves: SolvesTold) -> Self {
+    pub(crate) fn from_solves(solves: SolvesTold) -> Self {
         SolveCost {
             count: solves.by_method.values().sum(),
             seconds: solves.wall_seconds,

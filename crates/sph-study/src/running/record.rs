@@ -139,7 +139,7 @@ fn one() -> String {
 /// What a study reads of the summary of a run, whatever computed it.
 #[derive(Default, Deserialize)]
 #[serde(default)]
-struct Told {
+struct RunSummary {
     wall_seconds: f64,
     threads: usize,
     #[serde(alias = "grains")]
@@ -169,8 +169,8 @@ struct DriftTold {
 
 impl Record {
     /// What a run gave, from its summary.
-    pub fn of(summary: Json) -> Self {
-        let told: Told = serde_json::from_value(summary).unwrap_or_default();
+    pub fn from_summary(summary: Json) -> Self {
+        let told: RunSummary = serde_json::from_value(summary).unwrap_or_default();
         let both = |[low, high]: [Option<f64>; 2]| Some([low?, high?]);
         Record {
             spent: told.wall_seconds,
@@ -180,7 +180,7 @@ impl Record {
             steps_rolled_back: told.steps_rolled_back,
             simulated_seconds: told.simulated_seconds,
             dt_limiters: told.dt_limiters,
-            solves: told.implicit_viscosity.map(SolveCost::of),
+            solves: told.implicit_viscosity.map(SolveCost::from_solves),
             health: Health {
                 escaped: told.escaped,
                 density_range: both(told.density_range),
@@ -296,7 +296,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_settled_is_not_run_again() {
+    fn finished_variants_are_not_run_again() {
         let record = |status, limit| Record {
             status,
             fingerprint: "a".into(),

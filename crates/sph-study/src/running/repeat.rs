@@ -122,19 +122,19 @@ impl Job<'_> {
         let cause = observer.cause;
         match ended {
             Ended::Done(summary) => {
-                record.add(&Record::of(summary));
+                record.add(&Record::from_summary(summary));
                 if record.wall_seconds.len() >= self.study.file.repetitions {
                     record.status = Status::Done;
                 }
                 return Ok(Status::Done);
             }
             Ended::Stopped(summary) => {
-                let run = Record::of(summary);
+                let run = Record::from_summary(summary);
                 record.look(&run);
                 (record.status, record.reason) = self.stopped(run.simulated_seconds, cause);
             }
             Ended::Failed(summary, reason) => {
-                record.look(&Record::of(summary));
+                record.look(&Record::from_summary(summary));
                 record.threads = self.threads;
                 record.status = Status::Failed;
                 record.reason = Some(reason);

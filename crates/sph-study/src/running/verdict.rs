@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn what_did_not_end_is_red_and_what_did_not_run_has_no_colour() {
+    fn unfinished_runs_are_red_and_missing_runs_have_no_colour() {
         let ended = |status| Record {
             status,
             reason: Some("…".into()),

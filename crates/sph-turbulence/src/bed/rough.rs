@@ -37,7 +37,7 @@ impl RoughBed {
         acts_on: &[String],
         setting: &Setting<'_, D>,
     ) -> Result<(), Refusal> {
-        let refused = |key: &str, why: String| Err(Refusal::of(KIND, key, why));
+        let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
         if !setting.phases.contains(&self.phase) {
             let near = suggestion(&self.phase, setting.phases.iter().map(String::as_str));
             let why = format!("there is no phase `{}`{near}", self.phase);

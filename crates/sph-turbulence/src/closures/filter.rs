@@ -14,7 +14,7 @@ pub enum FilterLength {
 
 impl FilterLength {
     /// Its length, m.
-    pub fn of<const D: usize>(self, world: &World<D>) -> f64 {
+    pub fn metres<const D: usize>(self, world: &World<D>) -> f64 {
         match self {
             FilterLength::SmoothingLength => world.kernel.smoothing_length(),
             FilterLength::Spacing => world.spacing,

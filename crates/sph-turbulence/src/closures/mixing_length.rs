@@ -5,7 +5,7 @@ use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
-use super::behind::{Behind, Distances};
+use super::common::{ClosureCommon, Distances};
 use super::length::Length;
 use crate::bed::RoughBed;
 use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
@@ -61,8 +61,8 @@ impl MixingLength {
         }
     }
 
-    fn behind(&self) -> Behind {
-        Behind {
+    fn common(&self) -> ClosureCommon {
+        ClosureCommon {
             name: "mixing-length",
             phases: self.phases.clone(),
             bed: self.bed.clone(),
@@ -123,7 +123,7 @@ impl<const D: usize> Stage<World<D>> for MixingLength {
 
 impl<const D: usize> Contribution<D> for MixingLength {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.behind().offer_to(setting, self.clone(), offer)
+        self.common().offer_to(setting, self.clone(), offer)
     }
 }
 

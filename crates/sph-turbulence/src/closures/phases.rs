@@ -14,7 +14,7 @@ pub(crate) fn check<const D: usize>(
     named: &[String],
     setting: &Setting<'_, D>,
 ) -> Result<(), Refusal> {
-    let refused = |key: &str, why: String| Err(Refusal::of(KIND, key, why));
+    let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
     let viscous = |k: usize| setting.viscosities[k].is_some_and(|nu| nu > 0.0);
     let all = setting.phases;
     if named.is_empty() && all.len() > 1 {
@@ -83,7 +83,7 @@ pub(crate) struct Kinematic<'a> {
 
 impl<'a> Kinematic<'a> {
     /// Of the phases of a world.
-    pub fn of<const D: usize>(
+    pub fn from_world<const D: usize>(
         of_phase: &'a [Option<f64>],
         world: &'a World<D>,
     ) -> Result<Self, StepError> {
@@ -106,7 +106,7 @@ pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
 }
 
 /// The stage of a closure, and no eddies in other phases: neither in soils nor in fluids that are not named.
-pub(crate) struct Only<S> {
+pub(crate) struct PhaseFilter<S> {
     /// The closure's.
     pub stage: S,
     /// Whether it acts, phase by phase.
@@ -142,7 +142,7 @@ impl BedEddies {
     }
 }
 
-impl<S: Declares> Declares for Only<S> {
+impl<S: Declares> Declares for PhaseFilter<S> {
     fn name(&self) -> String {
         self.stage.name()
     }
@@ -158,7 +158,7 @@ impl<S: Declares> Declares for Only<S> {
     }
 }
 
-impl<const D: usize, S: Stage<World<D>>> Stage<World<D>> for Only<S> {
+impl<const D: usize, S: Stage<World<D>>> Stage<World<D>> for PhaseFilter<S> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         self.stage.run(world)?;
         let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;

@@ -5,7 +5,7 @@ use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields, parame
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
-use super::behind::Behind;
+use super::common::ClosureCommon;
 use super::filter::FilterLength;
 use super::last_strain::KeepStrain;
 use super::phases::viscosities;
@@ -96,8 +96,8 @@ impl Smagorinsky {
         }
     }
 
-    fn behind(&self) -> Behind {
-        Behind {
+    fn common(&self) -> ClosureCommon {
+        ClosureCommon {
             name: "smagorinsky",
             phases: self.phases.clone(),
             bed: self.bed.clone(),
@@ -126,7 +126,7 @@ impl Declares for Smagorinsky {
 impl<const D: usize> Stage<World<D>> for Smagorinsky {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-        let width = self.filter * self.filter_length.of(world);
+        let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
         let rates = world.free.get(self.strain_rate())?;
         let inputs = density.iter().zip(rates);
@@ -150,16 +150,19 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
         }
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.behind().offer_to(setting, self.clone(), offer)?;
+        self.common().offer_to(setting, self.clone(), offer)?;
         if self.strain_of == StrainOf::LastStep {
             offer.hook(KeepStrain);
         }
         if self.damping != Damping::VanDriest {
             return Ok(());
         }
-        let grips = &setting.world.walls.elements.grip;
-        if !grips.iter().any(|grip| *grip > 0.0) {
-            return Err(Refusal::of(
+        let friction_factors = &setting.world.walls.elements.friction_factor;
+        if !friction_factors
+            .iter()
+            .any(|friction_factor| *friction_factor > 0.0)
+        {
+            return Err(Refusal::at_key(
                 KIND,
                 "damping",
                 "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \

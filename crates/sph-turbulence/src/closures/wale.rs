@@ -7,7 +7,7 @@ use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
-use super::behind::Behind;
+use super::common::ClosureCommon;
 use super::filter::FilterLength;
 use crate::bed::RoughBed;
 
@@ -45,8 +45,8 @@ pub struct Wale {
 }
 
 impl Wale {
-    fn behind(&self) -> Behind {
-        Behind {
+    fn common(&self) -> ClosureCommon {
+        ClosureCommon {
             name: "wale",
             phases: self.phases.clone(),
             bed: self.bed.clone(),
@@ -89,7 +89,7 @@ impl Declares for Wale {
 impl<const D: usize> Stage<World<D>> for Wale {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-        let width = self.filter * self.filter_length.of(world);
+        let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
         let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
         let all = eddies.par_iter_mut().zip(density).zip(gradients);
@@ -101,7 +101,7 @@ impl<const D: usize> Stage<World<D>> for Wale {
 
 impl<const D: usize> Contribution<D> for Wale {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.behind().offer_to(setting, self.clone(), offer)
+        self.common().offer_to(setting, self.clone(), offer)
     }
 }
 
@@ -109,15 +109,15 @@ impl<const D: usize> Contribution<D> for Wale {
 mod tests {
     use super::*;
 
-    fn of(rows: [[f64; 3]; 3]) -> f64 {
+    fn tensor_norm(rows: [[f64; 3]; 3]) -> f64 {
         let g = Matrix3::from_fn(|i, j| rows[i][j]);
         Wale::default().kinematic(0.02, &g)
     }
 
     #[test]
     fn there_is_none_in_pure_shear_and_at_rest() {
-        assert_eq!(of([[0.0, 7.0, 0.0], [0.0; 3], [0.0; 3]]), 0.0);
-        assert_eq!(of([[0.0; 3]; 3]), 0.0);
+        assert_eq!(tensor_norm([[0.0, 7.0, 0.0], [0.0; 3], [0.0; 3]]), 0.0);
+        assert_eq!(tensor_norm([[0.0; 3]; 3]), 0.0);
         let flat = SMatrix::<f64, 2, 2>::new(0.0, 7.0, 0.0, 0.0);
         assert_eq!(Wale::default().kinematic(0.02, &flat), 0.0);
     }
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn solid_rotation_has_what_its_formula_gives() {
         let omega = 3.0;
-        let found = of([[0.0, -omega, 0.0], [omega, 0.0, 0.0], [0.0; 3]]);
+        let found = tensor_norm([[0.0, -omega, 0.0], [omega, 0.0, 0.0], [0.0; 3]]);
         let exact = (0.5f64 * 0.02).powi(2) * omega * (2.0f64 / 3.0).powf(0.25);
         assert!((found / exact - 1.0).abs() < 1e-14, "{found}, {exact}");
     }
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn irrotational_strain_has_what_its_formula_gives() {
         let s = 2.0f64;
-        let found = of([[s, 0.0, 0.0], [0.0, -s, 0.0], [0.0; 3]]);
+        let found = tensor_norm([[s, 0.0, 0.0], [0.0, -s, 0.0], [0.0; 3]]);
         let d = 2.0 / 3.0 * s.powi(4);
         let exact = 1e-4 * d.powf(1.5) / ((2.0 * s * s).powf(2.5) + d.powf(1.25));
         assert!((found / exact - 1.0).abs() < 1e-14);
@@ -147,7 +147,7 @@ mod tests {
         let at = |y: f64| {
             let along = [0.3 * y, 5.0, 0.7 * y];
             let away = [0.2 * y * y, -0.4 * y, 0.1 * y * y];
-            of([along, away, [-0.2 * y, 2.0, 0.1 * y]])
+            tensor_norm([along, away, [-0.2 * y, 2.0, 0.1 * y]])
         };
         let order = (at(1e-3) / at(5e-4)).log2();
         // Its next term is of the next order: y is 1e-3.

@@ -42,10 +42,10 @@ impl<const D: usize> WallUnits<D> {
     /// u* of every element that rubs, m/s; none where no particle is near.
     fn friction_velocities(&self, world: &World<D>) -> Result<Vec<Option<f64>>, StepError> {
         let (walls, law) = (&world.walls, WallLaw::default());
-        let viscosity = Kinematic::of(&self.viscosities, world)?;
+        let viscosity = Kinematic::from_world(&self.viscosities, world)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mut sums = vec![[0.0; 2]; walls.elements.centre.len()];
-        let rubs = |s: usize| walls.elements.grip[s] > 0.0;
+        let rubs = |s: usize| walls.elements.friction_factor[s] > 0.0;
         for &particle in &walls.contacts.particles {
             let i = particle as usize;
             let seen = nearest(walls, i, &velocity[i], world.spacing, rubs);
@@ -58,7 +58,7 @@ impl<const D: usize> WallUnits<D> {
                     stage: "damping units".into(),
                     reason: error.to_string(),
                 })?;
-            for contact in walls.contacts.of(i) {
+            for contact in walls.contacts.of_particle(i) {
                 let weight = contact.gradient.norm();
                 let sum = &mut sums[contact.element as usize];
                 sum[0] += weight * found;
@@ -77,14 +77,14 @@ impl<const D: usize> Stage<World<D>> for WallUnits<D> {
         let walls = &world.walls;
         let places = &walls.points.position;
         if self.tree.as_ref().is_none_or(|(_, of)| of != places) {
-            let rubs = |s: usize| walls.elements.grip[s] > 0.0;
-            let tree = ElementTree::of(walls, &world.domain, rubs);
+            let rubs = |s: usize| walls.elements.friction_factor[s] > 0.0;
+            let tree = ElementTree::new(walls, &world.domain, rubs);
             self.tree = Some((tree, places.clone()));
         }
         if let Some((tree, _)) = &self.tree {
             let within = REACH * world.kernel.smoothing_length();
             let positions = world.free.get(fields::POSITION)?;
-            let viscosity = Kinematic::of(&self.viscosities, world)?;
+            let viscosity = Kinematic::from_world(&self.viscosities, world)?;
             let all = units.par_iter_mut().zip(positions).enumerate();
             all.with_min_len(256).for_each(|(i, (z, x))| {
                 let nu = viscosity.at(i);

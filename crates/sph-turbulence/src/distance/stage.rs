@@ -45,7 +45,7 @@ impl<const D: usize> Stage<World<D>> for WallDistance<D> {
         if self.tree.as_ref().is_none_or(|(_, of)| of != places) {
             let name = |s: usize| &walls.names[walls.elements.wall[s] as usize];
             let counts = |s: usize| self.walls.is_empty() || self.walls.contains(name(s));
-            let tree = ElementTree::of(walls, &world.domain, counts);
+            let tree = ElementTree::new(walls, &world.domain, counts);
             self.tree = Some((tree, places.clone()));
         }
         let within = self.within;

@@ -17,7 +17,7 @@ pub struct ElementTree<const D: usize> {
 
 impl<const D: usize> ElementTree<D> {
     /// Of the present places of all elements that count.
-    pub fn of(walls: &WallSet<D>, domain: &Domain<D>, counts: impl Fn(usize) -> bool) -> Self {
+    pub fn new(walls: &WallSet<D>, domain: &Domain<D>, counts: impl Fn(usize) -> bool) -> Self {
         let (elements, places) = (&walls.elements, &walls.points.position);
         let whole = |s: &u32| {
             let corners = elements.corners[*s as usize].map(|c| places[c as usize]);
@@ -89,7 +89,7 @@ mod tests {
     fn it_finds_what_looking_at_all_of_them_finds() {
         let walls = ring(61);
         let domain = Domain::open(Vect::repeat(-5.0), Vect::repeat(5.0));
-        let tree = ElementTree::of(&walls, &domain, |_| true);
+        let tree = ElementTree::new(&walls, &domain, |_| true);
         for k in 0..200 {
             let (angle, radius) = (0.731 * f64::from(k), 0.013 * f64::from(k));
             let x = Vect::from([radius * angle.cos(), radius * angle.sin()]);
@@ -114,10 +114,10 @@ mod tests {
             upper: Vect::from([2.0, 2.0]),
             periodic: [true, false],
         };
-        let tree = ElementTree::of(&walls, &domain, |_| true);
+        let tree = ElementTree::new(&walls, &domain, |_| true);
         let found = tree.nearest(&Vect::from([1.9, 0.5]), 5.0).expect("one");
         assert!((found.0 - 0.2).abs() < 1e-15 && found.1 == 0);
-        let none = ElementTree::of(&walls, &domain, |_| false);
+        let none = ElementTree::new(&walls, &domain, |_| false);
         assert_eq!(none.nearest(&Vect::zeros(), 5.0), None);
     }
 }

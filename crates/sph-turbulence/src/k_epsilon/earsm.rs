@@ -56,7 +56,11 @@ impl AlgebraicStress {
     }
 
     /// The stresses of a velocity gradient, 1/s, at a time τ = k/ε, s.
-    pub fn of<const D: usize>(&self, gradient: &SMatrix<f64, D, D>, time: f64) -> Anisotropy {
+    pub fn anisotropy<const D: usize>(
+        &self,
+        gradient: &SMatrix<f64, D, D>,
+        time: f64,
+    ) -> Anisotropy {
         let g = Matrix3::from_fn(|i, j| match i < D && j < D {
             true => gradient[(i, j)] * time,
             false => 0.0,
@@ -86,7 +90,7 @@ mod tests {
     use super::*;
 
     fn shear(time: f64) -> Anisotropy {
-        AlgebraicStress::default().of(&Matrix2::new(0.0, 1.0, 0.0, 0.0), time)
+        AlgebraicStress::default().anisotropy(&Matrix2::new(0.0, 1.0, 0.0, 0.0), time)
     }
 
     /// Page §3.8, `earsm-homogeneous`: in shear with P = ε, −a_12 τ du/dz = 1, at τ du/dz = 3.387: N = 4.05, a_12 = −0.295,

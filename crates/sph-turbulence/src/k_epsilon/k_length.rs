@@ -13,7 +13,7 @@ use super::model::KEpsilonModel;
 use super::near::{BedSide, refuse_negative};
 use crate::bed::RoughBed;
 use crate::bed::SurfaceShare;
-use crate::closures::behind::{Behind, Distances};
+use crate::closures::common::{ClosureCommon, Distances};
 use crate::closures::length::Length;
 use crate::closures::phases::{Kinematic, acts_on, viscosities};
 use crate::columns::{
@@ -76,8 +76,8 @@ impl KLength {
         }
     }
 
-    fn behind(&self) -> Behind {
-        Behind {
+    fn common(&self) -> ClosureCommon {
+        ClosureCommon {
             name: "k-length",
             phases: self.phases.clone(),
             bed: self.bed.clone(),
@@ -148,10 +148,16 @@ impl<const D: usize> Contribution<D> for KLength {
         vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.behind().offer_to(setting, self.clone(), offer)?;
-        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
+        self.common().offer_to(setting, self.clone(), offer)?;
+        let rubs = setting
+            .world
+            .walls
+            .elements
+            .friction_factor
+            .iter()
+            .any(|g| *g > 0.0);
         if rubs && setting.phases.len() == 1 {
-            return Err(Refusal::of(
+            return Err(Refusal::at_key(
                 KIND,
                 "",
                 "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
@@ -221,7 +227,7 @@ impl<const D: usize> StepHook<D> for Sources {
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         let (world, dt) = (&mut *moment.world, moment.dt);
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
-        let viscosity = Kinematic::of(&self.viscosities, world)?;
+        let viscosity = Kinematic::from_world(&self.viscosities, world)?;
         let acts = |i: usize| viscosity.at(i).is_some();
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
         let model = KEpsilonModel::default();
@@ -230,7 +236,7 @@ impl<const D: usize> StepHook<D> for Sources {
             true => world.free.get(SURFACE_SHARE)?,
             false => &[],
         };
-        let bed = BedSide::of(self.bed, world)?;
+        let bed = BedSide::new(self.bed, world)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
         let distance = world.free.get(WALL_DISTANCE)?;
         let all = energy.par_iter_mut().zip(rates).zip(distance).enumerate();

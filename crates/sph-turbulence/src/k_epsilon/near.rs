@@ -21,7 +21,7 @@ impl<'a> BedSide<'a> {
     }
 
     /// Of a world.
-    pub fn of<const D: usize>(bed: bool, world: &'a World<D>) -> Result<Self, StepError> {
+    pub fn new<const D: usize>(bed: bool, world: &'a World<D>) -> Result<Self, StepError> {
         let columns = match bed {
             true => Some([
                 world.free.get(BED_FRICTION_VELOCITY)?,
@@ -66,16 +66,18 @@ pub(crate) fn refuse_negative<const D: usize>(
 
 /// A word about walls that rub a turbulent fluid without a wall function, as they may where a soil needs them to.
 pub(crate) fn rubbed<const D: usize>(world: &World<D>, viscosities: &[Option<f64>]) -> Vec<String> {
-    let Ok(viscosity) = Kinematic::of(viscosities, world) else {
+    let Ok(viscosity) = Kinematic::from_world(viscosities, world) else {
         return Vec::new();
     };
     let walls = &world.walls;
     let elements = &walls.elements;
-    let rubs = |s: usize| elements.grip[s] > 0.0 && elements.wall_function.get(s) != Some(&true);
+    let rubs = |s: usize| {
+        elements.friction_factor[s] > 0.0 && elements.wall_function.get(s) != Some(&true)
+    };
     let of = |i: usize| {
         walls
             .contacts
-            .of(i)
+            .of_particle(i)
             .iter()
             .find(|c| rubs(c.element as usize))
     };

@@ -15,7 +15,7 @@ use super::realisable::RealisableModel;
 use super::start::ChannelStart;
 use super::work::{AtWall, Sources};
 use crate::bed::{RoughBed, SurfaceShare};
-use crate::closures::behind::Behind;
+use crate::closures::common::ClosureCommon;
 use crate::closures::phases::{acts_on, viscosities};
 use crate::columns::{
     DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
@@ -79,12 +79,12 @@ pub struct KEpsilon {
 }
 
 impl KEpsilon {
-    fn behind(&self) -> Behind {
-        Behind {
+    fn common(&self) -> ClosureCommon {
+        ClosureCommon {
             name: "k-epsilon",
             phases: self.phases.clone(),
             bed: self.bed.clone(),
-            ..Behind::default()
+            ..ClosureCommon::default()
         }
     }
 
@@ -136,7 +136,7 @@ impl<const D: usize> Stage<World<D>> for EddyStage {
         let c_mu = |i: usize, time: f64| match self.0 {
             Variant::Standard => model.c_mu,
             Variant::Realisable => realisable.c_mu(&gradients[i], time),
-            Variant::ExplicitAlgebraic => algebraic.of(&gradients[i], time).c_mu(),
+            Variant::ExplicitAlgebraic => algebraic.anisotropy(&gradients[i], time).c_mu(),
         };
         let all = eddies.par_iter_mut().enumerate();
         all.with_min_len(512).for_each(|(i, eddy)| {
@@ -163,18 +163,24 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         ]
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.behind()
+        self.common()
             .offer_to(setting, EddyStage(self.variant), offer)?;
         if self.start(0.0).is_none() {
-            return Err(Refusal::of(
+            return Err(Refusal::at_key(
                 KIND,
                 "",
                 "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
             ));
         }
-        let rubs = setting.world.walls.elements.grip.iter().any(|g| *g > 0.0);
+        let rubs = setting
+            .world
+            .walls
+            .elements
+            .friction_factor
+            .iter()
+            .any(|g| *g > 0.0);
         if rubs && setting.phases.len() == 1 {
-            return Err(Refusal::of(
+            return Err(Refusal::at_key(
                 KIND,
                 "",
                 "k and ε have no values at walls that rub without a wall function: write `condition = \"free-slip\"` there \

@@ -148,7 +148,7 @@ impl<const D: usize> StepHook<D> for Sources {
         let (world, dt) = (&mut *moment.world, moment.dt);
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
         let mut dissipation = world.free.take(DISSIPATION)?;
-        let viscosity = Kinematic::of(&self.viscosities, world)?;
+        let viscosity = Kinematic::from_world(&self.viscosities, world)?;
         let acts = |i: usize| viscosity.at(i).is_some();
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
         refuse_negative(world, DISSIPATION.name, &dissipation, acts)?;
@@ -166,7 +166,7 @@ impl<const D: usize> StepHook<D> for Sources {
             )),
             false => None,
         };
-        let bed = BedSide::of(self.bed, world)?;
+        let bed = BedSide::new(self.bed, world)?;
         let near = |i: usize, nu: f64| {
             let of_wall = walls.as_ref().and_then(|(friction, units)| {
                 let distance = units[i] * nu / friction[i];

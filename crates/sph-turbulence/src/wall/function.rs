@@ -101,7 +101,7 @@ impl LogLaw {
         }
         for (s, wall) in elements.wall.iter().enumerate() {
             let name = &walls.names[*wall as usize];
-            let rubs = elements.grip[s] > 0.0
+            let rubs = elements.friction_factor[s] > 0.0
                 || elements.coulomb.get(s).is_some_and(|c| c.coefficient > 0.0);
             if rubs && !shared && self.walls.contains(name) {
                 return Err(format!(
@@ -116,7 +116,7 @@ impl LogLaw {
 
 impl<const D: usize> Contribution<D> for LogLaw {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let refused = |key: &str, why: String| Refusal::of(KIND, key, why);
+        let refused = |key: &str, why: String| Refusal::at_key(KIND, key, why);
         self.law().check().map_err(|e| refused("", e.to_string()))?;
         self.check_walls(setting)
             .map_err(|why| refused("walls", why))?;

@@ -8,7 +8,7 @@ pub(crate) const LEAST_DISTANCE: f64 = 0.25;
 
 /// What a particle sees of the wall nearest to it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sight {
+pub(crate) struct NearestWall {
     /// Distance from its element's plane, m, not less than a quarter of the spacing.
     pub distance: f64,
     /// Speed along the wall relative to it, m/s.
@@ -22,11 +22,11 @@ pub(crate) fn nearest<const D: usize>(
     velocity: &Vect<D>,
     spacing: f64,
     counts: impl Fn(usize) -> bool,
-) -> Option<Sight> {
+) -> Option<NearestWall> {
     let elements = &walls.elements;
     let mean = |c: &Contact<D>| c.gradient.norm() / elements.measure[c.element as usize];
     let mut found: Option<(f64, Contact<D>)> = None;
-    for contact in walls.contacts.of(particle) {
+    for contact in walls.contacts.of_particle(particle) {
         let mean = mean(&contact);
         if counts(contact.element as usize) && mean > found.map_or(0.0, |f| f.0) {
             found = Some((mean, contact));
@@ -36,7 +36,7 @@ pub(crate) fn nearest<const D: usize>(
     let s = contact.element as usize;
     let slip = velocity - elements.velocity[s];
     let normal = &elements.normal[s];
-    Some(Sight {
+    Some(NearestWall {
         distance: contact.distance.max(LEAST_DISTANCE * spacing),
         speed: (slip - normal * slip.dot(normal)).norm(),
     })

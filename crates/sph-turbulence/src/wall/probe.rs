@@ -63,7 +63,7 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
         let (mut weight, mut shear, mut mean, mut least) = (0.0, 0.0, 0.0, f64::INFINITY);
         for &particle in &walls.contacts.particles {
             let i = particle as usize;
-            let contacts = walls.contacts.of(i).iter();
+            let contacts = walls.contacts.of_particle(i).iter();
             let own = contacts.filter(|c| of_it(c.element));
             let own: f64 = own.map(|c| c.gradient.norm()).sum();
             if own > 0.0 && units[i].is_finite() {

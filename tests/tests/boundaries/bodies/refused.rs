@@ -5,7 +5,7 @@ use sph_tests::Bench;
 use crate::bodies::{FLOAT, PROGRAM};
 
 /// What `sph check` says of the scene with a piece of text exchanged, which must be at the line of `place`.
-fn told(from: &str, to: &str, place: &str) -> String {
+fn message(from: &str, to: &str, place: &str) -> String {
     assert!(FLOAT.contains(from), "{from}");
     let scene = FLOAT.replacen(from, to, 1);
     let bench = Bench::with(PROGRAM, &scene);
@@ -25,41 +25,41 @@ const BODY: &str = "density = 500.0";
 
 #[test]
 fn bodies_without_volume_or_too_light_are_refused() {
-    let said = told(BODY, "density = 19.0", "density = 19.0");
+    let said = message(BODY, "density = 19.0", "density = 19.0");
     assert!(said.contains("a fiftieth is the least"), "{said}");
-    let said = told(BODY, "mass = 0.39", "mass = 0.39");
+    let said = message(BODY, "mass = 0.39", "mass = 0.39");
     assert!(said.contains("a fiftieth is the least"), "{said}");
     let drawn = "box = [[0.3, 0.2], [0.5, 0.3]]\nfluid = \"outside\"";
     let open = "polyline = [[0.3, 0.3], [0.5, 0.3], [0.5, 0.2]]";
-    let said = told(drawn, open, "[wall.float.mover.rigid-body]");
+    let said = message(drawn, open, "[wall.float.mover.rigid-body]");
     assert!(said.contains("encloses no volume"), "{said}");
     let vessel = "polygon = [[0.3, 0.2], [0.5, 0.2], [0.5, 0.3], [0.3, 0.3]]";
-    let said = told(drawn, vessel, "[wall.float.mover.rigid-body]");
+    let said = message(drawn, vessel, "[wall.float.mover.rigid-body]");
     assert!(said.contains("fluid = \"outside\""), "{said}");
 }
 
 #[test]
 fn masses_centres_and_inertias_that_no_body_has_are_refused() {
-    let said = told(BODY, "", "[wall.float.mover.rigid-body]");
+    let said = message(BODY, "", "[wall.float.mover.rigid-body]");
     assert!(said.contains("a `density` or a `mass`"), "{said}");
-    let said = told(BODY, "density = 500.0\nmass = 3.0", "mass = 3.0");
+    let said = message(BODY, "density = 500.0\nmass = 3.0", "mass = 3.0");
     assert!(said.contains("not both"), "{said}");
-    let said = told(BODY, "mass = 9.0\ncentre = [0.4, 0.22]", "centre = [");
+    let said = message(BODY, "mass = 9.0\ncentre = [0.4, 0.22]", "centre = [");
     assert!(said.contains("`inertia`"), "{said}");
-    let said = told(BODY, "mass = 9.0\ninertia = [1.0, 2.0]", "inertia = [");
+    let said = message(BODY, "mass = 9.0\ninertia = [1.0, 2.0]", "inertia = [");
     assert!(said.contains("2 numbers, 1 are expected"), "{said}");
-    let said = told(BODY, "mass = 9.0\ninertia = [-1.0]", "inertia = [");
+    let said = message(BODY, "mass = 9.0\ninertia = [-1.0]", "inertia = [");
     assert!(said.contains("no body has it"), "{said}");
 }
 
 #[test]
 fn freedoms_holds_and_lines_that_are_not_there_are_refused() {
-    let said = told(BODY, "density = 500.0\nfree = [\"y\", \"rx\"]", "free = [");
+    let said = message(BODY, "density = 500.0\nfree = [\"y\", \"rx\"]", "free = [");
     assert!(said.contains("there is no `rx` in 2D: x, y, rz"), "{said}");
-    let said = told(BODY, "density = 500.0\nfree = []", "free = [");
+    let said = message(BODY, "density = 500.0\nfree = []", "free = [");
     assert!(said.contains("nothing is free"), "{said}");
     let held = "density = 500.0\nfree = [\"y\"]\nhold = { x = { stiffness = 3.0 } }";
-    let said = told(BODY, held, "hold = {");
+    let said = message(BODY, held, "hold = {");
     assert!(said.contains("`x` is not free"), "{said}");
     let line = |from: &str| {
         format!(
@@ -67,9 +67,9 @@ fn freedoms_holds_and_lines_that_are_not_there_are_refused() {
              to = [0.4, 0.2]\nstiffness = 100.0"
         )
     };
-    let said = told(BODY, &line("[0.4, -0.3]"), "to = [0.4, 0.2]");
+    let said = message(BODY, &line("[0.4, -0.3]"), "to = [0.4, 0.2]");
     assert!(said.contains("goes through the wall `tank`"), "{said}");
-    let said = told(BODY, &line("[0.4, 0.0, 0.0]"), "from = [0.4, 0.0, 0.0]");
+    let said = message(BODY, &line("[0.4, 0.0, 0.0]"), "from = [0.4, 0.0, 0.0]");
     assert!(said.contains("3 numbers, 2 are expected"), "{said}");
 }
 
@@ -95,7 +95,7 @@ fn chains_that_cannot_hang_are_refused() {
         ),
         ("length = 0.3\nbed = true", "bed = true", "is straight"),
     ] {
-        let said = told(BODY, &chain(more), place);
+        let said = message(BODY, &chain(more), place);
         assert!(said.contains(why), "{said}");
     }
     // The way between its ends is free, but what hangs there is not.
@@ -128,7 +128,7 @@ fn bodies_that_overlap_at_the_start_are_refused() {
 
 #[test]
 fn walls_that_fluid_clings_to_are_refused() {
-    let said = told("vertices = false", "", "[wall.float.mover.rigid-body]");
+    let said = message("vertices = false", "", "[wall.float.mover.rigid-body]");
     assert!(said.contains("vertices = false"), "{said}");
 }
 
@@ -136,7 +136,7 @@ fn walls_that_fluid_clings_to_are_refused() {
 fn times_that_are_not_one_after_the_other_are_refused() {
     let twice = |first: &str, second: &str| {
         let times = format!("prescribed = [{{ {first} }},\n{{ {second} }}]");
-        told(BODY, &format!("{BODY}\n{times}"), second)
+        message(BODY, &format!("{BODY}\n{times}"), second)
     };
     let said = twice(
         "from = \"1 s\", to = \"3 s\"",

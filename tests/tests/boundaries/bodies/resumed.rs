@@ -26,15 +26,15 @@ fn bodies_are_threaded_and_resumed_bit_for_bit() {
             bench.done(&format!(
                 "run scene.toml --quiet --out more --threads {threads} {scheme}"
             ));
-            let more = FinalState::of(&bench.path("more"));
-            FinalState::of(&bench.path("one")).assert_same(&more, integrator);
+            let more = FinalState::read(&bench.path("more"));
+            FinalState::read(&bench.path("one")).assert_same(&more, integrator);
         }
         let part = format!("run scene.toml --quiet --out parts {scheme}");
         let stopped = bench.call(&format!("{part} --threads 1 --set run.max_steps=101"));
         assert!(stopped.code.is_some(), "{}", stopped.err);
         bench.done(&format!("{part} --threads 2 --resume --changed"));
-        let whole = FinalState::of(&bench.path("one"));
-        let parts = FinalState::of(&bench.path("parts"));
+        let whole = FinalState::read(&bench.path("one"));
+        let parts = FinalState::read(&bench.path("parts"));
         assert_eq!(
             whole.columns["wall_states"], parts.columns["wall_states"],
             "{integrator}"

@@ -64,7 +64,7 @@ fn only_the_zone_is_damped() {
 }
 
 #[test]
-fn what_is_no_damping_is_refused_at_its_line() {
+fn invalid_damping_is_refused_at_its_line() {
     for (damping, said) in [
         ("rate = -1.0\n", "rate"),
         (

@@ -101,7 +101,7 @@ fn absorbing() -> String {
 }
 
 #[test]
-fn what_moves_a_wall_is_resumed_and_threaded_bit_for_bit() {
+fn movers_of_walls_are_resumed_and_threaded_bit_for_bit() {
     resumed_and_threaded(PISTON);
     resumed_and_threaded(&absorbing());
     // It drifts before it looks: what was seen last is in the checkpoint.
@@ -118,9 +118,9 @@ fn resumed_and_threaded(scene: &str) {
     let stopped = bench.call(&format!("{part} --threads 1 --set run.max_steps=101"));
     assert!(stopped.code.is_some(), "{}", stopped.err);
     bench.done(&format!("{part} --threads 2 --resume --changed"));
-    let whole = FinalState::of(&bench.path("whole"));
-    whole.assert_same(&FinalState::of(&bench.path("two")), "two threads");
-    let parts = FinalState::of(&bench.path("parts"));
+    let whole = FinalState::read(&bench.path("whole"));
+    whole.assert_same(&FinalState::read(&bench.path("two")), "two threads");
+    let parts = FinalState::read(&bench.path("parts"));
     assert_eq!(whole.columns["wall_states"], parts.columns["wall_states"]);
     whole.assert_same(&parts, "in two parts");
     assert!(displacement(&bench, "whole") != 0.0);

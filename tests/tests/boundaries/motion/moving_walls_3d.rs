@@ -10,7 +10,7 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 fn run(bench: &Bench, out: &str, words: &str) -> FinalState {
     bench.done(&format!("run scene.toml --quiet --out {out} {words}"));
-    FinalState::of(&bench.path(out))
+    FinalState::read(&bench.path(out))
 }
 
 /// Simulated time that `series.csv` has reached; zero before it is there.

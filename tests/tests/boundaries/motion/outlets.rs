@@ -6,7 +6,7 @@ use sph_tests::{Bench, DAM_BREAK};
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 #[test]
-fn what_leaves_is_counted_and_missing_in_the_flow() {
+fn outflow_is_counted_and_missing_in_the_flow() {
     let outlet = "[outlet.end]\nbeyond = 0.45\n[probe.lost]\nkind = \"eroded-mass\"\n\
                   phase = \"water\"\nlevel = 10";
     let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{outlet}\n"));

@@ -15,7 +15,7 @@ fn a_drift_in_halves_does_not_stop_short_of_an_output() {
              --set output.every={every} --set formulation={{\"colagrossi-landrini\"={{}}}}"
         );
         bench.done(&words);
-        let series = FinalState::of(&bench.path(every)).series;
+        let series = FinalState::read(&bench.path(every)).series;
         let last = series.lines().last().expect("a row").to_string();
         assert!(last.starts_with("0.4,"), "every {every}: {last}");
     }

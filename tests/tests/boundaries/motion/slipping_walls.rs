@@ -18,7 +18,7 @@ fn layer() -> Assembled<2> {
         [numerics]
         spacing = 0.1
         smoothing_ratio = 2.0
-        disorder = 0.2
+        jitter = 0.2
         [numerics.periodic]
         x = [0.0, 2.0]
         [walls.usaw]

@@ -2,7 +2,7 @@
 
 mod current;
 mod pulse;
-mod still;
+mod still_water;
 
 use std::path::Path;
 
@@ -95,7 +95,7 @@ fn number(of: &Json, face: &str, key: &str) -> f64 {
 
 /// entered − left − held of every face, and what particles there are, are four sums of their own.
 #[test]
-fn what_comes_in_less_what_goes_out_is_what_is_held() {
+fn inflow_less_outflow_is_the_change_of_mass() {
     let out = folder();
     let summary = into(out.path(), CHANNEL, 2, Start::Afresh);
     let passed = &summary.counts["open_boundaries"];
@@ -112,7 +112,7 @@ fn what_comes_in_less_what_goes_out_is_what_is_held() {
     );
     let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
     let sum = |key: &str| faces.iter().map(|f| number(passed, f, key)).sum::<f64>();
-    let state = FinalState::of(out.path());
+    let state = FinalState::read(out.path());
     let mass = state.columns["mass"]
         .iter()
         .map(|b| f64::from_bits(*b))
@@ -135,15 +135,15 @@ fn particles_come_and_go_at_the_same_step_with_the_same_bits_on_any_threads_and_
     let outs: Vec<_> = (0..4).map(|_| folder()).collect();
     let path = |k: usize| outs[k].path();
     into(path(0), CHANNEL, 1, Start::Afresh);
-    let whole = FinalState::of(path(0));
+    let whole = FinalState::read(path(0));
     for (k, threads) in [(1, 2), (2, 4)] {
         into(path(k), CHANNEL, threads, Start::Afresh);
-        FinalState::of(path(k)).assert_same(&whole, &format!("{threads} threads"));
+        FinalState::read(path(k)).assert_same(&whole, &format!("{threads} threads"));
     }
     let part = CHANNEL.replace("end = 0.6\n", "end = 0.6\nmax_steps = 60\n");
     into(path(3), &part, 1, Start::Afresh);
     into(path(3), CHANNEL, 2, Start::Resumed);
-    FinalState::of(path(3)).assert_same(&whole, "resumed");
+    FinalState::read(path(3)).assert_same(&whole, "resumed");
 }
 
 /// A channel without friction with a flow that is the same everywhere: nothing may change it.
@@ -157,7 +157,7 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
         .replace("every = 0.6", "every = 3.0");
     let out = folder();
     let summary = into(out.path(), &text, 2, Start::Afresh);
-    let state = FinalState::of(out.path());
+    let state = FinalState::read(out.path());
     let velocity: Vec<f64> = state.columns["velocity"]
         .iter()
         .map(|b| f64::from_bits(*b))
@@ -201,7 +201,7 @@ fn slow_rows_do_not_gather_before_an_outlet() {
         .replace("speed_of_sound = 12.0", "speed_of_sound = 15.0");
     let out = folder();
     into(out.path(), &text, 2, Start::Afresh);
-    let particles = FinalState::of(out.path()).columns["mass"].len();
+    let particles = FinalState::read(out.path()).columns["mass"].len();
     // Half a row of eight before either face is in a port or not.
     assert!(
         particles.abs_diff(160) <= 8,
@@ -300,7 +300,7 @@ fn assert_refused(text: &str, path: &str, why: &str) {
 }
 
 #[test]
-fn what_no_face_can_be_is_refused_at_its_key() {
+fn invalid_faces_are_refused_at_their_key() {
     let inlet = "wall.inlet.open-boundary.velocity-inlet";
     let with = |a: &str, b: &str| CHANNEL.replace(a, b);
     let fast = with("velocity = \"1 m/s\"", "velocity = \"15 m/s\"");

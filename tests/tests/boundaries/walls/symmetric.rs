@@ -165,7 +165,7 @@ fn a_block_near_the_floor_is_lifted_by_the_displaced_weight_to_3_per_cent() {
 /// A piston works on the fluid by what it feels. Measured 1.6682 J for 1.6710 J: the force at the beginning of a step stands
 /// for that of the step, an error of first order.
 #[test]
-fn what_a_moving_wall_gives_is_its_force_times_its_velocity() {
+fn the_power_of_a_moving_wall_is_its_force_times_its_velocity() {
     let more = "[wall.piston]\nbox = [[0.3, 0.2], [0.5, 0.3]]\nfluid = \"outside\"\ncondition = \"free-slip\"\n\
                 motion.translate = { along = [1.0, 0.0], sine = { amplitude = 0.01, period = 0.2 } }\n";
     let mut flow = tank(0.02, more);

@@ -108,7 +108,7 @@ fn vorticity_and_shear_stress_of_vortices_are_1_75_percent_small_and_q_3_5_as_th
 }
 
 #[test]
-fn who_does_not_ask_has_no_column_and_the_same_bits() {
+fn a_scene_without_the_column_has_the_same_bits() {
     let bench = with(DAM_BREAK);
     let plain = bench.done("explain scene.toml").out;
     for name in [

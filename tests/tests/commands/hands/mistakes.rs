@@ -37,7 +37,7 @@ fn mistakes_of_scene_and_plugins_are_told_in_one_go() {
 }
 
 #[test]
-fn what_may_stand_in_a_place_is_told() {
+fn allowed_tables_of_a_place_are_listed() {
     let bench = with(DAM_BREAK);
     let checked = bench.call("check scene.toml --set output.picture_range=big");
     assert_eq!(checked.code, Some(2));

@@ -3,7 +3,7 @@
 use crate::hands::bench;
 
 #[test]
-fn every_particle_has_one_owner_and_guests_are_those_that_are_sent() {
+fn every_particle_has_one_owner_and_ghosts_are_those_that_are_sent() {
     let bench = bench();
     let told = bench.done("explain hydrostatic-tank --ranks 6 --json").out;
     let json: serde_json::Value = serde_json::from_str(&told).expect("JSON");
@@ -12,7 +12,7 @@ fn every_particle_has_one_owner_and_guests_are_those_that_are_sent() {
     assert_eq!(ranks.len(), 6);
     let sum = |key: &str| ranks.iter().filter_map(|r| r[key].as_u64()).sum::<u64>();
     assert_eq!(Some(sum("particles")), json["particles"].as_u64());
-    assert_eq!(sum("guests"), sum("sent"));
+    assert_eq!(sum("ghosts"), sum("sent"));
     // Three cuts lead to a rank, each off by half a particle at most, and none costs three times the mean.
     let particles = sum("particles") as f64;
     let bound = 3.0 * 0.5 * 3.0 * 6.0 / particles;

@@ -121,7 +121,7 @@ fn particles_that_collide_end_in_a_report_with_the_largest_term() {
 }
 
 #[test]
-fn whoever_leaves_the_domain_is_shown_where_it_was() {
+fn an_escaped_particle_is_shown_at_its_last_place() {
     let domain = "--set numerics.domain=[[-0.1,-0.1],[0.35,0.7]] --set run.retries=1";
     let failed = failed(DAM_BREAK, domain);
     failed.says(

@@ -58,7 +58,7 @@ fn the_lock_of_a_killed_run_is_taken_over_with_a_word() {
     let told = format!("process {} on ", child.id());
     assert!(again.err.contains(&told), "{}", again.err);
     assert!(again.err.contains("taken over"), "{}", again.err);
-    whole.assert_same(&Results::of(&bench.path("r")), "taken over");
+    whole.assert_same(&Results::read(&bench.path("r")), "taken over");
     assert!(!bench.path("r/.lock").exists());
 }
 

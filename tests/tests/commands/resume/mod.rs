@@ -41,7 +41,7 @@ fn wait_for(child: &mut Child, bench: &Bench, out: &str, time: f64) {
 
 fn uninterrupted(bench: &Bench) -> Results {
     bench.done("run scene.toml --quiet --out whole --threads 2");
-    Results::of(&bench.path("whole"))
+    Results::read(&bench.path("whole"))
 }
 
 /// Starts a run, kills it at a simulated time, resumes it with some number of threads.
@@ -57,7 +57,7 @@ fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> Results {
     let status = child.wait().expect("the end of the run");
     assert_eq!(status.code(), None, "killed by a signal, not ended");
     bench.done(&format!("{run} --resume --threads {threads}"));
-    Results::of(&bench.path(&out))
+    Results::read(&bench.path(&out))
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
 }
 
 #[test]
-fn what_has_left_by_an_outlet_stays_away_and_counted() {
+fn particles_that_left_by_an_outlet_stay_away_and_counted() {
     let bench = Bench::with(
         PROGRAM,
         &format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),
@@ -125,10 +125,10 @@ fn displacements_go_on_where_they_were() {
 }
 
 #[test]
-fn what_a_soil_remembers_of_its_way_goes_on_where_it_was() {
+fn the_remembered_displacement_of_a_soil_is_resumed() {
     let bench = Bench::with(PROGRAM, SOIL);
     let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("elastic_turn"));
+    assert!(whole.state.columns.contains_key("stress_rotation"));
     let resumed = killed_and_resumed(&bench, 0.04, 1);
     whole.assert_same(&resumed, "with elastic displacements");
 }
@@ -149,7 +149,7 @@ fn a_run_that_is_over_stays_as_it_is() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);
     bench.done("run scene.toml --quiet --out whole --threads 1 --resume");
-    let again = Results::of(&bench.path("whole"));
+    let again = Results::read(&bench.path("whole"));
     whole.assert_same(&again, "resumed at its end");
 }
 
@@ -188,7 +188,7 @@ fn stopped_by(signal: &str) {
     assert!(reached(&bench, "stopped") < 0.4, "it went on to the end");
 
     bench.done("run scene.toml --quiet --out stopped --resume");
-    let resumed = Results::of(&bench.path("stopped"));
+    let resumed = Results::read(&bench.path("stopped"));
     whole.assert_same(&resumed, &format!("interrupted by {signal}"));
 }
 

@@ -109,7 +109,7 @@ impl Soak<'_> {
             let output = child.wait_with_output().expect("the end of the run");
             let err = String::from_utf8_lossy(&output.stderr);
             if output.status.success() {
-                tally.steps = Results::of(&folder).steps();
+                tally.steps = Results::read(&folder).steps();
                 return tally;
             }
             let asked = matches!(
@@ -243,7 +243,7 @@ fn soak(
     bench.done(&format!(
         "run scene.toml --quiet --out whole --threads 2 {set}"
     ));
-    let whole = Results::of(&bench.path("whole"));
+    let whole = Results::read(&bench.path("whole"));
     println!("uninterrupted: {} steps", whole.steps());
     let soak = Soak {
         bench: &bench,
@@ -261,7 +261,7 @@ fn soak(
             start.elapsed().as_secs_f64()
         );
         let folder = bench.path(&out);
-        whole.assert_same(&Results::of(&folder), &format!("seed {seed}, {out}"));
+        whole.assert_same(&Results::read(&folder), &format!("seed {seed}, {out}"));
         assert!(!under_way(&folder), "{:?}", temporaries(&folder));
         all.kills += tally.kills;
         all.while_writing += tally.while_writing;

@@ -204,7 +204,7 @@ const QUICK: [&str; 17] = [
 ];
 
 #[test]
-fn what_must_survive_survives() {
+fn required_values_survive() {
     let bench = bench("");
     let only: Vec<String> = QUICK.iter().map(|name| format!("--only {name}")).collect();
     bench.done(&format!(

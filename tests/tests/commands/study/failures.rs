@@ -50,7 +50,7 @@ fn a_variant_that_fails_is_recorded_and_the_study_goes_on() {
 fn a_full_disk_costs_the_running_variant_and_no_finished_one() {
     let bench = bench(STUDY);
     let at = bench.path("disk");
-    let Some(disk) = Disk::of(96, &at) else {
+    let Some(disk) = Disk::mount(96, &at) else {
         println!("skipped: mounting a small file system is not permitted here");
         return;
     };

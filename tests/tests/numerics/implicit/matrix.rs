@@ -114,7 +114,7 @@ fn layers() -> World<2> {
         box = [[0.0, 0.4], [1.0, 1.0]]
         clip = true
     "#;
-    tank("disorder = 0.4", liquids)
+    tank("jitter = 0.4", liquids)
 }
 
 fn operators<const D: usize>() -> Vec<(&'static str, Box<dyn ViscousOperator<D>>)> {

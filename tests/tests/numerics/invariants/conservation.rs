@@ -47,7 +47,7 @@ fn masses(parts: &Assembled<2>) -> Vec<u64> {
     masses
 }
 
-const COARSE: [&str; 2] = ["numerics.spacing=0.05", "numerics.disorder=0.2"];
+const COARSE: [&str; 2] = ["numerics.spacing=0.05", "numerics.jitter=0.2"];
 
 /// Every formulation and viscous operator, integrator and smoother at least once.
 const PLUGINS: [&[&str]; 10] = [
@@ -118,7 +118,7 @@ proptest! {
     fn random_velocities_keep_their_momentum(plugins in 0..PLUGINS.len(), seed in 1..1_000_000, disorder in 0.0..0.4) {
         let wild = [
             format!("numerics.seed={seed}"),
-            format!("numerics.disorder={disorder}"),
+            format!("numerics.jitter={disorder}"),
             "numerics.velocity_noise=0.5".to_string(),
         ];
         let wild = wild.iter().map(String::as_str);

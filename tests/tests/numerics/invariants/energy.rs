@@ -12,7 +12,7 @@ const BUDGET: &str = "probe.budget={ kind = \"energy-budget\" }";
 struct Budget(Vec<(String, f64)>);
 
 impl Budget {
-    fn of(parts: &Assembled<2>) -> Self {
+    fn new(parts: &Assembled<2>) -> Self {
         let (_, probe) = parts
             .probes
             .iter()
@@ -73,7 +73,7 @@ fn the_budget_of_a_dam_break_closes_with_the_damper_and_without() {
     ] {
         let mut overrides = vec!["numerics.spacing=0.01"];
         overrides.extend(more);
-        let budget = Budget::of(&flown("dam-break-koshizuka", 0.5, &overrides));
+        let budget = Budget::new(&flown("dam-break-koshizuka", 0.5, &overrides));
         budget.closes(initial);
         let (taken, surface) = (budget.at("damper"), budget.at("surface"));
         assert!(taken <= 0.0 && (taken < 0.0) == overrides.contains(&damper));
@@ -92,7 +92,7 @@ fn the_budget_of_a_standing_wave_closes() {
         "body.water.box=[[-1.0, 0.0], [1.0, 1.025]]",
         "integrator.symplectic-euler.courant=0.1",
     ];
-    let budget = Budget::of(&flown("standing-wave-inviscid", 3.5515, &coarse));
+    let budget = Budget::new(&flown("standing-wave-inviscid", 3.5515, &coarse));
     budget.closes(initial);
     assert_eq!(budget.at("surface"), 0.0, "nothing relaxes constants here");
 }
@@ -109,11 +109,11 @@ fn friction_takes_what_drives_a_channel() {
         let mut overrides = vec!["numerics.spacing=0.0625"];
         overrides.extend(more);
         let mut parts = flown("poiseuille-2d", 1.0, &overrides);
-        let (start, before) = (parts.flow.time(), Budget::of(&parts));
+        let (start, before) = (parts.flow.time(), Budget::new(&parts));
         while parts.flow.time() < start + 0.1 {
             fly(&mut parts, 1, None);
         }
-        let (now, time) = (Budget::of(&parts), parts.flow.time() - start);
+        let (now, time) = (Budget::new(&parts), parts.flow.time() - start);
         let rate = |name: &str| (now.at(name) - before.at(name)) / time;
         for (name, expected) in [("others", power), ("viscosity", -power)] {
             let error = rate(name) / expected - 1.0;
@@ -133,7 +133,7 @@ fn friction_takes_what_drives_a_channel() {
 
 /// Steps of another form, and particles that leave.
 #[test]
-fn what_cannot_be_booked_is_refused() {
+fn flows_without_an_energy_budget_are_refused() {
     let refused = |more: &str| {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
         let path = path.join("../scenes/dam-break-koshizuka.toml");

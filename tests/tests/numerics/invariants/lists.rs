@@ -7,7 +7,7 @@ use crate::invariants::{States, fly, shipped, states};
 fn flown(formulation: &str, integrator: &str, skin: &str) -> (States, u64) {
     let overrides = [
         "numerics.spacing=0.04",
-        "numerics.disorder=0.2",
+        "numerics.jitter=0.2",
         &format!("numerics.skin={skin}"),
         &format!("formulation={{{formulation}={{}}}}"),
         &format!("integrator={{{integrator}={{}}}}"),

@@ -102,7 +102,7 @@ fn kilometres_millimetres_and_micrometres_give_the_same_flow() {
 fn implicit_viscosity_gives_the_same_bits_at_twice_the_size() {
     let flown = |overrides: &[&str]| {
         let implicit = [
-            "numerics.disorder=0.2",
+            "numerics.jitter=0.2",
             "implicit-viscosity.backward-euler={}",
         ];
         let all: Vec<&str> = implicit.iter().chain(overrides).copied().collect();

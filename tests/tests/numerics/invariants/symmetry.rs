@@ -13,7 +13,7 @@ const STEPS: usize = 100;
 const DT: f64 = 0.004;
 
 fn vortices(overrides: &[&str]) -> Assembled<2> {
-    let base = ["numerics.spacing=0.04", "numerics.disorder=0.2"];
+    let base = ["numerics.spacing=0.04", "numerics.jitter=0.2"];
     let all: Vec<&str> = base.iter().chain(overrides).copied().collect();
     shipped("taylor-green-2d", &all)
 }

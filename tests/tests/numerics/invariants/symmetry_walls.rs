@@ -41,7 +41,7 @@ const PLUGINS: [&[&str]; 8] = [
 fn flown(plugins: &[&str], mirrored: bool) -> States {
     let base = [
         "numerics.spacing=0.1",
-        "numerics.disorder=0.2",
+        "numerics.jitter=0.2",
         "numerics.velocity_noise=0.3",
     ];
     let all: Vec<&str> = base.iter().chain(plugins).copied().collect();

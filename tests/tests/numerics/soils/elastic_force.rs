@@ -120,13 +120,13 @@ fn in_space_it_is_the_same_force() {
 
 #[test]
 fn a_rigid_translation_makes_no_force() {
-    let parts = displaced(&["numerics.disorder=0.2"], |_, _| Vect::from([0.3, -0.2]));
+    let parts = displaced(&["numerics.jitter=0.2"], |_, _| Vect::from([0.3, -0.2]));
     let force = |parts: &Assembled<2>| {
         let all = parts.flow.world.free.get(fields::ACCELERATION).unwrap();
         all.to_vec()
     };
     // What is left is the pressure on a shaken lattice.
-    let still = displaced(&["numerics.disorder=0.2"], |_, _| Vect::zeros());
+    let still = displaced(&["numerics.jitter=0.2"], |_, _| Vect::zeros());
     assert_eq!(force(&parts), force(&still));
 }
 
@@ -139,7 +139,7 @@ fn noise(k: usize) -> f64 {
 #[test]
 fn second_differences_leave_the_momentum_in_a_closed_box() {
     let any = |k: usize, _: &Vect<2>| Vect::from([noise(2 * k), noise(2 * k + 1)]) * 1e-3;
-    let parts = displaced(&["numerics.disorder=0.2"], any);
+    let parts = displaced(&["numerics.jitter=0.2"], any);
     let free = &parts.flow.world.free;
     let mass = free.get(fields::MASS).unwrap();
     let all = mass.iter().zip(free.get(fields::ACCELERATION).unwrap());
@@ -186,7 +186,7 @@ const CLAY: &str = "phase.rubber.rheology.drucker-prager={young_modulus=2.8e5, p
                     friction_angle=0, cohesion=500, grain_diameter=5e-3, grain_density=2650}";
 
 #[test]
-fn what_a_choice_of_the_force_does_to_momentum() {
+fn momentum_of_each_force_form() {
     let turned = "elastic-force.displacement={}";
     let forces = "elastic-force.divergence.blend=forces";
     let both = "elastic-force.displacement.blend=forces";
@@ -211,7 +211,7 @@ fn what_a_choice_of_the_force_does_to_momentum() {
 
 /// Where the soil is solid only the water rubs it, and with it the water has what it gives: Σ m a = 0.
 #[test]
-fn what_water_rubs_off_a_soil_stays_out_of_the_blend() {
+fn friction_of_water_on_a_soil_stays_out_of_the_blend() {
     let mut parts = tried("saturated-bed-at-rest", &[]).unwrap_or_else(|e| panic!("{e}"));
     parts.flow.evaluate().unwrap();
     let world = &mut parts.flow.world;
@@ -274,7 +274,7 @@ fn refused(scene: &str, overrides: &[&str], key: &str, words: &[&str]) {
 }
 
 #[test]
-fn what_cannot_be_combined_is_refused_at_its_key() {
+fn invalid_combinations_are_refused_at_their_key() {
     for name in ["divergence", "displacement"] {
         let blend = format!("elastic-force.{name}.blend");
         let forces = format!("{blend}=forces");
@@ -346,9 +346,9 @@ fn a_scene_that_does_not_ask_carries_nothing_of_it() {
     let [plain, asked] = [&[][..], &["elastic-force.displacement={}"]].map(columns);
     for name in [
         "elastic_displacement",
-        "elastic_turn",
-        "solid_share",
-        "held_share",
+        "stress_rotation",
+        "solid_fraction",
+        "yield_factor",
     ] {
         assert!(!plain.contains(&name) && asked.contains(&name), "{name}");
     }

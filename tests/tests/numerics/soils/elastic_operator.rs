@@ -62,7 +62,7 @@ fn vortices(ratio: f64) -> World<2> {
         dt: 1.0,
         transported: Vec::new(),
         extent: None,
-        team: None,
+        communicator: None,
     };
     world.rebuild_lists().unwrap();
     let positions = world.free.get(fields::POSITION).unwrap();

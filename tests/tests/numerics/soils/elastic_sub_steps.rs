@@ -45,7 +45,7 @@ fn a_stiff_block_that_is_shaken_gains_nothing() {
     let shaken = [
         "phase.rubber.rheology.elastic.young_modulus=2.8e9",
         "phase.rubber.rheology.elastic.viscosity=0",
-        "numerics.disorder=0.2",
+        "numerics.jitter=0.2",
         "numerics.velocity_noise=0.01",
     ];
     let mut parts = with_sub_steps("elastic-shear-wave", &shaken);

@@ -48,7 +48,7 @@ fn rings_out(integrator: &str) {
     let chosen = format!("integrator={{{integrator}={{}}}}");
     let shaken = [
         "phase.rubber.rheology.elastic.young_modulus=2.8e9",
-        "numerics.disorder=0.2",
+        "numerics.jitter=0.2",
         "numerics.velocity_noise=0.01",
         &chosen,
     ];

@@ -159,7 +159,7 @@ fn nothing_flows_at_rest_nor_in_a_tank_that_is_accelerated_nor_in_free_fall() {
 }
 
 #[test]
-fn what_water_gives_water_takes() {
+fn momentum_of_the_water_is_conserved() {
     let bench = Bench::new(PROGRAM);
     let mut parts = plain(&bench, "gravity = [0.0, -9.81]");
     let free = &mut parts.flow.world.free;
@@ -207,7 +207,7 @@ fn the_number_of_threads_changes_no_bit() {
         bench.done(&format!(
             "run scene.toml --quiet --out r{threads} --threads {threads} --set run.end=0.01"
         ));
-        FinalState::of(&bench.path(&format!("r{threads}")))
+        FinalState::read(&bench.path(&format!("r{threads}")))
     };
     let one = state(1);
     for threads in [2, 4] {

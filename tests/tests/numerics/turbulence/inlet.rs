@@ -58,7 +58,7 @@ fn turbulence_behind_a_grid_begins_as_given_and_decays_as_the_model_says() {
         [k_0 * s, e_0 * s.powf((n + 1.0) / n)]
     };
     let (_, out) = finished(GRID, 1);
-    let state = FinalState::of(out.path());
+    let state = FinalState::read(out.path());
     let column = |name: &str| state.columns[name].iter().map(|b| f64::from_bits(*b));
     let place: Vec<f64> = column("position").step_by(2).collect();
     let found = column(TURBULENT_ENERGY.name).zip(column(DISSIPATION.name));

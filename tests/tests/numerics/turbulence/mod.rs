@@ -333,7 +333,7 @@ fn homogeneous_turbulence_decays_as_the_model_says() {
         );
     }
     let (_, other) = finished(&text, 2);
-    let state = |f: &tempfile::TempDir| FinalState::of(f.path());
+    let state = |f: &tempfile::TempDir| FinalState::read(f.path());
     state(&folder).assert_same(&state(&other), "one and two threads");
 }
 
@@ -345,7 +345,7 @@ fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
                 [flow-control.bulk-velocity]\nvelocity = 1.0\n";
     let text = format!("{CHANNEL}{rest}");
     let folders = [1, 2].map(|threads| finished(&text, threads).1);
-    let states = folders.each_ref().map(|f| FinalState::of(f.path()));
+    let states = folders.each_ref().map(|f| FinalState::read(f.path()));
     states[0].assert_same(&states[1], "one and two threads");
     let resumed = tempfile::tempdir().expect("a folder");
     into(
@@ -356,7 +356,7 @@ fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
         Start::Afresh,
     );
     into(resumed.path(), &text, &[], 2, Start::Resumed);
-    states[0].assert_same(&FinalState::of(resumed.path()), "whole and resumed");
+    states[0].assert_same(&FinalState::read(resumed.path()), "whole and resumed");
     for name in [TURBULENT_ENERGY.name, DISSIPATION.name] {
         let values = states[0].columns[name].iter().map(|b| f64::from_bits(*b));
         assert!(
@@ -371,7 +371,7 @@ fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
     ] {
         let folder = tempfile::tempdir().expect("a folder");
         into(folder.path(), &text, &[change], 1, Start::Afresh);
-        let columns = FinalState::of(folder.path()).columns;
+        let columns = FinalState::read(folder.path()).columns;
         let energy = columns[TURBULENT_ENERGY.name]
             .iter()
             .map(|b| f64::from_bits(*b));

@@ -96,7 +96,7 @@ fn transported_scalars_do_not_pass_between_phases_whatever_the_number_of_threads
         );
         let text = format!("{OVER_A_BED}{closure}");
         let folders = [1, 2].map(|threads| finished(&text, threads).1);
-        let states = folders.each_ref().map(|f| FinalState::of(f.path()));
+        let states = folders.each_ref().map(|f| FinalState::read(f.path()));
         states[0].assert_same(&states[1], "one and two threads");
         let phase = &states[0].columns["phase"];
         for name in [TURBULENT_ENERGY.name, DISSIPATION.name] {
@@ -161,7 +161,7 @@ fn the_shear_of_the_bed_is_a_force_and_its_reaction() {
         .expect("their end");
     let text = format!("{before}{after}{closure}").replace("end = 0.01", "end = 1e-3");
     let (_, folder) = finished(&text, 1);
-    let state = FinalState::of(folder.path());
+    let state = FinalState::read(folder.path());
     let series = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
     let series = sph_io::Table::parse(&series, "series.csv").expect("a table");
     let momentum = series.column("momentum.x").expect("momenta");
@@ -233,7 +233,7 @@ fn eddies_end_at_the_surface_of_a_channel_of_a_given_depth() {
         "{CHANNEL}[eddy-viscosity.k-epsilon]\nsurface_depth = 0.2\nchannel = {{ friction_velocity = 0.05, depth = 0.2 }}\n"
     );
     let (_, folder) = finished(&text, 1);
-    let state = FinalState::of(folder.path());
+    let state = FinalState::read(folder.path());
     let real = |name: &str| -> Vec<f64> {
         state.columns[name]
             .iter()

@@ -54,7 +54,8 @@ fn means_go_on_in_a_run_that_is_resumed() {
         Start::Afresh,
     );
     into(stopped.path(), &text, &[], 2, Start::Resumed);
-    FinalState::of(whole.path()).assert_same(&FinalState::of(stopped.path()), "whole and resumed");
+    FinalState::read(whole.path())
+        .assert_same(&FinalState::read(stopped.path()), "whole and resumed");
     let [a, b] = [&whole, &stopped].map(|f| {
         let path = f.path().join("curves/means_0001.csv");
         std::fs::read_to_string(path).expect("a curve")

@@ -7,7 +7,7 @@ use crate::turbulence::CHANNEL;
 use crate::turbulence::phases::OVER_A_BED;
 
 #[test]
-fn what_does_not_fit_is_refused_with_what_was_expected() {
+fn misfits_are_refused_with_the_expected_value() {
     let no_slip = CHANNEL.replace("condition = \"free-slip\"", "");
     let vertices = CHANNEL.replace("vertices = false", "vertices = true");
     let thin = CHANNEL.replace("1 mPa s", "0 Pa s");
@@ -58,7 +58,7 @@ fn what_does_not_fit_is_refused_with_what_was_expected() {
 }
 
 #[test]
-fn what_does_not_fit_in_several_phases_is_refused_with_what_was_expected() {
+fn misfits_of_several_phases_are_refused_with_the_expected_value() {
     let with = |closure: &str| format!("{OVER_A_BED}[eddy-viscosity.smagorinsky]\n{closure}\n");
     let water = "phases = [\"water\"]\n";
     let soil = OVER_A_BED.replace(
@@ -114,7 +114,7 @@ fn entering(values: &str) -> String {
 }
 
 #[test]
-fn what_comes_in_has_eddies_or_is_refused() {
+fn inflow_has_eddies_or_is_refused() {
     let good = entering("turbulent_energy = 1e-3, dissipation = 1e-3");
     let loaded = parse(&good, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
     examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));

@@ -229,7 +229,7 @@ fn trials_and_unpacked_data_leave_nothing_behind() {
 }
 
 #[test]
-fn what_a_kill_left_in_the_temporary_place_goes_with_the_next_check() {
+fn temporary_files_of_a_kill_go_with_the_next_check() {
     let bench = Bench::new(PROGRAM);
     std::fs::create_dir_all(bench.path("tmp")).expect("a folder");
     // Whatever its name, this one has something in it and no lock: it is nobody's litter.

@@ -1,6 +1,8 @@
 //! Files that fail a run: folders that cannot be written, full disks, damaged checkpoints, and whatever else a
 //! file may hold that nobody meant.
 
+#[cfg(target_os = "linux")]
+mod data_files;
 mod forged;
 #[cfg(target_os = "linux")]
 mod hostile;
@@ -10,8 +12,6 @@ mod mutated;
 mod plausible;
 #[cfg(unix)]
 mod reach;
-#[cfg(target_os = "linux")]
-mod second_attack;
 #[cfg(target_os = "linux")]
 mod sizes;
 
@@ -130,7 +130,7 @@ fn a_checkpoint_of_another_scene_is_not_resumed() {
 fn a_full_disk_costs_the_last_output_and_no_other() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let at = bench.path("disk");
-    let Some(_disk) = Disk::of(160, &at) else {
+    let Some(_disk) = Disk::mount(160, &at) else {
         println!("skipped: mounting a small file system is not permitted here");
         return;
     };
@@ -186,7 +186,7 @@ fn a_disk_that_is_full_at_a_checkpoint_is_resumed_once_there_is_room() {
     let one = std::fs::metadata(bench.path("size/checkpoint.sph"))
         .expect("a checkpoint")
         .len();
-    let Some(disk) = Disk::of((one * 3 / 2 / 1024) as u32 + 8, &at) else {
+    let Some(disk) = Disk::mount((one * 3 / 2 / 1024) as u32 + 8, &at) else {
         println!("skipped: mounting a small file system is not permitted here");
         return;
     };

@@ -345,7 +345,7 @@ fn files_that_are_no_text_name_the_line() {
 
 /// What is mutated is good, and mutations leave some of it good: else nothing would be tested.
 #[test]
-fn what_is_mutated_is_good() {
+fn unmutated_input_is_valid() {
     let folder = tempfile::tempdir().expect("a folder");
     beside(folder.path());
     let path = folder.path().join("scene.toml");

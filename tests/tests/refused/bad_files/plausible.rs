@@ -15,7 +15,7 @@ fn with(scene: &str, from: &str, to: &str) -> (String, usize) {
 }
 
 #[test]
-fn what_no_run_can_be_right_with_is_refused_at_its_line() {
+fn settings_that_no_run_survives_are_refused_at_their_line() {
     let bench = Bench::new(PROGRAM);
     let cases = [
         (
@@ -80,7 +80,7 @@ fn what_no_run_can_be_right_with_is_refused_at_its_line() {
 }
 
 #[test]
-fn what_nature_does_not_have_is_remarked_upon_at_its_line() {
+fn implausible_values_are_remarked_on_at_their_line() {
     let bench = Bench::new(PROGRAM);
     let gauge = "[gauge.g]\nkind = \"level\"\nat = [1e30]\n[output]";
     let cases = [

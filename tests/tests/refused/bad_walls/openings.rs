@@ -158,7 +158,7 @@ fn a_hole_in_a_mesh_is_told_with_its_size_and_place() {
 }
 
 #[test]
-fn what_does_not_follow_the_scale_of_symmetric_walls_is_refused_at_its_line() {
+fn plugins_without_the_scale_of_symmetric_walls_are_refused_at_their_line() {
     let tank = || {
         let usaw = in_the_plane("", "box = [[0.0, 0.0], [1.0, 0.5]]");
         usaw.replace("[walls.usaw]", "[walls.symmetric]") + "[wall.tank]\nbox = [[0, 0], [1, 1]]\n"

@@ -31,7 +31,7 @@ struct Users {
 
 impl Users {
     /// As the page writes them.
-    fn told(&self) -> String {
+    fn text(&self) -> String {
         let named = |of: &BTreeSet<String>| of.iter().cloned().collect::<Vec<_>>().join(", ");
         let tests: BTreeSet<String> = self.test.difference(&self.run).cloned().collect();
         match (self.run.len(), tests.len()) {
@@ -141,7 +141,7 @@ fn every_crate_from_outside_has_its_item_and_no_item_is_left_over() {
         let told = &items[&name];
         let empty = told.iter().any(|part| part.trim().is_empty());
         assert!(!empty, "something is not told of {name}");
-        assert_eq!(told[1], users.told(), "users of {name}");
+        assert_eq!(told[1], users.text(), "users of {name}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! The same bits on any number of threads, and after a resumption.
 
-use dem_pfv::coupled::{Condition, CoupledSystem, FlowSetup, Fluid, Side, State, Wave};
+use dem_pfv::coupled::{CoupledSystem, FlowCondition, FlowSetup, Fluid, State, WallBoundary, Wave};
 use dem_pfv::grains::{Control, GrainSystem};
 
 use crate::coupled::{BOX1000, MODULUS, box_of_laws, boxed, packing};
@@ -21,8 +21,8 @@ fn system() -> CoupledSystem {
         ramp: 1e4,
         period: Some(0.1),
     };
-    let top = Side {
-        condition: Condition::Wave(wave),
+    let top = WallBoundary {
+        condition: FlowCondition::Wave(wave),
         sticks: false,
     };
     let setup = FlowSetup::new(Fluid::new(50.0, 1000.0).compressible(1e9)).sticking();
@@ -103,7 +103,7 @@ fn a_resumed_run_with_conjugate_gradients_goes_on_to_the_same_bits() {
     let start = || {
         let grains =
             GrainSystem::new(boxed(packing(crate::coupled::BOX200), MODULUS)).expect("grains");
-        let mut setup = FlowSetup::new(Fluid::new(50.0, 0.0)).side(5, Side::drained(100.0));
+        let mut setup = FlowSetup::new(Fluid::new(50.0, 0.0)).side(5, WallBoundary::drained(100.0));
         setup.solver = dem_pfv::flow::Solver::ConjugateGradient {
             tolerance: 1e-8,
             limit: 1000,

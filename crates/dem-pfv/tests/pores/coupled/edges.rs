@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Lubrication, Side, Vector};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Lubrication, Vector, WallBoundary};
 use dem_pfv::grains::{Grain, GrainSystem};
 
 use crate::coupled::{BOX200, MODULUS, boxed, packing};
@@ -43,7 +43,7 @@ fn between(
         system.velocities_mut()[i] = velocity;
         system.spins_mut()[i] = spin;
     }
-    let mut setup = FlowSetup::new(fluid).side(5, Side::drained(0.0));
+    let mut setup = FlowSetup::new(fluid).side(5, WallBoundary::drained(0.0));
     if sticking {
         setup = setup.sticking();
     }
@@ -190,7 +190,7 @@ fn lubrication_without_roughness_or_range_is_refused() {
     ] {
         let grains = GrainSystem::new(boxed(packing(BOX200), MODULUS)).expect("grains");
         let fluid = Fluid::new(1.0, 0.0).lubricated(Lubrication { roughness, range });
-        let setup = FlowSetup::new(fluid).side(5, Side::drained(0.0));
+        let setup = FlowSetup::new(fluid).side(5, WallBoundary::drained(0.0));
         let told = CoupledSystem::new(grains, setup).err().expect("refused");
         assert!(told.to_string().contains("lubrication"), "{told}");
     }

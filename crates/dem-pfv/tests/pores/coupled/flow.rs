@@ -2,9 +2,11 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{Condition, CoupledSystem, FlowSetup, Fluid, Remeshing, Side, Wave};
+use dem_pfv::coupled::{
+    CoupledSystem, FlowCondition, FlowSetup, Fluid, Remeshing, WallBoundary, Wave,
+};
 use dem_pfv::flow::Forces;
-use dem_pfv::grains::{Control, GrainSystem, settle};
+use dem_pfv::grains::{Control, GrainSystem, step_to_rest};
 
 use crate::coupled::{BOX200, BOX1000, MODULUS, boxed, packing};
 
@@ -18,9 +20,9 @@ fn held(text: &str) -> GrainSystem {
 #[test]
 fn unit_forces_are_the_forces_of_the_flow() {
     let setup = FlowSetup::new(Fluid::new(1.0, 0.0)).sticking();
-    let open = |p: f64| Side {
+    let open = |p: f64| WallBoundary {
         sticks: true,
-        ..Side::drained(p)
+        ..WallBoundary::drained(p)
     };
     let setup = setup.side(2, open(0.0)).side(3, open(7.0));
     let mut system = CoupledSystem::new(held(BOX200), setup).expect("a system");
@@ -58,8 +60,8 @@ fn a_cosine_load_seeps_as_darcy_has_it() {
             ramp: 0.0,
             period: None,
         };
-        let top = Side {
-            condition: Condition::Wave(wave),
+        let top = WallBoundary {
+            condition: FlowCondition::Wave(wave),
             sticks: false,
         };
         let setup = FlowSetup::new(Fluid::new(1.0, 0.0)).side(2 * up + 1, top);
@@ -97,12 +99,12 @@ fn a_cosine_load_seeps_as_darcy_has_it() {
 /// A profile of pressures is linear between its places and constant beyond; a wave swings with its period.
 #[test]
 fn profiles_and_waves_press_as_they_say() {
-    let profile = Condition::Profile {
+    let profile = FlowCondition::Profile {
         axis: 0,
         places: vec![0.25, 0.75],
         pressures: vec![10.0, 20.0],
     };
-    let side = Side {
+    let side = WallBoundary {
         condition: profile,
         sticks: false,
     };
@@ -129,11 +131,13 @@ fn profiles_and_waves_press_as_they_say() {
     assert!(at(1.5, 1.0).abs() < 1e-12 && at(0.5, 2.0).abs() < 1e-12);
     // A value costs no mesh and no matrix, another kind does its part too.
     let mesh = system.meshes();
-    system.set_side(5, Side::drained(4.0)).expect("a side");
+    system
+        .set_side(5, WallBoundary::drained(4.0))
+        .expect("a side");
     system.step(1e-6).expect("a step");
     assert!(system.pressures().iter().all(|p| (p - 4.0).abs() < 1e-9));
-    let inflow = Side {
-        condition: Condition::Inflow(0.01),
+    let inflow = WallBoundary {
+        condition: FlowCondition::Inflow(0.01),
         sticks: false,
     };
     system.set_side(4, inflow).expect("a side");
@@ -158,12 +162,12 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
     };
     let mut dry = GrainSystem::new(boxed(packing(BOX200), MODULUS).damping(0.4)).expect("grains");
     press(&mut dry, confining);
-    settle(&mut dry, 0.8, 1e-6, 100_000).expect("at rest");
+    step_to_rest(&mut dry, 0.8, 1e-6, 100_000).expect("at rest");
     let state = dry.save();
     let height = |g: &GrainSystem| g.box_lengths().expect("a box")[2];
     let start = height(&dry);
     press(&mut dry, confining + load);
-    settle(&mut dry, 0.8, 1e-7, 100_000).expect("at rest");
+    step_to_rest(&mut dry, 0.8, 1e-7, 100_000).expect("at rest");
     let modulus = load * start / (start - height(&dry));
     let mut grains =
         GrainSystem::resume(state, crate::coupled::box_of_laws(MODULUS)).expect("grains");
@@ -193,7 +197,7 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
 fn the_room_loses_what_flows_out() {
     let mut grains = GrainSystem::new(boxed(packing(BOX200), MODULUS)).expect("grains");
     grains.walls_mut()[5].velocity.z = -0.01;
-    let setup = FlowSetup::new(Fluid::new(10.0, 0.0)).side(4, Side::drained(0.0));
+    let setup = FlowSetup::new(Fluid::new(10.0, 0.0)).side(4, WallBoundary::drained(0.0));
     let mut system = CoupledSystem::new(grains, setup).expect("a system");
     for _ in 0..20 {
         system.step(1e-4).expect("a step");

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side};
+use dem_pfv::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
 use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
 use crate::coupled::{BOX200, BOX1000, DENSITY, MODULUS, boxed, packing};
@@ -16,9 +16,9 @@ fn drained(text: &str, viscosity: f64) -> CoupledSystem {
         });
     }
     let setup = FlowSetup::new(Fluid::new(viscosity, 0.0)).sticking();
-    let open = Side {
+    let open = WallBoundary {
         sticks: true,
-        ..Side::drained(0.0)
+        ..WallBoundary::drained(0.0)
     };
     let setup = setup.side(2, open.clone()).side(3, open);
     CoupledSystem::new(grains, setup.remeshing(Remeshing::never())).expect("a system")
@@ -103,8 +103,8 @@ fn one_grain_has_the_limit_of_its_own_drag() {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
     let setup = Setup::new(vec![ball, other], LinearElastic::new(1e6, 0.5, 0.3)).walls(walls);
     let fluid = FlowSetup::new(Fluid::new(1000.0, 0.0))
-        .side(5, Side::drained(0.0))
-        .side(4, Side::drained(0.0));
+        .side(5, WallBoundary::drained(0.0))
+        .side(4, WallBoundary::drained(0.0));
     let mut system =
         CoupledSystem::new(GrainSystem::new(setup).expect("a ball"), fluid).expect("a system");
     let limit = system.step_limit().expect("a limit");

@@ -1,10 +1,10 @@
 //! `oedometer-terzaghi` (5.13) with 1000 grains, and `remesh-criterion` (5.18) with 200.
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, Side, Terzaghi};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, Terzaghi, WallBoundary};
 use dem_pfv::flow::{
     Boundary, FlowSystem, Forces, HydraulicRadius, PoreGeometry, SolidAngles, Solver, cell_volumes,
 };
-use dem_pfv::grains::{Control, GrainSystem, State, settle};
+use dem_pfv::grains::{Control, GrainSystem, State, step_to_rest};
 use dem_pfv::triangulation::{Sphere, Triangulation};
 
 use crate::coupled::{BOX200, GROWN1000, MODULUS, box_of_laws, boxed, packing};
@@ -32,7 +32,7 @@ impl Sample {
         let mut grains =
             GrainSystem::new(boxed(packing(text), MODULUS).damping(0.4)).expect("grains");
         press(&mut grains, confining);
-        settle(&mut grains, 0.8, 1e-5, 100_000).expect("at rest");
+        step_to_rest(&mut grains, 0.8, 1e-5, 100_000).expect("at rest");
         let (state, time, height) = (grains.save(), grains.time(), height(&grains));
         Self {
             state,
@@ -51,9 +51,9 @@ impl Sample {
         let mut grains = self.grains();
         for part in 1..=40 {
             press(&mut grains, self.confining + load * f64::from(part) / 40.0);
-            settle(&mut grains, 0.8, 1e-4, 100_000).expect("at rest");
+            step_to_rest(&mut grains, 0.8, 1e-4, 100_000).expect("at rest");
         }
-        settle(&mut grains, 0.8, 1e-6, 100_000).expect("at rest");
+        step_to_rest(&mut grains, 0.8, 1e-6, 100_000).expect("at rest");
         grains
     }
 
@@ -74,8 +74,8 @@ impl Sample {
         press(&mut grains, self.confining + load);
         let setup = FlowSetup::new(Fluid::new(viscosity, 0.0)).remeshing(remeshing);
         let setup = setup
-            .side(4, Side::drained(0.0))
-            .side(5, Side::drained(0.0));
+            .side(4, WallBoundary::drained(0.0))
+            .side(5, WallBoundary::drained(0.0));
         CoupledSystem::new(grains, setup).expect("a system")
     }
 
@@ -99,8 +99,12 @@ impl Sample {
             g.walls().iter().map(wall).collect()
         };
         let mesh = Triangulation::within(&spheres(&start), &walls(&start)).expect("cells");
-        let pores = PoreGeometry::new(mesh, &[dem_pfv::flow::Grip::Slip; 6], SolidAngles::Signed)
-            .expect("pores");
+        let pores = PoreGeometry::new(
+            mesh,
+            &[dem_pfv::flow::SlipCondition::Slip; 6],
+            SolidAngles::Signed,
+        )
+        .expect("pores");
         let mut boundary = Boundary::closed(&pores);
         boundary.pressure(&pores, 4, |_| Some(0.0));
         boundary.pressure(&pores, 5, |_| Some(0.0));
@@ -123,9 +127,9 @@ impl Sample {
             for (k, f) in grains.external_forces_mut().iter_mut().enumerate() {
                 *f = -forces.on_sphere(k) * share;
             }
-            settle(&mut grains, 0.8, 1e-4, 100_000).expect("at rest");
+            step_to_rest(&mut grains, 0.8, 1e-4, 100_000).expect("at rest");
         }
-        settle(&mut grains, 0.8, 1e-6, 100_000).expect("at rest");
+        step_to_rest(&mut grains, 0.8, 1e-6, 100_000).expect("at rest");
         self.strain(&grains) / scale / self.strain(end)
     }
 }

@@ -1,7 +1,7 @@
 //! Refusals name the grain, the wall or the cell; extreme flows that can be computed are stable.
 
 use dem_pfv::coupled::{
-    Condition, CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, Side, Wave,
+    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Fluid, Remeshing, WallBoundary, Wave,
 };
 use dem_pfv::flow::FlowError;
 use dem_pfv::grains::{Grain, GrainError, GrainSystem, LinearElastic, Setup, Wall};
@@ -20,7 +20,7 @@ fn ball(x: f64, radius: f64) -> Grain {
 }
 
 fn drained() -> FlowSetup {
-    FlowSetup::new(Fluid::new(10.0, 1000.0)).side(5, Side::drained(0.0))
+    FlowSetup::new(Fluid::new(10.0, 1000.0)).side(5, WallBoundary::drained(0.0))
 }
 
 fn refused(grains: GrainSystem, setup: FlowSetup) -> CoupledError {
@@ -92,7 +92,10 @@ fn numbers_out_of_range_are_named() {
             "the bulk modulus is 0",
         ),
     ] {
-        let error = refused(one(), FlowSetup::new(fluid).side(5, Side::drained(0.0)));
+        let error = refused(
+            one(),
+            FlowSetup::new(fluid).side(5, WallBoundary::drained(0.0)),
+        );
         assert!(error.to_string().starts_with(what), "{error}");
     }
     let error = refused(one(), drained().remeshing(Remeshing::at(-1.0)));
@@ -124,7 +127,7 @@ fn closed_walls_are_refused_unless_the_fluid_gives_way() {
     // A wall that is closed while the run goes on: the old condition stays.
     let mut system = CoupledSystem::new(one(), drained()).expect("a system");
     let error = system
-        .set_side(5, Side::closed())
+        .set_side(5, WallBoundary::closed())
         .expect_err("no pressure is left");
     assert!(
         matches!(error, CoupledError::Flow(FlowError::NoPressure { .. })),
@@ -136,7 +139,7 @@ fn closed_walls_are_refused_unless_the_fluid_gives_way() {
 #[test]
 fn conditions_and_rooms_that_mean_nothing_are_named() {
     let wave = |half_length: f64, axis: usize| {
-        Condition::Wave(Wave {
+        FlowCondition::Wave(Wave {
             axis,
             crest: 0.0,
             half_length,
@@ -145,20 +148,20 @@ fn conditions_and_rooms_that_mean_nothing_are_named() {
             period: None,
         })
     };
-    let profile = |places: Vec<f64>| Condition::Profile {
+    let profile = |places: Vec<f64>| FlowCondition::Profile {
         axis: 0,
         pressures: vec![0.0; 2],
         places,
     };
     for condition in [
-        Condition::Pressure(f64::NAN),
-        Condition::Inflow(f64::INFINITY),
+        FlowCondition::Pressure(f64::NAN),
+        FlowCondition::Inflow(f64::INFINITY),
         wave(0.0, 0),
         wave(1.0, 3),
         profile(vec![0.0]),
         profile(vec![1.0, 0.0]),
     ] {
-        let side = Side {
+        let side = WallBoundary {
             condition,
             sticks: false,
         };

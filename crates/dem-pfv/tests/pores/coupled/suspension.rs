@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Side};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, WallBoundary};
 use dem_pfv::grains::{
-    Cloud, Grain, GrainSystem, LinearElastic, Setup, Wall, rain, settle, uniform_radii,
+    Cloud, Grain, GrainSystem, LinearElastic, Setup, Wall, rain, step_to_rest, uniform_radii,
 };
 
 use crate::coupled::DENSITY;
@@ -24,7 +24,7 @@ fn at_rest(spheres: &[Grain], modulus: f64, high: [f64; 3]) -> GrainSystem {
 /// Closed sides and bottom, p = 0 on top.
 fn vessel(grains: GrainSystem, viscosity: f64) -> CoupledSystem {
     let setup = FlowSetup::new(Fluid::new(viscosity, WATER));
-    CoupledSystem::new(grains, setup.side(5, Side::drained(0.0))).expect("a vessel")
+    CoupledSystem::new(grains, setup.side(5, WallBoundary::drained(0.0))).expect("a vessel")
 }
 
 /// Volume of a sphere below a height, m3.
@@ -99,7 +99,7 @@ fn seepage_at_the_critical_gradient_lifts_a_bed() {
         -GRAVITY * (1.0 - WATER / DENSITY),
     ));
     grains.set_damping(0.3).expect("damping");
-    settle(&mut grains, 0.8, 1e-4, 200_000).expect("a bed");
+    step_to_rest(&mut grains, 0.8, 1e-4, 200_000).expect("a bed");
     let dry = -grains.walls()[4].force().z;
     // Free water of two grains above the bed: nothing else holds it down.
     let (at, radii) = (grains.grains().positions(), grains.grains().radii());
@@ -123,7 +123,7 @@ fn seepage_at_the_critical_gradient_lifts_a_bed() {
     let porosity = system.grains().porosity().expect("a box");
     let critical = (1.0 - porosity) * (DENSITY / WATER - 1.0);
     system
-        .set_side(4, Side::drained(critical * WATER * GRAVITY * top))
+        .set_side(4, WallBoundary::drained(critical * WATER * GRAVITY * top))
         .expect("a side");
     // No grain has moved yet: this is the flow alone.
     let step = 0.5 * system.step_limit().expect("a limit").step;

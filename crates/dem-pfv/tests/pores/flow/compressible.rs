@@ -1,13 +1,13 @@
 //! Fluid that gives way.
 
-use dem_pfv::flow::{Boundary, FlowSystem, Grip, SolidAngles, Solver, Storage};
+use dem_pfv::flow::{Boundary, FlowSystem, SlipCondition, SolidAngles, Solver, Storage};
 
 use crate::flow::{BOX200, drop_along_y, geometry, hydraulic, spheres};
 
 /// A closed box takes what is pumped in by its pressure alone: K Q Δt / V_void on the mean, without a given pressure.
 #[test]
 fn a_closed_box_stores_what_is_pumped_in() {
-    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let mut boundary = Boundary::closed(&geometry);
     boundary.source(17, 1e-3);
     let storage = Storage {
@@ -42,7 +42,7 @@ fn a_closed_box_stores_what_is_pumped_in() {
 /// good as infinitely many.
 #[test]
 fn pressures_diffuse_to_the_steady_ones() {
-    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let boundary = drop_along_y(&geometry);
     let mut steady =
         FlowSystem::new(&geometry, &boundary, &hydraulic(), 1.0, Solver::Direct).expect("a system");

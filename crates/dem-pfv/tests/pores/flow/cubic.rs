@@ -1,7 +1,7 @@
 //! §5.3 to §5.5 of the page: eight spheres in a cube, and a ninth between them. All eight centres are on one
 //! sphere, and cells without a throat between them are one pore.
 
-use dem_pfv::flow::{EffectiveRadius, Grip, SolidAngles};
+use dem_pfv::flow::{EffectiveRadius, SlipCondition, SolidAngles};
 use dem_pfv::triangulation::Sphere;
 
 use crate::flow::{Permeameter, geometry, hydraulic, permeameter, sum_along_y};
@@ -18,7 +18,7 @@ fn cube(ratio: f64) -> Vec<Sphere> {
     spheres
 }
 
-fn flow(ratio: f64, grip: Grip) -> Permeameter {
+fn flow(ratio: f64, grip: SlipCondition) -> Permeameter {
     permeameter(
         &geometry(&cube(ratio), grip, SolidAngles::Signed),
         &hydraulic(),
@@ -29,7 +29,7 @@ fn flow(ratio: f64, grip: Grip) -> Permeameter {
 /// K = 42.14 of Zick & Homsy 1982, 6.295e-4.
 #[test]
 fn eight_spheres_share_the_drop_equally() {
-    let shown = flow(0.0, Grip::Slip);
+    let shown = flow(0.0, SlipCondition::Slip);
     for k in 0..8 {
         let force = shown.forces.on_sphere(k).y;
         assert!((force + 0.125).abs() < 1e-9, "sphere {k}: {force} N");
@@ -50,7 +50,7 @@ fn eight_spheres_share_the_drop_equally() {
 /// Prototype: 2.531e-4 or 2.514e-4 m² by the way the cube is cut, 0.1141 N.
 #[test]
 fn sticking_walls_take_their_part() {
-    let shown = flow(0.0, Grip::NoSlip);
+    let shown = flow(0.0, SlipCondition::NoSlip);
     println!("no-slip κ {:.5e} m²", shown.kappa);
     assert!(
         (shown.kappa / 2.52e-4 - 1.0).abs() < 0.005,
@@ -66,7 +66,7 @@ fn sticking_walls_take_their_part() {
 /// Table 3.2 of the thesis: within 0.1 % of the prototype, totals within 10 % of finite elements.
 #[test]
 fn nine_spheres_take_the_forces_of_the_table() {
-    let shown = flow(0.72, Grip::NoSlip);
+    let shown = flow(0.72, SlipCondition::NoSlip);
     let big: f64 = (0..8).map(|k| shown.forces.on_sphere(k).y).sum::<f64>() / -8.0;
     let small = -shown.forces.on_sphere(8).y;
     let wall = -shown.forces.wall_viscous[0].y;
@@ -140,13 +140,13 @@ fn nine_sphere_sweep_is_that_of_the_page() {
         big_pressure,
     ] in SWEEP
     {
-        let shown = flow(ratio, Grip::NoSlip);
+        let shown = flow(ratio, SlipCondition::NoSlip);
         let f = &shown.forces;
         let mean =
             |forces: &[nalgebra::Vector3<f64>]| forces[..8].iter().map(|f| -f.y).sum::<f64>() / 8.0;
         for (value, page) in [
             (shown.kappa, kappa),
-            (flow(ratio, Grip::Slip).kappa, kappa_slip),
+            (flow(ratio, SlipCondition::Slip).kappa, kappa_slip),
             (-f.viscous[8].y, viscous),
             (-f.pressure[8].y, pressure),
             (mean(&f.viscous), big_viscous),
@@ -163,7 +163,12 @@ fn nine_sphere_sweep_is_that_of_the_page() {
 /// The viscous force on the small sphere is largest between d/D = 0.55 and 0.65.
 #[test]
 fn the_viscous_force_has_its_maximum_near_0_6() {
-    let force = |i: i32| -flow(0.01 * f64::from(i), Grip::NoSlip).forces.viscous[8].y;
+    let force = |i: i32| {
+        -flow(0.01 * f64::from(i), SlipCondition::NoSlip)
+            .forces
+            .viscous[8]
+            .y
+    };
     let largest = (50..=70)
         .max_by(|a, b| force(*a).total_cmp(&force(*b)))
         .expect("some");
@@ -174,7 +179,7 @@ fn the_viscous_force_has_its_maximum_near_0_6() {
 /// Effective radii underestimate the permeability: 0.43 of finite elements on the mean, by the thesis.
 #[test]
 fn effective_radii_underestimate() {
-    let geometry = geometry(&cube(0.5), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&cube(0.5), SlipCondition::NoSlip, SolidAngles::Signed);
     let ratio = permeameter(&geometry, &EffectiveRadius {}).kappa
         / permeameter(&geometry, &hydraulic()).kappa;
     println!("κ of effective over hydraulic radii {ratio:.3}");

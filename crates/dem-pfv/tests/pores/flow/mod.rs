@@ -9,8 +9,8 @@ mod solid_angles;
 mod systems;
 
 use dem_pfv::flow::{
-    Boundary, Conductance, FlowSystem, Forces, Grip, HydraulicRadius, PoreGeometry, SolidAngles,
-    Solver,
+    Boundary, Conductance, FlowSystem, Forces, HydraulicRadius, PoreGeometry, SlipCondition,
+    SolidAngles, Solver,
 };
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
@@ -37,7 +37,7 @@ fn spheres(text: &str) -> Vec<Sphere> {
 }
 
 /// No-slip or slip on the four lateral walls; the ends y₋, y₊ let fluid through and stick as the laterals do.
-fn geometry(spheres: &[Sphere], grip: Grip, angles: SolidAngles) -> PoreGeometry {
+fn geometry(spheres: &[Sphere], grip: SlipCondition, angles: SolidAngles) -> PoreGeometry {
     let mesh = Triangulation::within(spheres, &Wall::cuboid([0.0; 3], [1.0; 3])).expect("cells");
     PoreGeometry::new(mesh, &[grip; 6], angles).expect("pores")
 }

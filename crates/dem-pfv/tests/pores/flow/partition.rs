@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::flow::{Grip, PoreGeometry, SolidAngles, cell_volumes};
+use dem_pfv::flow::{PoreGeometry, SlipCondition, SolidAngles, cell_volumes};
 use dem_pfv::triangulation::{Sphere, Vertex};
 use nalgebra::Vector3;
 
@@ -54,7 +54,7 @@ fn worst(geometry: &PoreGeometry, spheres: &[Sphere]) -> f64 {
 fn signed_parts_fill_the_box_the_void_and_the_surfaces() {
     for (name, text) in [("box25", BOX25), ("box200", BOX200), ("box1000", BOX1000)] {
         let spheres = spheres(text);
-        let geometry = geometry(&spheres, Grip::NoSlip, SolidAngles::Signed);
+        let geometry = geometry(&spheres, SlipCondition::NoSlip, SolidAngles::Signed);
         let worst = worst(&geometry, &spheres);
         println!("{name}: largest relative difference {worst:e}");
         assert!(
@@ -73,7 +73,11 @@ fn signed_parts_fill_the_box_the_void_and_the_surfaces() {
 /// Sectors and the fluid's part make up the facet, and P_iP_j stands on it.
 #[test]
 fn power_centres_are_on_the_normal_of_their_facet() {
-    let geometry = geometry(&spheres(BOX1000), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(
+        &spheres(BOX1000),
+        SlipCondition::NoSlip,
+        SolidAngles::Signed,
+    );
     let mut worst = 0.0_f64;
     for t in geometry.throats() {
         let [i, j] = t.cells;
@@ -97,7 +101,7 @@ fn absolute_parts_miss_as_much_void_as_the_prototype() {
         (BOX25, 0.484_140_874_511_468_5),
         (BOX200, 0.438_331_171_862_808_1),
     ] {
-        let geometry = geometry(&spheres(text), Grip::NoSlip, SolidAngles::Absolute);
+        let geometry = geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Absolute);
         let sum: f64 = geometry.throats().iter().map(|t| t.fluid_volume).sum();
         assert!((sum / phi - 1.0).abs() < 1e-12, "{sum} of {phi} m³");
     }
@@ -108,7 +112,7 @@ fn absolute_parts_miss_as_much_void_as_the_prototype() {
 #[test]
 fn volumes_of_moved_spheres_fill_the_moved_room() {
     let spheres = spheres(BOX200);
-    let geometry = geometry(&spheres, Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres, SlipCondition::NoSlip, SolidAngles::Signed);
     let mut walls = geometry.mesh().walls().to_vec();
     walls[3].offset = -0.99; // y₊ at 0.99 m
     let moved =
@@ -148,7 +152,7 @@ fn pyramids(geometry: &PoreGeometry) -> f64 {
 #[test]
 fn pyramids_over_the_faces_between_neighbours_fill_the_box() {
     for (name, text) in [("box25", BOX25), ("box200", BOX200), ("box1000", BOX1000)] {
-        let geometry = geometry(&spheres(text), Grip::NoSlip, SolidAngles::Signed);
+        let geometry = geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Signed);
         let excess = pyramids(&geometry) - 1.0;
         println!("{name}: pyramids exceed the box by {excess:e}");
         assert!(
@@ -176,7 +180,7 @@ fn faces_of_a_lattice_are_squares() {
     let spheres: Vec<_> = (0..64)
         .map(|k| Sphere::new([place(k % 4), place(k / 4 % 4), place(k / 16)], 0.1))
         .collect();
-    let geometry = geometry(&spheres, Grip::Slip, SolidAngles::Signed);
+    let geometry = geometry(&spheres, SlipCondition::Slip, SolidAngles::Signed);
     let (mut squares, mut rest) = (0, 0.0_f64);
     for edge in geometry.edges() {
         // Sixteenths of a unit square between neighbours and on walls; nothing across diagonals.

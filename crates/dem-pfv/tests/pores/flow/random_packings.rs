@@ -1,6 +1,6 @@
 //! §5.6 to §5.8 of the page: permeabilities, forces and pressures of packings from YADE.
 
-use dem_pfv::flow::{EffectiveRadius, Grip, HydraulicRadius, PoreGeometry, SolidAngles};
+use dem_pfv::flow::{EffectiveRadius, HydraulicRadius, PoreGeometry, SlipCondition, SolidAngles};
 use dem_pfv::triangulation::Vertex;
 use serde_json::Value;
 
@@ -39,35 +39,35 @@ fn permeabilities_are_those_of_yade_and_of_the_prototype() {
         let (spheres, stored) = (spheres(text), stored(name));
         for (grip, angles, law, path, bound) in [
             (
-                Grip::NoSlip,
+                SlipCondition::NoSlip,
                 SolidAngles::Absolute,
                 hydraulic(),
                 "/yade/noslip/kappa",
                 2e-5,
             ),
             (
-                Grip::NoSlip,
+                SlipCondition::NoSlip,
                 SolidAngles::Absolute,
                 hydraulic(),
                 "/reference/noslip_abs/kappa",
                 1e-6,
             ),
             (
-                Grip::NoSlip,
+                SlipCondition::NoSlip,
                 SolidAngles::Signed,
                 hydraulic(),
                 "/reference/noslip_signed/kappa",
                 1e-6,
             ),
             (
-                Grip::Slip,
+                SlipCondition::Slip,
                 SolidAngles::Signed,
                 hydraulic(),
                 "/reference/slip_nomult_signed/kappa",
                 1e-6,
             ),
             (
-                Grip::Slip,
+                SlipCondition::Slip,
                 SolidAngles::Absolute,
                 yade_slip,
                 "/yade/slip/kappa",
@@ -168,7 +168,7 @@ fn forces_on_spheres_are_those_of_the_prototype() {
         ),
     ];
     for (name, text, angles, file) in files {
-        let pores = geometry(&spheres(text), Grip::NoSlip, angles);
+        let pores = geometry(&spheres(text), SlipCondition::NoSlip, angles);
         let mut shown = permeameter(&pores, &hydraulic());
         across_obtuse_facets(&pores, &mut shown);
         let worst = worst_force(&shown, file);
@@ -184,7 +184,7 @@ fn forces_on_spheres_are_those_of_the_prototype() {
 #[test]
 fn forces_along_the_gradient_add_up_to_the_drop() {
     for (name, text) in PACKINGS {
-        for grip in [Grip::NoSlip, Grip::Slip] {
+        for grip in [SlipCondition::NoSlip, SlipCondition::Slip] {
             let shown = permeameter(
                 &geometry(&spheres(text), grip, SolidAngles::Signed),
                 &hydraulic(),
@@ -202,7 +202,7 @@ fn forces_along_the_gradient_add_up_to_the_drop() {
 fn forces_on_walls_are_those_of_yade() {
     for (name, text) in PACKINGS {
         let shown = permeameter(
-            &geometry(&spheres(text), Grip::NoSlip, SolidAngles::Absolute),
+            &geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Absolute),
             &hydraulic(),
         );
         let stored = stored(name);
@@ -222,7 +222,7 @@ fn forces_on_walls_are_those_of_yade() {
 /// §5.7: means of five slabs of box200 by height of the power centres, and the maximum principle.
 #[test]
 fn pressures_of_box200_follow_the_height() {
-    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let shown = permeameter(&geometry, &hydraulic());
     let (mut sums, mut heights, mut counts) = ([0.0; 5], [0.0; 5], [0.0; 5]);
     for (c, p) in shown.pressures.iter().enumerate() {
@@ -244,7 +244,7 @@ fn pressures_of_box200_follow_the_height() {
 #[test]
 fn effective_radii_give_half_the_permeability() {
     for (name, text) in [("box25", BOX25), ("box200", BOX200)] {
-        let geometry = geometry(&spheres(text), Grip::NoSlip, SolidAngles::Signed);
+        let geometry = geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Signed);
         let ratio = permeameter(&geometry, &EffectiveRadius {}).kappa
             / permeameter(&geometry, &hydraulic()).kappa;
         let throats = geometry.throats().iter();

@@ -1,13 +1,15 @@
 //! What cannot flow is named.
 
-use dem_pfv::flow::{Boundary, FlowError, FlowSystem, Grip, PoreGeometry, SolidAngles, Solver};
+use dem_pfv::flow::{
+    Boundary, FlowError, FlowSystem, PoreGeometry, SlipCondition, SolidAngles, Solver,
+};
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
 use crate::flow::{BOX25, drop_along_y, geometry, hydraulic, spheres};
 
 fn pores(spheres: &[Sphere], walls: &[Wall]) -> Result<PoreGeometry, FlowError> {
     let mesh = Triangulation::within(spheres, walls).expect("cells");
-    let grips = vec![Grip::NoSlip; walls.len()];
+    let grips = vec![SlipCondition::NoSlip; walls.len()];
     PoreGeometry::new(mesh, &grips, SolidAngles::Signed)
 }
 
@@ -63,7 +65,7 @@ fn rooms_that_are_no_box_are_named() {
 
 #[test]
 fn closed_rooms_have_no_pressure() {
-    let geometry = geometry(&spheres(BOX25), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX25), SlipCondition::NoSlip, SolidAngles::Signed);
     let closed = Boundary::closed(&geometry);
     let error = FlowSystem::new(&geometry, &closed, &hydraulic(), 1.0, Solver::Direct)
         .err()
@@ -76,7 +78,7 @@ fn closed_rooms_have_no_pressure() {
 
 #[test]
 fn bad_numbers_and_changed_conditions_are_named() {
-    let geometry = geometry(&spheres(BOX25), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX25), SlipCondition::NoSlip, SolidAngles::Signed);
     let boundary = drop_along_y(&geometry);
     for viscosity in [0.0, -1.0, f64::NAN] {
         let error = FlowSystem::new(

@@ -1,6 +1,6 @@
 //! The linear system: solvers, sources, conditions, rotated rooms.
 
-use dem_pfv::flow::{Boundary, FlowSystem, Grip, PoreGeometry, SolidAngles, Solver};
+use dem_pfv::flow::{Boundary, FlowSystem, PoreGeometry, SlipCondition, SolidAngles, Solver};
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 use nalgebra::{Rotation3, Vector3};
 
@@ -12,7 +12,7 @@ fn system(geometry: &PoreGeometry, boundary: &Boundary, solver: Solver) -> FlowS
 
 #[test]
 fn conjugate_gradients_find_the_pressures_of_the_factorisation() {
-    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let boundary = drop_along_y(&geometry);
     let iterate = Solver::ConjugateGradient {
         tolerance: 1e-13,
@@ -49,7 +49,7 @@ fn conjugate_gradients_find_the_pressures_of_the_factorisation() {
 /// out where a pressure is given.
 #[test]
 fn sources_are_reciprocal_and_conserved() {
-    let geometry = geometry(&spheres(BOX25), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX25), SlipCondition::NoSlip, SolidAngles::Signed);
     let mut bottom = Boundary::closed(&geometry);
     bottom.pressure(&geometry, 2, |_| Some(0.0));
     let mut system = system(&geometry, &bottom, Solver::Direct);
@@ -72,7 +72,7 @@ fn sources_are_reciprocal_and_conserved() {
 /// An even inflow through half of a wall is what comes out on the other side; its area is counted by cells.
 #[test]
 fn inflow_through_a_part_of_a_wall_comes_out() {
-    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let mut boundary = Boundary::closed(&geometry);
     boundary.pressure(&geometry, 2, |x| (x.x < 0.5).then_some(3.0));
     let total = boundary.inflow(&geometry, 3, 0.1, |x| x.x > 0.5);
@@ -91,7 +91,7 @@ fn inflow_through_a_part_of_a_wall_comes_out() {
 /// A piston that comes in at v presses out v S: shrinking pores are sources, and their pressures rise.
 #[test]
 fn shrinking_pores_press_fluid_out() {
-    let geometry = geometry(&spheres(BOX200), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let mut boundary = Boundary::closed(&geometry);
     boundary.pressure(&geometry, 2, |_| Some(0.0));
     let step = 1e-3;
@@ -153,8 +153,9 @@ fn a_turned_box_is_as_permeable() {
         offset: w.offset,
     });
     let mesh = Triangulation::within(&turned, &walls).expect("cells");
-    let turned = PoreGeometry::new(mesh, &[Grip::NoSlip; 6], SolidAngles::Signed).expect("pores");
-    let straight = geometry(&spheres, Grip::NoSlip, SolidAngles::Signed);
+    let turned =
+        PoreGeometry::new(mesh, &[SlipCondition::NoSlip; 6], SolidAngles::Signed).expect("pores");
+    let straight = geometry(&spheres, SlipCondition::NoSlip, SolidAngles::Signed);
     let ratio =
         permeameter(&turned, &hydraulic()).kappa / permeameter(&straight, &hydraulic()).kappa;
     assert!((ratio - 1.0).abs() < 1e-11, "{ratio}");
@@ -163,7 +164,7 @@ fn a_turned_box_is_as_permeable() {
 /// Twice the viscosity, half the flux; pressures and forces stay.
 #[test]
 fn viscosity_scales_fluxes_alone() {
-    let geometry = geometry(&spheres(BOX25), Grip::NoSlip, SolidAngles::Signed);
+    let geometry = geometry(&spheres(BOX25), SlipCondition::NoSlip, SolidAngles::Signed);
     let boundary = drop_along_y(&geometry);
     let run = |viscosity: f64| {
         let mut system = FlowSystem::new(

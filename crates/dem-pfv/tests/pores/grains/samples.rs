@@ -2,7 +2,7 @@
 
 use dem_pfv::grains::{
     Cloud, Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, rain,
-    settle, uniform_radii,
+    step_to_rest, uniform_radii,
 };
 
 use crate::grains::close;
@@ -102,7 +102,7 @@ fn a_pluviated_bed_rests_on_the_floor_with_its_weight() {
     let setup = Setup::new(grains, law).law(smooth()).walls(walls);
     let setup = setup.gravity([0.0, 0.0, -9.81]).damping(0.2);
     let mut system = GrainSystem::new(setup).expect("a bed");
-    settle(&mut system, 0.7, 1e-4, 400_000).expect("rest");
+    step_to_rest(&mut system, 0.7, 1e-4, 400_000).expect("rest");
     let g = system.grains();
     let weight: f64 = g.masses().iter().map(|m| m * 9.81).sum();
     // What is not balanced grain by grain is not on the floor.

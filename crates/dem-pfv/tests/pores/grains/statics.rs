@@ -1,7 +1,7 @@
 //! Equilibria under weight and stress.
 
 use dem_pfv::grains::{
-    Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, settle,
+    Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, step_to_rest,
 };
 
 use crate::grains::{GRAVITY, RADIUS, STIFFNESS, close, grain, law, position, run};
@@ -18,7 +18,7 @@ fn a_damped_stack_is_as_deep_as_its_weight() {
             .gravity([0.0, 0.0, -GRAVITY])
             .damping(damping);
         let mut system = GrainSystem::new(setup).expect("a stack");
-        settle(&mut system, 0.5, 1e-12, 100_000).expect("rest");
+        step_to_rest(&mut system, 0.5, 1e-12, 100_000).expect("rest");
         for touch in system.contacts() {
             let above = 8 - touch.grain.max(match touch.partner {
                 dem_pfv::grains::Partner::Grain(other) => other,
@@ -105,7 +105,7 @@ fn servo_walls_reach_their_stress() {
         };
     }
     run(&mut system, 1e-4, 20_000);
-    settle(&mut system, 0.5, 1e-4, 100_000).expect("rest");
+    step_to_rest(&mut system, 0.5, 1e-4, 100_000).expect("rest");
     for (number, goal) in goals.into_iter().enumerate() {
         let stress = system.wall_stress(number).expect("area");
         close(stress / goal, 1.0, 1e-3);
@@ -147,7 +147,7 @@ fn a_damped_piston_ends_at_its_stress() {
             stress: 6e4,
             mass: share * solid,
         };
-        settle(&mut system, 0.5, 1e-8, 400_000).expect("rest");
+        step_to_rest(&mut system, 0.5, 1e-8, 400_000).expect("rest");
         run(&mut system, 5e-5, 2000);
         close(system.wall_stress(number).expect("area") / 6e4, 1.0, 1e-6);
     }
@@ -164,7 +164,7 @@ fn external_forces_lift() {
         .damping(0.5);
     let mut system = GrainSystem::new(setup).expect("a ball");
     system.external_forces_mut()[0] = Vector::z() * (0.4 * GRAVITY);
-    settle(&mut system, 0.5, 1e-12, 100_000).expect("rest");
+    step_to_rest(&mut system, 0.5, 1e-12, 100_000).expect("rest");
     close(
         RADIUS - position(&system, 0).z,
         0.6 * GRAVITY / STIFFNESS,

@@ -1,9 +1,9 @@
 //! What a regular triangulation is, and what is refused.
 
+mod containers;
 mod packings;
 mod properties;
 mod refusals;
-mod rooms;
 
 use dem_pfv::triangulation::{Sphere, Triangulation, Vertex};
 use nalgebra::Vector3;

@@ -43,7 +43,7 @@ fn compared(
     for (i, first) in edges.iter().enumerate().filter(|(_, e)| !e.image) {
         // The lowest of those that it crosses.
         let mut met: Option<(usize, [f64; 2])> = None;
-        let whole = tree.overlapping(tree.of(i), &mut |j| {
+        let whole = tree.overlapping(tree.corners(i), &mut |j| {
             if !edges[j].image && j <= i || met.is_some_and(|(k, _)| k < j) {
                 return ControlFlow::Continue(());
             }

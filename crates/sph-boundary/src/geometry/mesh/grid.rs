@@ -51,7 +51,7 @@ impl<const D: usize> Sphere<D> {
 
 impl<const D: usize> Grid<D> {
     /// Of all images of elements; queries reach `reach` far, m.
-    pub(super) fn of(images: &[(NearElement<D>, Sphere<D>)], reach: f64) -> Self {
+    pub(super) fn new(images: &[(NearElement<D>, Sphere<D>)], reach: f64) -> Self {
         let [lower, upper] = bounds(images.iter().map(|(_, sphere)| sphere.centre));
         let extent: [f64; D] = std::array::from_fn(|k| (upper[k] - lower[k]).max(0.0));
         let limit = (CELLS_PER_ENTRY * images.len()).max(1) as f64;

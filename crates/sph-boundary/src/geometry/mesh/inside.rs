@@ -121,10 +121,10 @@ where
             for image in self.domain.images_within(around, own) {
                 let shift = self.domain.shift(image);
                 let moved = own.map(|x| std::array::from_fn(|k| x[k] + shift[k]));
-                images.extend(NearElement::of(e, image).map(|near| (near, moved)));
+                images.extend(NearElement::new(e, image).map(|near| (near, moved)));
             }
         }
-        Rays::of(along, images, rim)
+        Rays::new(along, images, rim)
     }
 
     /// Whether the first wall that a ray meets faces the point; none if it meets nothing.

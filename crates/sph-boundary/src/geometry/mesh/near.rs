@@ -34,10 +34,10 @@ impl<const D: usize> Grid<D> {
                     centre: add(element.centre, domain.shift(image)),
                     radius: radii[e],
                 };
-                images.extend(NearElement::of(e, image).map(|near| (near, sphere)));
+                images.extend(NearElement::new(e, image).map(|near| (near, sphere)));
             }
         }
-        Self::of(&images, reach)
+        Self::new(&images, reach)
     }
 
     /// Images of elements nearer than `radius` to a point, ascending by element, then image;

@@ -20,7 +20,7 @@ impl<const D: usize> Default for NearElement<D> {
 
 impl<const D: usize> NearElement<D> {
     /// Of an image that a byte can count; others are of a wall drawn far outside the box.
-    pub(crate) fn of(element: usize, image: [i32; D]) -> Option<Self> {
+    pub(crate) fn new(element: usize, image: [i32; D]) -> Option<Self> {
         let image = image.map(i8::try_from);
         let counted = image.iter().all(Result::is_ok);
         counted.then(|| NearElement {

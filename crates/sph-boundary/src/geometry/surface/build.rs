@@ -9,7 +9,7 @@ use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, Site};
 use super::removal::remove_contacts;
-use super::seen::{Touched, seen};
+use super::wetted::{Touched, seen};
 use crate::error::{BoundaryError, WallWarning};
 use crate::geometry::mesh::{Element, Face, FaceEdge, Measured, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;

@@ -22,7 +22,7 @@ pub(super) struct Contact {
 }
 
 /// What two triangles do to each other.
-enum Meeting {
+enum Intersection {
     /// They are apart or touch.
     Apart,
     /// They cross near a place.
@@ -111,7 +111,7 @@ fn touch(
     let together = groups[a.wall] == groups[b.wall];
     let names = || [a, b].map(|d| surfaces[d.wall].name.clone());
     match meeting {
-        Meeting::Cross(at) => {
+        Intersection::Cross(at) => {
             let [wall, other] = names();
             Err(BoundaryError::Crossing {
                 wall,
@@ -122,7 +122,7 @@ fn touch(
                 at: at.into(),
             })
         }
-        Meeting::Cover {
+        Intersection::Cover {
             opposite: false,
             at,
         } if together => {
@@ -135,7 +135,7 @@ fn touch(
                 at: at.into(),
             })
         }
-        Meeting::Cover { opposite: true, at } if a.wall == b.wall => {
+        Intersection::Cover { opposite: true, at } if a.wall == b.wall => {
             Err(BoundaryError::NoThickness {
                 wall: surfaces[a.wall].name.clone(),
                 triangle: a.index,
@@ -143,7 +143,7 @@ fn touch(
                 at: at.into(),
             })
         }
-        Meeting::Cover { .. } => Ok(together),
+        Intersection::Cover { .. } => Ok(together),
         _ => Ok(false),
     }
 }
@@ -152,24 +152,24 @@ fn meet(
     (a, normal_a): ([Point; 3], Point),
     (b, normal_b): ([Point; 3], Point),
     tolerance: f64,
-) -> Meeting {
+) -> Intersection {
     let over_b = a.map(|p| dot(sub(p, b[0]), normal_b));
     let over_a = b.map(|p| dot(sub(p, a[0]), normal_a));
     let flat = |heights: [f64; 3]| heights.iter().all(|h| h.abs() <= tolerance);
     if flat(over_a) && flat(over_b) {
         return match common_place(a, normal_a, b, tolerance) {
-            Some(at) => Meeting::Cover {
+            Some(at) => Intersection::Cover {
                 opposite: dot(normal_a, normal_b) < 0.0,
                 at,
             },
-            None => Meeting::Apart,
+            None => Intersection::Apart,
         };
     }
     let straddles = |heights: [f64; 3]| {
         heights.iter().any(|h| *h > tolerance) && heights.iter().any(|h| *h < -tolerance)
     };
     if !(straddles(over_a) && straddles(over_b)) {
-        return Meeting::Apart;
+        return Intersection::Apart;
     }
     // Both cut the line common to both planes; they cross if the pieces they cut out overlap.
     let line = unit(cross(normal_a, normal_b));
@@ -185,9 +185,9 @@ fn meet(
         second[1]
     };
     if to.0 - from.0 <= 4.0 * tolerance {
-        return Meeting::Apart;
+        return Intersection::Apart;
     }
-    Meeting::Cross(along(from.1, 0.5, sub(to.1, from.1)))
+    Intersection::Cross(along(from.1, 0.5, sub(to.1, from.1)))
 }
 
 /// The piece of a line that a triangle cuts out of it: both ends with their coordinate along it.
@@ -252,7 +252,7 @@ fn common_place(a: [Point; 3], normal: Point, b: [Point; 3], tolerance: f64) -> 
 mod tests {
     use super::*;
 
-    fn meeting(b: [Point; 3]) -> Meeting {
+    fn meeting(b: [Point; 3]) -> Intersection {
         let a = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
         let normal = unit(crate::geometry::vector::double_area(b));
         meet((a, [0.0, 0.0, 1.0]), (b, normal), 1e-6)
@@ -261,18 +261,18 @@ mod tests {
     #[test]
     fn touching_is_not_crossing() {
         let standing = |z: f64| [[0.5, 0.5, z], [1.0, 0.5, z], [0.5, 0.5, z + 1.0]];
-        assert!(matches!(meeting(standing(0.0)), Meeting::Apart));
-        assert!(matches!(meeting(standing(-1e-7)), Meeting::Apart));
-        assert!(matches!(meeting(standing(-0.5)), Meeting::Cross(_)));
+        assert!(matches!(meeting(standing(0.0)), Intersection::Apart));
+        assert!(matches!(meeting(standing(-1e-7)), Intersection::Apart));
+        assert!(matches!(meeting(standing(-0.5)), Intersection::Cross(_)));
         let beside = [[2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
-        assert!(matches!(meeting(beside), Meeting::Apart));
+        assert!(matches!(meeting(beside), Intersection::Apart));
         let within = [[0.5, 0.5, 0.0], [0.5, 0.7, 0.0], [0.7, 0.5, 0.0]];
         assert!(matches!(
             meeting(within),
-            Meeting::Cover { opposite: true, .. }
+            Intersection::Cover { opposite: true, .. }
         ));
         // It has a corner in common and goes through.
         let through = [[0.0, 0.0, 0.0], [1.0, 1.0, -1.0], [1.0, 1.0, 1.0]];
-        assert!(matches!(meeting(through), Meeting::Cross(_)));
+        assert!(matches!(meeting(through), Intersection::Cross(_)));
     }
 }

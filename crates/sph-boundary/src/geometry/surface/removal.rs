@@ -10,7 +10,7 @@ use i_overlay::i_float::int::point::IntPoint;
 use super::crossing::Contact;
 use super::patches::{Patch, in_plane, in_space};
 use super::places::{Places, Site, edge_key};
-use super::seen::Touched;
+use super::wetted::Touched;
 use crate::geometry::vector::sub;
 
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.

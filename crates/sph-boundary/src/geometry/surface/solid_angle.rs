@@ -75,7 +75,7 @@ impl Mesh<3> {
         for (t, triangle) in self.elements.iter().enumerate() {
             let parts = parts(self.corners(t));
             for (corner, node) in triangle.nodes.iter().enumerate() {
-                count[*node] += u32::from(fans.of(3 * t + corner) == 3 * t + corner);
+                count[*node] += u32::from(fans.root(3 * t + corner) == 3 * t + corner);
                 area[*node] += triangle.measure * parts[corner];
             }
         }

@@ -38,7 +38,7 @@ fn plates_of_every_thickness() {
             }
         }
     }
-    errors.settle("plates");
+    errors.check("plates");
 }
 
 #[test]

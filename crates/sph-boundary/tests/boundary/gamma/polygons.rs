@@ -37,7 +37,7 @@ fn inside_and_outside_of_a_gear() {
             immersed.compare([x + d * H, y - 0.3 * d * H], &mut errors);
         }
     }
-    errors.settle("gear");
+    errors.check("gear");
 }
 
 /// The faces in contact cancel, though they are cut differently.

@@ -93,7 +93,7 @@ impl Errors {
     }
 
     /// Prints the largest errors and refuses those above the tolerance.
-    pub fn settle(&self, what: &str) {
+    pub fn check(&self, what: &str) {
         for (k, name) in self.names.iter().enumerate() {
             println!(
                 "{what}, {name}: γ {:.1e}, h∇γ {:.1e}",

@@ -58,5 +58,5 @@ fn every_wedge_at_every_distance() {
             scene.compare(point, &mut errors);
         }
     }
-    errors.settle("wedges");
+    errors.check("wedges");
 }

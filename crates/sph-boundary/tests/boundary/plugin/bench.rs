@@ -1,7 +1,7 @@
 //! A world of particles next to walls, built through the registry as a solver would.
 
 use sph_boundary::{
-    Condition, Drawing, Polyline, RigidMotion, Wall, WallEntry, WallSetup, WallSpec,
+    Drawing, Polyline, RigidMotion, Wall, WallCondition, WallEntry, WallSetup, WallSpec,
 };
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
@@ -17,7 +17,7 @@ pub struct Bench {
 pub fn fixed(polyline: Polyline) -> WallSpec<2> {
     WallSpec {
         drawing: Drawing::Line(polyline),
-        condition: Condition::NoSlip,
+        condition: WallCondition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,
@@ -115,7 +115,7 @@ impl Bench {
                 dt: 0.0,
                 transported: Vec::new(),
                 extent: None,
-                team: None,
+                communicator: None,
             },
         };
         bench.refresh();

@@ -76,7 +76,7 @@ fn lost(specs: &[WallSpec<2>], low: f64, high: f64) -> Vec<(f64, usize)> {
     losses
 }
 
-fn nobody_is_lost(what: &str, specs: &[WallSpec<2>], low: f64, high: f64) {
+fn no_particle_is_lost(what: &str, specs: &[WallSpec<2>], low: f64, high: f64) {
     for (dt, lost) in lost(specs, low, high) {
         assert_eq!(
             lost,
@@ -90,15 +90,15 @@ fn nobody_is_lost(what: &str, specs: &[WallSpec<2>], low: f64, high: f64) {
 #[test]
 fn ten_thousand_shots_at_a_flat_wall_stay_in_front_of_it() {
     let floor = Polyline::open("floor", vec![[-40.0, 0.0], [40.0, 0.0]]);
-    nobody_is_lost("flat wall", &[fixed(floor)], -2.0, 2.5);
+    no_particle_is_lost("flat wall", &[fixed(floor)], -2.0, 2.5);
 }
 
 #[test]
 fn ten_thousand_shots_into_corners_stay_in_them() {
     let room = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-    nobody_is_lost("square", &[fixed(Polyline::closed("room", room))], 0.0, 4.0);
+    no_particle_is_lost("square", &[fixed(Polyline::closed("room", room))], 0.0, 4.0);
     let wedge = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0]];
-    nobody_is_lost(
+    no_particle_is_lost(
         "acute corner",
         &[fixed(Polyline::closed("wedge", wedge))],
         0.0,
@@ -109,20 +109,20 @@ fn ten_thousand_shots_into_corners_stay_in_them() {
         [2.0 * angle.cos(), 2.0 * angle.sin()]
     });
     let octagon = Polyline::closed("octagon", octagon.collect());
-    nobody_is_lost("obtuse corner", &[fixed(octagon)], -2.0, 2.0);
+    no_particle_is_lost("obtuse corner", &[fixed(octagon)], -2.0, 2.0);
 }
 
 #[test]
 fn ten_thousand_shots_at_a_re_entrant_corner_stay_outside() {
     let block = vec![[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
-    nobody_is_lost(
+    no_particle_is_lost(
         "block",
         &[fixed(Polyline::closed("block", block))],
         -3.0,
         3.0,
     );
     let blade = vec![[-1.0, -0.3], [0.0, 0.9], [1.0, -0.3]];
-    nobody_is_lost(
+    no_particle_is_lost(
         "blade",
         &[fixed(Polyline::closed("blade", blade))],
         -3.0,
@@ -135,7 +135,7 @@ fn ten_thousand_shots_at_a_thin_plate_stay_on_their_side() {
     for thickness in [0.0, 0.05] {
         let middle = [[-1.5, -0.5], [0.0, 0.2], [1.5, 0.2]];
         let plate = thin_plate("plate", &middle, thickness).unwrap();
-        nobody_is_lost(
+        no_particle_is_lost(
             &format!("plate of {thickness} m"),
             &[fixed(plate)],
             -2.5,

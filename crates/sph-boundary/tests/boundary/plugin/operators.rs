@@ -46,7 +46,7 @@ fn the_lattice_sum_of_gradients_is_4808_1589_0188_0000() {
 fn the_wall_gradient_is_4837_1363_0091_0000_along_the_normal() {
     let bench = over_a_flat_wall("usaw", 10, 0.0);
     for (k, printed) in [(1, 0.4837), (2, 0.1363), (3, 0.0091), (4, 0.0)] {
-        let contacts = bench.world.walls.contacts.of(row(&bench, k));
+        let contacts = bench.world.walls.contacts.of_particle(row(&bench, k));
         let gradient: Vect<2> = contacts.iter().map(|c| c.gradient).sum();
         as_printed(gradient[1], printed, 4, &format!("row {k}"));
         assert!(gradient[0].abs() < 1e-16, "along the wall: {}", gradient[0]);
@@ -80,7 +80,14 @@ fn gamma_is_82349691_97149094_99912974_and_1_beyond() {
     }
     // Out of reach there is nothing to compute, so it is 1 and not nearly 1.
     assert_eq!(bench.gamma()[row(&bench, 9)], 1.0);
-    assert!(bench.world.walls.contacts.of(row(&bench, 9)).is_empty());
+    assert!(
+        bench
+            .world
+            .walls
+            .contacts
+            .of_particle(row(&bench, 9))
+            .is_empty()
+    );
 }
 
 #[test]

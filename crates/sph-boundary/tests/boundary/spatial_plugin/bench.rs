@@ -1,6 +1,6 @@
 //! A world of particles next to walls in either dimension, built through the registry.
 
-use sph_boundary::{Condition, Drawing, RigidMotion, Wall, WallEntry, WallSetup, WallSpec};
+use sph_boundary::{Drawing, RigidMotion, Wall, WallCondition, WallEntry, WallSetup, WallSpec};
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, WallSet, World};
@@ -15,7 +15,7 @@ pub struct Bench<const D: usize> {
 pub fn fixed<const D: usize>(drawing: Drawing) -> WallSpec<D> {
     WallSpec {
         drawing,
-        condition: Condition::NoSlip,
+        condition: WallCondition::NoSlip,
         surface_velocity: Vect::zeros(),
         motion: RigidMotion::default(),
         mover: None,
@@ -91,7 +91,7 @@ impl<const D: usize> Bench<D> {
                 dt: 0.0,
                 transported: Vec::new(),
                 extent: None,
-                team: None,
+                communicator: None,
             },
         };
         bench.refresh();
@@ -123,7 +123,7 @@ impl<const D: usize> Bench<D> {
 
     /// ∇γ of a particle, 1/m.
     pub fn gradient(&self, particle: usize) -> Vect<D> {
-        let contacts = self.world.walls.contacts.of(particle);
+        let contacts = self.world.walls.contacts.of_particle(particle);
         contacts.iter().map(|c| c.gradient).sum()
     }
 

@@ -110,7 +110,7 @@ fn known(bench: &Bench<3>) -> Vec<Known> {
     let particles = bench.positions().iter().enumerate();
     let mut known: Vec<Known> = particles
         .map(|(i, x)| {
-            let contacts = bench.world.walls.contacts.of(i).iter();
+            let contacts = bench.world.walls.contacts.of_particle(i).iter();
             let contacts = contacts.map(|c| (c.element, c.gradient, c.distance));
             let place = [0, 1, 2].map(|k| f64::to_bits(x[k]));
             (place, bench.gamma()[i], contacts.collect())

@@ -80,7 +80,7 @@ fn flown(surface: &Surface, low: f64, high: f64, aims: &[Vect<3>], dt: f64) -> [
     [marks.iter().filter(|m| **m > 0.0).count(), turned.count()]
 }
 
-fn nobody_is_lost(
+fn no_particle_is_lost(
     what: &str,
     surface: &Surface,
     [low, high]: [f64; 2],
@@ -102,7 +102,7 @@ fn nobody_is_lost(
 #[test]
 fn a_thousand_shots_into_the_corners_of_a_box_stay_in_it() {
     let corners = [[0.0; 3], [3.0; 3], [3.0, 0.0, 0.0], [0.0, 1.5, 3.0]];
-    nobody_is_lost(
+    no_particle_is_lost(
         "box",
         &tank([0.0; 3], [3.0; 3]),
         [0.0, 3.0],
@@ -121,20 +121,20 @@ fn a_thousand_shots_at_a_pyramid_stay_outside() {
         [1.0, 0.2, 0.0],
         [0.5, 0.0, 0.6],
     ];
-    nobody_is_lost("pyramid", &pyramid(1.0, 1.2), [-2.0, 2.0], &aims, &LONG);
+    no_particle_is_lost("pyramid", &pyramid(1.0, 1.2), [-2.0, 2.0], &aims, &LONG);
 }
 
 #[test]
 fn a_thousand_shots_at_a_needle_stay_outside() {
     let aims = [[0.0, 0.0, 2.0], [0.1, 0.1, 1.0], [0.2, 0.2, 0.0]];
-    nobody_is_lost("needle", &pyramid(0.2, 2.0), [-1.5, 2.5], &aims, &LONG);
+    no_particle_is_lost("needle", &pyramid(0.2, 2.0), [-1.5, 2.5], &aims, &LONG);
 }
 
 #[test]
 fn a_thousand_shots_into_a_hollow_pyramid_stay_in_its_tip() {
     let aims = [[0.0, 0.0, 2.4], [0.6, 0.6, 1.8], [2.0, 2.0, 0.0]];
     let hollow = pyramid(2.0, 2.4).reversed();
-    nobody_is_lost("hollow pyramid", &hollow, [-2.0, 2.4], &aims, &SHORT);
+    no_particle_is_lost("hollow pyramid", &hollow, [-2.0, 2.4], &aims, &SHORT);
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn a_thousand_shots_at_thin_plates_stay_on_their_side() {
         let half = 0.5 * thickness;
         let plate = block("plate", [-1.0, -1.0, -half], [1.0, 1.0, half]);
         let what = format!("plate of {thickness} m");
-        nobody_is_lost(&what, &plate, [-2.0, 2.0], &aims, &LONG);
+        no_particle_is_lost(&what, &plate, [-2.0, 2.0], &aims, &LONG);
     }
 }
 
@@ -166,7 +166,7 @@ fn a_thousand_shots_at_a_re_entrant_edge_and_an_acute_gap_stay_out_of_the_wall()
         [1.5, 0.0, 0.0],
         [0.0, 3.0, 3.0],
     ];
-    nobody_is_lost("room", &room, [0.0, 3.0], &aims, &SHORT);
+    no_particle_is_lost("room", &room, [0.0, 3.0], &aims, &SHORT);
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn over_a_plane_gamma_and_its_gradient_are_as_printed_to_nine_digits() {
         assert!((bench.gamma()[i] - gamma).abs() < 6e-10, "γ at {z}");
         let gradient = bench.gradient(i);
         assert!((gradient - Vect::z() * slope).norm() < 6e-10, "∇γ at {z}");
-        for contact in bench.world.walls.contacts.of(i) {
+        for contact in bench.world.walls.contacts.of_particle(i) {
             assert!((contact.distance - z).abs() < 1e-14);
         }
     }
@@ -149,7 +149,7 @@ fn contacts_of_one_face_sum_to_the_integral_over_that_face() {
     let (_, expected) = in_a_corner([0.4, 1.3, 0.7]);
     let elements = &bench.world.walls.elements;
     for k in 0..3 {
-        let of_face = bench.world.walls.contacts.of(0).iter();
+        let of_face = bench.world.walls.contacts.of_particle(0).iter();
         let of_face = of_face.filter(|c| elements.normal[c.element as usize][k] > 0.5);
         let contacts: Vec<_> = of_face.collect();
         let sum: Vect<3> = contacts.iter().map(|c| c.gradient).sum();

@@ -181,7 +181,7 @@ impl Difference {
             short(self.relative),
             format!("{:?}", self.pair[0]),
             format!("{:?}", self.pair[1]),
-            self.place.told(),
+            self.place.label(),
         ]
     }
 
@@ -212,7 +212,7 @@ fn short(x: f64) -> String {
 }
 
 impl Place {
-    fn told(&self) -> String {
+    fn label(&self) -> String {
         let mut parts = Vec::new();
         if let Some(time) = self.time {
             parts.push(format!("t = {} s", number::plain(time)));

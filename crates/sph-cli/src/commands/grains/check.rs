@@ -4,14 +4,14 @@ use dem_pfv::scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
 use crate::number;
-use crate::telling::layout::{columns, remarks};
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::layout::{columns, remarks};
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 
 /// Tells what follows from a scene, without preparing its grains.
-pub fn told(loaded: &Loaded, shown: &str) -> Result<Told, Trouble> {
-    let examined = examine(loaded).map_err(|e| Trouble::of(e, &loaded.source))?;
-    Ok(Told {
+pub fn output(loaded: &Loaded, shown: &str) -> Result<CommandOutput, Trouble> {
+    let examined = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
+    Ok(CommandOutput {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined, shown),
     })

@@ -4,14 +4,14 @@ use dem_pfv::scene::{Examination, Loaded, examine};
 use serde_json::Value as Json;
 
 use crate::number;
-use crate::telling::layout::{columns, columns_and_below, paragraph, parameters};
-use crate::telling::told::Told;
-use crate::telling::trouble::Trouble;
+use crate::terminal::layout::{columns, columns_and_below, paragraph, parameters};
+use crate::terminal::output::CommandOutput;
+use crate::terminal::trouble::Trouble;
 
 /// Shows what a scene is made of.
-pub fn told(loaded: &Loaded) -> Result<Told, Trouble> {
-    let examined = examine(loaded).map_err(|e| Trouble::of(e, &loaded.source))?;
-    Ok(Told {
+pub fn output(loaded: &Loaded) -> Result<CommandOutput, Trouble> {
+    let examined = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
+    Ok(CommandOutput {
         json: serde_json::to_value(&examined).unwrap_or(Json::Null),
         text: text(&examined),
     })

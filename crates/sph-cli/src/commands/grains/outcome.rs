@@ -4,10 +4,10 @@ use std::path::Path;
 
 use dem_pfv::scene::{Compared, Summary};
 
+use crate::commands::file_list;
 use crate::commands::outcome::{headline, limited_by, row, wall_time};
-use crate::commands::written;
 use crate::number;
-use crate::telling::layout::{columns, remarks};
+use crate::terminal::layout::{columns, remarks};
 
 /// What the run was, what it cost, how good it is, and where its files are.
 pub fn text(summary: &Summary, out: &Path) -> String {
@@ -24,7 +24,7 @@ pub fn text(summary: &Summary, out: &Path) -> String {
     if !summary.warnings.is_empty() {
         text.push_str(&format!("warnings\n{}", remarks(&summary.warnings)));
     }
-    text.push_str(&written::ending(out));
+    text.push_str(&file_list::ending(out));
     text
 }
 

@@ -14,7 +14,7 @@ inventory::submit! {
         Place::Elsewhere,
         "forces of grains that touch, in [grains.contact.LAW], [box.contact.LAW], [wall.NAME.contact.LAW]",
     )
-    .of(laws)
+    .with_plugins(laws)
 }
 inventory::submit! {
     PluginKind::new(
@@ -22,7 +22,7 @@ inventory::submit! {
         Place::Elsewhere,
         "what a throat between two pores lets through, in [fluid.conductance.LAW]",
     )
-    .of(throats)
+    .with_plugins(throats)
 }
 
 fn laws() -> Vec<PluginInfo> {

@@ -12,7 +12,7 @@ pub struct Choice {
 }
 
 /// The values of a parameter, or of the entries of its list; none if it is not one of a few.
-pub fn of(schema: &Json, name: &str) -> Vec<Choice> {
+pub fn choices_of(schema: &Json, name: &str) -> Vec<Choice> {
     let parameter = &schema["properties"][name];
     let node = node_of(parameter, schema);
     let entry = node_of(&node["items"], schema);

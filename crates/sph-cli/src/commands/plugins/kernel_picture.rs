@@ -7,7 +7,7 @@ use sph_io::{Panels, Plot, Series};
 use sph_solver::kernels::{self, Kernel};
 
 use super::picture;
-use crate::telling::trouble::Trouble;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::PluginArguments;
 
 /// Points of a curve.

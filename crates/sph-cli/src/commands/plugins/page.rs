@@ -56,7 +56,7 @@ const SHOWN: [(&str, &str, &str, &str); 8] = [
 const LONGEST: usize = 120;
 
 /// A page of kinds as `sph plugins --json` tells them.
-pub fn of(kinds: &[Json]) -> String {
+pub fn markdown(kinds: &[Json]) -> String {
     let mut page = String::from(
         "# Plugins\n\nAll that a scene may name. This page is what `sph plugins --markdown` prints; a test holds it to that.\n\
          `sph plugins KIND NAME` shows one of them with a snippet for a scene.\n\n",

@@ -6,9 +6,9 @@ use sph_core::{PluginInfo, number, parse_quantity};
 use sph_io::{Panels, Plot, Series};
 use sph_solver::rheometer::{self, Rheology};
 
-use super::specimen::{self, Specimen};
-use crate::telling::console;
-use crate::telling::trouble::Trouble;
+use super::law_sample::{self, LawSample};
+use crate::terminal::console;
+use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::PluginArguments;
 
 /// Strain rates in 1/s where none are given: the ends of the axis of a flow curve.
@@ -38,8 +38,8 @@ pub fn draw(
     file: &Path,
 ) -> Result<(), Trouble> {
     check(file)?;
-    let specimens = specimen::all(plugins, &arguments.set, arguments.vary.as_deref())?;
-    let curves = curves(&specimens, &numbers("pressure", &arguments.pressure, "Pa")?)?;
+    let samples = law_sample::all(plugins, &arguments.set, arguments.vary.as_deref())?;
+    let curves = curves(&samples, &numbers("pressure", &arguments.pressure, "Pa")?)?;
     let elastic = curves.iter().filter(|c| c.law.elastic().is_some()).count();
     let rates = rates(&arguments.strain_rates)?;
     let panels = match elastic {
@@ -76,14 +76,14 @@ pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
 }
 
 /// Every specimen at every pressure, or once if pressure does not matter to it.
-fn curves<'s>(specimens: &'s [Specimen], pressures: &[f64]) -> Result<Vec<Curve<'s>>, Trouble> {
+fn curves<'s>(samples: &'s [LawSample], pressures: &[f64]) -> Result<Vec<Curve<'s>>, Trouble> {
     let given = if pressures.is_empty() {
         &[PRESSURE][..]
     } else {
         pressures
     };
     let mut curves = Vec::new();
-    for specimen in specimens {
+    for specimen in samples {
         let law = &*specimen.law;
         if !law.needs().pressure {
             let label = specimen.label.clone();

@@ -6,7 +6,7 @@ use sph_core::{Parameter, Place, PluginInfo, kind_of, parameters};
 use super::required;
 
 /// The TOML lines that name a plugin, with all its parameters.
-pub fn of(kind: &str, plugin: &PluginInfo) -> String {
+pub fn toml_lines(kind: &str, plugin: &PluginInfo) -> String {
     let name = plugin.name;
     let schema = (plugin.schema)();
     let keys: String = parameters(&schema)

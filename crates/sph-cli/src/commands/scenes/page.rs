@@ -1,13 +1,13 @@
 //! docs/gallery.md.
 
 use crate::gallery::{Entry, Gallery};
-use crate::telling::layout::paragraph;
+use crate::terminal::layout::paragraph;
 
 /// Longest line.
 const WIDTH: usize = 120;
 
 /// The page.
-pub fn of(gallery: &Gallery) -> String {
+pub fn markdown(gallery: &Gallery) -> String {
     let about = format!(
         "`sph scenes` lists the scenes, `sph run NAME` runs one, prints its errors and writes them to `summary.json`. {} \
          This page is what `sph scenes --markdown` prints from [gallery.toml](gallery.toml); a test holds it to that, and \

@@ -79,7 +79,7 @@ pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
         "/state.json" => Answer {
             status: "200 OK",
             kind: "application/json",
-            body: state::of(folder).to_string().into_bytes(),
+            body: state::folder_state(folder).to_string().into_bytes(),
         },
         path => file(path, folder),
     }

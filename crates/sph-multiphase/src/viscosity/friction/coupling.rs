@@ -5,7 +5,7 @@ use sph_neighbours::{
     Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
 };
 
-use super::{Bound, Here, PairFriction, Sum, ViscousTerm};
+use super::{BoundFriction, OwnValues, PairFriction, Sum, ViscousTerm};
 use crate::linear::{Block, Entry};
 use crate::viscosity::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
@@ -16,15 +16,19 @@ impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {
     fn mixes_components(&self) -> bool {
         F::DIRECTIONAL
     }
-    fn lend(&self, world: &World<D>, with: &mut WithCoupling<'_, D>) -> Result<(), StepError> {
+    fn with_columns(
+        &self,
+        world: &World<D>,
+        with: &mut WithCoupling<'_, D>,
+    ) -> Result<(), StepError> {
         with(&PairTerm::bind(self, world)?)
     }
 }
 
-impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
+impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     /// −α and −β of a wall point times its viscosity.
     #[inline(always)]
-    fn at_point(&self, here: &Here<D>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
+    fn at_point(&self, here: &OwnValues<D>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
         let (distance2, factor) = (pair.distance2, pair.factor);
         let strengths = self
             .friction
@@ -33,11 +37,11 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
     }
 
     /// κ from what the explicit term sums.
-    fn correction_of(&self, here: &Here<D>, rows: &Neighbourhood<'_, D>) -> f64 {
+    fn correction_of(&self, here: &OwnValues<D>, rows: &Neighbourhood<'_, D>) -> f64 {
         if here.nearest.is_none() {
             return 1.0;
         }
-        let mut sum = Sum::<D>::of([[0.0; D]; 2]);
+        let mut sum = Sum::<D>::new([[0.0; D]; 2]);
         let volume = here.volume;
         for (j, pair) in rows.free.pairs() {
             let there = self.volume[j];
@@ -59,7 +63,7 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
 }
 
 /// α, β and their norm of pairs.
-struct Strengths<'a, 'b, const D: usize, F>(&'a Bound<'b, D, F>);
+struct Strengths<'a, 'b, const D: usize, F>(&'a BoundFriction<'b, D, F>);
 
 /// What a particle has of a pair.
 #[derive(Clone, Copy)]
@@ -99,7 +103,7 @@ impl<const D: usize, F: PairFriction<D>> PairNumbers<D, 3> for Strengths<'_, '_,
     }
 }
 
-impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for Bound<'_, D, F> {
+impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, D, F> {
     fn kinds(&self) -> Kinds {
         Kinds {
             even: F::EVEN,
@@ -116,7 +120,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for Bound<'_, D, F> {
     }
 
     fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
-        let here = self.here(rows.particle);
+        let here = self.own_values(rows.particle);
         let scale = self.scale * here.volume;
         let (mut wall, mut source) = (0.0, Vect::zeros());
         for (v, pair) in rows.wall.pairs() {
@@ -142,7 +146,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for Bound<'_, D, F> {
     }
 
     fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<Block<D>, D> {
-        let here = self.here(rows.particle);
+        let here = self.own_values(rows.particle);
         let scale = self.scale * here.volume;
         let (mut wall, mut source) = (Block::zeros(), Vect::zeros());
         for (v, pair) in rows.wall.pairs() {

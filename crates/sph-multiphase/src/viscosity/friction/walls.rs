@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_neighbours::{Contact, Pair, Particles};
 
-use super::{Bound, Here, PairFriction, Sum};
+use super::{BoundFriction, OwnValues, PairFriction, Sum};
 
 /// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
 const FAINT: f64 = 1e-3;
@@ -14,7 +14,7 @@ const LEAST_DISTANCE: f64 = 0.5;
 /// Bounds of κ.
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
-impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
+impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     /// Whether fluid passes an element.
     #[inline(always)]
     pub(super) fn is_open(&self, element: u32) -> bool {
@@ -33,7 +33,7 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
         };
         let mut nearest = None;
         let mut largest = 0.0;
-        for contact in self.contacts.of(i) {
+        for contact in self.contacts.of_particle(i) {
             let mean = mean(&contact);
             if mean > largest && !self.is_open(contact.element) {
                 largest = mean;
@@ -55,7 +55,7 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
 
     /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr; 2 τ_w/u_t |∇γ_as| of a wall function.
     #[inline(always)]
-    pub(super) fn weight(&self, here: &Here<D>, contact: &Contact<D>) -> f64 {
+    pub(super) fn weight(&self, here: &OwnValues<D>, contact: &Contact<D>) -> f64 {
         let s = contact.element as usize;
         // A phase that the wall function is not for has none, and the condition of the wall.
         if self.elements.wall_function.get(s) == Some(&true) && here.wall_friction > 0.0 {
@@ -70,14 +70,14 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
                 .friction
                 .at_element(here.volume, self.elements.volume[s]),
         };
-        let grip = self.elements.grip[s];
-        2.0 * factor * grip * here.viscosity.eta * contact.gradient.norm() / distance
+        let friction_factor = self.elements.friction_factor[s];
+        2.0 * factor * friction_factor * here.viscosity.eta * contact.gradient.norm() / distance
     }
 
     /// Share of a wall point's friction that counts.
     #[inline(always)]
     pub(super) fn rubbing(&self, v: usize, pair: &Pair<D>) -> f64 {
-        let mut rubbing = self.wall_share[v] * self.wall_grip[v];
+        let mut rubbing = self.wall_share[v] * self.wall_friction_factor[v];
         if let Some((slip, normal)) = self.wall_slip.get(v) {
             // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
             let distance = pair.separation.dot(normal).max(self.spacing);
@@ -88,7 +88,7 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
 
     /// κ.
     #[inline(always)]
-    pub(super) fn correction(&self, here: &Here<D>, sum: &Sum<D>) -> f64 {
+    pub(super) fn correction(&self, here: &OwnValues<D>, sum: &Sum<D>) -> f64 {
         let squared = sum.gradient.norm_squared();
         match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
             true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
@@ -98,7 +98,12 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
 
     /// Over which the velocity falls to that of an element.
     #[inline(always)]
-    pub(super) fn distance(&self, here: &Here<D>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
+    pub(super) fn distance(
+        &self,
+        here: &OwnValues<D>,
+        contact: &Contact<D>,
+        normal: &Vect<D>,
+    ) -> f64 {
         let Some((nearest, distance)) = &here.nearest else {
             return contact.distance.max(self.spacing);
         };
@@ -111,7 +116,7 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
     }
 }
 
-impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
+impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     /// The unit vector along the slip past the nearest wall, where it is looked at.
     #[inline(always)]
     pub(super) fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
@@ -122,9 +127,9 @@ impl<const D: usize, F: PairFriction<D>> Bound<'_, D, F> {
     }
 
     #[inline(always)]
-    pub(super) fn here(&self, i: usize) -> Here<D> {
+    pub(super) fn own_values(&self, i: usize) -> OwnValues<D> {
         let nearest = self.nearest(i);
-        Here {
+        OwnValues {
             velocity: self.velocity[i],
             viscosity: self.viscosity.own(Particles::one(i)),
             volume: self.volume[i],

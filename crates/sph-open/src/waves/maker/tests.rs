@@ -26,7 +26,7 @@ const REGULAR: &str = "level = 0.5\nwaves = { regular = { height = 0.06, period 
 #[test]
 fn a_piston_has_the_stroke_of_linear_theory() {
     let mut piston = maker::<2>(&format!("{REGULAR}order = 1\nramp = 0\n"));
-    piston.settle(&setting()).expect("settled");
+    piston.prepare(&setting()).expect("settled");
     let at = |t: f64| piston.next(&piston.start(), &Load::of_gravity(Vect::zeros()), t, 0.0);
     let stroke = at(0.35).pose.translation[0] - at(1.05).pose.translation[0];
     let transfer = 0.06 / stroke;
@@ -60,22 +60,22 @@ fn second_order_is_that_of_long_waves_where_they_are_long() {
 fn a_flap_turns_its_top_the_way_the_waves_run() {
     let flap = format!("{REGULAR}hinge = [0.0, 0.1]\nramp = 0\n");
     let mut plane = maker::<2>(&flap);
-    plane.settle(&setting()).expect("settled");
+    plane.prepare(&setting()).expect("settled");
     let top = plane.next(&plane.start(), &Load::of_gravity(Vect::zeros()), 0.1, 0.0);
     assert!(top.movement([0.0, 0.5]).velocity[0] > 0.0);
     let text = format!("{REGULAR}hinge = [0.0, 0.0, 0.1]\nalong = [3, 4, 0]\nramp = 0\n");
     let mut space = maker::<3>(&text);
-    space.settle(&setting()).expect("settled");
+    space.prepare(&setting()).expect("settled");
     let top = space.next(&space.start(), &Load::of_gravity(Vect::zeros()), 0.1, 0.0);
     let u = top.movement([0.0, 0.0, 0.5]).velocity;
     assert!(u[0] > 0.0 && (u[0] * 4.0 - u[1] * 3.0).abs() < 1e-12, "{u}");
 }
 
 #[test]
-fn what_no_maker_can_do_is_refused_at_its_key() {
+fn impossible_wave_makers_are_refused_at_their_key() {
     let refused = |text: &str| {
         let mut maker = maker::<2>(text);
-        maker.settle(&setting()).expect_err("refused").key
+        maker.prepare(&setting()).expect_err("refused").key
     };
     assert_eq!(refused(&REGULAR.replace("0.5", "-0.5")), "level");
     assert_eq!(refused(&REGULAR.replace("0.06", "0.6")), "waves.regular");
@@ -92,7 +92,7 @@ fn what_no_maker_can_do_is_refused_at_its_key() {
         ..setting()
     };
     assert!(
-        dry.settle(&none)
+        dry.prepare(&none)
             .expect_err("refused")
             .why
             .contains("gravity")

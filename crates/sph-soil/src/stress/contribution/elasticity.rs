@@ -9,8 +9,8 @@ use sph_rheology::Rheology;
 
 use super::Materials;
 use crate::stress::{
-    AdjointDivergence, Blend, Blended, CarriedAhead, CarriedStress, ElasticForce, ElasticMotion,
-    ElasticSubSteps, ElasticWaveLimit, StressCorrection, Yielded,
+    AdjointDivergence, Blend, Blended, CarriedStress, ElasticForce, ElasticMotion, ElasticSubSteps,
+    ElasticWaveLimit, ImplicitElasticStress, StressCorrection, Yielded,
 };
 
 /// Remembered stresses of the laws of a scene, and the force that they make.
@@ -31,7 +31,7 @@ impl<const D: usize> Elasticity<D> {
     fn term(&self, force: &dyn ElasticForce<D>) -> Box<dyn Interaction<D>> {
         let term = match self.0.adjoint() {
             Some(_) => AdjointDivergence::boxed(),
-            None => force.term(&self.0.felt()),
+            None => force.term(&self.0.law_inputs()),
         };
         match force.blend() {
             Blend::Forces => Box::new(Blended::solid(term)),
@@ -67,7 +67,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             let wave = self.wave(setting).filter(|_| !force.implicit());
             wave.into_iter().for_each(|wave| offer.limiter(wave));
         }
-        offer.stored.push(Box::new(self.0.felt()));
+        offer.stored.push(Box::new(self.0.law_inputs()));
         offer.remedy = Some(format!(
             "lower Young's modulus of the soil, give it `damping`, or change {}",
             offer.path
@@ -83,12 +83,12 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         let Some(force) = &self.0.force else {
             return Ok(());
         };
-        let felt = self.0.felt();
+        let law_inputs = self.0.law_inputs();
         match self.0.ahead() {
-            true => offer.stage(CarriedAhead(felt.clone())),
-            false => offer.stage(CarriedStress(felt.clone())),
+            true => offer.stage(ImplicitElasticStress(law_inputs.clone())),
+            false => offer.stage(CarriedStress(law_inputs.clone())),
         }
-        offer.stage(Yielded(felt.clone()));
+        offer.stage(Yielded(law_inputs.clone()));
         if let Some(gradient) = self.0.adjoint() {
             offer.stage(StressCorrection(gradient.clone()));
         }
@@ -98,7 +98,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         offer.fresh_state = true;
         let motion = ElasticMotion {
             gradient,
-            felt: felt.clone(),
+            law_inputs: law_inputs.clone(),
             displaced: force.displaced(),
             gradients: Pool::default(),
         };
@@ -107,7 +107,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             Some(wave) => {
                 let longest = wave.longest_sub_step(setting.world);
                 let term: OutsideForce<D> = self.term(&**force).into();
-                let sub_steps = ElasticSubSteps::new(term.clone(), motion, felt, longest);
+                let sub_steps = ElasticSubSteps::new(term.clone(), motion, law_inputs, longest);
                 offer.outside.push(term);
                 offer.inner_bounds.push(sub_steps.bound());
                 offer.hook(sub_steps);
@@ -132,7 +132,7 @@ impl<const D: usize> Elasticity<D> {
                 "the displacement of a wall is not remembered, and the wall `{name}` moves: take \
                  [elastic-force.divergence]"
             );
-            return Err(Refusal::of(KIND, "", why));
+            return Err(Refusal::at_key(KIND, "", why));
         }
         match force.sub_steps() {
             true => self.refuse_sub_steps(force, setting.kicks_once),
@@ -160,7 +160,7 @@ impl<const D: usize> Elasticity<D> {
             }
             Some(_) => return Ok(()),
         };
-        Err(Refusal::of(KIND, "implicit", why))
+        Err(Refusal::at_key(KIND, "implicit", why))
     }
 
     /// Refuses a blend of forces where it is not known.
@@ -179,7 +179,7 @@ impl<const D: usize> Elasticity<D> {
         } else {
             return Ok(());
         };
-        Err(Refusal::of(KIND, "blend", why))
+        Err(Refusal::at_key(KIND, "blend", why))
     }
 
     /// Refuses the adjoint force where it is not known.
@@ -192,16 +192,20 @@ impl<const D: usize> Elasticity<D> {
             return Ok(());
         }
         let walls = &setting.world.walls;
-        let mut grips = walls.points.grip.iter().chain(&walls.elements.grip);
+        let mut friction_factors = walls
+            .points
+            .friction_factor
+            .iter()
+            .chain(&walls.elements.friction_factor);
         let why = if force.displaced() {
             "the force is made of displacements and not of a stress: take `adjoint` out, or take \
              [elastic-force.divergence]"
-        } else if grips.any(|grip| *grip < 1.0) {
+        } else if friction_factors.any(|friction_factor| *friction_factor < 1.0) {
             "the adjoint force is not known at walls that slip: take `adjoint` out, or let all walls be \"no-slip\""
         } else {
             return Ok(());
         };
-        Err(Refusal::of("velocity-gradient", "adjoint", why))
+        Err(Refusal::at_key("velocity-gradient", "adjoint", why))
     }
 
     /// Refuses sub-steps where they are not known.
@@ -223,6 +227,6 @@ impl<const D: usize> Elasticity<D> {
         } else {
             return Ok(());
         };
-        Err(Refusal::of(KIND, "sub_steps", why))
+        Err(Refusal::at_key(KIND, "sub_steps", why))
     }
 }

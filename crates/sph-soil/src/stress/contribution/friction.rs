@@ -36,7 +36,7 @@ impl<const D: usize> Friction<D> {
 
     fn viscosity_stage(&self) -> ViscosityStage {
         ViscosityStage {
-            felt: self.materials.felt(),
+            law_inputs: self.materials.law_inputs(),
             eddies: self.materials.eddies,
         }
     }
@@ -57,7 +57,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let (materials, viscosity) = (&self.materials, self.materials.viscosity());
         if materials.inviscid() && self.solved_for() {
-            return Err(Refusal::of(
+            return Err(Refusal::at_key(
                 "implicit-viscosity",
                 "",
                 "no phase of this scene has a viscosity, so that there is nothing to solve for: take this table out, or \
@@ -84,7 +84,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         );
         if !materials.inviscid() {
             let term = materials.operator.term(viscosity);
-            match materials.felt().blend {
+            match materials.law_inputs().blend {
                 Blend::Forces => offer.term(Blended::friction(term, &materials.laws)),
                 Blend::Stresses => offer.terms.push(term),
             }
@@ -114,7 +114,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         let (operator, viscosity) = (&materials.operator, materials.viscosity());
         let mut stages: Stages<D> = Vec::new();
         let gradient = materials.gradient_stage(read);
-        if let Some(gradient) = gradient.filter(|_| materials.felt().strain_rate()) {
+        if let Some(gradient) = gradient.filter(|_| materials.law_inputs().strain_rate()) {
             stages.push(Box::new(gradient));
             stages.push(Box::new(StrainRate));
             stages.push(Box::new(self.viscosity_stage()));

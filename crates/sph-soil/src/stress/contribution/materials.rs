@@ -9,7 +9,7 @@ use sph_multiphase::viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry
 use sph_rheology::{Rheology, RheologyEntry};
 
 use crate::stress::{
-    Blend, ElasticForce, ElasticForceEntry, Felt, GradientStage, Rheologies, VelocityGradient,
+    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, VelocityGradient,
     VelocityGradientEntry,
 };
 
@@ -58,9 +58,9 @@ impl<const D: usize> Materials<D> {
     }
 
     /// What the laws feel.
-    pub(crate) fn felt(&self) -> Felt {
+    pub(crate) fn law_inputs(&self) -> LawInputs {
         let blend = self.force.as_ref().map(|force| force.blend());
-        Felt {
+        LawInputs {
             laws: self.laws.clone(),
             pressure: match self.grain_pressure {
                 true => fields::EFFECTIVE_PRESSURE,

@@ -4,7 +4,7 @@ use sph_contribution::{Contribution, FromPlugins, Offer, Plugins, Refusal, Setti
 use sph_core::{AnyField, fields};
 
 use super::Materials;
-use crate::stress::{RidingStrain, StrainRate};
+use crate::stress::{StrainRate, StrainRateTerm};
 
 /// Velocity gradients and strain rates, where a law or somebody else needs them.
 struct Straining<const D: usize>(Materials<D>);
@@ -38,7 +38,7 @@ impl<const D: usize> Contribution<D> for Straining<D> {
         match self.0.strain_rides(read) {
             false => offer.stage(StrainRate),
             true => {
-                let term = Box::new(RidingStrain { formula });
+                let term = Box::new(StrainRateTerm { formula });
                 offer.riding.push((fields::STRAIN_RATE.any(), term));
             }
         }

@@ -1,0 +1,69 @@
+//! The files of a run, with what they are for.
+
+use std::path::Path;
+
+use crate::terminal::layout::columns;
+use crate::terminal::shell::quoted;
+
+/// Known files, in the order in which a person wants them.
+const KNOWN: [(&str, &str); 4] = [
+    ("fields.pvd", "fields over time: open it in ParaView"),
+    ("series.csv", "time series: energies, extrema, probes"),
+    ("summary.json", "all of the above and more, for scripts"),
+    ("checkpoint.sph", "the last state, for --resume"),
+];
+
+/// The last lines of a run: its files, and the command that shows them.
+pub fn ending(folder: &Path) -> String {
+    let shown = folder.display().to_string();
+    let files = columns(2, &listing(folder));
+    format!(
+        "written to {shown}\n{files}look at it: sph view {}\n",
+        quoted(&shown)
+    )
+}
+
+/// Rows of name and meaning: pictures first.
+fn listing(folder: &Path) -> Vec<Vec<String>> {
+    let row = |name: String, what: &str| vec![name, what.to_string()];
+    let mut rows = Vec::new();
+    for (sub, extension, one, many) in [
+        ("pictures", "png", "a picture", "pictures"),
+        (
+            "animations",
+            "gif",
+            "the pictures one after the other",
+            "animations",
+        ),
+        (
+            "plots",
+            "png",
+            "a probe beside its reference",
+            "probes beside their references",
+        ),
+    ] {
+        let files = names(&folder.join(sub), extension);
+        match files.as_slice() {
+            [] => {}
+            [only] => rows.push(row(format!("{sub}/{only}"), one)),
+            [first, .., last] => rows.push(row(
+                format!("{sub}/{first} … {last}"),
+                &format!("{} {many}", files.len()),
+            )),
+        }
+    }
+    let present = KNOWN.iter().filter(|(name, _)| folder.join(name).exists());
+    rows.extend(present.map(|(name, what)| row((*name).to_string(), what)));
+    rows
+}
+
+fn names(folder: &Path, extension: &str) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let files = entries.map(|e| e.path());
+    let mut names: Vec<String> = files
+        .filter(|p| p.extension().is_some_and(|e| e == extension))
+        .filter_map(|p| Some(p.file_name()?.to_str()?.to_string()))
+        .collect();
+    names.sort();
+    names
+}

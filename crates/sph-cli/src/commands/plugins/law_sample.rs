@@ -1,0 +1,140 @@
+//! Laws with the parameters of their examples, and what is put on top of them.
+
+use serde_json::Value as Json;
+use sph_core::{PluginInfo, RegistryError, number, suggestion};
+use sph_scene::Override;
+use sph_solver::rheometer::{self, Rheology};
+use toml::{Table, Value};
+
+use crate::scene_file::overrides;
+use crate::terminal::trouble::Trouble;
+
+/// A law to be sheared.
+pub struct LawSample {
+    /// Name, and what it differs in from its neighbours.
+    pub label: String,
+    /// The law itself.
+    pub law: Box<dyn Rheology>,
+}
+
+/// A law for every name and every value of `vary`, a `KEY=[…]`. With several names, keys start
+/// with a name.
+pub fn all(
+    plugins: &[PluginInfo],
+    set: &[String],
+    vary: Option<&str>,
+) -> Result<Vec<LawSample>, Trouble> {
+    let mut tables: Vec<Table> = plugins.iter().map(example).collect();
+    let several = plugins.len() > 1;
+    for set in overrides(set)? {
+        let (number, inside) = addressed(plugins, &set)?;
+        let put = inside.apply(&mut tables[number]);
+        put.map_err(|p| Trouble::usage(format!("--set {}: {}", set.text(), p.message)))?;
+    }
+    let mut variants: Vec<(usize, Override)> = Vec::new();
+    if let Some(vary) = vary {
+        let told = |why: &str| Trouble::usage(format!("--vary {vary}: {why}"));
+        let parsed = Override::parse(vary).map_err(|p| told(&p.message))?;
+        let (number, inside) = addressed(plugins, &parsed)?;
+        let Value::Array(values) = inside.value() else {
+            return Err(told("expected a list, KEY=[first, second, …]"));
+        };
+        for value in values {
+            let one = Override::new(inside.path(), value.clone());
+            variants.push((number, one.map_err(|p| told(&p.message))?));
+        }
+    }
+    let mut samples = Vec::new();
+    for (k, (plugin, table)) in plugins.iter().zip(&tables).enumerate() {
+        let own: Vec<&Override> = variants.iter().filter(|v| v.0 == k).map(|v| &v.1).collect();
+        if own.is_empty() {
+            samples.push(specimen(plugin, table, plugin.name.to_string())?);
+        }
+        for variant in own {
+            let mut table = table.clone();
+            let put = variant.apply(&mut table);
+            put.map_err(|p| Trouble::usage(format!("--vary {}: {}", p.path, p.message)))?;
+            let value = plainly(variant.value());
+            let differs = match variant.value() {
+                Value::Table(_) => value,
+                _ => format!("{} = {value}", variant.path()),
+            };
+            let label = if several {
+                format!("{}, {differs}", plugin.name)
+            } else {
+                differs
+            };
+            samples.push(specimen(plugin, &table, label)?);
+        }
+    }
+    Ok(samples)
+}
+
+fn specimen(plugin: &PluginInfo, table: &Table, label: String) -> Result<LawSample, Trouble> {
+    let law = rheometer::law(plugin.name, table).map_err(|e| {
+        Trouble::usage(match e {
+            RegistryError::Parameters(problems) => {
+                let each = problems.iter().map(|p| match p.path.as_str() {
+                    "" => p.message.clone(),
+                    path => format!("{path}: {}", p.message),
+                });
+                format!("{}: {}", plugin.name, each.collect::<Vec<_>>().join("; "))
+            }
+            other => other.to_string(),
+        })
+    })?;
+    Ok(LawSample { label, law })
+}
+
+/// Which law an override is for, and the override as its own table knows it.
+fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override), Trouble> {
+    if plugins.len() == 1 {
+        return Ok((0, set.clone()));
+    }
+    let told = |why: String| Trouble::usage(format!("{}: {why}", set.text()));
+    let names = || plugins.iter().map(|p| p.name);
+    let (first, rest) = set.path().split_once('.').unwrap_or((set.path(), ""));
+    let found = names().position(|name| name == first);
+    let number = found.ok_or_else(|| {
+        let near = suggestion(first, names());
+        let known = names().collect::<Vec<_>>().join(", ");
+        told(format!("`{first}` is none of the laws to be drawn{near} (they are {known}; write LAW.KEY=VALUE)"))
+    })?;
+    let inside = Override::new(rest, set.value().clone());
+    Ok((number, inside.map_err(|p| told(p.message))?))
+}
+
+/// The parameters of the example in a law's documentation; none if there is no example.
+fn example(plugin: &PluginInfo) -> Table {
+    let schema = (plugin.schema)();
+    let description = schema
+        .get("description")
+        .and_then(Json::as_str)
+        .unwrap_or_default();
+    let block = description
+        .split("```toml")
+        .nth(1)
+        .and_then(|t| t.split("```").next());
+    let scene: Option<Table> = block.and_then(|text| text.parse().ok());
+    let phases = scene.as_ref().and_then(|s| s.get("phase")?.as_table());
+    let phase = phases.and_then(|p| p.values().next());
+    let table = phase.and_then(|p| p.get("rheology")?.get(plugin.name)?.as_table());
+    table.cloned().unwrap_or_default()
+}
+
+/// How a value of `--vary` stands in a legend: `{a = {b = 1}}` as `a b = 1`.
+fn plainly(value: &Value) -> String {
+    let entry = |(key, value): (&String, &Value)| match value {
+        Value::Table(inner) => format!("{key} {}", table(inner)),
+        other => format!("{key} = {}", plainly(other)),
+    };
+    fn table(inner: &Table) -> String {
+        plainly(&Value::Table(inner.clone()))
+    }
+    match value {
+        Value::Table(keys) => keys.iter().map(entry).collect::<Vec<_>>().join(", "),
+        Value::String(text) => text.clone(),
+        Value::Float(x) => number::plain(*x),
+        other => other.to_string(),
+    }
+}

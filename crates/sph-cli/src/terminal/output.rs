@@ -1,0 +1,32 @@
+//! What a command has found, for programs and for people.
+
+use serde_json::Value as Json;
+
+use crate::terminal::console;
+
+/// What a command has found.
+#[derive(Clone, Debug)]
+pub struct CommandOutput {
+    /// For programs.
+    pub json: Json,
+    /// For people: what the command prints.
+    pub text: String,
+}
+
+impl CommandOutput {
+    /// Prints one of the two.
+    pub(crate) fn print(&self, json: bool) {
+        match json {
+            true => console::json(&self.json),
+            false => console::out(&self.text),
+        }
+    }
+}
+
+/// The end of a run, which may be that somebody stopped it.
+pub struct Ended {
+    /// Its summary.
+    pub told: CommandOutput,
+    /// Whether it stopped before its end: at which time, s, and step.
+    pub interrupted: Option<(f64, u64)>,
+}

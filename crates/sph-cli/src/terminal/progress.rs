@@ -1,0 +1,202 @@
+//! What a run says while it runs: a bar for a person, lines for a log.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use sph_io::clean;
+use sph_run::{Command, Observer, Progress};
+
+use crate::terminal::console;
+
+use crate::number;
+
+/// Wall-clock time between two updates of the bar.
+const BAR: Duration = Duration::from_millis(100);
+/// Wall-clock time between two lines.
+const LINE: Duration = Duration::from_secs(5);
+/// Wall-clock time over which rates are averaged, s.
+const MEMORY: f64 = 10.0;
+/// Divisions of the bar.
+const DIVISIONS: u64 = 1000;
+
+enum Display {
+    Bar(ProgressBar),
+    Lines,
+    Silent,
+}
+
+/// Watches a run and passes Ctrl-C on.
+pub struct Watcher {
+    display: Display,
+    /// Said once the scene is known to be good.
+    start: Option<String>,
+    stop: Arc<AtomicBool>,
+    /// What is counted: "particle", "grain".
+    noun: &'static str,
+    every: Duration,
+    told: Instant,
+    meter: Option<Meter>,
+    last: Option<Progress>,
+}
+
+impl Watcher {
+    /// A watcher that stops the run once the flag is raised.
+    pub fn new(quiet: bool, start: String, stop: Arc<AtomicBool>) -> Self {
+        let (display, every) = match (quiet, console::terminal()) {
+            (true, _) => (Display::Silent, LINE),
+            (false, true) => (Display::Bar(bar()), BAR),
+            (false, false) => (Display::Lines, LINE),
+        };
+        Watcher {
+            display,
+            start: Some(start),
+            stop,
+            noun: "particle",
+            every,
+            told: Instant::now(),
+            meter: None,
+            last: None,
+        }
+    }
+
+    /// The same, counting something else.
+    pub fn counting(self, noun: &'static str) -> Self {
+        Watcher { noun, ..self }
+    }
+
+    /// Removes the bar, or says where the run ended.
+    pub fn finish(&mut self) {
+        match (&self.display, self.last.take(), self.meter.take()) {
+            (Display::Bar(bar), ..) => bar.finish_and_clear(),
+            (Display::Lines, Some(last), Some(mut meter)) => {
+                meter.update(&last);
+                self.print(&last, &meter);
+            }
+            _ => {}
+        }
+    }
+
+    fn say(&self, text: &str) {
+        match &self.display {
+            Display::Bar(bar) => bar.println(clean(text)),
+            Display::Lines => console::err(text),
+            Display::Silent => {}
+        }
+    }
+
+    fn announce(&mut self) {
+        if let Some(start) = self.start.take() {
+            self.say(&start);
+        }
+    }
+
+    fn print(&self, progress: &Progress, meter: &Meter) {
+        let share = progress.time / progress.end;
+        let text = line(progress, meter, self.noun);
+        match &self.display {
+            Display::Bar(bar) => {
+                bar.set_position((share * DIVISIONS as f64) as u64);
+                bar.set_message(text);
+            }
+            Display::Lines => console::err(&format!("{:5.1} %  {text}", 100.0 * share)),
+            Display::Silent => {}
+        }
+    }
+}
+
+impl Observer for Watcher {
+    fn step(&mut self, progress: &Progress) -> Command {
+        self.announce();
+        let first = self.meter.is_none();
+        if first || self.told.elapsed() >= self.every {
+            self.told = Instant::now();
+            let mut meter = self.meter.take().unwrap_or_else(|| Meter::new(progress));
+            meter.update(progress);
+            self.print(progress, &meter);
+            self.meter = Some(meter);
+        }
+        self.last = Some(progress.clone());
+        match self.stop.load(Ordering::SeqCst) {
+            true => Command::Stop,
+            false => Command::Continue,
+        }
+    }
+
+    fn message(&mut self, text: &str) {
+        self.announce();
+        self.say(text);
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
+
+fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
+    let speed = match meter.work_rate {
+        Some(rate) => format!("{} {noun}-steps/s", number::rate(rate)),
+        None => format!("{} {noun}s", number::count(progress.particles as f64)),
+    };
+    let left = match meter.time_rate {
+        Some(rate) if rate > 0.0 => {
+            let seconds = (progress.end - progress.time).max(0.0) / rate;
+            format!(", {} left", number::duration(seconds))
+        }
+        _ => String::new(),
+    };
+    // What is wanted most comes first: a narrow terminal cuts the end.
+    format!(
+        "t = {} of {} s{left}  Δt {:.1e} s ({})  {speed}  step {}",
+        number::plain(progress.time),
+        number::plain(progress.end),
+        progress.dt,
+        progress.limiter,
+        progress.step,
+    )
+}
+
+/// Rates, averaged over the last seconds.
+struct Meter {
+    at: Instant,
+    time: f64,
+    step: u64,
+    /// Simulated seconds per second.
+    time_rate: Option<f64>,
+    /// Particle-steps per second.
+    work_rate: Option<f64>,
+}
+
+impl Meter {
+    fn new(progress: &Progress) -> Self {
+        Meter {
+            at: Instant::now(),
+            time: progress.time,
+            step: progress.step,
+            time_rate: None,
+            work_rate: None,
+        }
+    }
+
+    fn update(&mut self, progress: &Progress) {
+        let seconds = self.at.elapsed().as_secs_f64();
+        if progress.step == self.step || seconds <= 0.0 {
+            return;
+        }
+        let weight = 1.0 - (-seconds / MEMORY).exp();
+        let blend = |old: Option<f64>, new: f64| Some(old.map_or(new, |o| o + weight * (new - o)));
+        let steps = (progress.step - self.step) as f64;
+        self.time_rate = blend(self.time_rate, (progress.time - self.time) / seconds);
+        self.work_rate = blend(self.work_rate, steps * progress.particles as f64 / seconds);
+        *self = Meter {
+            at: Instant::now(),
+            time: progress.time,
+            step: progress.step,
+            ..*self
+        };
+    }
+}

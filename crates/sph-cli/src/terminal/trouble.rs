@@ -1,0 +1,232 @@
+//! Everything that keeps a command from its end, and how it is told.
+
+use dem_pfv::scene::DemError;
+use serde_json::{Value as Json, json};
+use sph_core::SceneProblem;
+use sph_io::IoError;
+use sph_particles::RunError;
+use sph_scene::{LoadError, Source};
+use sph_solver::SolverError;
+use sph_study::{ReadError, Refused};
+
+use crate::commands::interrupted::remedy;
+use crate::number;
+use crate::terminal::console;
+use crate::terminal::diagnostics::{self, Located};
+
+/// Why a command did not do what it was asked for.
+pub enum Trouble {
+    /// The command line asks for something that cannot be.
+    Usage(String),
+    /// The scene has mistakes.
+    Scene(Vec<Located>),
+    /// The run failed; the summary it left, if it did.
+    Failed {
+        /// What happened.
+        error: String,
+        /// To whom, and what may help, in lines.
+        more: String,
+        /// Exit code.
+        code: u8,
+        /// Content of `summary.json`.
+        summary: Option<Box<Json>>,
+        /// How to go on.
+        advice: Option<String>,
+    },
+    /// The run stopped with a checkpoint; everything has been said.
+    Interrupted,
+    /// What was compared differs; everything has been said.
+    Different,
+}
+
+impl From<LoadError> for Trouble {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Refused(refused) => {
+                Trouble::Scene(diagnostics::located(&refused.source, &refused.diagnostics))
+            }
+            unreadable => Trouble::Usage(unreadable.to_string()),
+        }
+    }
+}
+
+impl From<ReadError> for Trouble {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Refused(refused) => refused.into(),
+            other => Trouble::Usage(other.to_string()),
+        }
+    }
+}
+
+impl From<Refused> for Trouble {
+    fn from(refused: Refused) -> Self {
+        Trouble::Scene(refused.mistakes.into_iter().map(Located::from).collect())
+    }
+}
+
+impl From<IoError> for Trouble {
+    fn from(error: IoError) -> Self {
+        Failing::from(RunError::Io(error)).into()
+    }
+}
+
+/// Text of an error of a model.
+#[derive(Default)]
+pub struct Failing {
+    /// Mistakes of the scene, if it is these.
+    mistakes: Vec<SceneProblem>,
+    error: String,
+    more: String,
+    code: u8,
+    /// Whether a step failed.
+    pub ran: bool,
+    /// First remedy where a file could not be written.
+    pub remedy: Option<&'static str>,
+}
+
+impl From<RunError> for Failing {
+    fn from(error: RunError) -> Self {
+        let mut told = Failing {
+            error: error.to_string(),
+            code: 1,
+            ..Failing::default()
+        };
+        match error {
+            RunError::Solver(SolverError::Scene(problems)) => told.mistakes = problems,
+            RunError::Solver(SolverError::Plan(_)) => {
+                told.mistakes = vec![SceneProblem::new("", told.error.clone())];
+            }
+            RunError::Failed(failure) => {
+                told.ran = true;
+                told.more = crate::commands::failed::text(&failure);
+            }
+            RunError::Io(io) => {
+                told.remedy = remedy(&io);
+                if is_unreadable_checkpoint(&io) {
+                    told.more = "a checkpoint that cannot be read cannot be resumed: start again without --resume\n".into();
+                }
+            }
+            _ => {}
+        }
+        told
+    }
+}
+
+impl From<DemError> for Failing {
+    fn from(error: DemError) -> Self {
+        let mut told = Failing {
+            error: error.to_string(),
+            code: error.exit_code(),
+            ..Failing::default()
+        };
+        match error {
+            DemError::Scene(problems) => told.mistakes = problems,
+            DemError::Failed(failure) => {
+                told.ran = true;
+                if let (Some(grain), Some(at)) = (failure.grain, failure.position) {
+                    let at = at.map(number::plain).join(", ");
+                    told.more = format!("grain {grain} at ({at}) m\n");
+                }
+                told.more.push_str(
+                    "bad_state.vtu and bad_state.png show all grains as they were, the one at fault ringed\n\
+                     the last checkpoint stands: try --resume --changed with a smaller run.safety\n",
+                );
+            }
+            DemError::Io(io) => told.remedy = remedy(&io),
+            _ => {}
+        }
+        told
+    }
+}
+
+impl From<Failing> for Trouble {
+    fn from(told: Failing) -> Self {
+        Trouble::Failed {
+            error: told.error,
+            more: told.more,
+            code: told.code,
+            summary: None,
+            advice: None,
+        }
+    }
+}
+
+impl Trouble {
+    /// Text of an error of a model, with places in the scene if the scene is at fault.
+    pub fn in_scene(error: impl Into<Failing>, source: &Source) -> Self {
+        let told = error.into();
+        match told.mistakes.is_empty() {
+            true => told.into(),
+            false => {
+                let found = source.diagnose(&told.mistakes);
+                Trouble::Scene(diagnostics::located(source, &found))
+            }
+        }
+    }
+
+    /// A bad command line.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Trouble::Usage(message.into())
+    }
+
+    /// 1 for a run that failed or was interrupted, 2 for bad usage or a bad scene.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Trouble::Usage(_) | Trouble::Scene(_) => 2,
+            Trouble::Failed { code, .. } => *code,
+            Trouble::Interrupted | Trouble::Different => 1,
+        }
+    }
+
+    /// What a person is told.
+    pub fn text(&self, colour: bool) -> String {
+        match self {
+            Trouble::Usage(message) => format!("error: {message}\n"),
+            Trouble::Scene(all) => diagnostics::render(all, colour),
+            Trouble::Failed {
+                error,
+                more,
+                advice,
+                ..
+            } => {
+                let advice = advice.iter().map(|advice| format!("{advice}\n"));
+                format!("error: {error}\n{more}{}", advice.collect::<String>())
+            }
+            Trouble::Interrupted | Trouble::Different => String::new(),
+        }
+    }
+
+    /// What a program is told: diagnostics as an array, or the summary that a failed run left.
+    pub fn json(&self) -> Json {
+        match self {
+            Trouble::Usage(message) => json!([{ "message": message }]),
+            Trouble::Scene(all) => diagnostics::json(all),
+            Trouble::Failed { error, summary, .. } => match summary {
+                // What was left, or else the error alone.
+                Some(summary) => (**summary).clone(),
+                None => json!([{ "message": error }]),
+            },
+            Trouble::Interrupted | Trouble::Different => Json::Null,
+        }
+    }
+
+    /// Tells a person on stderr, and with `json` a program on stdout.
+    pub fn report(&self, json: bool) {
+        let text = self.text(console::terminal());
+        match self {
+            Trouble::Interrupted | Trouble::Different => return,
+            Trouble::Scene(_) => console::coloured(&text),
+            _ => console::err(&text),
+        }
+        if json {
+            console::json(&self.json());
+        }
+    }
+}
+
+/// Whether a checkpoint could not be read; one that could not be *written* leaves the one before.
+fn is_unreadable_checkpoint(error: &IoError) -> bool {
+    let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
+    read && error.path().extension().is_some_and(|e| e == "sph")
+}

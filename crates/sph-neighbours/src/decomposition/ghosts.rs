@@ -1,0 +1,129 @@
+//! Whom other ranks need copies of.
+
+use sph_core::Vect;
+
+use crate::{CellGrid, Domain, World};
+
+/// A box around the particles of a rank; upside down where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RankBox<const D: usize> {
+    /// Lower corner, m.
+    pub lower: Vect<D>,
+    /// Upper corner, m.
+    pub upper: Vect<D>,
+}
+
+impl<const D: usize> RankBox<D> {
+    /// Around nobody.
+    pub fn nobody() -> Self {
+        RankBox {
+            lower: Vect::repeat(f64::INFINITY),
+            upper: Vect::repeat(f64::NEG_INFINITY),
+        }
+    }
+
+    /// Around these.
+    pub fn around<'a>(places: impl Iterator<Item = &'a Vect<D>>) -> Self {
+        places.fold(Self::nobody(), |a, x| RankBox {
+            lower: a.lower.inf(x),
+            upper: a.upper.sup(x),
+        })
+    }
+
+    /// Square of the distance of a place, m²; infinite from a box around nobody.
+    fn distance_squared(&self, x: &Vect<D>, domain: &Domain<D>) -> f64 {
+        let along = |axis: usize| {
+            let outside = |x: f64| (self.lower[axis] - x).max(x - self.upper[axis]).max(0.0);
+            match domain.periodic[axis] {
+                false => outside(x[axis]),
+                true => {
+                    let images = [-1.0, 0.0, 1.0].map(|n| x[axis] + n * domain.length(axis));
+                    images
+                        .map(outside)
+                        .into_iter()
+                        .fold(f64::INFINITY, f64::min)
+                }
+            }
+        };
+        (0..D).map(|axis| along(axis).powi(2)).sum()
+    }
+}
+
+/// Tells who is needed: particles within reach of a box, and near walls those beyond, since a wall that a particle touches has a
+/// state that is a mean over all that are within reach of the wall.
+pub struct Needs<'a, const D: usize> {
+    domain: &'a Domain<D>,
+    /// That of the lists, as often as sums of sums are taken, m.
+    reach: f64,
+    /// Centres of elements, and points that are in sums.
+    walls: Vec<Vect<D>>,
+    grid: Option<CellGrid<D>>,
+    /// How far from a particle the centre of an element may be that it touches, m.
+    touched: f64,
+}
+
+impl<'a, const D: usize> Needs<'a, D> {
+    /// For the present places of the walls of a world; `rings` is how often a stage goes from particles to their neighbours.
+    pub fn new(world: &'a World<D>, rings: usize) -> Self {
+        let (reach, domain) = (rings as f64 * world.reach(), &world.domain);
+        let (elements, points) = (&world.walls.elements, &world.walls.points);
+        let mut walls = elements.centre.clone();
+        if points.in_sums() {
+            walls.extend_from_slice(&points.position[points.corners..]);
+        }
+        let half = elements.corners.iter().zip(&elements.centre);
+        let half = half.flat_map(|(corners, centre)| {
+            let apart = |c: &u32| domain.nearest_image(points.position[*c as usize] - centre);
+            corners
+                .iter()
+                .map(apart)
+                .map(|d| d.norm())
+                .collect::<Vec<_>>()
+        });
+        let half = half.fold(0.0, f64::max);
+        let grid = (!walls.is_empty()).then(|| CellGrid::new(&walls, reach, domain));
+        Needs {
+            domain,
+            reach,
+            walls,
+            grid,
+            // Means of elements are spread over their neighbours.
+            touched: reach + 3.0 * half,
+        }
+    }
+
+    /// Whether a rank with this box needs a copy of what is at a place.
+    pub fn at(&self, x: &Vect<D>, rank: &RankBox<D>) -> bool {
+        let apart = rank.distance_squared(x, self.domain);
+        if apart < self.reach * self.reach {
+            return true;
+        }
+        let Some(grid) = &self.grid else {
+            return false;
+        };
+        if apart >= (self.reach + self.touched).powi(2) {
+            return false;
+        }
+        let mut found = false;
+        grid.ranges(x, self.reach, |range| {
+            found |= grid.order()[range].iter().any(|w| {
+                let wall = &self.walls[*w as usize];
+                let near = self.domain.nearest_image(x - wall).norm_squared();
+                near < self.reach * self.reach
+                    && rank.distance_squared(wall, self.domain) < self.touched * self.touched
+            });
+        });
+        found
+    }
+
+    /// The slots of a world's particles that a rank with this box needs, of those that are `offered`.
+    pub fn slots(
+        &self,
+        places: &[Vect<D>],
+        rank: &RankBox<D>,
+        offered: impl Fn(usize) -> bool,
+    ) -> Vec<u32> {
+        let needed = |k: &usize| offered(*k) && self.at(&places[*k], rank);
+        (0..places.len()).filter(needed).map(|k| k as u32).collect()
+    }
+}

@@ -1,0 +1,17 @@
+//! What is in front of an element of an open face.
+
+use sph_core::Vect;
+
+use crate::Inside;
+
+/// The fluid in front of an element.
+pub(crate) struct AdjacentFluid<const D: usize> {
+    pub inside: Inside<D>,
+    /// How far before it that mean stands, m.
+    pub reach: f64,
+    pub row: Vect<D>,
+    pub mix: Vec<f64>,
+    pub lacks: f64,
+    /// Distance of the nearest particle, m.
+    pub nearest: f64,
+}

@@ -1,0 +1,288 @@
+//! What is in front of open faces, and what their laws say to it.
+
+use rayon::prelude::*;
+use sph_core::{StepError, Vect, fields};
+use sph_neighbours::World;
+
+use crate::adjacent_fluid::AdjacentFluid;
+use crate::faces::{Faces, as_share};
+use crate::row::Row;
+use crate::{Inside, Moment, Place};
+
+/// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
+const WET: f64 = 0.15;
+
+/// Share of the volume before a full face from which on an element is full: particles that are not on a lattice are more or
+/// fewer.
+const FULL: f64 = 0.8;
+
+/// Elements that one thread takes at least.
+const BATCH: usize = 16;
+
+impl<const D: usize> Faces<D> {
+    /// Looks at the fluid in front of all elements, and asks the laws.
+    pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
+        let phases = self.whole.len();
+        let columns = Columns::new(world)?;
+        let mut looked = std::mem::take(&mut self.looked);
+        looked.resize_with(self.elements.len(), || self.nothing(0));
+        looked
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(BATCH)
+            .for_each_init(Scratch::default, |room, (k, seen)| {
+                self.before(world, &columns, k, room, seen);
+            });
+        let looked = self.agreed(world, looked)?;
+        for (k, seen) in looked.iter().enumerate() {
+            self.present[k] = seen.inside.velocity;
+            self.inside[k] = self.arriving(k, seen);
+            self.rows[k] = seen.row;
+            self.lacks[k] = seen.lacks;
+            self.nearest[k] = seen.nearest;
+            self.lacking[k] = as_share(seen.lacks);
+            self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
+        }
+        self.looked = looked;
+        let moment = Moment {
+            time: world.time,
+            gravity: world.gravity,
+        };
+        for f in 0..self.faces.len() {
+            let face = &self.faces[f];
+            let own = face.elements.clone();
+            let places = &self.places[own.clone()];
+            let outside = (face.law).outside(places, &self.inside[own.clone()], &moment);
+            self.asked[f] = face.law.asked(places, world.time);
+            self.outside[own.clone()].copy_from_slice(&outside);
+            let Some(asked) = self.asked[f] else { continue };
+            for k in own.clone() {
+                let expansion = self.expansion(k);
+                self.outside[k].velocity *= expansion;
+            }
+            if asked < 0.0 {
+                self.draw_air(own);
+            }
+        }
+        let pressures: Vec<_> = (0..self.elements.len())
+            .map(|k| self.reflected(k))
+            .collect();
+        for (outside, pressure) in self.outside.iter_mut().zip(pressures) {
+            outside.pressure = pressure;
+        }
+        Ok(())
+    }
+
+    /// What is seen in front of an element, as it arrives at the face.
+    ///
+    /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
+    /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as everybody kicks once in a step,
+    /// and are delayed by as much less.
+    fn arriving(&self, k: usize, seen: &AdjacentFluid<D>) -> Inside<D> {
+        let mut inside = seen.inside;
+        let dt = self.memory.dt;
+        if inside.wet && dt > 0.0 {
+            let late = seen.reach * inside.density / inside.impedance;
+            let share = |late: f64| dt / (dt + late.max(0.0));
+            let (pressure, velocity) = &self.memory.arrived[k];
+            inside.pressure = pressure + (inside.pressure - pressure) * share(late);
+            inside.velocity = velocity + (inside.velocity - velocity) * share(late - 0.5 * dt);
+        }
+        inside
+    }
+
+    /// ρ₀/ρ before an element: laws ask for volumes of a fluid that does not compress, and its mass is to pass.
+    fn expansion(&self, k: usize) -> f64 {
+        let (inside, q) = (&self.inside[k], self.phase(k));
+        match inside.wet {
+            true => self.laws[q].reference().density / self.density_at(inside.pressure, q),
+            false => 1.0,
+        }
+    }
+
+    /// The pressure at an element: that of the law, or where the velocity is imposed of the characteristic that leaves the fluid.
+    fn reflected(&self, k: usize) -> f64 {
+        let (inside, outside) = (&self.inside[k], &self.outside[k]);
+        if !outside.imposed {
+            return outside.pressure;
+        }
+        if !inside.wet {
+            return 0.0;
+        }
+        let normal = &self.places[k].normal;
+        let wet = self.smooth[k]
+            .iter()
+            .filter(|(j, _)| self.inside[*j as usize].wet);
+        let (mut whole, mut mean) = (0.0, 0.0);
+        for (j, w) in wet {
+            whole += w;
+            mean += w * self.outside[*j as usize].velocity.dot(normal);
+        }
+        inside.pressure + inside.impedance * (mean / whole - inside.velocity.dot(normal))
+    }
+
+    /// Means over the fluid before an element.
+    fn before(
+        &self,
+        world: &World<D>,
+        columns: &Columns<'_, D>,
+        k: usize,
+        room: &mut Scratch<D>,
+        seen: &mut AdjacentFluid<D>,
+    ) {
+        let place = &self.places[k];
+        room.fill(
+            world,
+            columns.position,
+            place,
+            world.lists.of_points.candidates(k),
+        );
+        let mix = &mut seen.mix;
+        mix.clear();
+        mix.resize(self.whole.len(), 0.0);
+        let sums = &mut room.sums;
+        sums.clear();
+        sums.resize(self.whole.len(), Sums::default());
+        let (mut filling, mut reach) = (0.0, 0.0);
+        let mut row = Row::default();
+        for ((j, apart), w) in room.near.iter().zip(&room.value) {
+            let j = *j;
+            let vw = columns.volume[j] * w;
+            let phase = columns.phase.map_or(0, |p| p[j] as usize);
+            let over = columns.pressure[j] - self.background(phase);
+            filling += vw;
+            reach -= vw * apart.dot(&place.normal);
+            mix[phase] += vw;
+            let velocity = &columns.velocity[j];
+            let of_phase = &mut sums[phase];
+            of_phase.pressure += vw * (over + columns.density[j] * world.gravity.dot(apart));
+            of_phase.velocity += velocity * vw;
+            of_phase.density += vw * columns.density[j];
+            let weights = [vw, columns.volume[j]];
+            row.add(&place.normal, apart, self.spacing, weights, velocity);
+        }
+        // Sound of one phase says nothing of the pressure of another beside it, which may be a thousand times as heavy.
+        let q = self.before_all(k, mix);
+        let (of_phase, filled) = (sums[q], mix[q]);
+        let (mut p, mut u, mut z, mut rho) = (0.0, Vect::zeros(), 0.0, 0.0);
+        if filled > 0.0 {
+            mix.iter_mut().for_each(|m| *m /= filling);
+            (p, u) = (of_phase.pressure / filled, of_phase.velocity / filled);
+            rho = of_phase.density / filled;
+            z = of_phase.density * self.laws[q].sound_speed(rho) / filled;
+            reach = (reach / filling).max(0.0);
+        }
+        let (mean_pressure, mean) = match self.memory.dt > 0.0 {
+            true => self.memory.mean[k],
+            false => (p, u),
+        };
+        seen.inside = Inside {
+            wet: filling >= WET,
+            pressure: p,
+            filled: (row.volume() / (FULL * self.stands[k])).min(1.0),
+            velocity: u,
+            impedance: if z > 0.0 { z } else { 1.0 },
+            density: rho,
+            mean,
+            mean_pressure,
+        };
+        seen.reach = reach;
+        let nearest = room.distance2.iter().copied().fold(f64::INFINITY, f64::min);
+        seen.nearest = nearest.sqrt();
+        seen.lacks = (self.full[k] - row.weight()) / self.at_port[k];
+        seen.row = row.velocity(self.spacing).unwrap_or(u);
+    }
+}
+
+/// What is asked of the particles before faces.
+struct Columns<'a, const D: usize> {
+    position: &'a [Vect<D>],
+    velocity: &'a [Vect<D>],
+    pressure: &'a [f64],
+    density: &'a [f64],
+    volume: &'a [f64],
+    phase: Option<&'a [u32]>,
+}
+
+impl<'a, const D: usize> Columns<'a, D> {
+    fn new(world: &'a World<D>) -> Result<Self, StepError> {
+        let free = &world.free;
+        Ok(Columns {
+            position: free.get(fields::POSITION)?,
+            velocity: free.get(fields::VELOCITY)?,
+            pressure: free.get(fields::PRESSURE)?,
+            density: free.get(fields::DENSITY)?,
+            volume: free.get(fields::VOLUME)?,
+            phase: free.get(fields::PHASE).ok(),
+        })
+    }
+}
+
+/// Sums over the particles of a phase before an element, each with V w.
+#[derive(Clone, Copy)]
+struct Sums<const D: usize> {
+    pressure: f64,
+    density: f64,
+    velocity: Vect<D>,
+}
+
+impl<const D: usize> Default for Sums<D> {
+    fn default() -> Self {
+        Sums {
+            pressure: 0.0,
+            density: 0.0,
+            velocity: Vect::zeros(),
+        }
+    }
+}
+
+/// Buffers of a task.
+struct Scratch<const D: usize> {
+    /// Particles within the support of an element's centre, and the ways from them to it, m.
+    near: Vec<(usize, Vect<D>)>,
+    /// Squares of their distances, m².
+    distance2: Vec<f64>,
+    /// w, 1/m^d.
+    value: Vec<f64>,
+    /// By phase.
+    sums: Vec<Sums<D>>,
+}
+
+impl<const D: usize> Default for Scratch<D> {
+    fn default() -> Self {
+        Scratch {
+            near: Vec::new(),
+            distance2: Vec::new(),
+            value: Vec::new(),
+            sums: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Scratch<D> {
+    /// Finds the particles before an element; the kernel is asked once for all of them.
+    fn fill(
+        &mut self,
+        world: &World<D>,
+        position: &[Vect<D>],
+        place: &Place<D>,
+        candidates: &[u32],
+    ) {
+        self.near.clear();
+        self.distance2.clear();
+        let limit = world.kernel.support_radius().powi(2);
+        for &j in candidates {
+            let apart = world
+                .domain
+                .nearest_image(place.centre - position[j as usize]);
+            let r2 = apart.norm_squared();
+            if r2 >= limit {
+                continue;
+            }
+            self.near.push((j as usize, apart));
+            self.distance2.push(r2);
+        }
+        self.value.resize(self.near.len(), 0.0);
+        world.kernel.value(&self.distance2, &mut self.value);
+    }
+}

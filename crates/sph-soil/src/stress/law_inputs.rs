@@ -1,0 +1,95 @@
+//! What the laws of a scene feel, as columns and phase by phase.
+
+use std::ops::Range;
+
+use sph_contribution::{ParticleEnergy, StoredEnergy};
+use sph_core::{Access, Field, Scalar, StepError, fields};
+use sph_neighbours::{World, by_phase};
+use sph_rheology::{Inputs, Rheology};
+
+use crate::stress::{Blend, Rheologies};
+
+/// The laws with the pressure that makes friction for them, and what they blend.
+#[derive(Clone)]
+pub struct LawInputs {
+    /// The laws.
+    pub laws: Rheologies,
+    /// The pressure that makes friction.
+    pub pressure: Field<Scalar>,
+    /// What is blended where a material yields.
+    pub blend: Blend,
+}
+
+impl LawInputs {
+    /// Whether some law feels the strain rate.
+    pub fn strain_rate(&self) -> bool {
+        self.laws.iter().any(|l| l.needs().strain_rate)
+    }
+
+    /// Whether some law feels a pressure.
+    fn feels_pressure(&self) -> bool {
+        self.laws.iter().any(|l| l.needs().pressure)
+    }
+
+    /// The columns that the laws read.
+    pub(crate) fn access(&self) -> Access {
+        let mut access = Access::none();
+        if self.laws.len() > 1 {
+            access = access.here(fields::PHASE);
+        }
+        if self.strain_rate() {
+            access = access.here(fields::STRAIN_RATE);
+        }
+        match self.feels_pressure() {
+            true => access.here(self.pressure),
+            false => access,
+        }
+    }
+
+    /// Gives every run of particles of one phase to `work`, with their law and what it feels; slices of columns
+    /// that no law asked for are empty.
+    pub(crate) fn each<const D: usize, T: Send>(
+        &self,
+        world: &World<D>,
+        column: &mut [T],
+        work: impl Fn(&dyn Rheology, &Inputs<'_>, Range<usize>, &mut [T]) + Sync,
+    ) -> Result<(), StepError> {
+        let strain_rate = match self.strain_rate() {
+            true => world.free.get(fields::STRAIN_RATE)?,
+            false => &[],
+        };
+        let pressure = match self.feels_pressure() {
+            true => world.free.get(self.pressure)?,
+            false => &[],
+        };
+        let phase = match self.laws.len() {
+            1 => None,
+            _ => Some(world.free.get(fields::PHASE)?),
+        };
+        by_phase(phase, column, |law, run, part| {
+            let inputs = Inputs {
+                strain_rate: strain_rate.get(run.clone()).unwrap_or(&[]),
+                pressure: pressure.get(run.clone()).unwrap_or(&[]),
+            };
+            work(&*self.laws[law], &inputs, run, part);
+        });
+        Ok(())
+    }
+}
+
+impl<const D: usize> StoredEnergy<D> for LawInputs {
+    /// V τ:τ/4𝒢.
+    fn energy<'a>(&'a self, world: &'a World<D>) -> Option<ParticleEnergy<'a>> {
+        let free = &world.free;
+        let stress = free.get(fields::ELASTIC_STRESS).ok()?;
+        let mass = free.get(fields::MASS).ok()?;
+        let density = free.get(fields::DENSITY).ok()?;
+        let phase = free.get(fields::PHASE).ok();
+        Some(Box::new(move |i| {
+            let law = &self.laws[phase.map_or(0, |p| p[i] as usize)];
+            let modulus = law.elastic().map(|e| e.shear_modulus());
+            let volume = mass[i] / density[i];
+            modulus.map_or(0.0, |g| volume * stress[i].contract(&stress[i]) / (4.0 * g))
+        }))
+    }
+}

@@ -1,0 +1,118 @@
+//! A flow of what was planned.
+
+use sph_boundary::Wall;
+use sph_core::{AnyField, Evolved, Role, fields};
+use sph_neighbours::World;
+use sph_rheology::state::Laws;
+
+use crate::setup::planning::Planned;
+use crate::step::declared::Columns;
+use crate::step::flow::Flow;
+use crate::step::outlets::Outlets;
+use crate::step::snapshot::Snapshot;
+use crate::step::stages::WALL_STATE;
+use crate::step::variable_gravity::VariableGravity;
+
+/// What a flow is made of besides its plan.
+pub struct FlowInputs<const D: usize> {
+    /// The walls, if there are any.
+    pub walls: Option<Box<dyn Wall<D>>>,
+    /// Equations of state, in the order of the phase numbers.
+    pub laws: Laws,
+    /// η/ρ₀ of every phase, m²/s.
+    pub kinematic_viscosities: Vec<f64>,
+    /// What gravity changes by, if it does.
+    pub swing: Option<VariableGravity<D>>,
+    /// Where particles leave.
+    pub outlets: Outlets,
+    /// The scalar with its rate that the formulation integrates.
+    pub density: Evolved,
+}
+
+/// A flow of what was planned, with all columns that it touches.
+pub fn joined<const D: usize>(
+    world: World<D>,
+    planned: Planned<D>,
+    given: FlowInputs<D>,
+) -> Flow<D> {
+    let mut evolved = vec![given.density];
+    let offer = planned.offer;
+    evolved.extend(offer.transported);
+    let mut integrated: Vec<_> = evolved.iter().map(|e| e.value).collect();
+    for scalar in offer.advanced {
+        if !integrated.contains(&scalar) {
+            integrated.push(scalar);
+        }
+    }
+    let mut flow = Flow {
+        world,
+        stages: planned.stages,
+        pruned: planned.pruned,
+        terms: planned.terms,
+        kinds: planned.kinds,
+        remedies: planned.remedies,
+        limiters: offer.limiters,
+        inner_bounds: offer.inner_bounds,
+        walls: given.walls,
+        loads: Vec::new(),
+        evolved,
+        integrated,
+        outside: offer.outside,
+        columns: Columns::default(),
+        hooks: planned.hooks,
+        fresh_state: offer.fresh_state,
+        gates: offer.gates,
+        stored: offer.stored,
+        on_walls: Vec::new(),
+        moved: true,
+        restored: false,
+        kept: Snapshot::default(),
+        kept_rates: Default::default(),
+        kept_image: Default::default(),
+        laws: given.laws,
+        kinematic_viscosities: given.kinematic_viscosities,
+        timings: Vec::new(),
+        swing: given.swing,
+        outlets: given.outlets,
+        nursery: None,
+        observers: Vec::new(),
+        parts: None,
+    };
+    flow.ask_all();
+    flow.reset_timings();
+    allocate(&mut flow);
+    flow
+}
+
+/// Allocates every column that a planned stage touches.
+fn allocate<const D: usize>(flow: &mut Flow<D>) {
+    let touched: Vec<AnyField> = flow
+        .columns
+        .stages
+        .iter()
+        .flat_map(|access| access.writes.iter().copied().chain(access.reads()))
+        .filter(|f| f.name != WALL_STATE.name && f.name != fields::PHASE.name)
+        .collect();
+    let remembered = flow.columns.stages.iter().flat_map(|a| a.remembers.clone());
+    let remembered: Vec<AnyField> = remembered.collect();
+    for field in touched {
+        let role = match remembered.contains(&field) {
+            true => Role::State,
+            false => Role::Derived,
+        };
+        flow.world.free.add_any(field, role);
+    }
+    let by_hooks = flow
+        .hooks
+        .all
+        .iter()
+        .map(|hook| hook.access.remembers.clone());
+    let by_gates = flow.gates.iter().map(|gate| gate.access().remembers);
+    for field in by_hooks.chain(by_gates).flatten() {
+        flow.world.free.add_any(field, Role::State);
+    }
+    flow.world.free.add(fields::ACCELERATION, Role::Derived);
+    // An evolved scalar that nothing changes is a constant: it needs no rate and no kick.
+    let free = &flow.world.free;
+    flow.evolved.retain(|e| free.has(e.rate.name));
+}

@@ -1,0 +1,156 @@
+//! Particles that come into the flow.
+
+use sph_contribution::{Birth, Initial, Newborn};
+use sph_core::{FieldError, StepError, fields};
+
+use crate::step::flow::Flow;
+use crate::step::new_particles::NewParticleDefaults;
+
+impl<const D: usize> Flow<D> {
+    /// Lets in who is born at the end of a step of `dt` seconds.
+    ///
+    /// # Errors
+    /// If somebody is born impossible, or a column is missing.
+    pub fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
+        let Some(nursery) = self.nursery.take() else {
+            return Ok(());
+        };
+        let done = self.bear(&nursery, dt);
+        self.nursery = Some(nursery);
+        done
+    }
+
+    fn bear(&mut self, nursery: &NewParticleDefaults<D>, dt: f64) -> Result<(), StepError> {
+        let mut all: Vec<Newborn<D>> = Vec::new();
+        for (gate, access) in self.gates.iter_mut().zip(&self.columns.gates) {
+            self.world.free.watch([access]);
+            let born = gate.births(&mut self.world, dt);
+            let ended = self.world.free.unwatch(|| gate.name());
+            ended?;
+            all.extend(born?);
+        }
+        if all.is_empty() {
+            return Ok(());
+        }
+        for newborn in &all {
+            self.refuse(newborn)?;
+        }
+        let first = self.world.free.inserted().identities;
+        self.fill(nursery, &all)?;
+        // Where they are follows from their places alone, whatever the order in which they were born.
+        self.refresh_lists_and_derived()?;
+        if let Some(walls) = &mut self.walls {
+            walls.geometry(&mut self.world)?;
+        }
+        self.begin_density(nursery, first)
+    }
+
+    /// Refuses who cannot be.
+    fn refuse(&self, newborn: &Newborn<D>) -> Result<(), StepError> {
+        let sound = newborn.mass > 0.0
+            && newborn.mass.is_finite()
+            && newborn.density > 0.0
+            && newborn.density.is_finite()
+            && newborn.velocity.iter().all(|u| u.is_finite())
+            && self.world.domain.contains(&newborn.position)
+            && (newborn.phase as usize) < self.laws.len();
+        match sound {
+            true => Ok(()),
+            false => Err(StepError::Stage {
+                stage: "births".into(),
+                reason: format!(
+                    "a particle from `{}` is born at {:?} with {} kg, {} kg/m³ and the phase {}: one of them is impossible",
+                    newborn.body,
+                    newborn.position.as_slice(),
+                    newborn.mass,
+                    newborn.density,
+                    newborn.phase
+                ),
+            }),
+        }
+    }
+
+    /// Gives newborn particles their columns.
+    fn fill(
+        &mut self,
+        nursery: &NewParticleDefaults<D>,
+        all: &[Newborn<D>],
+    ) -> Result<(), StepError> {
+        let free = &mut self.world.free;
+        let slots = free.give_birth(all.len())?;
+        if let Some(parts) = &self.parts {
+            // All ranks bear all; who is at home elsewhere goes when the lists are built.
+            let places: Vec<_> = all.iter().map(|n| n.position).collect();
+            parts.house(free, slots.clone(), &places)?;
+        }
+        let mut born = free.inserted();
+        for (slot, newborn) in slots.clone().zip(all) {
+            born.mass += newborn.mass;
+            free.get_mut(fields::POSITION)?[slot] = newborn.position;
+            free.get_mut(fields::VELOCITY)?[slot] = newborn.velocity;
+            free.get_mut(fields::MASS)?[slot] = newborn.mass;
+            free.get_mut(fields::DENSITY)?[slot] = newborn.density;
+            if free.has(fields::PHASE.name) {
+                free.get_mut(fields::PHASE)?[slot] = newborn.phase;
+            }
+        }
+        free.set_inserted(born);
+        for column in &nursery.columns {
+            for (slot, newborn) in slots.clone().zip(all) {
+                let birth = Birth {
+                    position: newborn.position,
+                    velocity: newborn.velocity,
+                    density: newborn.density,
+                    mass: newborn.mass,
+                    phase: &nursery.phases[newborn.phase as usize],
+                    body: &newborn.body,
+                };
+                match &column.initial {
+                    Initial::Zero => {}
+                    Initial::Scalar(formula) => {
+                        free.get_mut(column.field.scalar())?[slot] = formula(&birth);
+                    }
+                    Initial::Vector(formula) => {
+                        free.get_mut(column.field.vector())?[slot] = formula(&birth);
+                    }
+                }
+                let mut given = newborn.values.iter();
+                if let Some((_, value)) = given.find(|(name, _)| name == column.field.name) {
+                    free.get_mut(column.field.scalar())?[slot] = *value;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets what the formulation integrates for those whose identities are not below `first`, so that they have their
+    /// densities.
+    fn begin_density(
+        &mut self,
+        nursery: &NewParticleDefaults<D>,
+        first: u32,
+    ) -> Result<(), StepError> {
+        let before: Vec<_> = {
+            let free = &self.world.free;
+            let columns = self.integrated.iter();
+            columns
+                .map(|f| Ok((*f, free.get(*f)?.to_vec())))
+                .collect::<Result<_, FieldError>>()?
+        };
+        nursery.formulation.rebase(&mut self.world)?;
+        let identity = self.world.free.get(fields::IDENTITY)?.to_vec();
+        for (field, values) in before {
+            let column = self.world.free.get_mut(field)?.iter_mut();
+            let all = column.zip(values).zip(&identity);
+            for ((now, before), _) in all.filter(|(_, id)| **id < first) {
+                *now = before;
+            }
+        }
+        if let Some(parts) = &mut self.parts {
+            // It is a sum over neighbours.
+            let integrated: Vec<_> = self.integrated.iter().map(|f| f.any()).collect();
+            parts.update_ghosts(&mut self.world.free, |f| integrated.contains(f))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,144 @@
+//! What a second attack found, which went for data files, runs and studies.
+
+use std::fs::File;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use sph_tests::{Bench, DAM_BREAK};
+
+use crate::bad_files::PROGRAM;
+
+const REFERENCE: &str = "\n[reference.front]\nprobe = \"front\"\nfile = \"r.csv\"\n";
+
+fn with_reference(keys: &str, table: &str) -> Bench {
+    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}{REFERENCE}{keys}\n"));
+    bench.write("r.csv", table);
+    bench
+}
+
+#[test]
+fn references_that_nothing_can_be_compared_with_are_refused_before_the_run() {
+    for (table, told) in [
+        (
+            "t\n0\n1\n",
+            "one column where a time and a value are expected",
+        ),
+        ("t,u\n", "no rows"),
+        ("t,u\n0,1\n0.1,nan\n0.2,1\n", "found NaN in row 2"),
+        ("t,u\n0,1\n0.1,1e999\n0.2,1\n", "found inf in row 2"),
+        ("t,u\n0.2,1\n0,1\n0.1,1\n", "times must not fall"),
+        ("t,u\n0.2,1\n0.2,2\n", "all its times are the same"),
+    ] {
+        let bench = with_reference("", table);
+        for command in ["check scene.toml", "run scene.toml --out r"] {
+            let outcome = bench.call(command);
+            assert_eq!(outcome.code, Some(2), "{table:?}: {}", outcome.err);
+            assert!(outcome.err.contains(told), "{table:?}: {}", outcome.err);
+            assert!(outcome.err.contains("scene.toml:"), "{}", outcome.err);
+        }
+        assert!(!bench.path("r").exists());
+    }
+    let band = "norm = \"band\"\nlower = \"a\"\nupper = \"b\"";
+    let bench = with_reference(band, "t,a,b\n0,0,1\n0.1,0,inf\n0.2,0,1\n");
+    let outcome = bench.call("check scene.toml");
+    assert!(
+        outcome.err.contains("found inf in row 2 of `b`"),
+        "{}",
+        outcome.err
+    );
+}
+
+#[test]
+fn norms_that_cannot_be_computed_are_refused_before_the_run() {
+    for (keys, told) in [
+        ("norm = \"lag\"", "`lag` needs the `period`"),
+        ("norm = \"decay-rate\"", "`decay-rate` needs a `solution`"),
+        ("norm = \"rms\"", "`rms` is for fields"),
+        (
+            "scale_value = 0.0",
+            "a scale is a finite number other than 0",
+        ),
+        (
+            "scale_time = 0.0",
+            "a scale is a finite number other than 0",
+        ),
+    ] {
+        let bench = with_reference(keys, "t,u\n0,1\n1,1\n");
+        let outcome = bench.call("check scene.toml");
+        assert_eq!(outcome.code, Some(2), "{keys}: {}", outcome.err);
+        assert!(outcome.err.contains(told), "{keys}: {}", outcome.err);
+    }
+}
+
+/// The run has been paid for: it keeps its summary and says what is missing.
+#[test]
+fn a_reference_that_goes_while_the_run_goes_on_costs_the_comparison_alone() {
+    let bench = with_reference("", "t,u\n0,0.2\n0.4,0.6\n");
+    let run = bench.command("run scene.toml --quiet --out r").spawn();
+    let run = run.expect("a run");
+    let begun = Instant::now();
+    while !bench.path("r/series.csv").exists() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    std::fs::remove_file(bench.path("r.csv")).expect("a table to remove");
+    let output = run.wait_with_output().expect("an end");
+    let err = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{err}");
+    let summary = bench.read("r/summary.json");
+    assert!(
+        summary.contains("reference `front` was not compared"),
+        "{summary}"
+    );
+}
+
+#[test]
+fn a_wall_whose_speed_is_no_number_is_refused() {
+    let wall = "\n[wall.block]\nbox = [[0.4, 0.3], [0.46, 0.4]]\nfluid = \"outside\"\n\
+                motion.translate = { along = [0.0, 1.0], table = [[0, 0], [1, 1e308], [2, -1e308]] }\n";
+    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}{wall}"));
+    let outcome = bench.call("check scene.toml");
+    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
+    assert!(outcome.err.contains("wall.block.motion"), "{}", outcome.err);
+}
+
+#[test]
+fn a_refused_write_to_stdout_is_an_error() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    for words in ["schema", "check scene.toml --json", "plugins"] {
+        let full = File::options().write(true).open("/dev/full");
+        let mut command = bench.command(words);
+        command.stdout(Stdio::from(full.expect("a device")));
+        let output = command.output().expect("an end");
+        let err = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{words}: {err}");
+        assert!(err.contains("cannot write to stdout"), "{words}: {err}");
+    }
+}
+
+#[test]
+fn a_series_that_is_no_file_is_refused() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    std::fs::create_dir(bench.path("r")).expect("a folder");
+    bench.write("precious", "kept");
+    std::os::unix::fs::symlink("../precious", bench.path("r/series.csv")).expect("a link");
+    let outcome = bench.call("run scene.toml --quiet --out r --set run.end=0.02");
+    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
+    assert!(outcome.err.contains("series.csv"), "{}", outcome.err);
+    assert_eq!(bench.read("precious"), "kept");
+}
+
+#[test]
+fn a_table_of_a_study_has_nothing_that_a_terminal_obeys() {
+    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    bench.write(
+        "study.toml",
+        "title = \"t\"\nscene = \"scene.toml\"\nerror = \"front\"\n[[vary]]\nname = \"v\"\n\
+         entries = [{ name = \"\\u001b[2Jx\\u202e\", set = { run.end = 0.01 } }]\n",
+    );
+    bench.write("scene.toml", &format!("{DAM_BREAK}{REFERENCE}"));
+    bench.write("r.csv", "t,u\n0,0.2\n0.4,0.6\n");
+    let outcome = bench.call("study study.toml --out s");
+    let table = bench.read("s/study.csv");
+    assert!(table.contains("[2Jx"), "{table}{}", outcome.err);
+    assert!(!table.contains(['\u{1b}', '\u{202e}']), "{table:?}");
+}
