@@ -43,12 +43,16 @@ fn of_entry(entry: &Entry) -> String {
         .as_ref()
         .map_or(String::new(), |m| format!(" {m}"));
     let images: Vec<String> = entry.scenes.keys().map(|name| image(name)).collect();
+    // Its moment alone is no difference from the shipped scene.
+    let picture = match entry.picture.contains(", ") {
+        true => format!(" Picture at {}.", entry.picture),
+        false => String::new(),
+    };
     item(&format!(
-        "* {}: {}.{measured} Time: {}. Picture at {}. {}",
+        "* {}: {}.{measured} Time: {}.{picture} {}",
         names.join(", "),
         entry.shows,
         times.join(", "),
-        entry.picture,
         images.join(" ")
     ))
 }
