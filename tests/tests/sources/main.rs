@@ -5,3 +5,4 @@ mod docs;
 mod long_functions;
 mod module_circles;
 mod ranks;
+mod words;

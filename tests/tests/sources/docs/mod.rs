@@ -26,7 +26,7 @@ fn root() -> PathBuf {
 
 /// The documents of the workspace: of its root, of `docs` and its folders, and the README of every
 /// crate.
-fn documents() -> Vec<(PathBuf, String)> {
+pub(crate) fn documents() -> Vec<(PathBuf, String)> {
     let listed = |folder: PathBuf| {
         let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{folder:?}: {e}"));
         entries.map(|e| e.expect("an entry").path())

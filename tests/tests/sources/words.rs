@@ -1,0 +1,238 @@
+//! Words that names, pages, comments and messages do without: `words.toml` has them, with what to write.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::docs::documents;
+
+type Advice = BTreeMap<String, String>;
+
+#[derive(Deserialize)]
+struct Words {
+    names: Advice,
+    files: Advice,
+    texts: Advice,
+    pages: Advice,
+    starts: Advice,
+    modules: Advice,
+}
+
+fn words() -> Words {
+    toml::from_str(include_str!("words.toml")).expect("the words")
+}
+
+/// The name that a line of code declares: of a type, a trait or a function.
+fn declared(line: &str) -> Option<&str> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let kinds = ["struct", "enum", "trait", "type", "fn", "mod"];
+    let at = words.iter().position(|w| kinds.contains(w))?;
+    let before = |w: &&str| {
+        w.starts_with("pub") || w.ends_with(')') || ["const", "async", "unsafe"].contains(w)
+    };
+    words[..at].iter().all(before).then_some(())?;
+    words
+        .get(at + 1)?
+        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .next()
+}
+
+/// Names of a source that are refused, each with its line and its advice.
+fn names(text: &str, refused: &Advice) -> Vec<String> {
+    let lines = text.lines().enumerate();
+    let found = lines.filter_map(|(k, line)| {
+        let name = declared(line)?;
+        let advice = refused.get(name)?;
+        Some(format!("{}: the name `{name}`; write {advice}", k + 1))
+    });
+    found.collect()
+}
+
+/// A line without what stands between backticks.
+fn without_code(line: &str) -> String {
+    line.split('`').step_by(2).collect::<Vec<_>>().join(" ")
+}
+
+/// Comments and texts in quotes of a line of code.
+fn spoken(line: &str) -> String {
+    match line.trim_start().strip_prefix("//") {
+        Some(comment) => without_code(comment),
+        None => line
+            .split('"')
+            .skip(1)
+            .step_by(2)
+            .collect::<Vec<_>>()
+            .join(" "),
+    }
+}
+
+/// The lines of a page outside of code, each as it is looked through.
+fn prose(text: &str) -> Vec<String> {
+    let mut code = false;
+    let outside = text.lines().map(|line| {
+        let fence = line.trim_start().starts_with("```");
+        code ^= fence;
+        if code || fence {
+            String::new()
+        } else {
+            without_code(line)
+        }
+    });
+    outside.collect()
+}
+
+/// Turns of phrase in lines, also across the end of a line, each with its line and its advice.
+fn turns<'w>(
+    lines: &[String],
+    refused: impl Iterator<Item = (&'w String, &'w String)>,
+) -> Vec<String> {
+    let mut all: Vec<(usize, String)> = Vec::new();
+    for (k, line) in lines.iter().enumerate() {
+        let words = line
+            .split(|c: char| !c.is_alphanumeric())
+            .filter(|w| !w.is_empty());
+        all.extend(words.map(|w| (k + 1, w.to_lowercase())));
+    }
+    let mut found = Vec::new();
+    for (turn, advice) in refused {
+        let turn: Vec<&str> = turn.split(' ').collect();
+        for place in all.windows(turn.len()) {
+            if place.iter().map(|(_, word)| word).eq(turn.iter()) {
+                let line = place[0].0;
+                found.push(format!("{line}: \"{}\"; write {advice}", turn.join(" ")));
+            }
+        }
+    }
+    found
+}
+
+/// Headings and rows of a page that begin with a refused word, each with its line and its advice.
+fn starts(lines: &[String], refused: &Advice) -> Vec<String> {
+    let numbered = lines.iter().enumerate();
+    let found = numbered.filter_map(|(k, line)| {
+        let title = line.strip_prefix('#').or(line.strip_prefix('|'))?;
+        let first = title.trim_start_matches('#').split_whitespace().next()?;
+        let advice = refused
+            .iter()
+            .find(|(word, _)| word.to_lowercase() == first.to_lowercase())?
+            .1;
+        Some(format!(
+            "{}: begins with \"{first}\"; write {advice}",
+            k + 1
+        ))
+    });
+    found.collect()
+}
+
+/// Calls a function with every source of the crates and its text.
+fn each_source(mut work: impl FnMut(&Path, &str)) {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let entries = std::fs::read_dir(crates).expect("the crates");
+    let mut open: Vec<_> = entries
+        .map(|e| e.expect("a crate").path().join("src"))
+        .collect();
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            let entries = std::fs::read_dir(&path).expect("a folder");
+            open.extend(entries.map(|e| e.expect("an entry").path()));
+        } else {
+            let text = std::fs::read_to_string(&path).expect("a source");
+            work(&path, &text);
+        }
+    }
+}
+
+#[test]
+fn names_are_words_of_the_field() {
+    let words = words();
+    let (mut count, mut found) = (0, Vec::new());
+    each_source(|path, text| {
+        count += 1;
+        let stem = path
+            .file_stem()
+            .and_then(|s| s.to_str())
+            .unwrap_or_default();
+        let file = path.display();
+        if let Some(advice) = words.files.get(stem) {
+            found.push(format!("{file}: the name of the file; write {advice}"));
+        }
+        let first = text
+            .strip_prefix("//! ")
+            .and_then(|t| t.split_whitespace().next());
+        if let Some((word, advice)) = first.and_then(|word| words.modules.get_key_value(word)) {
+            found.push(format!("{file}:1: begins with \"{word}\"; write {advice}"));
+        }
+        found.extend(
+            names(text, &words.names)
+                .iter()
+                .map(|f| format!("{file}:{f}")),
+        );
+    });
+    assert!(count > 500, "{count} sources");
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn comments_and_messages_name_things_and_no_persons() {
+    let refused = words().texts;
+    let mut found = Vec::new();
+    each_source(|path, text| {
+        let lines: Vec<String> = text.lines().map(spoken).collect();
+        let file = path.display();
+        found.extend(
+            turns(&lines, refused.iter())
+                .iter()
+                .map(|f| format!("{file}:{f}")),
+        );
+    });
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn pages_state_what_is_so() {
+    let words = words();
+    let (mut count, mut found) = (0, Vec::new());
+    for (page, text) in documents() {
+        // Release notes are about changes.
+        if page.ends_with("CHANGELOG.md") {
+            continue;
+        }
+        let lines = prose(&text);
+        count += lines.len();
+        let refused = words.texts.iter().chain(&words.pages);
+        let all = turns(&lines, refused)
+            .into_iter()
+            .chain(starts(&lines, &words.starts));
+        found.extend(all.map(|f| format!("{}:{f}", page.display())));
+    }
+    assert!(count > 4_000, "{count} lines");
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn refused_words_are_found_at_their_lines() {
+    let words = words();
+    let code = "pub(crate) struct Felt<'a> {\n    felt: u8,\n}\nimpl Felt {\n    pub const fn of(x: u8) -> u8 {\n        x\n    }\n}\n";
+    let lines = |found: Vec<String>| -> Vec<String> {
+        found
+            .iter()
+            .map(|f| f.split(';').next().unwrap_or(f).to_string())
+            .collect()
+    };
+    let expected = ["1: the name `Felt`", "5: the name `of`"];
+    assert_eq!(lines(names(code, &words.names)), expected);
+    let page = "# What is here\n\nA column that `nobody` reads, or that no\nterm reads: Nobody\nasks.\n\n```text\nnobody\n```\n\
+                It was\nonce empty.\n";
+    let found = lines(turns(&prose(page), words.texts.iter()));
+    assert_eq!(found, ["4: \"nobody\"", "10: \"was once\""]);
+    assert_eq!(
+        lines(starts(&prose(page), &words.starts)),
+        ["1: begins with \"What\""]
+    );
+    assert_eq!(
+        spoken("    let x = \"told by nobody\"; // nobody"),
+        "told by nobody"
+    );
+    assert_eq!(spoken("    /// Nobody, by `nobody`."), "/ Nobody, by  .");
+}
