@@ -13,7 +13,7 @@ pub enum Numbers {
     Index(Vec<u32>),
 }
 
-/// The fields of `sph_core` that stages write where somebody reads them.
+/// The fields of `sph_core` that stages write where they are read.
 const DERIVED: [AnyField; 15] = [
     fields::ACCELERATION.any(),
     fields::DENSITY.any(),

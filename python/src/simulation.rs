@@ -59,7 +59,7 @@ fn failed(py: Python<'_>, error: &StepError) -> PyErr {
 }
 
 impl Simulation {
-    /// The flow, unless somebody steps it.
+    /// The flow, unless it is being stepped.
     fn flow(&self) -> PyResult<MutexGuard<'_, Flow>> {
         match self.flow.try_lock() {
             Ok(flow) => Ok(flow),

@@ -65,7 +65,7 @@ pub fn watched<T: Send>(
         let (sender, receiver) = sync_channel::<()>(1);
         let worker = scope.spawn(move || {
             let result = work();
-            // Nobody listens who has not waited.
+            // The receiver has gone if it did not wait.
             let _ = sender.send(());
             result
         });

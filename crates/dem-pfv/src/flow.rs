@@ -15,7 +15,7 @@
 //! * [`FlowSystem`]: the system, its [`Solver`], compressibility of the fluid, permeability.
 //! * [`Forces`]: pressure and viscous forces on spheres and walls; [`Edge`]: neighbours and the faces between them.
 //!
-//! No grain moves here: whoever moves them gives rates of the cells' volumes ([`cell_volumes`]).
+//! No grain moves here: the caller that moves them gives rates of the cells' volumes ([`cell_volumes`]).
 //!
 //! ```
 //! use dem_pfv::flow::{Boundary, FlowSystem, SlipCondition, HydraulicRadius, PoreGeometry, SolidAngles, Solver};

@@ -16,7 +16,7 @@ pub struct Entry<L: ?Sized + 'static> {
     pub provider: &'static str,
     /// JSON schema of its parameters, with their units.
     pub schema: fn() -> Json,
-    /// Builds it from its parameters without checking their values, or tells which are not understood.
+    /// Builds it from its parameters without checking their values, or names those that are not understood.
     pub build: fn(&Json) -> Result<Box<L>, String>,
 }
 

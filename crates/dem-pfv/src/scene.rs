@@ -4,8 +4,8 @@
 //! theirs.
 //!
 //! 1. [`read`] turns a [`scene_text::Source`] into a [`Loaded`] scene ([`Scene`] and its tables), or into all its mistakes
-//!    with their places; [`is_grain_scene`] tells such scenes from those of particles.
-//! 2. [`examine`] tells what it is made of without preparing its grains.
+//!    with their places; [`is_grain_scene`] distinguishes such scenes from those of particles.
+//! 2. [`examine`] lists its parts without preparing its grains.
 //! 3. [`run()`] prepares the grains and lets `sph-run` drive them: it steps, measures ([`Probe`]), writes and compares ([`Reference`]);
 //!    [`assemble`] alone gives the [`Model`].
 //! 4. [`Summary`] is what a run leaves; [`DemError`] what keeps it from its end, with the grain at fault ([`Failure`]).

@@ -49,7 +49,7 @@ impl<'s> Walk<'s> {
         self.problems.push(SceneProblem::new(path, message));
     }
 
-    /// Whether as many problems are known as are told.
+    /// Whether as many problems are known as are reported.
     fn full(&self) -> bool {
         self.problems.len() >= MOST_PROBLEMS
     }

@@ -1,4 +1,4 @@
-//! What a schema gives where a table is silent.
+//! Defaults of a schema for keys that are left out.
 
 use serde_json::Value as Json;
 

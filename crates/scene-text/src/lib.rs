@@ -5,7 +5,7 @@
 //! 1. makes a [`Source`] of a text, its file name and the [`Override`]s on top ([`read_text`], `--set`);
 //! 2. holds its table against a JSON schema with [`conform`], which turns "10 kPa" into pascals ([`parse_quantity`])
 //!    and names unknown keys with the nearest valid one ([`suggestion`]);
-//! 3. tells what is wrong as [`SceneProblem`]s, by key, which [`Source::diagnose`] turns into [`Diagnostic`]s with
+//! 3. reports mistakes as [`SceneProblem`]s, by key, which [`Source::diagnose`] turns into [`Diagnostic`]s with
 //!    file, line, column and span.
 //!
 //! With the feature `surface`, the module of that name reads the STL files that scenes name.

@@ -1,4 +1,4 @@
-//! Where the key of a dotted path stands in a TOML text.
+//! Place of the key of a dotted path in a TOML text.
 
 use std::ops::Range;
 

@@ -9,7 +9,7 @@ const DEEPEST: usize = 32;
 
 /// A list of tables that hold exactly one plugin, as the keys that lead to them; `*` stands for any key.
 ///
-/// Whoever reads scenes submits theirs with `inventory`: setting another plugin there replaces the present one.
+/// Readers of scenes submit theirs with `inventory`: setting another plugin there replaces the present one.
 pub struct OnePlugin(pub fn() -> Vec<Vec<&'static str>>);
 inventory::collect!(OnePlugin);
 

@@ -1,7 +1,7 @@
-//! Which files a scene may name: those in its folder, and those that the user allows.
+//! Files that a scene may name: those in its folder, and those that the user allows.
 //!
-//! A scene may come from anybody. What it names must lie in the folder of the scene file or below, also
-//! when `..` and symbolic links are followed. Whoever runs it may allow further folders (`--allow-path`),
+//! A scene may be of an unknown author. Files that it names must lie in the folder of the scene file or below, also
+//! when `..` and symbolic links are followed. The user who runs it may allow further folders (`--allow-path`),
 //! and a path that stands on the command line itself (`--set wall.tank.file=…`) is the user's own.
 
 use std::path::{Component, Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What a number of a scene can be: bounds by quantity, outside which it is a mistake.
+//! Plausible ranges of numbers of a scene: bounds by quantity, outside which a number is a mistake.
 //!
 //! Outside what nature or a laboratory has, a number is remarked upon; where no run can be right, it is refused.
 //! A key has the quantity that its schema names (`"quantity" = "spacing"`), or else that of its unit. Signs do not
@@ -207,7 +207,7 @@ pub const QUANTITIES: [Quantity; 20] = [
         low: (1e-4, "ten thousand times the steps of a stable run"),
         high: (1.0, ""),
         most: 1.0,
-        refusal: "a billion times the steps of a stable run end in no life",
+        refusal: "the run would need a billion times the steps of a stable one",
     },
 ];
 

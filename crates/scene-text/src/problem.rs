@@ -3,7 +3,7 @@
 use thiserror::Error;
 use toml::Value;
 
-/// Most problems that are told: of a text that is wrong throughout nobody reads more, and each takes room.
+/// Most problems that are reported: a text that is wrong throughout needs no more of them, and each takes memory.
 pub const MOST_PROBLEMS: usize = 200;
 
 /// Something wrong with the text of a scene, addressed by its key.
@@ -26,7 +26,7 @@ impl SceneProblem {
     }
 }
 
-/// A value as a message tells it.
+/// A value in a message.
 pub(crate) fn describe(value: &Value) -> String {
     match value {
         Value::String(s) => format!("the string \"{s}\""),

@@ -1,4 +1,4 @@
-//! What cannot be solved, and why.
+//! Errors of solves, with their reasons.
 
 use thiserror::Error;
 

@@ -9,7 +9,7 @@ pub struct Joins {
     pub list: Vec<u32>,
 }
 
-/// Nobody.
+/// No facet.
 const NONE: u32 = u32::MAX;
 
 impl Joins {

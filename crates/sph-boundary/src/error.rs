@@ -1,4 +1,4 @@
-//! What can be wrong with a wall or with the kernel that looks at it.
+//! Errors of walls, and of kernels at walls.
 
 use sph_core::number;
 
@@ -189,8 +189,7 @@ pub enum BoundaryError {
     },
     /// A surface of the size of a particle.
     #[error(
-        "wall `{wall}` is {extent} m across, less than two spacings of {spacing} m: the flow \
-         cannot see it"
+        "wall `{wall}` is {extent} m across, less than two spacings of {spacing} m: draw it larger, check the unit of length, or take a smaller spacing"
     )]
     TooSmall {
         wall: String,
@@ -263,8 +262,7 @@ pub enum BoundaryError {
     },
     /// A wall that other walls cover altogether, or that bounds no fluid.
     #[error(
-        "nothing is left of wall `{wall}`: other walls cover all of it, or turn their backs on its edges; does one of \
-         them face the other way? leave it out, or give a plate of two sides a thickness"
+        "nothing is left of wall `{wall}`: other walls cover all of it, or face away from its edges: turn the one that faces the other way, leave the wall out, or give a plate of two sides a thickness"
     )]
     Covered { wall: String },
     /// Walls that meet in an edge with the fluid on different sides.
@@ -325,7 +323,7 @@ impl BoundaryError {
 fn remedy(met: &Option<Box<str>>) -> String {
     match met {
         Some(other) => format!(
-            "wall `{other}` meets it there and does not continue it: does one of the two face the other way?"
+            "wall `{other}` meets it there and does not continue it: turn the one that faces the other way"
         ),
         None => "close the wall or extend it".to_string(),
     }

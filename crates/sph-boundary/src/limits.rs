@@ -1,4 +1,4 @@
-//! How much work walls may ask for.
+//! Limits of the work of walls.
 
 /// Most pairs of edges or triangles that are held against each other: a second or two of work.
 pub(crate) const MOST_PAIRS: usize = 200_000_000;

@@ -1,4 +1,4 @@
-//! How walls move: courses over time, movers, and the state of a rigid wall.
+//! Motion of walls: courses over time, movers, and the state of a rigid wall.
 
 pub(crate) mod bend;
 pub(crate) mod load;

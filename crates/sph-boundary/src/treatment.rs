@@ -1,4 +1,4 @@
-//! How the fluid meets the walls: the contract of a treatment, and the two that there are.
+//! Wall treatments: the contract, and the built-in ones.
 
 pub(crate) mod contact;
 pub(crate) mod contact_law;

@@ -1,4 +1,4 @@
-//! What the command line takes, and its help.
+//! Arguments of the command line, and its help.
 
 use std::path::PathBuf;
 

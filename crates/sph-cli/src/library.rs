@@ -112,7 +112,7 @@ pub fn run(
 }
 
 /// Runs a study, by its path or by the name of a shipped one, until it is done or the flag is raised. Unless it is
-/// `quiet`, it tells on stderr where it is.
+/// `quiet`, it reports its progress on stderr.
 ///
 /// # Errors
 /// Mistakes of the study or its scenes with their places, files that cannot be written.

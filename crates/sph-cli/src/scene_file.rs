@@ -23,7 +23,7 @@ pub enum AnyScene {
     Grains(Box<dem_pfv::scene::Loaded>),
 }
 
-/// Reads a scene of either kind: the one place where they are told apart.
+/// Reads a scene of either kind: the one place that distinguishes them.
 pub fn read(source: Source) -> Result<AnyScene, Trouble> {
     let mistakes = |source: &Source, diagnostics: &[sph_scene::Diagnostic]| {
         Trouble::Scene(diagnostics::located(source, diagnostics))
@@ -225,7 +225,7 @@ fn unpacked(name: &str, text: &str) -> Result<(String, Option<Scratch>), String>
     if shipped::data_of(text).next().is_none() {
         return Ok((format!("{name}.toml"), None));
     }
-    // A name that nobody can guess, made by nobody else, for this user alone.
+    // A name that cannot be guessed, created here, for this user alone.
     let folder = Scratch::new(".sph-data-");
     let folder = folder.map_err(|e| format!("cannot put the data of `{name}` anywhere: {e}"))?;
     let file = folder

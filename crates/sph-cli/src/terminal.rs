@@ -1,4 +1,4 @@
-//! What is said: words, tables and progress in a terminal, and what went wrong.
+//! Output in a terminal: texts, tables, progress and errors.
 
 pub mod console;
 pub mod diagnostics;

@@ -1,4 +1,4 @@
-//! What the commands around a run take.
+//! Arguments of the commands around a run.
 
 use std::path::PathBuf;
 

@@ -5,7 +5,7 @@ use sph_core::{FieldError, Vect, fields};
 use sph_neighbours::World;
 
 /// K_a += s m_a Σ_p w(|r_a − p|) over places p of particles that come (s = −1) or go (s = +1), where densities are sums with a
-/// density constant K: nobody's density jumps.
+/// density constant K: no density jumps.
 ///
 /// # Errors
 /// If there is no position or mass.

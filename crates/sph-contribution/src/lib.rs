@@ -1,4 +1,4 @@
-//! What a piece of physics may offer a flow, and kinds of plugins for it that no crate of this project knows.
+//! Offers of a piece of physics to a flow, and kinds of plugins for it from outside this project.
 //!
 //! * [`Contribution`]: columns with their values at the start, and an [`Offer`]: stages, pair terms, transported scalars,
 //!   step limits, hooks and gates. The solver asks every contribution once and knows none by name.

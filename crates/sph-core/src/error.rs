@@ -6,7 +6,7 @@ use thiserror::Error;
 /// A column that is not what its reader takes it for.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum FieldError {
-    /// Nobody declared the field.
+    /// No stage or term declared the field.
     #[error("field `{0}` is not allocated in this scene: no plugin declared it")]
     Missing(&'static str),
     /// The field has another type.
@@ -20,7 +20,7 @@ pub enum FieldError {
 /// A set of stages that cannot be put in order.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PlanError {
-    /// A field that nobody writes.
+    /// A field that no stage writes.
     #[error("field `{field}`, needed by {reader}, is written by no stage of this scene")]
     NoWriter {
         /// The missing field.

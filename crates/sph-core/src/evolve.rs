@@ -1,4 +1,4 @@
-//! What a time integrator sees: positions, and quantities with a rate.
+//! The state that time integrators advance: positions, and quantities with a rate.
 
 use crate::{Field, Scalar, StepError, StepLimit};
 

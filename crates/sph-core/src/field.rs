@@ -1,4 +1,4 @@
-//! What a field is: a name, a unit, a meaning, and the type of one entry.
+//! Fields: a name, a unit, a meaning, and the type of one entry.
 
 use nalgebra::SMatrix;
 

@@ -20,13 +20,13 @@ pub const PRESSURE: Field<Scalar> =
     Field::new("pressure", "Pa", "pressure of the equation of state");
 /// Dynamic viscosity where it differs between particles.
 pub const VISCOSITY: Field<Scalar> = Field::new("viscosity", "Pa s", "dynamic viscosity");
-/// Gradient of the velocity, ∂u_i/∂x_j; zero in phases where nobody reads it.
+/// Gradient of the velocity, ∂u_i/∂x_j; zero in phases where no stage reads it.
 pub const VELOCITY_GRADIENT: Field<Tensor> = Field::new(
     "velocity_gradient",
     "1/s",
     "gradient of the velocity, ∂u_i/∂x_j",
 );
-/// Magnitude γ̇ = √(2 D:D) of the deviatoric strain rate D; zero in phases where nobody reads it.
+/// Magnitude γ̇ = √(2 D:D) of the deviatoric strain rate D; zero in phases where no stage reads it.
 pub const STRAIN_RATE: Field<Scalar> = Field::new(
     "strain_rate",
     "1/s",
@@ -175,7 +175,7 @@ pub const VOID_FRACTION: Field<Scalar> = Field::new(
     "1",
     "1 - sum of volume times kernel over the renormalisation; 0 within reach of free surfaces and of wall points",
 );
-/// Way from where a particle was at the start, across periodic borders. Only where somebody asks for it.
+/// Way from where a particle was at the start, across periodic borders. Only on request.
 pub const DISPLACEMENT: Field<Vector> = Field::new(
     "displacement",
     "m",

@@ -15,7 +15,7 @@ impl<const D: usize> Store<D> {
         self.born = born;
     }
 
-    /// Adds particles behind the others, with identities that nobody had before, and zeros in all other columns. Gives their slots.
+    /// Adds particles behind the others, with new identities, and zeros in all other columns. Gives their slots.
     ///
     /// # Errors
     /// If there is no column of identities, or they are used up.

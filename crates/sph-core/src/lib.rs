@@ -1,7 +1,7 @@
 //! The shared vocabulary of the workspace: what a field, a plugin, a stage and an error are.
 //! There is no physics here.
 //!
-//! * [`Field`] and [`Store`]: one column per field, allocated only when somebody declared it.
+//! * [`Field`] and [`Store`]: one column per field, allocated only when a stage or term declared it.
 //! * [`contract!`] and [`plugin`]: how a crate offers plugins of a kind, with typed
 //!   parameters whose unit, default, meaning and source travel with them.
 //! * [`Declares`], [`Stage`] and [`plan()`]: stages say what they read at the particle, what

@@ -79,7 +79,7 @@ impl<const D: usize> Store<D> {
         Ok(())
     }
 
-    /// A copy of all particles with all their columns, of which nobody has left or been born.
+    /// A copy of all particles with all their columns, of which none has left or come in.
     pub fn copied(&self) -> Store<D> {
         let entries = self.entries.iter().map(|entry| Entry {
             column: entry.column.clone(),

@@ -1,4 +1,4 @@
-//! From goals to an ordered list of stages: prune what nobody needs, then sort.
+//! From goals to an ordered list of stages: prune stages that are not needed, then sort.
 
 use crate::field::AnyField;
 use crate::{Declares, PlanError};
@@ -8,7 +8,7 @@ use crate::{Declares, PlanError};
 pub struct Plan {
     /// Indices into the offered stages.
     pub order: Vec<usize>,
-    /// Indices of the stages nobody needed.
+    /// Indices of the stages that were pruned.
     pub pruned: Vec<usize>,
 }
 
@@ -95,7 +95,7 @@ mod tests {
     const A: Field<Scalar> = Field::new("a", "1", "source");
     const B: Field<Scalar> = Field::new("b", "1", "from a");
     const C: Field<Scalar> = Field::new("c", "1", "from b");
-    const X: Field<Scalar> = Field::new("x", "1", "nobody needs it");
+    const X: Field<Scalar> = Field::new("x", "1", "no stage needs it");
 
     struct Work(&'static str, Access);
     impl Declares for Work {

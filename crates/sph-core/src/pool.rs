@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Buffers of one kind: as many as tasks were ever at work side by side.
 ///
-/// Which one a task gets depends on the threads, so that nobody reads what the last one left in it.
+/// Which one a task gets depends on the threads, so that no task may read what the last one left in it.
 #[derive(Debug)]
 pub struct Pool<T>(Mutex<Vec<Box<T>>>);
 
@@ -23,7 +23,7 @@ impl<T> Pool<T> {
 }
 
 impl<T: Default> Pool<T> {
-    /// A buffer that somebody has given back, or a new one.
+    /// A buffer that was given back, or a new one.
     pub fn acquire(&self) -> PoolGuard<'_, T> {
         let found = self.all().pop();
         PoolGuard {

@@ -3,7 +3,7 @@
 use crate::field::Column;
 use crate::{Field, FieldError, Inserted, Kind, Removed, Role, Store};
 
-/// Copies of all [`State`](Role::State) columns of a store, whoever declared them, in the order the particles had.
+/// Copies of all [`State`](Role::State) columns of a store, in the order the particles had.
 #[derive(Clone, Debug, Default)]
 pub struct Saved<const D: usize> {
     len: usize,
@@ -87,7 +87,8 @@ impl<const D: usize> Store<D> {
         self.put_state(saved, None, |_| true)
     }
 
-    /// Puts the copies of the state columns back whose names are `wanted`; `places` tells where every particle of now is in the copies,
+    /// Puts the copies of the state columns back whose names are `wanted`; `places` has the place of every present
+    /// particle in the copies,
     /// and is `None` if the order is the same. Wanted state columns that have come since the copies were made become zero.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
-//! Where particles are, by their identities.
+//! Slots of particles by their identities.
 
 /// A map from identities, which are unique for ever and may have gaps, to slots in a store.
 #[derive(Clone, Debug)]
 pub enum Slots {
-    /// By identity; [`u32::MAX`] where nobody has it. Where most identities are in use.
+    /// By identity; [`u32::MAX`] where no particle has it. Where most identities are in use.
     Dense(Vec<u32>),
     /// Identity and slot, ascending.
     Sparse(Vec<(u32, u32)>),
@@ -27,7 +27,7 @@ impl Slots {
         Slots::Dense(table)
     }
 
-    /// The slot of an identity; none if nobody has it.
+    /// The slot of an identity; none if no particle has it.
     pub fn slot(&self, identity: u32) -> Option<u32> {
         match self {
             Slots::Dense(table) => {

@@ -5,7 +5,7 @@ use crate::{Field, Kind, StepError};
 
 /// The columns a stage touches.
 ///
-/// Reads at the particle and reads at its neighbours are told apart: the planner needs both
+/// Reads at the particle and reads at its neighbours are separate: the planner needs both
 /// for order and pruning, and a halo exchange would need only the second.
 #[derive(Clone, Debug, Default)]
 pub struct Access {
@@ -15,7 +15,7 @@ pub struct Access {
     pub neighbours: Vec<AnyField>,
     /// Columns written at the particle itself.
     pub writes: Vec<AnyField>,
-    /// Columns read, here and at neighbours, in scenes that have them (phases); nobody has to write them.
+    /// Columns read, here and at neighbours, in scenes that have them (phases); no stage has to write them.
     pub where_there: Vec<AnyField>,
     /// Columns that it writes and begins with the next time: they carry history.
     pub remembers: Vec<AnyField>,
@@ -128,7 +128,8 @@ pub trait Stage<C>: Declares + Send {
     /// When a column is missing or a value is impossible; the step is then rolled back.
     fn run(&mut self, context: &mut C) -> Result<(), StepError>;
     /// Why it needs all particles at once, if it does: it adds up over all of them, or goes through their neighbours' neighbours.
-    /// Otherwise it may run for some of them, with copies of others around, whose sums over neighbours are told by their owners after it.
+    /// Otherwise it may run for some of them, with copies of others around, whose sums over neighbours come from their
+    /// owners after it.
     fn needs_all(&self) -> Option<&'static str> {
         None
     }

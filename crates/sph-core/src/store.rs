@@ -147,7 +147,7 @@ impl<const D: usize> Store<D> {
     /// The entries of a column.
     ///
     /// # Errors
-    /// If nobody asked for the column, or it has another type.
+    /// If the column was not declared, or it has another type.
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         let found = self.unwatched(field)?;
         self.note_read(field.name);
@@ -169,7 +169,7 @@ impl<const D: usize> Store<D> {
     /// The entries of a column, to be changed.
     ///
     /// # Errors
-    /// If nobody asked for the column, or it has another type.
+    /// If the column was not declared, or it has another type.
     pub fn get_mut<K: Kind>(
         &mut self,
         field: Field<K>,
@@ -185,7 +185,7 @@ impl<const D: usize> Store<D> {
     /// Takes a column out so that it can be written while others are read.
     ///
     /// # Errors
-    /// If nobody asked for the column, or it has another type.
+    /// If the column was not declared, or it has another type.
     pub fn take<K: Kind>(&mut self, field: Field<K>) -> Result<Vec<K::Item<D>>, FieldError> {
         self.get_mut(field).map(std::mem::take)
     }
@@ -211,7 +211,7 @@ impl<const D: usize> Store<D> {
         self.permute_role(Role::State, order);
     }
 
-    /// Sorts the derived columns as [`Store::permute`] has sorted the state, for whoever goes on with them.
+    /// Sorts the derived columns as [`Store::permute`] has sorted the state, for work that goes on with them.
     pub fn permute_derived(&mut self, order: &[u32]) {
         self.permute_role(Role::Derived, order);
     }

@@ -1,4 +1,4 @@
-//! What went out of a store and what came in while a flow ran.
+//! Outflow and inflow of a store while a flow ran.
 
 /// What has been taken out of a store by one outlet of one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Removed {
 /// What came into a store after the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inserted {
-    /// Identities that were given so far, those of the start included: nobody gets one of them again.
+    /// Identities that were given so far, those of the start included: none of them is given again.
     pub identities: u32,
     /// Mass that came in after the start, kg (per metre of depth in two dimensions).
     pub mass: f64,

@@ -28,7 +28,7 @@ impl Watch {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Somebody begins who may touch what all of these declare.
+    /// Begins work that may touch the columns that all of these declare.
     pub fn begin<'a>(&self, declared: impl IntoIterator<Item = &'a Access>) {
         let mut at_work = self.at_work();
         let place = at_work.depth;
@@ -79,7 +79,7 @@ impl Watched {
         let name = |field: &AnyField| field.name;
         let reads = [&access.here, &access.neighbours, &access.where_there];
         self.reads.extend(reads.into_iter().flatten().map(name));
-        // Nobody walks over neighbours without their places, and what walls cut off.
+        // Every walk over neighbours reads their places, and what walls cut off.
         if access.sweep {
             let always = [
                 fields::POSITION.name,

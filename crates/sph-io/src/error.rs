@@ -1,4 +1,4 @@
-//! What can go wrong with a file, always with its path.
+//! Errors of files, with their path.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -135,7 +135,7 @@ pub enum IoError {
 }
 
 impl IoError {
-    /// A failed write to `path`, told apart by whether the disk is full.
+    /// A failed write to `path`, by whether the disk is full.
     pub(crate) fn write(path: &Path, source: io::Error) -> Self {
         let path = path.to_path_buf();
         if is_full(&source) {

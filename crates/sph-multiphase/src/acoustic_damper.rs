@@ -87,7 +87,7 @@ struct Resistance<const D: usize> {
     term: [Box<dyn Interaction<D>>; 1],
     /// What the term declares: no step asks for memory to find it out.
     declared: Vec<Access>,
-    /// The sweep sums accelerations, too; nobody reads them.
+    /// The sweep sums accelerations, too; they are not read.
     unused: Vec<Vect<D>>,
 }
 

@@ -1,4 +1,4 @@
-//! What formulations and interface models are.
+//! The traits of formulations and interface models.
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{Evolved, Field, Scalar, Stage, StepError, Work, contract};

@@ -11,7 +11,7 @@ use crate::Compressed;
 pub struct Dilatation<const D: usize> {
     compressed: Compressed,
     term: [Box<dyn Interaction<D>>; 1],
-    /// The sweep sums accelerations, too; nobody reads them.
+    /// The sweep sums accelerations, too; they are not read.
     unused: Vec<Vect<D>>,
     divergence: Vec<f64>,
 }

@@ -49,7 +49,7 @@ impl<const D: usize> Stage<World<D>> for DispersedFraction {
             let others = (1.0 - volume[i] * at_zero[0]).max(f64::MIN_POSITIVE);
             (1.0 - 2.0 * like / others).max(0.0)
         };
-        // Inside a light phase nobody asks: friction is with another phase or with a wall.
+        // Inside a light phase it is not read: friction is with another phase or with a wall.
         let (lists, walls) = (world.lists.nearest(), &world.walls);
         let beside = |i: usize| {
             let mut near = lists.candidates(i).iter();

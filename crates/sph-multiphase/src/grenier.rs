@@ -22,7 +22,7 @@ pub const KERNEL_SUM: Field<Scalar> = Field::new("kernel_sum", "1", "Σ θ V w /
 ///
 /// Volumes are integrated; densities are means over the phase and jump where it ends. G is the
 /// adjoint of D, but D does not follow from the density: energy is conserved only as far as the
-/// mean density is the particle's m/V. Walls have the d of whoever looks at them.
+/// mean density is the particle's m/V. Walls have the d of the particle in the sum.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 3.14–3.18; Grenier et al. 2009; the wall terms are ours.
 #[plugin(FormulationEntry [2, 3], "grenier", "integrated volumes, densities averaged within the phase",

@@ -1,4 +1,4 @@
-//! What density is between particles of several phases, and how its pressure acts.
+//! Density between particles of several phases, and the action of its pressure.
 //!
 //! * [`Formulation`] is a kind of plugin, what density is and which pressure gradient belongs to it: [`HuAdams`],
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.

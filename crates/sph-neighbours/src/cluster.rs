@@ -40,13 +40,13 @@ pub(crate) struct Buffers<const D: usize> {
     pub separation: Vec<f64>,
     /// F in the order of the distances.
     pub factor: Vec<f64>,
-    /// w in the same order, where somebody asked for it.
+    /// w in the same order, where it was requested.
     pub value: Vec<f64>,
     /// s_a s_b F and s_a s_b w in the same order, where walls scale some pair.
     pub scaled: [Vec<f64>; 2],
     /// Rows of wall points, one per member.
     pub walls: [Scratch<D>; MOST],
-    /// Rows of free neighbours, one per member, where somebody asked for rows.
+    /// Rows of free neighbours, one per member, where rows were requested.
     free: [Scratch<D>; MOST],
     /// Sums of the members.
     pub sums: crate::particles::Rows,

@@ -49,7 +49,8 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         self.each_wanted(block, &mut visit, |_| true, |visit, c| visit(c), |_, _| ());
     }
 
-    /// The same with what is at hand; where no member is `wanted` nobody looks around, and `others` gets the members.
+    /// The same with what is at hand; where no member is `wanted` no neighbours are searched, and `others` gets the
+    /// members.
     pub fn each_wanted<S>(
         &self,
         block: usize,

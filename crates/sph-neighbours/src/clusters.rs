@@ -52,7 +52,7 @@ impl Clusters {
         self.build_but(points, grid, (reach, domain), pool, None);
     }
 
-    /// The same, with nobody around clusters all of whose members are `idle`: no sum of theirs is asked for.
+    /// The same, with no neighbours around clusters all of whose members are `idle`: no sum of theirs is needed.
     pub(crate) fn build_but<const D: usize>(
         &mut self,
         points: &[Vect<D>],

@@ -8,7 +8,8 @@ pub trait Communicator<const D: usize>: Send + Sync {
     /// Whether each particle is one's own, and not a copy of another's.
     fn own(&self, free: &Store<D>) -> Vec<bool>;
 
-    /// Whether nobody asks for what is summed over a particle's neighbours: others tell; `None` if all are asked for.
+    /// Whether no sum over a particle's neighbours is needed here, because its owner sends it; `None` if all are
+    /// needed.
     fn idle(&self, free: &Store<D>) -> Option<Vec<bool>>;
 
     /// Replaces each value by the largest of all ranks.
@@ -35,7 +36,8 @@ pub trait Communicator<const D: usize>: Send + Sync {
     /// As [`largest`](Self::largest).
     fn update_ghosts(&self, free: &mut Store<D>, columns: &[AnyField]) -> Result<(), StepError>;
 
-    /// Begins a solve, in which nobody may fail: [`mirror`](Self::mirror), [`most`](Self::most) and [`add`](Self::add) return nothing that could tell.
+    /// Begins a solve, in which no rank may fail: [`mirror`](Self::mirror), [`most`](Self::most) and [`add`](Self::add)
+    /// return no error.
     ///
     /// # Errors
     /// As [`largest`](Self::largest).

@@ -1,4 +1,4 @@
-//! Who touches which wall element.
+//! Contacts of particles with wall elements.
 
 use std::ops::Range;
 
@@ -274,7 +274,7 @@ impl<const D: usize> Contacts<D> {
         std::mem::take(&mut self.blocks)
     }
 
-    /// Takes the blocks back; [`place`](Self::place) tells whose contacts are where.
+    /// Takes the blocks back; [`place`](Self::place) gives the place of a particle's contacts.
     pub fn put_blocks(&mut self, blocks: Vec<ContactBlock<D>>) {
         self.blocks = blocks;
     }

@@ -3,10 +3,10 @@
 //! * [`bisect`] gives every particle an owner: cuts across the longest axis until every rank has its share of the cost.
 //!   [`Cuts`] are the same as planes in space, found by ranks that hold a part each.
 //! * [`Halo`] counts the ghosts: particles of others that a rank needs because they are within reach of its own.
-//! * [`exchanges`] tells which columns ghosts must be sent before which stage, from what stages say that they touch.
+//! * [`exchanges`] gives the columns that ghosts must get before each stage, from the columns that stages declare.
 //! * [`Transport`] is what ranks need to talk to each other; [`Thread`] is one that is a thread of this process.
-//! * [`Parts`] is a rank's part of a flow: it moves particles between ranks, tells ghosts what their owners found, and
-//!   gathers the whole.
+//! * [`Parts`] is a rank's part of a flow: it moves particles between ranks, gives ghosts the results of their owners,
+//!   and gathers the whole.
 //!
 //! Everything is the same on every rank that computes it, and does not depend on threads.
 

@@ -1,4 +1,4 @@
-//! How deep the fluid is before a wall.
+//! Depth of the fluid before a wall.
 
 use sph_core::{StepError, Vect, fields};
 
@@ -20,7 +20,8 @@ pub struct DepthGauge<const D: usize> {
 }
 
 impl<const D: usize> DepthGauge<D> {
-    /// Share with which a place counts: 1 at the face, falling to 0 as (1 − q)² (1 + 2q) over the reach, so that nobody
+    /// Share with which a place counts: 1 at the face, falling to 0 as (1 − q)² (1 + 2q) over the reach, so that no
+    /// particle
     /// who comes or goes there is felt.
     fn share(&self, x: &Vect<D>) -> f64 {
         let apart = x - self.place;

@@ -1,4 +1,4 @@
-//! What is found together by all who hold particles of a flow, and what copies of particles are told.
+//! Sums over all ranks of a flow, and updates of copies of particles.
 
 use sph_core::{Access, Stage, StepError};
 

@@ -171,7 +171,7 @@ impl<const D: usize, N: PartialEq> Reach<D, N> {
         Reach(all)
     }
 
-    /// Whether a place is within a radius of the box of a wall of another number, as far as the box tells.
+    /// Whether a place is within a radius of the box of a wall of another number, by the box alone.
     fn others_near(&self, x: &Vect<D>, own: N, radius: f64, domain: &Domain<D>) -> bool {
         let near = |[low, high]: &[Vect<D>; 2]| {
             let along = |k: usize| x[k] > low[k] - radius && x[k] < high[k] + radius;

@@ -112,7 +112,7 @@ impl<const D: usize> CellGrid<D> {
         self.sort(positions);
     }
 
-    /// All cells of an extent, with nobody in them yet.
+    /// All cells of an extent, empty.
     fn cells(&mut self, extent: &Extent<D>, radius: f64, domain: &Domain<D>) {
         let (mut lower, mut upper) = (extent.lower, extent.upper);
         for axis in 0..D {

@@ -45,7 +45,7 @@ impl SweepHalf {
     }
 }
 
-/// Whether a particle is asked for: all are where nobody halves.
+/// Whether a particle is needed: all are outside of halves.
 #[inline]
 pub fn is_wanted(half: Option<&SweepHalf>, particle: usize) -> bool {
     half.is_none_or(|half| half.wants(particle))

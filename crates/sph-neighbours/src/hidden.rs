@@ -56,7 +56,7 @@ impl Blocked {
     }
 }
 
-/// What walls hide, at the present positions. Whoever has it infinitely far away has it in no sum.
+/// What walls hide, at the present positions. A pair infinitely far apart is in no sum.
 #[derive(Clone, Debug, Default)]
 pub struct Hidden {
     /// Free particles from free particles, both ways.

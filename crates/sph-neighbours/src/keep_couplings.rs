@@ -32,7 +32,7 @@ pub struct Tally<const D: usize> {
 pub struct Keeper<'a> {
     kept: &'a mut Kept,
     kinds: Kinds,
-    /// For whoever finds couplings: α, β and their norm for every candidate, one number per lane each.
+    /// For code that finds couplings: α, β and their norm for every candidate, one number per lane each.
     pub numbers: &'a mut Vec<f64>,
 }
 
@@ -136,7 +136,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         } = self;
         let own = cluster.members();
         let zero = L::splat(0.0);
-        // Lanes without a particle repeat the last one, which is near itself: their numbers are of nobody.
+        // Lanes without a particle repeat the last one, which is near itself: their numbers are not used.
         let mut real = [0.0; MOST];
         real[..own.len()].fill(1.0);
         let real = L::load(&real);

@@ -1,7 +1,7 @@
-//! Who is near whom, and the one walk over the pairs that serves every term.
+//! Neighbour lists, and the one walk over the pairs that serves every term.
 //!
 //! * [`CellGrid`] sorts points by cell; [`NeighbourList`] keeps, per particle, the candidates
-//!   within the support plus a skin, and stays valid until somebody moved half the skin.
+//!   within the support plus a skin, and stays valid until a particle moved half the skin.
 //! * [`World`] is what a stage sees: the columns of the free particles, the wall points and
 //!   elements, the lists, the kernel.
 //! * A [`PairTerm`] sums over pairs ([`PairSum`]), its formula written once for lanes; [`Interaction`] is the object-safe

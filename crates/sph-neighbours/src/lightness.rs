@@ -1,4 +1,4 @@
-//! How light a body is for the fluid at its surface.
+//! Lightness of a body for the fluid at its surface.
 
 use nalgebra::Matrix6;
 

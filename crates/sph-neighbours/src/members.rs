@@ -1,4 +1,4 @@
-//! Who is in a cluster, and whom it looks at.
+//! Members of a cluster, and their candidates.
 
 use sph_kernels::lanes::MOST;
 

@@ -1,4 +1,4 @@
-//! What particles have near them: counts and distances for reports.
+//! Neighbours of particles: counts and distances for reports.
 
 use rayon::prelude::*;
 use sph_core::{FieldError, Vect, fields};
@@ -21,7 +21,7 @@ pub struct Nearby {
 }
 
 impl Nearby {
-    /// Of nobody.
+    /// Of no particle.
     pub const NONE: Self = Nearby {
         particles: 0,
         neighbours: 0,
@@ -46,7 +46,7 @@ impl Nearby {
         self.neighbours as f64 / self.particles.max(1) as f64
     }
 
-    /// Least and mean distance to the nearest free particle, m; zero where nobody has one within the support.
+    /// Least and mean distance to the nearest free particle, m; zero where no particle has one within the support.
     pub fn nearest(&self) -> [f64; 2] {
         match self.accompanied {
             0 => [0.0; 2],

@@ -1,4 +1,4 @@
-//! Which particles and elements of walls count in sums over all.
+//! Particles and elements of walls that count in sums over all.
 
 use sph_core::{FieldError, Vect, fields};
 
@@ -42,7 +42,7 @@ impl<const D: usize> World<D> {
         )
     }
 
-    /// Particles whose sums over neighbours nobody asks for; `None` if all are asked for.
+    /// Particles whose sums over neighbours are not needed; `None` if all are needed.
     pub fn idle(&self) -> Option<Vec<bool>> {
         self.communicator
             .as_ref()

@@ -1,4 +1,4 @@
-//! Buffers of the walks over lists, and of whoever builds these.
+//! Buffers of the walks over lists, and of their construction.
 
 use std::ops::Range;
 

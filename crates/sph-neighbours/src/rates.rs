@@ -1,4 +1,4 @@
-//! What the interaction sweep sums.
+//! Rates that the interaction sweep sums.
 
 use sph_core::Vect;
 

@@ -1,4 +1,4 @@
-//! What the fluid exerts on the walls.
+//! Force of the fluid on the walls.
 
 use sph_core::{StepError, Vect, fields};
 

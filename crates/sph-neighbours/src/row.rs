@@ -19,7 +19,7 @@ pub struct Row<'a, const D: usize> {
 }
 
 impl<const D: usize> Row<'_, D> {
-    /// Without anybody.
+    /// Without neighbours.
     #[inline(always)]
     pub(crate) fn empty() -> Self {
         Row {

@@ -1,4 +1,4 @@
-//! What every term does to one particle.
+//! Shares of the terms in the acceleration of one particle.
 
 use sph_core::{StepError, Vect};
 

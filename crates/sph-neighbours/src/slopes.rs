@@ -1,4 +1,4 @@
-//! Which wall has which part of ∇ ln s at a particle.
+//! Parts of the walls in ∇ ln s at a particle.
 
 use sph_core::Vect;
 

@@ -1,4 +1,4 @@
-//! Sums over all particles of a flow, whoever holds them.
+//! Sums over all particles of a flow, on all ranks.
 
 use std::ops::Range;
 

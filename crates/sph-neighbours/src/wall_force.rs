@@ -31,7 +31,7 @@ impl<const D: usize> WallForce<D> {
         }
     }
 
-    /// A force that nobody measured.
+    /// A force that was not measured.
     pub(crate) fn unknown() -> Self {
         WallForce {
             force: Vect::repeat(f64::NAN),

@@ -1,4 +1,4 @@
-//! What every particle exerts on which wall.
+//! Forces of every particle on each wall.
 
 use std::array::from_fn;
 use std::ops::Range;
@@ -45,7 +45,7 @@ pub fn wall_parts<const D: usize>(
     let sweep = Sweep::new(world, &*world.kernel)?;
     let mass = world.free.get(fields::MASS)?;
     let contacts = &world.walls.contacts;
-    // Asked once for everybody: clusters ask again and again.
+    // Computed once: clusters read it again and again.
     let mut asked = vec![false; sweep.particles()];
     let mut ask = |i: usize| asked[i] = wanted(i);
     match world.walls.points.in_sums() && !world.lists.wall.is_empty() {

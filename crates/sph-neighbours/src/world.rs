@@ -1,4 +1,4 @@
-//! What stages and terms see of a running scene.
+//! The world: the running scene for stages and terms.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub struct Lists<const D: usize> {
     /// Free particles around clusters of free particles, skin included.
     pub free: Clusters,
     /// The same without the skin, at the present positions; filled by a sweep that looks at all
-    /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once somebody moved.
+    /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once a particle has moved.
     pub pruned: Option<Clusters>,
     pub(crate) spare: Clusters,
     pub(crate) pools: Pools<D>,
@@ -30,7 +30,7 @@ pub struct Lists<const D: usize> {
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
     reference_points: Vec<Vect<D>>,
-    /// Pairs that walls hide from each other; of nobody until the walls say so at the present positions.
+    /// Pairs that walls hide from each other; none until the walls give them at the present positions.
     pub hidden: Hidden,
     /// Which particles a sweep is asked for, where it runs in halves.
     pub sweep_half: Option<SweepHalf>,
@@ -114,7 +114,7 @@ impl<const D: usize> World<D> {
         self.kernel.support_radius() * (1.0 + self.skin)
     }
 
-    /// Whether somebody moved so far that the lists may miss a pair.
+    /// Whether a particle moved so far that the lists may miss a pair.
     ///
     /// # Errors
     /// If there is no position column.
@@ -163,7 +163,8 @@ impl<const D: usize> World<D> {
         Ok(())
     }
 
-    /// Puts the particles into the order of lists at their places, without building these: for whoever gives most of them away.
+    /// Puts the particles into the order of lists at their places, without building these: for a rank that sends most
+    /// of them away.
     ///
     /// # Errors
     /// If there is no position column.
@@ -224,7 +225,7 @@ impl<const D: usize> World<D> {
         grid
     }
 
-    /// Gives back the memory of all lists, which have to be built before anybody asks for neighbours.
+    /// Gives back the memory of all lists, which have to be built before neighbours are read.
     pub fn forget_lists(&mut self) {
         let lists = &mut self.lists;
         lists.pruned = None;
@@ -236,7 +237,8 @@ impl<const D: usize> World<D> {
         lists.pools = Pools::default();
     }
 
-    /// Remembers where lists were built, without building them: for whoever has the columns of a flow and asks for no list.
+    /// Remembers where lists were built, without building them: for a process that has the columns of a flow and needs
+    /// no list.
     pub fn lists_would_be_of(&mut self, positions: Vec<Vect<D>>, points: Vec<Vect<D>>, time: f64) {
         self.lists.reference = positions;
         self.lists.reference_points = points;

@@ -1,4 +1,4 @@
-//! What is in front of an element of an open face.
+//! The fluid in front of an element of an open face.
 
 use sph_core::Vect;
 

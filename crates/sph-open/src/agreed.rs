@@ -1,4 +1,4 @@
-//! What is in front of faces, wherever the particles are at home: all know all of it, and let the same pass.
+//! The fluid in front of faces, equal on all ranks, so that all let the same pass.
 
 use sph_core::{StepError, Vect};
 use sph_neighbours::{Words, World};

@@ -1,4 +1,4 @@
-//! What has passed, for the summary.
+//! Mass that has passed, for the summary.
 
 use std::ops::Range;
 
@@ -140,7 +140,7 @@ impl<const D: usize> Faces<D> {
     }
 
     fn difference(&self, f: usize) -> Option<String> {
-        // Whoever has not looked at the faces knows none.
+        // Without an evaluation of the faces there are none.
         let (name, volumes) = (&self.faces[f].name, self.memory.volumes.get(f)?);
         let first = volumes.dry.map(|time| format!("first at {time:.3} s"));
         if self.asked.get(f)?.is_none() {

@@ -1,4 +1,4 @@
-//! What a face consists of: elements of the size of a particle, each with a port.
+//! Elements of a face of the size of a particle, each with a port.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! What a law of an open face is.
+//! The trait of laws of open faces.
 
 use std::collections::BTreeMap;
 
@@ -178,7 +178,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
         false
     }
     /// Volume into the fluid per time that it asks for at the reference density, m³/s, whatever is in front of the face; none
-    /// where fluid passes as it likes. The velocities of such a law are those at the reference density, too.
+    /// where the velocity follows. The velocities of such a law are those at the reference density, too.
     fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
         None
     }

@@ -1,4 +1,4 @@
-//! Who has passed a face, and who is born at one.
+//! Particles that have passed a face, and new ones at a face.
 
 use sph_contribution::Newborn;
 use sph_core::{StepError, Vect, fields};

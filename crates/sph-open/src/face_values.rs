@@ -1,4 +1,4 @@
-//! What is in front of open faces, and what their laws say to it.
+//! Means of the fluid in front of open faces, and the values of their laws.
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
@@ -76,7 +76,8 @@ impl<const D: usize> Faces<D> {
     /// What is seen in front of an element, as it arrives at the face.
     ///
     /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
-    /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as everybody kicks once in a step,
+    /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as all are kicked once in a
+    /// step,
     /// and are delayed by as much less.
     fn arriving(&self, k: usize, seen: &AdjacentFluid<D>) -> Inside<D> {
         let mut inside = seen.inside;

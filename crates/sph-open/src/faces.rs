@@ -39,7 +39,7 @@ pub(crate) fn as_share(lacks: f64) -> f64 {
 /// Least density of what passes, over the reference density of its phase.
 const THINNEST: f64 = 0.5;
 
-/// The element that nobody opened.
+/// An element that is not open.
 pub(crate) const CLOSED: u32 = u32::MAX;
 
 /// One open face.
@@ -302,7 +302,7 @@ impl<const D: usize> Faces<D> {
         })
     }
 
-    /// Hands what the laws say to whoever looks at walls.
+    /// Writes the values of the laws to the walls.
     pub fn set_walls(&self, walls: &mut WallSet<D>) {
         let first = walls.points.corners;
         for (k, own) in self.elements.iter().enumerate() {

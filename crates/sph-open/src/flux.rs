@@ -1,4 +1,4 @@
-//! What passes a face changes densities.
+//! Change of densities by the flux through faces.
 
 use rayon::prelude::*;
 use sph_core::{Field, Scalar, StepError, fields};

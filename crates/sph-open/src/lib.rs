@@ -3,7 +3,7 @@
 //! * [`OpenBoundary`] is the law of a face: from the fluid in front of it ([`Inside`]) to what passes and which pressure
 //!   acts ([`Outside`]). Built in: [`VelocityInlet`], [`FlowRate`], [`Pressure`], [`Level`], [`Outflow`].
 //! * [`open`] puts the faces around the wall treatment of a scene, and gives the [`OpenBoundaries`] that let mass through.
-//! * [`waves`] makes waves by paddles and open faces, and tells by gauges what comes back.
+//! * [`waves`] makes waves by paddles and open faces, and measures reflected waves by gauges.
 #![doc = include_str!("../README.md")]
 
 mod adjacent_fluid;

@@ -1,4 +1,4 @@
-//! What faces remember from step to step, as plain numbers: in checkpoints, and taken back with a step that fails.
+//! Memory of faces from step to step, as plain numbers: in checkpoints, and taken back with a step that fails.
 
 use sph_core::Vect;
 

@@ -70,7 +70,7 @@ impl<const D: usize> StepHook<D> for Passing<D> {
     fn report(&self, _: &World<D>) -> Report {
         let faces = lock(&self.faces);
         Report {
-            // Whoever has not looked at the faces knows none.
+            // Without an evaluation of the faces there are none.
             counts: (!faces.memory.volumes.is_empty()).then(|| faces.budget(&self.phases)),
             summary: Some("open_boundaries"),
             warnings: faces.differences(),

@@ -21,7 +21,7 @@ pub(crate) fn near(squared: f64, spacing: f64) -> f64 {
     (-2.0 * squared / (spacing * spacing)).exp()
 }
 
-/// Share with which particles at a distance before a face tell how much of it has fluid before it: a hat from 0 to 2 δr. Over
+/// Share of particles at a distance before a face in the wetted part of the face: a hat from 0 to 2 δr. Over
 /// rows that are δr apart it sums up to 1 wherever the first of them is, so that a row that has gone a way is no dry face.
 pub(crate) fn stands(distance: f64, spacing: f64) -> f64 {
     (1.0 - (distance / spacing - 1.0).abs()).max(0.0)
@@ -38,7 +38,7 @@ impl<const D: usize> Default for Row<D> {
     }
 }
 
-/// Least determinant of a fit, over that of particles a spacing apart: below it nobody is beside the others.
+/// Least determinant of a fit, over that of particles a spacing apart: below it all are on a line.
 const FLAT: f64 = 1e-2;
 
 impl<const D: usize> Row<D> {

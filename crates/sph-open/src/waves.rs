@@ -1,4 +1,4 @@
-//! Wave flumes: makers of waves, and gauges that tell what comes back.
+//! Wave flumes: makers of waves, and gauges of reflected waves.
 //!
 //! * [`WaveMaker`] is the mover of a piston or a flap ([`Paddle`]), for [`Waves`] of every kind.
 //! * [`ReflectionProbe`] separates the two directions ([`separated`]).

@@ -1,4 +1,4 @@
-//! What failed, why, and what to do.
+//! Failures of a run: place, cause and remedy.
 
 pub(crate) mod bad_pictures;
 pub(crate) mod error;

@@ -1,4 +1,4 @@
-//! What a run has to say at its end.
+//! Results of a run at its end.
 
 pub(crate) mod advice;
 pub(crate) mod balance;

@@ -1,4 +1,4 @@
-//! What probes and reference solutions are.
+//! The traits of probes and reference solutions.
 
 use sph_core::{StepError, Vect, contract};
 use sph_neighbours::World;
@@ -46,7 +46,7 @@ pub struct Needs<'a> {
     pub around: bool,
     /// The displacement of the particles.
     pub displacement: bool,
-    /// The work of everybody on the particles.
+    /// The work of all terms on the particles.
     pub books: bool,
     /// Names of derived fields.
     pub fields: Vec<String>,

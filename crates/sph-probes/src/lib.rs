@@ -1,4 +1,4 @@
-//! What a run measures and what it is compared with.
+//! Measurements of a run, and solutions that they are compared with.
 //!
 //! * [`Probe`]: columns of the time series, from the state of the flow ([`Front`],
 //!   [`PressureProbe`], [`VelocityProbe`], [`DisplacementProbe`], [`Level`], [`FieldRange`], [`WallForceProbe`], [`PassedProbe`],

@@ -1,4 +1,4 @@
-//! What a rheology is.
+//! The trait of rheologies.
 
 use nalgebra::Matrix3;
 use sph_core::{Symmetric, contract};

@@ -1,4 +1,4 @@
-//! How a deviatoric stress follows the motion.
+//! Jaumann rate: a deviatoric stress follows the motion.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use sph_core::Symmetric;

@@ -1,4 +1,4 @@
-//! How a yield stress is made finite at rest.
+//! Regularisations of a yield stress at rest.
 
 use serde::Serialize;
 use sph_core::parameters;

@@ -1,4 +1,4 @@
-//! What a rheometer would measure of a law.
+//! A rheometer: a law sheared alone.
 //!
 //! A simple shear u = γ̇ y e_x at one pressure, at any [`viscosities`] of steady flow and along the
 //! path of [`shear_stresses`] from rest.

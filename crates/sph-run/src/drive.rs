@@ -221,7 +221,7 @@ impl Driver<'_> {
         }
     }
 
-    /// Tells of a step that is done; whether somebody or the clock on the wall asks to stop.
+    /// Reports a step; whether the observer or the bound on the run time asks to stop.
     fn wants_to_stop(&mut self, now: &ModelTime, observer: &mut Watch<'_>) -> bool {
         let command = observer.step(&Progress {
             time: now.time,

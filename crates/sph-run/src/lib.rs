@@ -1,6 +1,6 @@
 //! One driver for the runs of all models: clock, series, fields, pictures, films, checkpoints, resume, summary.
 //!
-//! A [`Model`] advances to a limit, gives rows and fields, saves itself and tells how it ended. The driver knows no
+//! A [`Model`] advances to a limit, gives rows and fields, saves itself and reports its end. The driver knows no
 //! physics: it decides when something is due by a [`Schedule`], owns the files of the run's folder, which it locks, and
 //! asks an [`Observer`] after every step whether to go on.
 //!

@@ -6,7 +6,7 @@ use sph_io::{FolderLock, IoError};
 
 use crate::observer::Watch;
 
-/// Takes the folder of a run until the lock is dropped; says if somebody left it without a word.
+/// Takes the folder of a run until the lock is dropped; reports a folder that was left by a killed run.
 ///
 /// # Errors
 /// If another run holds it, or it cannot be made.

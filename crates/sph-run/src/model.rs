@@ -75,7 +75,7 @@ pub trait Model {
     }
 
     /// Summary of a run that is over or failed; findings may be added to the error.
-    /// Nothing where another process tells it.
+    /// Nothing where another process reports it.
     ///
     /// # Errors
     /// If the state cannot be summed up.
@@ -119,7 +119,7 @@ pub enum Status {
     Done,
     /// It stopped on an error.
     Failed,
-    /// It was told to stop and left a checkpoint.
+    /// It was stopped and left a checkpoint.
     Interrupted,
 }
 

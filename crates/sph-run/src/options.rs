@@ -1,4 +1,4 @@
-//! How a scene is run.
+//! Options of a run.
 
 use std::path::PathBuf;
 

@@ -15,7 +15,7 @@ use crate::options::RunOptions;
 
 /// A way to compute scenes.
 pub trait Method: Debug + Sync {
-    /// Scene values that keep a variant from writing what nobody looks at, as `--set` has them.
+    /// Scene values that keep a variant from writing files that are not read, as `--set` has them.
     fn quiet(&self) -> &[&str];
 
     /// A valid scene.

@@ -13,7 +13,7 @@ pub struct Trouble {
     pub quantity: String,
     /// The particle, where it is one's.
     pub particle: Option<u32>,
-    /// Its place, m; empty if nobody's, or not finite.
+    /// Its place, m; empty if of no particle, or not finite.
     pub position: Vec<f64>,
     /// The value, if it is finite.
     pub value: Option<f64>,

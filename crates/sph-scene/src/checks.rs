@@ -1,4 +1,4 @@
-//! What a schema cannot say.
+//! Conditions beyond the schema.
 
 pub(crate) mod bounds;
 pub(crate) mod collected;

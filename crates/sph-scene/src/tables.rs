@@ -1,4 +1,4 @@
-//! What the tables of a scene say, as plain data.
+//! The tables of a scene, as plain data.
 
 pub(crate) mod body;
 pub(crate) mod body_shapes;

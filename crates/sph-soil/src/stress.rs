@@ -1,10 +1,10 @@
-//! How constitutive laws meet particles.
+//! Stresses of particles by constitutive laws.
 //!
 //! * [`VelocityGradient`] is a kind of plugin: ∂u_i/∂x_j from a particle's neighbours and walls.
 //!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude; [`StrainRateTerm`] does both within the sweep.
 //! * [`ViscosityStage`] hands batches of particles to their phase's law.
-//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`ImplicitElasticStress`]) tells what of them acts,
-//!   and [`Yielded`] how the forces share where a material yields.
+//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`ImplicitElasticStress`]) gives their
+//!   acting part, and [`Yielded`] how the forces share where a material yields.
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces,
 //!   and [`ElasticSubSteps`] gives a force steps of its own.

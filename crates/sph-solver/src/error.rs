@@ -1,4 +1,4 @@
-//! How assembling a flow may fail.
+//! Errors of the assembly of a flow.
 
 use sph_core::{PlanError, SceneProblem, StepError};
 use thiserror::Error;

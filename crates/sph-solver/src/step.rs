@@ -1,4 +1,4 @@
-//! What happens in a step: evaluation, kicks, drifts, and going back.
+//! A step: evaluation, kicks, drifts, and roll-back.
 
 pub mod accounts;
 pub(crate) mod clocks;

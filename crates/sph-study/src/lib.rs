@@ -11,7 +11,7 @@
 //!    A study of axes that are gone along until they break has a [`Frontier`] for each, from the [`verdict()`]
 //!    on every run of its [`Ladder`].
 //!    Costs against the number of particles, and which choice is the fastest at which size, are a [`Scale`].
-//! 4. [`compare`] tells what changed between two [`Results`].
+//! 4. [`compare`] lists the changes between two [`Results`].
 
 mod pages;
 mod reading;

@@ -1,4 +1,4 @@
-//! How far particles are from walls.
+//! Distance of particles from walls.
 
 mod simplex;
 mod stage;

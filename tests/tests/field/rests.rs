@@ -45,7 +45,7 @@ fn a_narrow_tank_that_explodes_from_rest_has_no_result() {
     assert_eq!(done.code, Some(1), "{}", done.err);
     let summary = field.summary();
     assert_eq!(summary["status"], "failed");
-    assert!(done.err.contains("nothing drives"), "{}", done.err);
+    assert!(done.err.contains("without a drive"), "{}", done.err);
 }
 
 /// Water at rest in a U-tube of 8 rows moves with 1 m/s: walls make 2 % of what would move, and the run tells. The
@@ -57,7 +57,7 @@ fn a_tube_at_rest_that_moves_warns_and_the_advice_helps() {
     assert_eq!(done.code, Some(0), "{}", done.err);
     let summary = field.summary();
     let warned =
-        |summary: &serde_json::Value| summary["warnings"].to_string().contains("nothing drives");
+        |summary: &serde_json::Value| summary["warnings"].to_string().contains("without a drive");
     assert!(warned(&summary));
     assert!(summary["advice"].to_string().contains("[damping.acoustic]"));
     let field = Field::new();

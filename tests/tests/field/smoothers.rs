@@ -181,7 +181,7 @@ fn a_closed_box_that_makes_energy_says_so_and_has_no_result() {
     let summary = field.summary();
     assert_eq!(summary["status"], "failed");
     assert!(
-        summary["warnings"].to_string().contains("nothing drives"),
+        summary["warnings"].to_string().contains("without a drive"),
         "{summary}"
     );
     assert!(

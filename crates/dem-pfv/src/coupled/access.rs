@@ -1,4 +1,4 @@
-//! What a system shows, and what may be changed from outside.
+//! Readings of a coupled system, and its changes from outside.
 
 use crate::coupled::{CoupledSystem, FlowSetup, Vector};
 use crate::flow::PoreGeometry;

@@ -1,4 +1,4 @@
-//! What the fluid meets at each wall.
+//! Conditions of the fluid at the walls.
 
 use std::f64::consts::PI;
 

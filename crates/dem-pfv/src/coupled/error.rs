@@ -1,4 +1,4 @@
-//! What is refused, and why.
+//! Errors of the coupling, with their reasons.
 
 use thiserror::Error;
 

@@ -146,7 +146,7 @@ impl Bodies {
         }
     }
 
-    /// Scales to Σ m v² = 1; tells what the root of it was.
+    /// Scales to Σ m v² = 1; returns the root before.
     fn normalise(&self, mode: &mut Mode) -> f64 {
         let finite = |m: &f64| if m.is_finite() { *m } else { 0.0 };
         let grains = mode

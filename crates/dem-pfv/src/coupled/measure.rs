@@ -1,4 +1,4 @@
-//! What is measured: pressures and stresses of layers, mobility, what flows out.
+//! Measurements: pressures and stresses of layers, mobility, outflow.
 
 use crate::coupled::system::sphere;
 use crate::coupled::{CoupledError, CoupledSystem, Vector, condition};

@@ -1,4 +1,4 @@
-//! What the fluid is and how it is computed.
+//! Parameters of the fluid and of its computation.
 
 use serde::{Deserialize, Serialize};
 

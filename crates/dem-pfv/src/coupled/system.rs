@@ -169,7 +169,7 @@ impl CoupledSystem {
         Ok(())
     }
 
-    /// Steps at a share `safety` of the limit until a time (s) is reached; tells how many steps it took.
+    /// Steps at a share `safety` of the limit until a time (s) is reached; returns the number of steps.
     ///
     /// # Errors
     /// As [`CoupledSystem::step`]; a share that is not between 0 and 1.
@@ -296,7 +296,7 @@ impl CoupledSystem {
         Ok(())
     }
 
-    /// Volumes of now and their rates over the last step (s); tells the largest strain of a pore.
+    /// Volumes of now and their rates over the last step (s); returns the largest strain of a pore.
     fn measure_rates(&mut self, here: &Places, step: f64) -> f64 {
         let volumes = self.pores.volumes(here);
         let clock = &mut self.clock;

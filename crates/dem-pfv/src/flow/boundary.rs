@@ -1,4 +1,4 @@
-//! What is given: pressures and sources.
+//! Boundary conditions: pressures and sources.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! What is refused, and why.
+//! Errors of the pore flow, with their reasons.
 
 use sparse::SparseError;
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! What a system shows, and what may be changed from outside.
+//! Readings of a system of grains, and its changes from outside.
 
 use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, Wall};
 

@@ -1,4 +1,4 @@
-//! What is refused, and why.
+//! Errors of grains, with their reasons.
 
 use thiserror::Error;
 

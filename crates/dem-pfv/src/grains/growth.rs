@@ -50,7 +50,7 @@ impl Growth {
         }
     }
 
-    /// Grows the grains of a system in its box; tells how many steps it took.
+    /// Grows the grains of a system in its box; returns the number of steps.
     ///
     /// # Errors
     /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; what a step may refuse.
@@ -105,7 +105,7 @@ impl Growth {
 }
 
 /// Steps at a share `safety` of the critical step until the grains are at rest to a `tolerance`
-/// ([`GrainSystem::unrest`]); tells how many steps it took. Motion that is left while all forces are in balance, as that
+/// ([`GrainSystem::unrest`]); returns the number of steps. Motion that is left while all forces are in balance, as that
 /// of grains that roll over a floor, is taken away.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! What a contact law is.
+//! The trait of contact laws.
 
 use std::fmt::Debug;
 

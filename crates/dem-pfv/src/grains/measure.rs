@@ -1,4 +1,4 @@
-//! What is measured: energies, the unbalanced force ratio, stresses, porosity.
+//! Measurements: energies, the unbalanced force ratio, stresses, porosity.
 
 use nalgebra::Matrix3;
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::grains::{GrainError, Vector};
 
-/// A rigid surface of triangles, seen from both sides, that moves as it is told.
+/// A rigid surface of triangles, seen from both sides, with a given motion.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Mesh {
     /// Vertices, m.

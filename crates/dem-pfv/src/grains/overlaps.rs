@@ -1,4 +1,4 @@
-//! How deep grains may overlap.
+//! Limits of the overlaps of grains.
 
 use rayon::prelude::*;
 

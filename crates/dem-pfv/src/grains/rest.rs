@@ -1,4 +1,4 @@
-//! Whether grains are at rest: in balance, carried, slow.
+//! Rest of grains: in balance, carried, slow.
 
 use crate::grains::unrest::Unrest;
 use crate::grains::wall::Control;

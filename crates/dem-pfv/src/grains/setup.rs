@@ -1,4 +1,4 @@
-//! What a system is made of.
+//! Parts of a system of grains.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How long a step may be.
+//! Limits of the step.
 
 use rayon::prelude::*;
 

@@ -18,7 +18,7 @@ impl std::fmt::Display for Unrest {
         match self {
             Self::Unbalanced(ratio) => write!(f, "the unbalanced force ratio is {ratio:.3e}"),
             Self::NotCarried(grain) => write!(f, "nothing carries grain {grain}"),
-            Self::Piston(wall) => write!(f, "nothing carries the piston, wall {wall}"),
+            Self::Piston(wall) => write!(f, "no grain carries the piston, wall {wall}"),
             Self::Moving(speed) => write!(f, "the grains move with {speed:.3e} m/s in the mean"),
         }
     }

@@ -25,7 +25,7 @@ pub struct Assembled {
     pub loads: Vec<Load>,
 }
 
-/// Puts a scene together and prepares its grains; tells what it does.
+/// Puts a scene together and prepares its grains; reports its steps.
 ///
 /// # Errors
 /// What the scene asks for and cannot be, by its key.

@@ -1,4 +1,4 @@
-//! What a schema cannot say of a scene: names that must exist, tables that exclude each other.
+//! Conditions beyond the schema of a scene: names that must exist, tables that exclude each other.
 
 mod measurements;
 mod start;
@@ -72,7 +72,7 @@ fn fluid(scene: &Scene, found: &mut Vec<SceneProblem>) {
             add(
                 found,
                 format!("wall.{name}"),
-                "the fluid knows the six walls of the box only",
+                "the fluid has the six walls of the box alone",
             );
         }
         if wall.removed {

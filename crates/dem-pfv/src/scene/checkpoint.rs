@@ -52,7 +52,7 @@ pub struct Kept {
     pub progress: Progress,
 }
 
-/// Writes a checkpoint; `scene` tells later whether it is one of the same scene.
+/// Writes a checkpoint; `scene` identifies the scene for a resume.
 ///
 /// # Errors
 /// If it cannot be written.

@@ -1,4 +1,4 @@
-//! What a scene calls the grains and walls that a refusal numbers.
+//! Names in the scene of the grains and walls that a refusal numbers.
 
 use crate::grains::GrainError;
 use crate::scene::error::DemError;

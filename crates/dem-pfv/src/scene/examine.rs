@@ -1,4 +1,4 @@
-//! What a scene is made of and would cost, without preparing its grains.
+//! Parts and cost of a scene, without preparing its grains.
 
 use serde::Serialize;
 

@@ -13,7 +13,7 @@ use crate::scene::read::Loaded;
 use crate::scene::tables::Scene;
 use crate::scene::walls::setup;
 
-/// Time of a grain in a step on one core, s: a round number, so that run times are told as "at least".
+/// Time of a grain in a step on one core, s: a round number, since run times are lower bounds.
 const SECONDS: f64 = 1e-6;
 /// Longer runs are remarked upon, days.
 const LONG: f64 = 30.0;

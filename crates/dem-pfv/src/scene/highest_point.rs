@@ -1,4 +1,4 @@
-//! How high grains reach.
+//! The highest point of the grains.
 
 use crate::grains::GrainSystem;
 

@@ -1,4 +1,4 @@
-//! How high the surface of a bed lies.
+//! The level of the surface of a bed.
 
 use crate::grains::GrainSystem;
 

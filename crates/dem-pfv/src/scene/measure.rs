@@ -1,4 +1,4 @@
-//! What probes measure.
+//! Values of probes.
 
 use std::f64::consts::PI;
 

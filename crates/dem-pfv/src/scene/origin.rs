@@ -1,4 +1,4 @@
-//! What measurements refer to: the state at the start of the run.
+//! The reference of measurements: the state at the start of the run.
 
 use serde::{Deserialize, Serialize};
 

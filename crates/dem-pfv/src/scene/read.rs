@@ -87,7 +87,7 @@ fn loaded(source: &Source) -> Result<Parts, Mistakes> {
     }
 }
 
-/// Tables that the key `kind` tells apart, each held against the schema of its kind.
+/// Tables that the key `kind` distinguishes, each held against the schema of its kind.
 fn tagged<T: DeserializeOwned + JsonSchema>(
     scene: &Table,
     name: &str,

@@ -70,7 +70,7 @@ fn plugins(place: Option<&mut Json>, all: &[(&str, String, Json)], shared: &mut 
     place["maxProperties"] = json!(1);
 }
 
-/// Alternatives that the key `kind` tells apart.
+/// Alternatives that the key `kind` distinguishes.
 fn tagged(root: &mut Json, key: &str, mut all: Json, shared: &mut Map<String, Json>) {
     lift(&mut all, shared);
     if let Some(place) = root.pointer_mut(&format!("/properties/{key}")) {

@@ -1,4 +1,4 @@
-//! What a run was, what it cost and how good it is.
+//! Summary of a run: its size, cost and errors.
 
 use std::collections::BTreeMap;
 

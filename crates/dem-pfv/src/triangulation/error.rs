@@ -1,4 +1,4 @@
-//! What is refused, and why.
+//! Errors of the triangulation, with their reasons.
 
 use thiserror::Error;
 

@@ -1,4 +1,4 @@
-//! Which side, and which conflict: exact signs of determinants, ties broken by numbers.
+//! Predicates of side and conflict: exact signs of determinants, ties broken by numbers.
 //!
 //! A vertex is a ray of five homogeneous, lifted coordinates (x, y, z, l, h):
 //!

@@ -1,4 +1,4 @@
-//! How facets hang together: openings, and facets that face the other way.
+//! Topology of facets: openings, and facets that face the other way.
 
 use std::collections::HashMap;
 

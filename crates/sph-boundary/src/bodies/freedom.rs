@@ -1,4 +1,4 @@
-//! What a body is free to do, and what holds it there.
+//! Degrees of freedom of a body, and the springs that hold it.
 
 use sph_core::parameters;
 

@@ -1,4 +1,4 @@
-//! How a body gives way.
+//! The mobility of a body: its acceleration by a force.
 
 use nalgebra::{Matrix3, Matrix6};
 

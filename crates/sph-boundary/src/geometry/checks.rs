@@ -1,4 +1,4 @@
-//! What makes a wall unusable or suspicious.
+//! Checks of walls: unusable and suspicious ones.
 
 mod crossing;
 

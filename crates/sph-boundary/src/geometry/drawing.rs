@@ -1,4 +1,4 @@
-//! What a scene draws of a wall.
+//! The drawing of a wall in a scene.
 
 use crate::{Polyline, Surface};
 

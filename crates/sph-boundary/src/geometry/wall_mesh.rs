@@ -1,4 +1,4 @@
-//! What a wall treatment asks of the walls' geometry, in either dimension.
+//! Geometry of the walls for a wall treatment, in either dimension.
 
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;

@@ -9,7 +9,7 @@ use crate::{Grid, Mesh, Shells, WallSpec};
 #[derive(Debug)]
 pub struct Walls<const D: usize> {
     pub(crate) mesh: Mesh<D>,
-    /// Of the present position, made when somebody asks.
+    /// Of the present position, made at the first request.
     grid: OnceLock<Grid<D>>,
     /// Of space.
     pub(crate) planes: Planes,

@@ -1,4 +1,4 @@
-//! Which faces or lines hang together where more than two meet.
+//! Pairs of faces or lines around the fluid where more than two meet.
 
 use std::collections::{BTreeMap, HashSet};
 

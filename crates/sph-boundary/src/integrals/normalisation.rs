@@ -1,4 +1,4 @@
-//! What makes the integral of a kernel one.
+//! Factors that make the integral of a kernel one.
 
 use sph_kernels::PiecewisePolynomial;
 

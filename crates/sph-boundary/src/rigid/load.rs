@@ -1,4 +1,4 @@
-//! What acts on a wall, and what its mover is told of the scene.
+//! Loads on a wall, and the scene as its mover gets it.
 
 use sph_core::Vect;
 
@@ -11,7 +11,7 @@ pub struct Load<const D: usize> {
     pub force: Vect<D>,
     /// Its moment about the origin, N m; only the last component in two dimensions.
     pub moment: [f64; 3],
-    /// Force of walls that it touches, N; zero unless its mover tells a [`Touch`].
+    /// Force of walls that it touches, N; zero unless its mover gives a [`Touch`].
     pub contact_force: Vect<D>,
     /// Its moment about the origin, N m.
     pub contact_moment: [f64; 3],
@@ -65,7 +65,7 @@ pub struct Touch {
     pub dry: bool,
 }
 
-/// What a mover is told before the start.
+/// The scene as a mover gets it before the start.
 #[derive(Clone, Copy, Debug)]
 pub struct MoverSetting<'a, const D: usize> {
     /// Name of its wall.

@@ -1,4 +1,4 @@
-//! What moves a wall.
+//! The trait of movers of walls.
 
 use nalgebra::Matrix6;
 use sph_core::{Vect, contract};
@@ -46,7 +46,7 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
 
 contract!(
     /// A mover that a wall may name.
-    pub MoverEntry, "mover", InWall, "what moves a wall, with the force of the fluid on it", Mover<D>
+    pub MoverEntry, "mover", InWall, "the motion of a wall by the force of the fluid on it", Mover<D>
 );
 
 /// Prescribed courses feel nothing.

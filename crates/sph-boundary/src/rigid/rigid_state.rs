@@ -1,4 +1,4 @@
-//! Where a rigid wall is and how it moves: its state.
+//! State of a rigid wall: place and velocity.
 
 use sph_core::Vect;
 

@@ -1,4 +1,4 @@
-//! Where walls are near each other: pieces of surfaces and their distances.
+//! Pieces of walls near each other, and their distances.
 
 use std::collections::BTreeMap;
 

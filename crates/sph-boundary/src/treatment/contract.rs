@@ -1,4 +1,4 @@
-//! What a wall treatment is.
+//! The contract of wall treatments.
 
 use std::sync::Arc;
 
@@ -155,7 +155,7 @@ pub trait WallMotion<const D: usize> {
     /// If a wall cannot follow.
     fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError>;
 
-    /// Moves all walls from a time on by `dt`; movers are told the [forces](WallSet::forces) that were measured last.
+    /// Moves all walls from a time on by `dt`; movers get the [forces](WallSet::forces) that were measured last.
     ///
     /// # Errors
     /// If a wall cannot follow.

@@ -165,7 +165,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         if let Some(set_up) = &mut self.set_up {
             let (near, outline) = (&set_up.near, &set_up.outline);
-            // Nobody measured the heights here: all near particles are looked at.
+            // No heights were measured here: all near particles are checked.
             set_up.outline.struck =
                 near.constrain((outline, LEAST_CLEARANCE), (world, dt), |_| f64::NAN)?;
         }

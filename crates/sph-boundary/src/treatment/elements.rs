@@ -135,7 +135,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     }
 
     /// Finds γ and contacts of all particles of the near lists, a block per batch; none of those that are `idle`, whose sums
-    /// nobody asks for.
+    /// no reader.
     fn find(
         &mut self,
         positions: &[Vect<D>],

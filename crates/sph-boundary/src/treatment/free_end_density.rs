@@ -27,7 +27,8 @@ impl<const D: usize> NearLists<D> {
     /// ΔK = ρ (Δγ − ∇γ·Δr) − m (Σ w of those who come into gauge − Σ w of those who go out of gauge)
     /// ```
     ///
-    /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and nobody near a free end or behind a
+    /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and no particle near a free end
+    /// or behind a
     /// wall nothing is asked.
     pub fn unveil<M: WallMesh<D>>(
         &self,

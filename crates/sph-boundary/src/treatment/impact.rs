@@ -1,4 +1,4 @@
-//! What keeps particles from flying through walls within a step.
+//! Plastic impact: particles stay in front of walls within a step.
 
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ impl<const D: usize> NearLists<D> {
     /// `height` gives a lower bound of the distance of the particle at a place of `particles`
     /// from any element in front of it, m; those out of danger are not looked at.
     ///
-    /// Returns the mean forces on the walls over `dt`, by their numbers; none where nobody asks for forces.
+    /// Returns the mean forces on the walls over `dt`, by their numbers; none where no reader needs forces.
     pub fn constrain<M: WallMesh<D>>(
         &self,
         (outline, least): (&Outline<D, M>, f64),

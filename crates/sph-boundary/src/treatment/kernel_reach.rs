@@ -1,4 +1,4 @@
-//! How far a particle sees through a wall.
+//! Distance behind a wall beyond which the kernel is negligible.
 
 use sph_kernels::Sampler;
 

@@ -1,4 +1,4 @@
-//! Which elements may be near which particle, kept until particle and walls have moved.
+//! Elements that may be near each particle, kept until particle and walls have moved.
 
 use rayon::prelude::*;
 use sph_core::{Slots, StepError, Vect, fields};
@@ -74,7 +74,7 @@ struct Row<const D: usize> {
 }
 
 impl<const D: usize> Row<D> {
-    /// That nobody has found yet.
+    /// Not found yet.
     fn none() -> Self {
         Row {
             place: Vect::repeat(f64::NAN),

@@ -1,4 +1,4 @@
-//! What all wall treatments share: the mesh, the conditions, the motion, the checks.
+//! Common parts of all wall treatments: the mesh, the conditions, the motion, the checks.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub states: Vec<RigidState<D>>,
     /// Those of walls with movers, at the last build of the lists.
     pub listed: Vec<RigidState<D>>,
-    /// Whether `listed` are those of a build in an earlier process, which nobody looked at yet.
+    /// Whether `listed` are those of a build in an earlier process, not compared yet.
     pub put_back: bool,
     /// Walls with the same number move together.
     pub groups: Vec<usize>,

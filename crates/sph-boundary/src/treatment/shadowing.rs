@@ -1,4 +1,4 @@
-//! Whom walls that end freely hide from those behind them.
+//! Pairs of particles that walls with free ends hide from each other.
 
 use sph_core::Vect;
 use sph_neighbours::{Blocked, Hidden, World};
@@ -49,7 +49,7 @@ impl<const D: usize> NearLists<D> {
         }
     }
 
-    /// Whom a particle may have within its support; all where nobody looked, because no sum of its is asked for.
+    /// Neighbours that a particle may have within its support; all where no sum of it is needed.
     fn around<'a>(&self, world: &'a World<D>, particle: u32) -> impl Iterator<Item = u32> + 'a {
         let listed = world.lists.free.candidates(particle as usize);
         let all = match listed.is_empty() {

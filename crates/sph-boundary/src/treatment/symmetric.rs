@@ -123,9 +123,9 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
         for spec in setup.walls {
             let reason = match spec {
-                WallSpec { open: true, .. } => "lets fluid pass, which a scale does not know",
+                WallSpec { open: true, .. } => "lets fluid pass, and a scale is for closed walls",
                 WallSpec { motion, .. } if motion.bend.is_some() => {
-                    "bends, and its scale is of a shape that stays"
+                    "bends, and a scale is for a constant shape"
                 }
                 _ => continue,
             };

@@ -140,7 +140,7 @@ impl Comparison {
         }
         let lone = listed.len() + other.len() - 2 * common;
         if lone > 0 {
-            let why = format!("fields.pvd: {lone} pieces have no twin at their time");
+            let why = format!("fields.pvd: {lone} pieces have no counterpart at their time");
             self.remarks.push(why);
         }
         self.columns.extend(largest);

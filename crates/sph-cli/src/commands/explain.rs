@@ -128,7 +128,7 @@ fn text(e: &Examination) -> String {
         true => "none".to_string(),
         false => e.pruned.join(", "),
     };
-    text.push_str(&format!("\nstages nobody needs here: {pruned}\n"));
+    text.push_str(&format!("\nstages that are not needed here: {pruned}\n"));
     text.push_str("\nlimits of the time step\n");
     for formula in &e.limit_formulas {
         text.push_str(&paragraph(2, 98, formula));

@@ -6,7 +6,7 @@ use sph_particles::{Failure, Findings, Share, Sighting, Suspect};
 
 use crate::terminal::layout::{columns, remarks};
 
-/// Terms that are told.
+/// Number of terms in the report.
 const TERMS: usize = 6;
 
 /// Whom it happened to, what acted there, what to try, and where to look.

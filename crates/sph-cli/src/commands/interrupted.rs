@@ -1,4 +1,4 @@
-//! What a run that did not come to its end leaves in its folder, and how to go on from it.
+//! Files of a run that ended early, and the command that resumes it.
 
 use std::path::{Path, PathBuf};
 

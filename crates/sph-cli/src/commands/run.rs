@@ -130,7 +130,7 @@ fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> 
     })
 }
 
-/// The end of a run whose summary is told in a text, with the time (s) and the step that it reached.
+/// The end of a run whose summary is a text, with the time (s) and the step that it reached.
 fn ended(
     summary: &impl Serialize,
     text: String,

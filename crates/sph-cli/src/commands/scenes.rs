@@ -68,7 +68,7 @@ fn text(gallery: &Gallery, all: &[Shipped]) -> String {
         let found = gallery.find(&shipped.name).map(|(_, entry)| entry);
         let time = found.map(|entry| entry.scenes[&shipped.name].clone());
         let told = match (read(shipped), found) {
-            (Err(_), _) => format!("has mistakes: sph check {} tells them", shipped.name),
+            (Err(_), _) => format!("has mistakes: `sph check {}` lists them", shipped.name),
             (Ok(_), Some(entry)) => entry.shows.clone(),
             (Ok(scene), None) => scene.card().0.to_string(),
         };

@@ -20,7 +20,7 @@ use crate::terminal::shell::quoted;
 use crate::terminal::study_progress::Watcher;
 use crate::terminal::trouble::Trouble;
 
-/// Most series whose orders are told; the report has all.
+/// Most series whose orders are printed; the report has all.
 const MOST: usize = 12;
 
 /// Runs a study, or compares two.

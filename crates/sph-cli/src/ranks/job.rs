@@ -8,7 +8,7 @@ use mpi::traits::Communicator;
 
 use crate::ranks::rank::MpiRank;
 
-/// What launchers tell the processes that they start: Open MPI, MPICH and its kin, Slurm.
+/// Variables that launchers set for the processes that they start: Open MPI, MPICH and its kin, Slurm.
 const SIGNS: [&str; 4] = [
     "OMPI_COMM_WORLD_SIZE",
     "PMIX_RANK",

@@ -1,4 +1,4 @@
-//! Output that does not panic when nobody listens any more.
+//! Output that does not panic when its reader has gone.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};

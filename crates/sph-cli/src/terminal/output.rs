@@ -1,4 +1,4 @@
-//! What a command has found, for programs and for people.
+//! The result of a command, for programs and for people.
 
 use serde_json::Value as Json;
 
@@ -23,7 +23,7 @@ impl CommandOutput {
     }
 }
 
-/// The end of a run, which may be that somebody stopped it.
+/// The end of a run, which may be a stop by the user.
 pub struct Ended {
     /// Its summary.
     pub told: CommandOutput,

@@ -1,4 +1,4 @@
-//! What a run says while it runs: a bar for a person, lines for a log.
+//! Progress of a run: a bar for a person, lines for a log.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,4 +1,4 @@
-//! What a study says while it runs: a bar over all variants, or a line for each.
+//! Progress of a study: a bar over all variants, or a line for each.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,7 +32,7 @@ pub struct Watcher {
     display: Display,
     stop: Arc<AtomicBool>,
     every: Duration,
-    /// Of every variant by name: the error that is told, or the bounds it is judged by.
+    /// Of every variant by name: the reported error, or the bounds it is judged by.
     judged: BTreeMap<String, Judged>,
     /// Variants that are to be run or have been.
     total: usize,
@@ -43,7 +43,7 @@ pub struct Watcher {
     state: Mutex<State>,
 }
 
-/// What is told of a variant that is done.
+/// The report of a finished variant.
 enum Judged {
     Error(String),
     Cost(Cost),

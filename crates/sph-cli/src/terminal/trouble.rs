@@ -1,4 +1,4 @@
-//! Everything that keeps a command from its end, and how it is told.
+//! Errors that end a command, and their texts.
 
 use dem_pfv::scene::DemError;
 use serde_json::{Value as Json, json};
@@ -179,7 +179,7 @@ impl Trouble {
         }
     }
 
-    /// What a person is told.
+    /// The text for a person.
     pub fn text(&self, colour: bool) -> String {
         match self {
             Trouble::Usage(message) => format!("error: {message}\n"),
@@ -197,7 +197,7 @@ impl Trouble {
         }
     }
 
-    /// What a program is told: diagnostics as an array, or the summary that a failed run left.
+    /// The output for a program: diagnostics as an array, or the summary that a failed run left.
     pub fn json(&self) -> Json {
         match self {
             Trouble::Usage(message) => json!([{ "message": message }]),

@@ -1,4 +1,4 @@
-//! What a time integrator is.
+//! The trait of time integrators.
 
 use sph_core::{StepError, System, contract};
 

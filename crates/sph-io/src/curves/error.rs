@@ -1,4 +1,4 @@
-//! What may go wrong.
+//! Errors of curves and pictures.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Where single particles have been.
+//! Tracks of single particles.
 
 use std::path::Path;
 

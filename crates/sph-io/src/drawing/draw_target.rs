@@ -1,4 +1,4 @@
-//! What a drawing needs of the thing it is drawn on.
+//! The trait of targets of a drawing.
 //!
 //! Coordinates are in pixels from the top left corner.
 

@@ -1,4 +1,4 @@
-//! What part of the plane a picture shows.
+//! The part of the plane in a picture.
 
 use crate::drawing::draw_target::Spot;
 use crate::drawing::ticks::widened;

@@ -1,4 +1,4 @@
-//! Which series is which, in the corner where it hides least.
+//! The legend of a plot, in the corner where it hides least.
 
 use crate::drawing::axes::Axes;
 use crate::drawing::colour::Colour;

@@ -1,4 +1,4 @@
-//! How one series of a plot is drawn.
+//! Marks and lines of a series in a plot.
 
 use crate::drawing::axes::{Axes, shown};
 use crate::drawing::colour::{Colour, SERIES};

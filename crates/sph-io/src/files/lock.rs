@@ -1,8 +1,8 @@
 //! One writer per folder.
 //!
 //! The lock is one of the operating system on the file `.lock`: it ends with the process that holds it,
-//! however that ends, so that a stale one cannot keep anybody out. What stands in the file only tells people
-//! who holds it.
+//! however that ends, so that a stale one locks no folder. The content of the file names
+//! its holder.
 
 use std::fmt;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -52,7 +52,7 @@ impl fmt::Display for Holder {
     }
 }
 
-/// A folder that nobody else who asks for it may write to, until this is dropped.
+/// A folder that no other holder of such a lock may write to, until this is dropped.
 #[derive(Debug)]
 pub struct FolderLock {
     path: PathBuf,
@@ -75,7 +75,7 @@ impl FolderLock {
         Self::take_existing(folder)
     }
 
-    /// As [`take`](Self::take), of a folder that somebody else may remove: it is not made again.
+    /// As [`take`](Self::take), of a folder that another process may remove: it is not made again.
     ///
     /// # Errors
     /// [`IoError::InUse`] if another run holds it; if the file in it cannot be made.
@@ -101,7 +101,7 @@ impl FolderLock {
                 }
                 Err(TryLockError::Error(e)) => return Err(failed(e)),
             }
-            // Whoever held it may have removed the file between the opening and the lock.
+            // The last holder may have removed the file between the opening and the lock.
             if !is_at(&file, &path) {
                 continue;
             }
@@ -118,7 +118,7 @@ impl FolderLock {
         self.before.as_ref()
     }
 
-    /// Whether anybody is kept out: some file systems have no locks.
+    /// Whether others are locked out: some file systems have no locks.
     pub fn holds(&self) -> bool {
         self.file.is_some()
     }
@@ -127,7 +127,7 @@ impl FolderLock {
 impl Drop for FolderLock {
     fn drop(&mut self) {
         if let Some(file) = self.file.take() {
-            // First the name, then the lock, so that nobody's new file is removed.
+            // First the name, then the lock, so that no new file is removed.
             if is_at(&file, &self.path) {
                 let _ = fs::remove_file(&self.path);
             }
@@ -281,7 +281,7 @@ mod tests {
                 scope.spawn(come);
             }
         });
-        assert!(got.into_inner() >= 4, "nobody had it");
+        assert!(got.into_inner() >= 4, "no thread had it");
     }
 
     #[cfg(unix)]

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use crate::error::{IoError, Result};
 use crate::files::lock::{FolderLock, left};
 
-/// A folder in the system's temporary place, of a name that nobody can guess, for this user alone; it goes with
+/// A folder in the system's temporary place, of a name that cannot be guessed, for this user alone; it goes with
 /// its owner. What a killed process left is removed by the next one that makes such a folder.
 #[derive(Debug)]
 pub struct Scratch {
@@ -43,7 +43,7 @@ impl Scratch {
             let folder = builder.prefix(prefix).tempdir_in(place).map_err(failed)?;
             match FolderLock::take_existing(folder.path()) {
                 Ok(lock) => break (lock, folder),
-                // Somebody swept it before it was held, or holds it to sweep it.
+                // Another process swept it before it was held, or holds it to sweep it.
                 Err(e) if tries < TRIES && is_swept(&e, folder.path()) => tries += 1,
                 Err(e) => return Err(e),
             }
@@ -75,12 +75,12 @@ fn is_swept(error: &IoError, folder: &Path) -> bool {
 fn sweep(place: &Path, prefix: &str, own: &Path) {
     let entries = fs::read_dir(place).into_iter().flatten().flatten();
     let named = entries.filter(|e| e.file_name().to_string_lossy().starts_with(prefix));
-    // No links: they may lead to what is somebody else's.
+    // No links: they may lead to files of other users.
     let folders = named.filter(|e| e.file_type().is_ok_and(|t| t.is_dir()));
     let others = folders.map(|e| e.path()).filter(|path| path != own);
     let dead: Vec<PathBuf> = others.filter(|path| is_ours(path, own)).collect();
     for path in dead {
-        // It is held while it goes, so that no two remove it, and under another name, so that nobody who is about
+        // It is held while it goes, so that no two remove it, and under another name, so that no process that is about
         // to hold it puts a new lock into it.
         if let Some(_lock) = left(&path) {
             let dead = path.with_extension("dead");
@@ -120,7 +120,7 @@ mod tests {
         fs::write(dead.join(".lock"), "{}").unwrap();
         let died_at_once = at(".sph-data-empty");
         fs::create_dir(&died_at_once).unwrap();
-        // What has files and no lock is somebody else's; so is what has another name.
+        // A folder with files and no lock belongs to another program; so does one of another name.
         for other in [".sph-data-other", "results"] {
             fs::create_dir(at(other)).unwrap();
         }

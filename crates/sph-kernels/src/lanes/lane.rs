@@ -1,4 +1,4 @@
-//! What a formula sees of a number, or of several.
+//! Numbers of a formula: one, or several side by side.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

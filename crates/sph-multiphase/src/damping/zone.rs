@@ -1,4 +1,4 @@
-//! Where velocities are damped.
+//! Zones in which velocities are damped.
 
 use sph_core::{Axis, Vect, parameters};
 

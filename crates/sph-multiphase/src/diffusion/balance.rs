@@ -24,7 +24,7 @@ const MEMORY: f64 = 40.0;
 /// long, and what an impact does within a few steps is sound. With c = 10 √(aH) it binds below H = 2h.
 const SLOW: f64 = 0.2;
 
-/// What tells how particles are accelerated by all but friction.
+/// The acceleration of particles by all terms but friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accelerated {
     /// The acceleration of the sweep, a.

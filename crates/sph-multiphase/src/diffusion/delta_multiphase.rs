@@ -18,7 +18,7 @@ use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
 /// Symbols: δ number; h smoothing length (m); c, ρ₀ speed of sound (m/s) and density (kg/m³) of the
 /// phase at rest; F = w'/r; d distance from an element (m), not below δr/2. A neighbour of another
 /// phase counts as one of the own phase that is compressed as much. A wall point or element has
-/// the β at which the own phase has the wall's pressure, and a point the volume V_a of whoever
+/// the β at which the own phase has the wall's pressure, and a point the volume V_a of the particle that
 /// looks at it; without `walls` a hydrostatic density has a source at a bottom.
 ///
 /// Limits: as printed, a hydrostatic density has a source of about δ ρ₀ g/c at a free surface, and

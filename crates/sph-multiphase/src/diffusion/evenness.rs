@@ -1,4 +1,4 @@
-//! How evenly particles are spread, and where they end: free surfaces and interfaces.
+//! Concentration of particles and its ends: free surfaces and interfaces.
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
@@ -22,7 +22,7 @@ pub(crate) struct Evenness<const D: usize> {
 }
 
 impl<const D: usize> Evenness<D> {
-    /// Of nobody.
+    /// Of no particle.
     fn empty() -> Self {
         Evenness {
             filling: 0.0,

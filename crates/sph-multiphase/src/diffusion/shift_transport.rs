@@ -1,4 +1,4 @@
-//! What shifted particles take up where they go.
+//! Transport of quantities with shifted particles.
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{

@@ -1,4 +1,4 @@
-//! What shifts change of density sums next to walls that scale the kernel.
+//! Change of density sums by shifts next to walls that scale the kernel.
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{

@@ -160,7 +160,8 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
         Ok(())
     }
 
-    /// The same where `others` adds a row for each member of a cluster in which no member is `wanted`: nobody looks around
+    /// The same where `others` adds a row for each member of a cluster in which no member is `wanted`: no neighbours
+    /// are searched
     /// there.
     ///
     /// # Errors
@@ -208,7 +209,7 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
             *pattern = Arc::default();
         }
         let Some(pattern) = Arc::get_mut(pattern) else {
-            unreachable!("nobody else has it yet");
+            unreachable!("it is not shared yet");
         };
         pattern.starts.clear();
         pattern.starts.reserve(rows + 1);

@@ -1,4 +1,4 @@
-//! What stands at a place of a matrix: a number, or a block of the space's dimension.
+//! Entries of a matrix: a number, or a block of the space's dimension.
 
 use nalgebra::SMatrix;
 use sph_core::Vect;

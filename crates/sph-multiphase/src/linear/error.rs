@@ -1,4 +1,4 @@
-//! What can go wrong in a solve.
+//! Errors of a solve.
 
 use thiserror::Error;
 

@@ -1,4 +1,4 @@
-//! What the iterative solvers have in common.
+//! Common parts of the iterative solvers.
 
 use sph_core::Vect;
 

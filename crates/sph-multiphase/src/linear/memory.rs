@@ -1,4 +1,4 @@
-//! What is kept from solve to solve for its memory.
+//! Memory kept from solve to solve.
 
 use sph_core::Vect;
 
@@ -33,13 +33,13 @@ pub struct Memories {
 }
 
 impl Clone for Memories {
-    /// None yet: what is kept is nobody else's.
+    /// None yet: a memory is not shared.
     fn clone(&self) -> Self {
         Memories::default()
     }
 }
 
-/// Whoever keeps the memory of solves for vectors of D components.
+/// The owner of the memory of solves for vectors of D components.
 pub trait Keeps<const D: usize> {
     /// That memory.
     fn memory(&mut self) -> &mut Memory<D>;

@@ -1,4 +1,4 @@
-//! What a solver needs to know of a system.
+//! The trait of linear systems for a solver.
 
 use sph_core::Vect;
 use sph_neighbours::inner;
@@ -22,18 +22,18 @@ pub trait Operator<const D: usize>: Sync {
     /// Gives the copies, x\[rows..columns\], the values of their owners.
     fn import(&self, _x: &mut [Vect<D>]) {}
 
-    /// The sum over the owners of all rows of what each has summed over its own; the same bits for everybody.
+    /// The sum over the owners of all rows of what each has summed over its own; the same bits on all ranks.
     fn total(&self, part: f64) -> f64 {
         part
     }
 
-    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits for everybody.
+    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits on all ranks.
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
         let rows = self.rows();
         self.total(inner(&x[..rows], &y[..rows]))
     }
 
-    /// Whether it holds for all who share the operator; everybody must ask.
+    /// Whether it holds for all who share the operator; all must call it.
     fn all(&self, holds: bool) -> bool {
         holds
     }
@@ -51,18 +51,18 @@ pub trait Operator<const D: usize>: Sync {
         None
     }
 
-    /// Its diagonal, for preconditioners; none where nobody knows it.
+    /// Its diagonal, for preconditioners; none where it is not known.
     fn diagonal(&self) -> Option<Diagonal<'_, D>> {
         self.assembled().map(|matrix| matrix.entries.diagonal())
     }
 
     /// Largest ratio of what couples a row to others to what is left of its diagonal, as
-    /// [`Matrix::stiffness`](crate::linear::Matrix::stiffness); none where nobody knows it.
+    /// [`Matrix::stiffness`](crate::linear::Matrix::stiffness); none where it is not known.
     fn stiffness(&self) -> Option<f64> {
         self.assembled().map(Matrix::stiffness)
     }
 
-    /// The entries between rows of one's own, for preconditioners and factorisations; none where nobody can write
+    /// The entries between rows of one's own, for preconditioners and factorisations; none where no owner can write
     /// them down, which may be done when it is asked for.
     fn assembled(&self) -> Option<&Matrix<D>> {
         None

@@ -1,4 +1,4 @@
-//! How friction is taken over a step.
+//! Schemes of friction over a step.
 
 use sph_core::{contract, parameters, plugin};
 

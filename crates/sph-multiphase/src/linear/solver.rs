@@ -1,4 +1,4 @@
-//! What a linear solver is.
+//! The trait of linear solvers.
 
 use sph_core::{Vect, contract};
 

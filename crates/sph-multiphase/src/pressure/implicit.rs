@@ -19,7 +19,7 @@ use crate::{Acting, PressureEntry, PressureScheme};
 /// p(ρ), with cΔt ≫ h a projection. What deviates from the hydrostatic gradient has no flux into walls. Sound does not bound
 /// the step: Δt ≤ `courant` h/(|u| + √(|g|h)); sound faster than h/Δt is damped as by backward Euler.
 ///
-/// Where a scene has a free surface, `[surface.cone-test]` tells which particles are at it: what their supports lack is
+/// Where a scene has a free surface, `[surface.cone-test]` finds the particles at it: what their supports lack is
 /// at the pressure of their equation of state, between 0 and that of a row of water, ρ|g|δr. A scene with `hu-adams` and a
 /// surface that it does not name is refused at the first step. Other forces than gravity and pressure (friction, stresses,
 /// surface tension) are not in the prediction; pressure answers them through the density, one step later. First order in time.

@@ -34,7 +34,7 @@ const OPEN: f64 = 0.15;
 /// What a solve fills anew, kept for its memory.
 struct Scratch<const D: usize> {
     rate: Vec<f64>,
-    /// The sweep sums accelerations, too; nobody reads them.
+    /// The sweep sums accelerations, too; they are not read.
     unused: Vec<Vect<D>>,
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
@@ -235,7 +235,7 @@ fn full_support<const D: usize>(world: &World<D>) -> f64 {
     2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor)
 }
 
-/// Refuses supports that lack fluid where nobody says what free surfaces are: their pressure would float.
+/// Refuses supports that lack fluid where free surfaces are not defined: their pressure would float.
 fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let (Ok(constant), Ok(density)) = (
         world.free.get(fields::DENSITY_CONSTANT),

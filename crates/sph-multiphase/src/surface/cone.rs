@@ -1,4 +1,4 @@
-//! Which particles are at a free surface.
+//! Particles at a free surface, by a cone test.
 
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
@@ -42,7 +42,8 @@ const HALF: f64 = 0.5;
 /// 1.1 to 1.4 (Wendland C2, h = 1.3 to 3 δr). Ours.
 const FAINT: f64 = 0.2;
 
-/// Filling of a support over which nobody looks for a surface. The empty cone alone takes 1/4 of a disc and 0.146 of a ball, so
+/// Kernel sum of a support above which no surface is searched. The empty cone alone takes 1/4 of a disc and 0.146 of a
+/// ball, so
 /// that an even surface has at most 0.75 and 0.854. A crowded one may have more: it lacks nothing, and counts as inside. Ours.
 const FULL: f64 = 0.95;
 

@@ -36,7 +36,8 @@ contribution_kind!(
 /// nearly all stay within 3 %, with 0.03 a few per cent of them stand just beyond.
 ///
 /// Meant for water that tears. It adds 3 to 20 % to a step: only particles whose support lacks fluid are looked at. Densities that
-/// follow a rate remember no surface: with other formulations nothing relaxes, and surfaces are found for whoever asks.
+/// follow a rate remember no surface: with other formulations nothing relaxes, and surfaces are found for other
+/// readers.
 ///
 /// Source: the cone test is of Marrone et al. 2010; relaxing K is ours.
 ///

@@ -15,7 +15,7 @@ const RESPONSE: f64 = 2.0;
 /// Δt C/M up to which a body moves with the friction of the step before, far from where it swings.
 const FAINT: f64 = 0.1;
 
-/// Δt C/M up to which a step is right: with more the force that the wall is told swings.
+/// Δt C/M up to which a step is right: beyond it the force on the wall oscillates.
 const MOST: f64 = 4.0;
 
 /// A body of mass M whose velocity v is an unknown of the friction of a step.

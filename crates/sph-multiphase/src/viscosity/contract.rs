@@ -1,4 +1,4 @@
-//! What a viscous operator is.
+//! The trait of viscous operators.
 
 use sph_contribution::Stages;
 use sph_core::{Work, contract};

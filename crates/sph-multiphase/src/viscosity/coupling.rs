@@ -35,7 +35,7 @@ pub struct CouplingRow<W, const D: usize> {
     pub source: Vect<D>,
 }
 
-/// A [`Coupling`] with its columns. Since nothing but the separation tells directions apart, C_ab = α 1 + β r rᵀ.
+/// A [`Coupling`] with its columns. Since the separation is the only direction, C_ab = α 1 + β r rᵀ.
 pub trait BoundCoupling<const D: usize>: Sync {
     /// Which of α and β are not zero everywhere.
     fn kinds(&self) -> Kinds;

@@ -330,7 +330,7 @@ fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Resu
 }
 
 /// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:
-/// next to rest nobody needs to know the velocity better than what one step could give it.
+/// next to rest the velocity need not be more accurate than the change that one step could give it.
 fn relative_change<const D: usize>(
     world: &World<D>,
     velocity: &[Vect<D>],

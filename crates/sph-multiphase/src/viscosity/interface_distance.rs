@@ -1,4 +1,4 @@
-//! How far particles are from the next phase.
+//! Distance of particles from the next phase.
 
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};

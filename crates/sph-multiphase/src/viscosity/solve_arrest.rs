@@ -1,4 +1,4 @@
-//! What holds a soil that is not its strength, where stresses are those of the end of the step.
+//! Weight of a soil that the solve bears beyond its strength, where stresses are those of the end of the step.
 
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};

@@ -1,4 +1,4 @@
-//! What implicit solves took.
+//! Counts and times of implicit solves.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Where a solve starts.
+//! Start values of a solve.
 
 use sph_core::Vect;
 

@@ -1,4 +1,4 @@
-//! Where pair terms read the viscosity: one number, or a column with means of pairs.
+//! Source of the viscosity of pair terms: one number, or a column with means of pairs.
 
 use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::{Lane, Particles, World, unlike};

@@ -5,16 +5,17 @@ use sph_core::StepError;
 use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
-    /// Whether anybody says yes, if nobody has failed. Every message between ranks is preceded by this, so that a rank that fails
+    /// Whether a rank says yes, if none has failed. Every message between ranks is preceded by this, so that a rank
+    /// that fails
     /// anywhere in a step reaches the others, who wait here.
     ///
     /// # Errors
-    /// If somebody has failed, on all ranks alike; messages that fail.
+    /// If a rank has failed, on all ranks alike; messages that fail.
     pub fn any(&mut self, failed: bool, yes: bool) -> Result<bool, PartError> {
         self.link.any(failed, yes)
     }
 
-    /// Goes on if nobody has failed.
+    /// Goes on if no rank has failed.
     ///
     /// # Errors
     /// As [`any`](Self::any).
@@ -22,7 +23,7 @@ impl<const D: usize> Parts<D> {
         self.any(false, false).map(|_| ())
     }
 
-    /// Goes on if nobody has failed in what ranks have just done, in which some may have told the others already.
+    /// Goes on if no rank has failed in the work before, of which some may have informed the others already.
     ///
     /// # Errors
     /// As [`any`](Self::any).
@@ -30,7 +31,7 @@ impl<const D: usize> Parts<D> {
         self.link.confirm(failed)
     }
 
-    /// After a failure on any rank, on all ranks: tells those that do not know of it, and gives the cause that the first rank
+    /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
     /// has that knows one.
     pub fn confess(&mut self, cause: StepError) -> StepError {
         self.link.confess(cause)

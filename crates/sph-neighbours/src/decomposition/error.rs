@@ -1,4 +1,4 @@
-//! What may go wrong between ranks, and how many particles they have.
+//! Errors between ranks, and limits of their particles.
 
 use serde::Serialize;
 use sph_core::{FieldError, StepError};

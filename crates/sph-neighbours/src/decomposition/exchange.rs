@@ -1,8 +1,9 @@
-//! Which columns ghosts are told, and when.
+//! Columns that ghosts get, and when.
 
 use sph_core::{Access, AnyField};
 
-/// What ghosts are told after a stage: the columns that it has summed over neighbours. All else they work out themselves.
+/// Columns that ghosts get after a stage: those that it has summed over neighbours. Ghosts compute all others
+/// themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exchange {
     /// Place of the stage among all.

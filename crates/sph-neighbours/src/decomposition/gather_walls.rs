@@ -1,4 +1,4 @@
-//! What walls feel, at one rank, for files.
+//! Loads of walls gathered at one rank, for files.
 
 use sph_core::{Vect, fields};
 

@@ -1,4 +1,4 @@
-//! Whom other ranks need copies of.
+//! Particles of which other ranks need copies.
 
 use sph_core::Vect;
 
@@ -14,8 +14,8 @@ pub struct RankBox<const D: usize> {
 }
 
 impl<const D: usize> RankBox<D> {
-    /// Around nobody.
-    pub fn nobody() -> Self {
+    /// Around no particle.
+    pub fn empty() -> Self {
         RankBox {
             lower: Vect::repeat(f64::INFINITY),
             upper: Vect::repeat(f64::NEG_INFINITY),
@@ -24,13 +24,13 @@ impl<const D: usize> RankBox<D> {
 
     /// Around these.
     pub fn around<'a>(places: impl Iterator<Item = &'a Vect<D>>) -> Self {
-        places.fold(Self::nobody(), |a, x| RankBox {
+        places.fold(Self::empty(), |a, x| RankBox {
             lower: a.lower.inf(x),
             upper: a.upper.sup(x),
         })
     }
 
-    /// Square of the distance of a place, m²; infinite from a box around nobody.
+    /// Square of the distance of a place, m²; infinite from a box around no particle.
     fn distance_squared(&self, x: &Vect<D>, domain: &Domain<D>) -> f64 {
         let along = |axis: usize| {
             let outside = |x: f64| (self.lower[axis] - x).max(x - self.upper[axis]).max(0.0);

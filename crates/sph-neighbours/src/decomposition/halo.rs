@@ -1,4 +1,4 @@
-//! Which particles a rank needs copies of.
+//! Particles of which a rank needs copies.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What a rank shares with the work of its flow: the connection, and who has copies of whom.
+//! Connection of a rank for the work of its flow, with the copies of each rank.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
@@ -30,7 +30,7 @@ pub(crate) struct Link {
     pub rings: usize,
     /// Whether all ranks know of the failure at hand.
     told: AtomicBool,
-    /// Whether messages failed where nobody could be told.
+    /// Whether messages failed where no error could be returned.
     lost: AtomicBool,
     pub messages: AtomicU64,
     pub bytes: AtomicU64,
@@ -59,7 +59,8 @@ impl Link {
         self.bytes.fetch_add(bytes, Ordering::Relaxed);
     }
 
-    /// Replaces each value by the largest of all ranks, if nobody has failed. Every message between ranks is preceded by this or
+    /// Replaces each value by the largest of all ranks, if none has failed. Every message between ranks is preceded by
+    /// this or
     /// is this, so that a rank that fails anywhere in a step reaches the others, who wait here.
     pub fn agree(&self, failed: bool, values: &mut [f64]) -> Result<(), PartError> {
         let failed = failed || self.lost.load(Ordering::Relaxed);
@@ -67,7 +68,7 @@ impl Link {
         all.push(f64::from(u8::from(failed)));
         let sent = self.transport.largest(&mut all);
         let failed = all.pop().is_some_and(|failed| failed > 0.0);
-        // Who has no connection has nobody to tell.
+        // A rank without a connection has no rank to inform.
         let told = failed || sent.is_err();
         self.told.store(told, Ordering::Relaxed);
         sent?;
@@ -78,14 +79,14 @@ impl Link {
         }
     }
 
-    /// Whether anybody says yes, if nobody has failed.
+    /// Whether a rank says yes, if none has failed.
     pub fn any(&self, failed: bool, yes: bool) -> Result<bool, PartError> {
         let mut said = [f64::from(u8::from(yes))];
         self.agree(failed, &mut said)?;
         Ok(said[0] > 0.0)
     }
 
-    /// Whether all is well at the end of something in which ranks may have failed, and told each other or not.
+    /// Whether all is well at the end of something in which ranks may have failed, with or without a message.
     pub fn confirm(&self, failed: bool) -> Result<(), PartError> {
         if failed && self.told.swap(false, Ordering::Relaxed) {
             return Err(PartError::Elsewhere);
@@ -95,7 +96,7 @@ impl Link {
         settled.map(|_| ())
     }
 
-    /// After a failure on any rank, on all ranks: tells those that do not know of it, and gives the cause that the first rank
+    /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
     /// has that knows one.
     pub fn confess(&self, cause: StepError) -> StepError {
         if !self.told.swap(false, Ordering::Relaxed) {

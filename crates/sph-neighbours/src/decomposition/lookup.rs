@@ -11,7 +11,7 @@ impl<const D: usize> Parts<D> {
     /// who has gone is left out. Every rank must ask.
     ///
     /// # Errors
-    /// Another rank that has failed; messages that fail; a particle that nobody had.
+    /// Another rank that has failed; messages that fail; a particle that no rank had.
     pub fn follow(&self, earlier: &mut Store<D>, now: &Store<D>) -> Result<(), PartError> {
         self.link.any(false, false)?;
         let transport = &self.link.transport;

@@ -1,4 +1,4 @@
-//! Who owns a particle.
+//! The owner of a particle.
 
 use sph_core::{Field, Index};
 

@@ -164,7 +164,7 @@ impl<const D: usize> Parts<D> {
     /// The same; does some `work` while the messages are on their way.
     ///
     /// # Errors
-    /// As [`tell`](Self::tell).
+    /// As [`update_ghosts`](Self::update_ghosts).
     pub fn update_ghosts_during(
         &self,
         world: &mut World<D>,

@@ -1,4 +1,4 @@
-//! What ranks need to talk to each other.
+//! The trait of messages between ranks.
 
 use std::fmt::Debug;
 

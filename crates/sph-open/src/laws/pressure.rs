@@ -9,7 +9,7 @@ use crate::{
     Place,
 };
 
-/// A given pressure over the whole face; fluid passes as it likes, u = u_i + (p − p_i)/ρc.
+/// A given pressure over the whole face; the velocity follows, u = u_i + (p − p_i)/ρc.
 ///
 /// Sound that arrives is thrown back as from a free surface.
 ///
@@ -17,7 +17,7 @@ use crate::{
 /// [wall.outlet.open-boundary.pressure]
 /// pressure = "0 Pa"
 /// ```
-#[plugin(OpenBoundaryEntry [2, 3], "pressure", "a given pressure; fluid passes as it likes",
+#[plugin(OpenBoundaryEntry [2, 3], "pressure", "a given pressure; the velocity follows",
     source: "Ferrand et al. 2017; Leroy 2014")]
 pub struct Pressure {
     /// Pressure over that of the reference density, Pa.

@@ -1,4 +1,4 @@
-//! How long a wave of a period is.
+//! Length of a wave of a period.
 
 /// The wavenumber k > 0 of ω² = g k tanh(k d), 1/m, from ω in rad/s, d in m and g in m/s².
 ///

@@ -1,4 +1,4 @@
-//! What waves do to the water below them.
+//! Velocities and pressures of the water below waves.
 
 use crate::waves::superposition::Component;
 

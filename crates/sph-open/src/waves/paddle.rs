@@ -1,4 +1,4 @@
-//! What moves the water: the shape of a paddle.
+//! The shape of a paddle.
 
 use sph_core::parameters;
 

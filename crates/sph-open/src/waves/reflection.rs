@@ -1,4 +1,4 @@
-//! The probe that tells what comes back.
+//! The probe of reflected waves.
 
 use std::f64::consts::TAU;
 use std::sync::Mutex;
@@ -18,7 +18,7 @@ use crate::waves::separation::{Separated, separated};
 /// the period of the largest incident wave, s; of regular waves the height is 1/√2 of the significant one, 2a. They are NaN
 /// before the window ends, 0 for the height of what is not there. The curve has both amplitudes over the frequency.
 ///
-/// Frequencies for which the places cannot tell the two waves apart (a third of what is best, `clear` in
+/// Frequencies at which the places cannot separate the two waves (a third of what is best, `clear` in
 /// [`Separated`]) are left out.
 ///
 /// Source: Mansard & Funke 1980; the sums over time are discrete Fourier transforms by the trapezoidal rule.
@@ -71,7 +71,7 @@ struct Sums {
     integrals: Vec<f64>,
 }
 
-/// Places tell waves apart if they do so a third as well as the best ones do.
+/// Places separate waves if they do so a third as well as the best ones.
 const CLEAR: f64 = 1.0 / 3.0;
 
 fn refused(reason: impl Into<String>) -> StepError {

@@ -1,4 +1,4 @@
-//! What runs down a flume, and what comes back, from gauges.
+//! Separation of incoming and reflected waves by gauges.
 
 /// A complex amplitude A of Re(A e^{iωt}), m: real and imaginary part.
 pub type Amplitude = [f64; 2];
@@ -10,7 +10,8 @@ pub struct Separated {
     pub incident: Amplitude,
     /// At x = 0, of the wave A e^{i(ωt + k'x)} that comes back.
     pub reflected: Amplitude,
-    /// 1 − |Σ e^{i(k + k')x}|²/n² of the places: 0 where they cannot tell the two waves apart (two gauges half a wave apart).
+    /// 1 − |Σ e^{i(k + k')x}|²/n² of the places: 0 where they cannot separate the two waves (two gauges half a wave
+    /// apart).
     pub clear: f64,
 }
 

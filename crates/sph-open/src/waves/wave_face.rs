@@ -51,7 +51,7 @@ pub struct WaveFace {
     current: f64,
     /// The waves that come in; none if left out.
     waves: Option<Waves>,
-    /// Period of the waves that go out, as somebody at rest counts it; that of `waves` if left out.
+    /// Period of the waves that go out, for an observer at rest; that of `waves` if left out.
     #[parameter(unit: "s", above: 0.0)]
     period: Option<f64>,
     /// 1, or 2 for regular waves; if left out, 2 where that is possible.

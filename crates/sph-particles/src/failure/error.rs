@@ -1,4 +1,4 @@
-//! How a run may fail.
+//! Errors of a run.
 
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ pub struct Failure {
     pub cause: StepError,
     /// The first step that failed, which a shorter one may have got over for a while.
     pub first: Trouble,
-    /// What there is to tell of the run so far.
+    /// Summary of the run so far.
     pub summary: Option<Box<Summary>>,
     /// Whom it happened to, what was largest, what to try.
     pub findings: Findings,

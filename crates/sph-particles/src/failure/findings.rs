@@ -1,4 +1,4 @@
-//! What a failed step tells: whom it happened to, and which term was largest.
+//! Report of a failed step: its particle, and the largest terms.
 
 use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
@@ -6,7 +6,7 @@ use sph_neighbours::{TermShare, shares_at};
 use sph_run::Trouble;
 use sph_solver::Flow;
 
-/// Wall distances beyond this many spacings are not told.
+/// Wall distances beyond this many spacings are not reported.
 const NEAR: f64 = 4.0;
 
 /// The entry `failure` of `summary.json`. Numbers that are not finite are null.
@@ -20,11 +20,11 @@ pub struct Findings {
     pub dt: f64,
     /// Whose bound it came from.
     pub limiter: String,
-    /// The particle at fault, or the one with the largest acceleration where nobody is named.
+    /// The particle at fault, or the one with the largest acceleration where none is named.
     pub particle: Option<Suspect>,
     /// What acted on it at the last good state, largest first.
     pub before: Vec<Share>,
-    /// What acted on it at the bad state, largest first; empty where that cannot be told.
+    /// What acted on it at the bad state, largest first; empty where it is not known.
     pub after: Vec<Share>,
     /// What to try.
     pub advice: Vec<String>,

@@ -1,4 +1,4 @@
-//! What a person can change, by what went wrong.
+//! Remedies that a user has, by the failure.
 
 use sph_core::StepError;
 use sph_scene::Scene;

@@ -1,4 +1,4 @@
-//! What happens after a step that failed.
+//! Roll-back of a step that failed.
 
 use std::path::PathBuf;
 
@@ -188,7 +188,7 @@ impl<const D: usize> Running<'_, D> {
         if self.agreed(good.err()).is_some() {
             return self.offer_an_earlier_checkpoint(failure);
         }
-        // Whoever goes on from here has all retries again.
+        // A run that goes on from here has all retries again.
         self.counters.retries = 0;
         let own = self.options.out.join(CHECKPOINT);
         if self.gather(true).is_ok() && self.save_gathered(books, &own).is_ok() {

@@ -1,4 +1,4 @@
-//! What to try when one bound or one stage costs most of a run.
+//! Advice where one bound or one stage costs most of a run.
 
 use std::collections::BTreeMap;
 

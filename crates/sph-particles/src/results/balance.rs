@@ -6,7 +6,7 @@ use sph_solver::Flow;
 
 /// Mach number from which densities move by ½ Ma² = 2 % and more: worth a word at the end of a run.
 pub(crate) const FAST: f64 = 0.2;
-/// Mach number from which densities move by Ma² ≈ 10 % and more: the run is told of it.
+/// Mach number from which densities change by Ma² ≈ 10 % and more: the run warns.
 pub(crate) const COMPRESSIBLE: f64 = 0.3;
 /// Mach number from which pressure cannot reach the fluid ahead: a weakly compressible law has no meaning.
 pub(crate) const SUPERSONIC: f64 = 1.0;

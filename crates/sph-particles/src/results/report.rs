@@ -184,7 +184,7 @@ impl<const D: usize> Running<'_, D> {
         let reports: Vec<_> = flow.reports().collect();
         advice.extend(reports.iter().flat_map(|r| r.advice.clone()));
         if flow.world.free.is_empty() {
-            warnings.push("all particles have left: nothing is in the scene at the end".into());
+            warnings.push("all particles have left: the scene is empty at the end".into());
         }
         if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));

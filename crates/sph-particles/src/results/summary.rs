@@ -136,7 +136,7 @@ pub struct Summary {
     /// The first step that failed, if any did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_trouble: Option<Trouble>,
-    /// What a failed run tells.
+    /// Report of a failed run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failure: Option<Findings>,
     /// Least and largest K/ρ₀ at the end, where the formulation has a density constant.

@@ -1,4 +1,4 @@
-//! Where a run begins: afresh, or from a checkpoint.
+//! Beginning of a run: afresh, or from a checkpoint.
 
 use std::path::Path;
 

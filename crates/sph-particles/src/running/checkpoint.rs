@@ -282,9 +282,9 @@ fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<(), RunError>
     } else if time > end {
         format!("its time, {time} s, is past the end of the scene, {end} s")
     } else if !(dt >= 0.0 && dt <= end) {
-        format!("its step, {dt} s, is none of a run of {end} s")
+        format!("its step, {dt} s, is impossible in a run of {end} s")
     } else if !(0.0..=time).contains(&builds) {
-        format!("its lists are of t = {builds} s, which is no time of before")
+        format!("its lists are of t = {builds} s, which is not before its time")
     } else if clock.list_builds > MOST {
         format!(
             "its lists were built {} times, which no run reaches",

@@ -1,4 +1,4 @@
-//! Whether the clock of a run still moves.
+//! Check that the clock of a run still moves.
 
 use sph_core::StepError;
 

@@ -1,4 +1,4 @@
-//! What a resumed run must know besides the flow, and what of it can be believed.
+//! Counters of a resumed run, and checks of them.
 
 use std::collections::BTreeMap;
 
@@ -107,7 +107,7 @@ impl Counters {
 
     /// Why no run of the scene can have counted so at a time, if none can.
     ///
-    /// A checkpoint with right checksums may have been written by anybody. Counts that decide what is done
+    /// A checkpoint with right checksums may be of any origin. Counts that decide what is done
     /// next must fit the time; others need only be such that counting on is possible.
     pub(crate) fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
         let scale = f64::from_bits(self.step_scale);
@@ -183,12 +183,12 @@ impl Counters {
             .into_iter()
             .find(|(_, t)| t.is_some_and(|t| !passed(f64::from_bits(t))));
         if let Some((name, _)) = wrong {
-            return Some(format!("its `{name}` is no time of before"));
+            return Some(format!("its `{name}` is not before its time"));
         }
         let next = self.next_output.map(f64::from_bits);
         let comes = |t: f64| t.is_finite() && t >= time * (1.0 - ROUNDING);
         let late = next.is_some_and(|t| !comes(t));
-        late.then(|| "its `next_output` is no time to come".into())
+        late.then(|| "its `next_output` is not after its time".into())
     }
 
     /// Most rows of the series that are written by a time.

@@ -1,4 +1,4 @@
-//! Whether walls stay in the domain and go no farther in a step than they may: a warning while the run goes on, and no
+//! Check that walls stay in the domain and go no farther in a step than they may: a warning while the run goes on, and no
 //! result where a body has left.
 
 use std::collections::BTreeSet;
@@ -51,7 +51,7 @@ impl DepartureWatch {
         told
     }
 
-    /// Looks at why a step failed, which the run tells itself.
+    /// Takes the reason of a failed step, which the run reports itself.
     pub fn failed(&mut self, cause: &StepError) {
         if let StepError::Stage { stage, reason } = cause
             && stage == WALL_MOTION
@@ -63,8 +63,8 @@ impl DepartureWatch {
 
     /// What stands in the summary: warnings, and advice.
     pub fn remarks(&self) -> (Vec<String>, Vec<String>) {
-        let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find what throws it \
-                    (the `wall-force` probe tells the force of the fluid)";
+        let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find the force that throws it \
+                    (the probe `wall-force` measures the force of the fluid)";
         let shorter = "walls or bodies are thrown about within a step: smooth their courses and forces, or shorten the \
                        step with `run.safety`";
         let of = |some: bool, what: &str| some.then(|| what.to_string());
@@ -82,13 +82,12 @@ impl DepartureWatch {
         Some(StepError::Stage {
             stage: WALL_MOTION.into(),
             reason: format!(
-                "the body `{name}` has left the domain by t = {time:.4} s: is it thrown out by a force that is too \
-                 large, or is `numerics.domain` too small?"
+                "the body `{name}` has left the domain by t = {time:.4} s: its force is too large, or `numerics.domain` too small"
             ),
         })
     }
 }
 
 fn out_of(name: &str) -> String {
-    format!("wall `{name}` reaches out of the domain, where no fluid can be")
+    format!("wall `{name}` reaches out of the domain, beyond which there is no fluid")
 }

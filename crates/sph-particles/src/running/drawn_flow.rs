@@ -1,4 +1,4 @@
-//! What of a flow is drawn: columns, places, walls.
+//! Data of a flow for pictures: columns, places, walls.
 
 use sph_core::Plain;
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! Whether a flow that nothing drives gains energy: a warning while it runs, and no result where it is gross.
+//! Energy that a flow without a drive gains: a warning while it runs, and no result beyond 10 %.
 
 use sph_core::StepError;
 use sph_scene::Scene;
@@ -7,7 +7,7 @@ use sph_solver::{Flow, defaults};
 use crate::results::balance::Balance;
 use crate::setup::moves;
 
-/// Shares of the scale from which the run is told of it, and from which no result is right.
+/// Shares of the scale from which the run warns, and from which it fails.
 const TOLD: f64 = 0.01;
 const GROSS: f64 = 0.1;
 /// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that what is at rest is not
@@ -70,7 +70,8 @@ impl EnergyWatch {
         self.so_far.map(|all| all.map(f64::to_bits))
     }
 
-    /// Looks at the sums of a state at a time, s; gives what is to be said, once in a run. The sums of what remains tell
+    /// Looks at the sums of a state at a time, s; gives a warning, once in a run. The sums over the remaining particles
+    /// give
     /// nothing once some of the fluid has left.
     pub fn look<const D: usize>(
         &mut self,
@@ -95,12 +96,11 @@ impl EnergyWatch {
         Some(format!("warning: at t = {time:.4} s {}", self.message()))
     }
 
-    /// What stands in the summary, if there is anything to tell: a warning, and advice.
+    /// Entries of the summary, if there are any: a warning, and advice.
     pub fn remarks(&self) -> Option<[String; 2]> {
         let damping = defaults::SOUND_DAMPING;
         let advice = format!(
-            "`[probe.NAME] kind = \"energy-budget\"` tells what makes the energy; {damping} takes sound that walls feed, also \
-             beside a smoother"
+            "`[probe.NAME] kind = \"energy-budget\"` lists the source of the energy; {damping} damps the sound that walls make, also beside a smoother"
         );
         (self.share > TOLD).then(|| [self.message(), advice])
     }
@@ -109,14 +109,14 @@ impl EnergyWatch {
     pub fn verdict(&self) -> Option<StepError> {
         (self.share > GROSS).then(|| StepError::Stage {
             stage: "energy".into(),
-            reason: format!("{}, and no result of such a run is right", self.message()),
+            reason: format!("{}: results of such a run are wrong", self.message()),
         })
     }
 
     fn message(&self) -> String {
         let [.., rise] = self.so_far.unwrap_or_default();
         format!(
-            "the energy of a flow that nothing drives has risen by {rise:.3e} J, {:.1} % of what moves in it",
+            "the energy of a flow without a drive has risen by {rise:.3e} J, {:.1} % of what moves in it",
             100.0 * self.share
         )
     }

@@ -1,4 +1,4 @@
-//! How fast the flow is against its sound: a warning while it runs, and an end where no result is right.
+//! Speed of the flow over that of sound: a warning while it runs, and an end where results are wrong.
 //!
 //! It is judged by mass, not by the fastest particle: a droplet of spray or the air beside a wave may pass
 //! the speed of sound for a moment and carries next to nothing, while a tenth of all mass is the flow itself.
@@ -11,7 +11,7 @@ use crate::results::balance::{Balance, COMPRESSIBLE, SUPERSONIC};
 /// Share of the mass that has to be as fast.
 pub(crate) const SHARE: f64 = 0.1;
 
-/// What a run has been told of its speed.
+/// Warnings that a run has had of its speed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MachWatch {
     warned: bool,
@@ -42,7 +42,7 @@ impl MachWatch {
         Some(StepError::Stage {
             stage: "Mach number".into(),
             reason: format!(
-                "{:.0} % of the mass is faster than its sound, and no result of such a run is right: raise \
+                "{:.0} % of the mass is faster than its sound, and results of such a run are wrong: raise \
                  `speed_of_sound` or `velocity_scale` of the phase to ten times the largest speed, or allow it with \
                  `numerics.supersonic = true`",
                 100.0 * share

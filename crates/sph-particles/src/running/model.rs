@@ -84,7 +84,7 @@ impl<const D: usize> Model for Running<'_, D> {
     fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
         self.known.written = true;
         self.gather(self.looks_around())?;
-        // On several ranks all measure together, whoever writes.
+        // On several ranks all measure together.
         measure_walls(&mut self.parts.flow, &self.parts.probes)?;
         if let Some(whole) = &mut self.whole {
             let forces = &self.parts.flow.world.walls.forces;

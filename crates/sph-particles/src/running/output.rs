@@ -73,7 +73,7 @@ impl Outputs {
     ) -> Result<Vec<String>, RunError> {
         let mut remarks = Vec::new();
         let points = points(flow)?;
-        // No column: nobody but an output has a use for it.
+        // No column: only an output reads it.
         let depth = SURFACE_DISTANCE;
         let asked = self.fields.iter().chain(&self.pictures);
         let depths = match asked.into_iter().any(|name| name == depth.name) {

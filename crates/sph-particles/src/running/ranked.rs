@@ -33,7 +33,7 @@ pub(crate) fn share<const D: usize>(
 }
 
 /// Columns for the whole at the first of several ranks, which has a part: among the walls of this, without lists and contacts,
-/// but where somebody looks around in it.
+/// but where neighbours are searched in it.
 pub(crate) fn columns_of_all<const D: usize>(
     scene: &Scene,
     (identity, start, own): (&Identity, &Start, &Path),
@@ -63,7 +63,7 @@ pub(crate) fn columns_of_all<const D: usize>(
     Ok(all)
 }
 
-/// Whether somebody measures or shows what needs lists and contacts.
+/// Whether a probe or an output needs lists and contacts.
 fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
     shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs().around)
 }
@@ -128,7 +128,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
-    /// Whether somebody measures what needs lists and contacts.
+    /// Whether a probe needs lists and contacts.
     pub(crate) fn looks_around(&self) -> bool {
         self.parts.probes.iter().any(|(_, p)| p.needs().around)
     }

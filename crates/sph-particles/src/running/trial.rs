@@ -11,7 +11,8 @@ use crate::setup::{Assembled, Examination, examine_in};
 
 /// Least number of steps, where there is time for them.
 const FEWEST: usize = 32;
-/// Relative change from a quarter of the steps to the half that follows, below which more steps tell no more.
+/// Relative change from a quarter of the steps to the half that follows, below which further steps do not change the
+/// estimate.
 const SETTLED: f64 = 0.1;
 
 /// What the first steps of a scene took.

@@ -257,7 +257,7 @@ impl<const D: usize> About<'_, D> {
     }
 }
 
-/// The columns that carry history, whoever brings them.
+/// The columns that carry history.
 fn state<const D: usize>(
     scene: &Scene,
     formulation: &dyn Formulation<D>,

@@ -1,4 +1,4 @@
-//! What a scene will cost, before it costs anything.
+//! Estimate of the cost of a scene.
 
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ pub fn short_steps(
         return Err(SolverError::at(
             "run.end",
             format!(
-                "{bounds}, which is lost in t = {end} s to rounding: time would stand still; {remedy}, or check \
+                "{bounds}, which is lost in t = {end} s to rounding: the time would not advance; {remedy}, or check \
                  `run.safety`"
             ),
         ));
@@ -91,7 +91,7 @@ pub fn short_steps(
     Ok(told.then(|| format!("{bounds}: {steps:.1e} steps to t = {end} s; {remedy}")))
 }
 
-/// Memory this machine has left, bytes, where the system tells.
+/// Memory this machine has left, bytes, where the system gives it.
 fn memory_available() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find(|l| l.starts_with("MemAvailable:"))?;

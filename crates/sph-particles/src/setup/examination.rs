@@ -89,7 +89,7 @@ pub struct Examination {
     pub warnings: Vec<String>,
 }
 
-/// Assembles a scene and tells what follows from it.
+/// Assembles a scene and lists sizes, costs and remarks.
 ///
 /// # Errors
 /// Every problem of the scene, with its path.

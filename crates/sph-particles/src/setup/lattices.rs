@@ -1,4 +1,4 @@
-//! Whether the lattices of bodies fit each other and the walls where they touch.
+//! Fit of the lattices of bodies to each other and to the walls where they touch.
 //!
 //! The lattice of a body starts at the corner of its box. Where two bodies are not whole spacings apart, or a body is not from a flat
 //! wall, the pressure of the first steps pushes them into place, with currents of a good part of a metre per second.
@@ -69,7 +69,7 @@ pub fn remarks<const D: usize>(
     let walls = flow.walls.as_deref();
     // Where the first row belongs, in spacings from the wall.
     let first = walls.as_ref().map_or(1.0, |w| 1.0 - w.lattice_offset());
-    // A single body touches nobody, and lists need not be there yet.
+    // A single body touches no other, and lists need not be there yet.
     let reach = CONTACT * world.spacing;
     let grid = (names.len() > 1).then(|| CellGrid::new(position, reach, &world.domain));
     for (k, x) in position.iter().enumerate() {
@@ -104,8 +104,7 @@ pub fn remarks<const D: usize>(
     for ([a, b], contact) in contacts {
         remarks.extend(contact.misfit(1.0).map(|apart| {
             format!(
-                "the particles of `{}` and `{}` are {apart:.2} spacings apart where the bodies touch: currents will push them into \
-                 place; let the bodies start whole spacings from each other",
+                "the particles of `{}` and `{}` are {apart:.2} spacings apart where the bodies touch, and start currents: let the bodies start whole spacings from each other",
                 names[a as usize], names[b as usize]
             )
         }));
@@ -113,8 +112,7 @@ pub fn remarks<const D: usize>(
     for ((a, wall), contact) in at_walls {
         remarks.extend(contact.misfit(first).map(|apart| {
             format!(
-                "the first row of `{}` is {apart:.2} spacings from the wall `{wall}`, and {first} fit: currents will push it into \
-                 place; let the body start whole spacings from the wall",
+                "the first row of `{}` is {apart:.2} spacings from the wall `{wall}`, and {first} fit, which starts currents: let the body start whole spacings from the wall",
                 names[a as usize]
             )
         }));

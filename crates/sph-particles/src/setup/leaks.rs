@@ -9,7 +9,7 @@ use sph_scene::Scene;
 
 use crate::setup::rims::{Rim, Skin, Skins};
 
-/// Ends nearer to each other than this share of the spacing are told as one place.
+/// Ends nearer to each other than this share of the spacing are reported as one place.
 const SAME: f64 = 1e-3;
 /// A lid whose normal rises no more than this share of its size is upright.
 const UPRIGHT: f64 = 0.1;

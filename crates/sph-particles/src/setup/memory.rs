@@ -1,4 +1,4 @@
-//! What a run holds in memory at its most, counted from what the assembled flow holds.
+//! Largest memory of a run, counted from that of the assembled flow.
 
 use serde::{Deserialize, Serialize};
 use sph_core::{FieldError, Role};
@@ -101,7 +101,7 @@ fn lists<const D: usize>(world: &World<D>) -> f64 {
     let free = clusters(&lists.free);
     let pruned = match &lists.pruned {
         Some(pruned) => clusters(pruned),
-        // Nobody knows it better before the first step: they are not longer than those with the skin.
+        // The best estimate before the first step: they are not longer than those with the skin.
         None => free,
     };
     let others = clusters(&lists.of_points) + clusters(&lists.of_elements) + list(&lists.wall);

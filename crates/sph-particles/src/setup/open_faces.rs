@@ -38,9 +38,8 @@ pub(crate) fn prepare<const D: usize>(
         walls.filter(|w| w.columns() == [RENORMALISATION.any()] && w.lattice_offset() > 0.0)
     else {
         let write = defaults::OPEN_WALLS;
-        let other = format!(
-            "open faces are known of semi-analytical walls without vertices: write {write}"
-        );
+        let other =
+            format!("open faces need semi-analytical walls without vertices: write {write}");
         return Err(SolverError::at(path(scene, first, ""), other));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();

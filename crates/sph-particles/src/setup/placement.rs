@@ -1,4 +1,4 @@
-//! Where the particles are at time zero.
+//! Places of the particles at time zero.
 
 mod filled_share;
 

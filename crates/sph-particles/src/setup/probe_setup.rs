@@ -1,4 +1,4 @@
-//! What probes learn from the scene before they measure.
+//! Preparation of probes by the scene.
 
 use sph_core::{SceneProblem, parse_unit, suggestion};
 use sph_probes::{Probe, ProbeScene};

@@ -1,4 +1,4 @@
-//! What a scene would send if it were split over several machines.
+//! Messages of a scene on several machines.
 
 use serde::Serialize;
 use sph_core::{Declares, System, fields};

@@ -1,4 +1,4 @@
-//! What probes measure before the first step.
+//! Values of probes before the first step.
 
 use sph_core::StepError;
 use sph_probes::Probe;

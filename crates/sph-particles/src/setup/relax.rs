@@ -15,7 +15,7 @@ const MOBILITY: f64 = 0.4;
 const STRIDE: f64 = 0.1;
 /// No particle is moved nearer to a wall than this share of the spacing.
 const CLEARANCE: f64 = 0.4;
-// A particle that stands off by the clearance cannot cross a wall: nobody need ask on which side it is.
+// A particle that stands off by the clearance cannot cross a wall: its side need not be checked.
 const _: () = assert!(STRIDE < CLEARANCE);
 
 /// Density sum over γ, and its gradient by the renormalised operator, 1/m.
@@ -74,7 +74,7 @@ fn near_surface<const D: usize>(
 /// δr_a = −β h² [Σ θ V ∇w − ∇γ]/γ, until the largest error is below `tolerance`. Walls that scale the kernel have s_a s_b w
 /// in the place of w, and ∇ ln s Σ V s_a s_b w in that of −∇γ.
 ///
-/// `surface` tells whether a particle is within a support of a free surface.
+/// `surface` is whether a particle is within a support of a free surface.
 ///
 /// # Errors
 /// If a wall stage fails.

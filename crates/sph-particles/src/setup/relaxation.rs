@@ -1,4 +1,4 @@
-//! What relaxing the first particles did.
+//! Report of the relaxation of the first particles.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How much of a flow a process begins with.
+//! The share of a flow with which a process begins.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What is odd about a scene's soils before they move.
+//! Remarks on the soils of a scene before they move.
 
 use std::collections::HashMap;
 
@@ -130,7 +130,7 @@ impl<'a> Phases<'a> {
     }
 }
 
-/// A remark if the lowest particles of a bed have neither a wall nor anybody else close beneath.
+/// A remark if the lowest particles of a bed have neither a wall nor a particle close beneath.
 fn hanging<const D: usize>(
     name: &str,
     number: usize,
@@ -149,7 +149,7 @@ fn hanging<const D: usize>(
     for (k, x) in position.iter().enumerate() {
         cells.entry(cell(x)).or_default().push(k);
     }
-    // Somebody within reach, less than 60° from straight below.
+    // A particle within reach, less than 60° from straight below.
     let beneath = |k: usize| {
         let x = &position[k];
         let middle = cell(x);
@@ -169,8 +169,7 @@ fn hanging<const D: usize>(
     Ok(hanging.first().map(|k| {
         let place: Vec<String> = position[*k].iter().map(|x| format!("{x:.4}")).collect();
         format!(
-            "{} particles of `{name}` have nothing beneath them, neither a wall nor a fluid, one of them at ({}): the \
-             bed will fall",
+            "{} particles of `{name}` have neither a wall nor a fluid beneath them, one of them at ({}): the bed will fall",
             hanging.len(),
             place.join(", ")
         )

@@ -9,7 +9,7 @@ use sph_solver::SolverError;
 /// c₀ = √(p_r/ρ₀) (Krimi et al. 2018, Eq. 5 and 6).
 ///
 /// # Errors
-/// If there is nothing to tell it from, or a phase gives a speed beside the common pressure.
+/// If no key gives it, or a phase gives a speed beside the common pressure.
 pub fn sound_speeds(scene: &Scene, fall: f64) -> Result<Vec<f64>, SolverError> {
     let phases = || scene.phase.iter();
     let pressure = match scene.numerics.reference_pressure {

@@ -60,8 +60,7 @@ pub(crate) fn lift<const D: usize>(
     let stiffness = stiffness.fold(f64::INFINITY, f64::min);
     let pressure = LIFT * tension;
     let why = format!(
-        "the open face `{face}` brakes the fluid of a full box by {fall:.3} m/s, which takes a tension of {tension:.3e} \
-         Pa that particles do not carry"
+        "the open face `{face}` brakes the fluid of a full box by {fall:.3} m/s, which needs a tension of {tension:.3e} Pa; particles carry none"
     );
     // A light phase beside a heavy one would be stirred by a background pressure of the heavy one's size.
     if background > 0.0 || laws.len() > 1 {

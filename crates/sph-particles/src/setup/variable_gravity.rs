@@ -1,4 +1,4 @@
-//! What gravity changes by: given over time, and the acceleration of the frame that the scene is drawn in.
+//! Changes of gravity: given over time, and by the acceleration of the frame that the scene is drawn in.
 
 use sph_boundary::{Course, RigidMotion};
 use sph_core::{Vect, parse_quantity};

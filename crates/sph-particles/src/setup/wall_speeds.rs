@@ -162,7 +162,7 @@ fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (
     }
 }
 
-/// A number that cannot be told is too large for anything.
+/// A number that overflows is refused.
 fn known(x: f64) -> f64 {
     if x.is_nan() { f64::INFINITY } else { x }
 }

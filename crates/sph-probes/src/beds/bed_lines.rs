@@ -16,7 +16,7 @@ use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 /// * `interface` half a spacing above the highest grain,
 /// * `limit` half a spacing below the lowest grain that moves; the interface where none does.
 ///
-/// Between the particles of neighbouring columns the curves are straight; they are told at the
+/// Between the particles of neighbouring columns the curves are straight; they are given at the
 /// middles of the columns from the first particle to the last, and NaN where there is none. With every
 /// output of fields they go to `curves/NAME_0003.csv`, numbered as the pictures, with the columns x,
 /// surface, interface and limit in m. `line` compares any of the three with a drawn one.

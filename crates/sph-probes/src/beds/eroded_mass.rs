@@ -1,4 +1,4 @@
-//! How much of a bed the flow has taken away.
+//! Mass of a bed that the flow has eroded.
 
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! How far a piece of material has moved.
+//! Displacement of a piece of material.
 
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! Where the energy of a flow goes.
+//! The energy budget of a flow.
 
 use sph_core::{Field, Scalar, StepError, fields, plugin};
 use sph_neighbours::World;
@@ -30,7 +30,7 @@ pub enum EnergyWork {
     Remainder,
 }
 
-/// Work of everybody on a particle since the start, J (per metre of depth in 2D).
+/// Work of all terms on a particle since the start, J (per metre of depth in 2D).
 pub const ENERGY_WORKS: [Field<Scalar>; 9] = [
     Field::new("work_viscosity", "J", "work of friction since the start"),
     Field::new("work_smoother", "J", "work of the smoother since the start"),
@@ -75,7 +75,8 @@ pub const ENERGY_AT_START: Field<Scalar> = Field::new(
     "energy of the particle at the start",
 );
 
-/// Kinetic, potential and internal energy (of compression) of all particles, and the work of everybody who gives or takes
+/// Kinetic, potential and internal energy (of compression) of all particles, and the work of all parts that give or
+/// take
 /// energy since the start, J (per metre of depth in 2D). Positive work gives:
 ///
 /// | column | work of |
@@ -108,7 +109,7 @@ pub const ENERGY_AT_START: Field<Scalar> = Field::new(
 /// kind = "energy-budget"
 /// ```
 #[plugin(ProbeEntry [2, 3], "energy-budget",
-    "where the energy goes: energies, and the work of everybody who gives or takes some",
+    "where the energy goes: energies, and the work of all parts that give or take some",
     source: "ours: the first law, discrete")]
 pub struct EnergyBudget {
     /// Works of strangers.

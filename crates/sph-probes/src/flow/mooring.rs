@@ -1,4 +1,4 @@
-//! What a line does to its body.
+//! Force of a line on its body.
 
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! What has passed an open face.
+//! Volume that has passed an open face.
 
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! Where a wall is.
+//! Place of a wall.
 
 use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::World;

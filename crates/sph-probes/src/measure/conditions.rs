@@ -1,4 +1,4 @@
-//! Which particles count.
+//! Conditions on the particles that count.
 
 use sph_core::StepError;
 use sph_neighbours::World;

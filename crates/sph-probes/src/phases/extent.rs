@@ -1,4 +1,4 @@
-//! How far a phase reaches along an axis.
+//! Extent of a phase along an axis.
 
 use sph_core::{Axis, fields, plugin};
 

@@ -1,4 +1,4 @@
-//! Which particles a probe counts: those of one phase, or all.
+//! Particles that a probe counts: those of one phase, or all.
 
 use sph_core::{StepError, Vect, fields, suggestion};
 use sph_neighbours::World;
@@ -29,7 +29,7 @@ impl<'a> Counted<'a> {
     /// Those of the phase `name` with its `number` as [`Probe::name_phases`](crate::Probe) found it.
     ///
     /// # Errors
-    /// If the phase is named and nobody told its number.
+    /// If the phase is named and its number was not set.
     pub fn in_phase<const D: usize>(
         world: &'a World<D>,
         name: Option<&str>,

@@ -1,4 +1,4 @@
-//! How much of a phase has yielded.
+//! Share of a phase that has yielded.
 
 use sph_core::{fields, plugin};
 

@@ -1,4 +1,4 @@
-//! What a schema cannot say: the checks of a scene, collected.
+//! All checks beyond the schema of a scene.
 
 use sph_core::{Place, SceneProblem, kinds};
 use toml::{Table, Value};

@@ -1,4 +1,4 @@
-//! Where particles leave.
+//! Checks of outlets.
 
 use crate::Scene;
 use crate::checks::dimension::Dimension;

@@ -14,7 +14,7 @@ const WORK: f64 = 2e7;
 
 /// Tries lattice points of what the boxes around two bodies have in common.
 ///
-/// Bodies that walls clip or that fill them are left to whoever knows the walls.
+/// Bodies that walls clip or that fill them are left to the code that has the walls.
 pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     let spacing = scene.numerics.spacing;
     let periods = scene.numerics.periodic.bounds::<D>();

@@ -1,4 +1,4 @@
-//! What checks find.
+//! Problems that checks find.
 
 use sph_core::SceneProblem;
 

@@ -11,7 +11,7 @@ use crate::drawings::heading::{Chosen, Form, joined};
 
 /// Longest text file, bytes.
 const BYTES: u64 = 64 << 20;
-/// Most rows of a file, and most blocks of them: whoever takes them takes fewer.
+/// Most rows of a file, and most blocks of them: their readers take fewer.
 const ROWS: usize = 4_000_000;
 const BLOCKS: usize = 200_000;
 /// Most columns of a file of which some are chosen.

@@ -1,4 +1,4 @@
-//! What the motion of a wall comes down to: courses over time.
+//! Courses over time from the motion of a wall.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! How finely curved walls are divided where the scene leaves it open.
+//! Division of curved walls where the scene leaves it open.
 
 use std::f64::consts::{PI, TAU};
 

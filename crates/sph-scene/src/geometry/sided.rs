@@ -1,4 +1,4 @@
-//! Which way the facets of a file face.
+//! Orientation of the facets of a file.
 
 use scene_text::surface::{Facets, Opening};
 use sph_core::{SceneProblem, number};
@@ -9,7 +9,7 @@ use crate::{FluidSide, Wall};
 /// Open surfaces of a smaller [sense](Facets::sense) than this have no inside: a flat plate has 0, a cube without a
 /// lid 0.4.
 const NO_INSIDE: f64 = 0.02;
-/// Openings that are told.
+/// Number of openings in a message.
 const TOLD: usize = 3;
 
 impl Wall {

@@ -1,4 +1,4 @@
-//! Where a geometry is put: scaled, turned, shifted.
+//! Transforms of a geometry: scaled, turned, shifted.
 
 use scene_text::surface::{cross, dot};
 

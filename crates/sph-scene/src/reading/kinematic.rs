@@ -8,7 +8,7 @@ const KINEMATIC: &str = "m²/s";
 
 /// Turns every text of a law that is in m²/s, where its parameter is in Pa s, into pascal seconds.
 ///
-/// A number without a unit is left in Pa s, as all other texts are left to whoever builds the law.
+/// A number without a unit is left in Pa s, as all other texts are left to the constructor of the law.
 pub(crate) fn to_dynamic(scene: &mut Table) {
     let laws = kind_of("rheology");
     let laws = laws.map_or(Vec::new(), |kind| (kind.plugins)());

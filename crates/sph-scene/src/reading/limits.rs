@@ -1,4 +1,4 @@
-//! What is refused for its size before anything is made of it.
+//! Limits of sizes, checked before memory is used.
 
 use sph_core::{MOST_PROBLEMS, SceneProblem};
 use toml::{Table, Value};

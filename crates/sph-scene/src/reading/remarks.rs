@@ -1,4 +1,4 @@
-//! What is to be said of plugins before they are built: remarks on numbers that nature does not have, and mistakes.
+//! Remarks on plugins before they are built: on numbers beyond those of nature, and mistakes.
 
 use scene_text::suggestion;
 use sph_core::{PluginChoice, PluginInfo, RegistryError, SceneProblem, conform, kind_of, kinds};

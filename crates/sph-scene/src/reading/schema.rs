@@ -97,7 +97,7 @@ fn named(place: Option<&mut Json>, kind: &PluginKind, shared: &mut Map<String, J
     place["additionalProperties"] = json!(false);
 }
 
-/// Plugins as alternatives that the key `kind` tells apart.
+/// Plugins as alternatives that the key `kind` distinguishes.
 fn tagged(kind: &PluginKind, shared: &mut Map<String, Json>) -> Vec<Json> {
     let alternative = |p: sph_core::PluginInfo| {
         let mut schema = plugin(kind.name, &p, shared);

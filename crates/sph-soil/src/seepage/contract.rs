@@ -1,4 +1,4 @@
-//! What lets water through the pores of soils.
+//! The kind of plugins of flow through the pores of soils.
 
 use sph_contribution::{Contribution, contribution_kind};
 use sph_core::{Field, Scalar, Vector, Work};

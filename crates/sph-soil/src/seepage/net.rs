@@ -1,4 +1,4 @@
-//! Who seeps through whom, and by which ways.
+//! The net of flow between particles, with its ways.
 
 use sph_core::Vect;
 

@@ -1,4 +1,4 @@
-//! What the grains of a soil oppose to the water between them.
+//! Resistance of the grains of a soil to the water between them.
 
 /// C q̇ + a q + b |q| q = f: the force f on the water in the pores, N/m³, and its flux q relative to the
 /// grains, m/s.

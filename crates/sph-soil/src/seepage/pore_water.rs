@@ -102,7 +102,7 @@ impl PoreWater {
         self.exchange.hand_over(world, &self.phase, &net, dt)
     }
 
-    /// Everybody in the soil, and the water particles that have soil in reach.
+    /// All particles in the soil, and the water particles that have soil in reach.
     fn net<const D: usize>(
         &self,
         world: &World<D>,

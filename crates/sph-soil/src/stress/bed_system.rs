@@ -61,7 +61,7 @@ pub(crate) struct Couplings<'a, const D: usize> {
 pub(crate) struct ClusterCoefficients {
     /// c and what it adds to the source, for every candidate, one number per lane each.
     numbers: Vec<f64>,
-    /// Columns that are coupled to anybody, and their c, one number per lane.
+    /// Columns that are coupled to a row, and their c, one number per lane.
     columns: Vec<u32>,
     couplings: Vec<f64>,
 }

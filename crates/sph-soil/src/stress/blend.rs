@@ -1,4 +1,4 @@
-//! What is blended where a soil yields.
+//! The blended quantity of a soil that yields.
 
 use sph_core::parameters;
 

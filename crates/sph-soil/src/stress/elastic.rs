@@ -1,4 +1,4 @@
-//! What an elastic material remembers follows the motion.
+//! Motion of the remembered quantities of an elastic material.
 
 use nalgebra::Matrix3;
 use sph_contribution::{StepHook, StepMoment, StepPhase};

@@ -1,4 +1,4 @@
-//! What makes a force of what an elastic material remembers.
+//! The trait of elastic forces.
 
 use sph_core::{Work, contract};
 use sph_neighbours::Interaction;

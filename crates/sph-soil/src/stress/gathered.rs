@@ -1,4 +1,4 @@
-//! What a gradient of the velocity is made of, from free neighbours and walls.
+//! Sums of a gradient of the velocity, over free neighbours and walls.
 
 use nalgebra::SMatrix;
 use sph_core::Vect;

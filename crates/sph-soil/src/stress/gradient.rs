@@ -31,8 +31,8 @@ pub trait VelocityGradient<const D: usize>: Send + Sync {
 
 contract!(
     /// A velocity gradient that a scene may name.
-    pub VelocityGradientEntry, "velocity-gradient", One, "the strain rate that a law feels", VelocityGradient<D>,
+    pub VelocityGradientEntry, "velocity-gradient", One, "the strain rate that a law reads", VelocityGradient<D>,
     .by_default("renormalised").ordered(30).works(Work::Others).idle(
-        "no law of this scene feels a strain rate, and no output shows one: take this table out"
+        "no law of this scene reads a strain rate, and no output shows one: take this table out"
     )
 );

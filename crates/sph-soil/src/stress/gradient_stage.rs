@@ -16,7 +16,7 @@ use crate::stress::gathered::{Gathered, LaneSums, add_free};
 pub struct GradientStage<const D: usize> {
     /// The formula.
     pub formula: Arc<dyn VelocityGradient<D>>,
-    /// By phase number, whose gradients anybody reads; those of the others are zero. All, if left out.
+    /// By phase number, whose gradients are read; those of the others are zero. All, if left out.
     pub phases: Option<Arc<[bool]>>,
 }
 

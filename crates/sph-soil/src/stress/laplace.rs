@@ -74,7 +74,7 @@ pub struct Laplace {
 }
 
 impl Laplace {
-    /// Solves once, starting from the pressures that are there, and tells what it took.
+    /// Solves once, starting from the pressures that are there, and returns the effort.
     ///
     /// # Errors
     /// If the iteration does not end, or a column is missing.
@@ -114,7 +114,7 @@ impl Laplace {
 impl<const D: usize> Contribution<D> for Laplace {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if !setting.soils.contains(&true) {
-            let why = "no law of this scene feels a pressure: take this table out";
+            let why = "no law of this scene reads a pressure: take this table out";
             return Err(Refusal::at_key("effective-pressure", "", why));
         }
         let both = setting.soils.iter().zip(setting.laws.iter());

@@ -1,4 +1,4 @@
-//! What the laws of a scene feel, as columns and phase by phase.
+//! Inputs of the laws of a scene, as columns and phase by phase.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Which particles of a soil lie at its surface.
+//! Particles of a soil at its surface.
 
 use sph_core::Vect;
 use sph_neighbours::{Lane, LanePair, Neighbourhood, PairSum, Particles, World};
@@ -18,7 +18,7 @@ const EVEN: f64 = 0.1;
 pub(crate) struct Grains<'a, S> {
     /// Of all particles, m^d.
     pub volume: &'a [f64],
-    /// Who is soil. Everybody else is looked through: water and air.
+    /// Whether a particle is soil. Others do not hide a surface: water and air.
     pub soil: S,
 }
 

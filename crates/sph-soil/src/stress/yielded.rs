@@ -1,4 +1,4 @@
-//! How the materials of a scene yield, as columns.
+//! Yielding of the materials of a scene, as columns.
 
 use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! Which stages run, in which order.
+//! The stages of a run, in order.
 
 use std::sync::Arc;
 
@@ -14,14 +14,14 @@ use crate::setup::transported::transported_by;
 use crate::step::hooks::Hooks;
 use crate::step::stages::{InteractionSweep, Work};
 
-/// Pair terms shared by the sweep and whoever measures with them.
+/// Pair terms shared by the sweep and measurements with them.
 pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
 
 /// What is run, what is not, and with which pair terms.
 pub struct Planned<const D: usize> {
     /// Stages in order.
     pub stages: Vec<Work<D>>,
-    /// Names of the stages nobody needs.
+    /// Names of the stages that are not needed.
     pub pruned: Vec<String>,
     /// The pair terms of the sweep.
     pub terms: SharedTerms<D>,
@@ -55,10 +55,10 @@ pub struct Planning<'a, const D: usize> {
 type Offers<const D: usize> = Vec<(&'static str, Offer<D>)>;
 
 impl<const D: usize> Planning<'_, D> {
-    /// Asks all parts for what they offer and keeps, in order, the stages that somebody needs.
+    /// Asks all parts for what they offer and keeps, in order, the stages that are needed.
     ///
     /// # Errors
-    /// The key of the scene for which a part is not known, or a column that nobody writes.
+    /// The key of the scene for which a part is not known, or a column that no stage writes.
     pub fn plan(&self, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
         let mut offers = self.offers(parts)?;
         let mut stages: Vec<Work<D>> = Vec::new();
@@ -178,7 +178,7 @@ impl<const D: usize> Planning<'_, D> {
         let sources: Vec<AnyField> = state.chain(remembered).collect();
         let declared: Vec<&dyn Declares> = stages.iter().map(|s| s as &dyn Declares).collect();
         let mut planned = plan(&declared, goals, &sources)?;
-        // Walls without γ still need their geometry checked, although nobody reads a field of it.
+        // Walls without γ still need their geometry checked, although no field of it is read.
         if self.walls.is_some() && !planned.order.contains(&0) {
             planned.order.insert(0, 0);
             planned.pruned.retain(|k| *k != 0);

@@ -1,4 +1,4 @@
-//! What particles cost, for a fair division between ranks.
+//! Cost of particles, for a fair division between ranks.
 
 use sph_neighbours::World;
 
@@ -11,7 +11,7 @@ pub fn costs<const D: usize>(world: &World<D>) -> Vec<f64> {
     let contacts = &world.walls.contacts;
     let particles = world.free.len();
     if world.lists.reference.len() != particles {
-        // Nobody has looked at these particles yet.
+        // No lists of these particles yet.
         return vec![1.0; particles];
     }
     let cost = |i: usize| {

@@ -1,8 +1,8 @@
-//! What a flow's stages, gates and forces declare.
+//! Declared columns of a flow's stages, gates and forces.
 
 use sph_core::{Access, AnyField};
 
-/// The columns of everybody at work, in the order of the flow: asked once, since each answer asks for memory.
+/// The columns of all parts of a flow, in its order: collected once, since each list takes memory.
 #[derive(Default)]
 pub(crate) struct Columns {
     pub stages: Vec<Access>,
@@ -11,7 +11,7 @@ pub(crate) struct Columns {
     pub forces: Vec<Access>,
 }
 
-/// Whether somebody writes one of these columns.
+/// Whether one of these columns is written.
 pub(crate) fn writes_any(access: &Access, fields: &[AnyField]) -> bool {
     fields.iter().any(|f| access.writes.contains(f))
 }

@@ -1,4 +1,4 @@
-//! The books of energy: how much everybody has given to every particle. Only where a probe asks for them.
+//! The energy budget: how much energy each term has given to every particle. Only where a probe reads it.
 
 use rayon::prelude::*;
 use sph_contribution::StepPhase;
@@ -14,7 +14,7 @@ use crate::step::observer::{Boundary, Observer, Seen};
 /// Particles that one thread takes at least.
 const BATCH: usize = 1024;
 
-/// An account: the column of somebody's work.
+/// An account: the column of the work of one part.
 type Account = Field<Scalar>;
 
 /// The account of a work of this project.
@@ -56,7 +56,7 @@ fn of_hooks(kind: &str) -> Account {
     }
 }
 
-/// Counts the work of everybody on every particle, step by step.
+/// Counts the work of all terms on every particle, step by step.
 pub struct EnergyBudget<const D: usize> {
     diffused: Diffused,
     /// Whether densities are sums over positions, which shifts change.
@@ -64,7 +64,7 @@ pub struct EnergyBudget<const D: usize> {
     /// −D lnρ/Dt by motion.
     dilatation: [Box<dyn Interaction<D>>; 1],
     laws: Laws,
-    /// Whose work every term does, by its name; nobody's, the pressure.
+    /// The account of every term, by its name; none: the pressure.
     terms: Vec<(String, Option<Account>)>,
     /// The accounts of the classes of terms.
     classes: Vec<Account>,
@@ -252,7 +252,8 @@ impl<const D: usize> EnergyBudget<D> {
         Ok(())
     }
 
-    /// After a kick over `dt` seconds and all that followed: the work of everybody, with the mean of the velocities before
+    /// After a kick over `dt` seconds and all that followed: the work of all parts, with the mean of the velocities
+    /// before
     /// and after.
     fn settled(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mean = self.before.iter().zip(&self.velocity);
@@ -312,7 +313,7 @@ impl<const D: usize> EnergyBudget<D> {
         Ok(())
     }
 
-    /// Books densities that somebody has changed, kg/m³.
+    /// Books densities that were changed, kg/m³.
     fn condensed(
         &mut self,
         world: &mut World<D>,
@@ -328,7 +329,7 @@ impl<const D: usize> EnergyBudget<D> {
         book(world, of, &work)
     }
 
-    /// Books velocities that somebody has changed.
+    /// Books velocities that were changed.
     fn turned(&mut self, world: &mut World<D>, of: Account) -> Result<(), FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let now = world.free.get(fields::VELOCITY)?;

@@ -1,4 +1,4 @@
-//! A flow in motion: evaluation of all stages, forces, and what it tells of itself.
+//! A flow in motion: evaluation of all stages, forces, and its report.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -36,13 +36,13 @@ pub struct Flow<const D: usize> {
     pub world: World<D>,
     /// Stages in the order of the plan, those of the walls among them.
     pub stages: Vec<Work<D>>,
-    /// Names of the stages nobody needed.
+    /// Names of the stages that were pruned.
     pub pruned: Vec<String>,
     /// Bounds on the step.
     pub limiters: Vec<Box<dyn Limiter<D>>>,
     /// The walls; none without any, and where a flow is shown among those of its part.
     pub walls: Option<Box<dyn Wall<D>>>,
-    /// What movers are told, in the order of the walls' names, from the last kick; empty if none asks.
+    /// Loads of movers, in the order of the walls' names, from the last kick; empty if none needs them.
     pub loads: Vec<WallForce<D>>,
     pub(crate) evolved: Vec<Evolved>,
     /// All scalars that are advanced in time.
@@ -63,7 +63,7 @@ pub struct Flow<const D: usize> {
     pub(crate) outside: Vec<OutsideForce<D>>,
     /// What all of these declare.
     pub(crate) columns: Columns,
-    /// Whether somebody moved since the last evaluation.
+    /// Whether particles moved since the last evaluation.
     pub moved: bool,
     /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
@@ -116,7 +116,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Asks everybody what they declare; after a change of who is at work.
+    /// Collects the declared columns; after a change of the parts.
     pub fn ask_all(&mut self) {
         let sweep = self.terms.iter().map(|term| term.access());
         let outside = self.outside.iter().map(|force| force.access());

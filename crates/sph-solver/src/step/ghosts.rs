@@ -1,4 +1,4 @@
-//! What ghosts are told.
+//! Updates of ghosts.
 
 use sph_boundary::Wall;
 use sph_core::{Access, Declares, Stage, StepError};

@@ -10,7 +10,7 @@ impl<const D: usize> Flow<D> {
     /// Lets in who is born at the end of a step of `dt` seconds.
     ///
     /// # Errors
-    /// If somebody is born impossible, or a column is missing.
+    /// If a new particle is impossible, or a column is missing.
     pub fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
         let Some(nursery) = self.nursery.take() else {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What particles begin with that come into the flow.
+//! First values of particles that come into the flow.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Where particles leave the flow.
+//! Outlets of the flow.
 
 use serde::{Deserialize, Serialize};
 use sph_core::{Removed, SceneProblem, Store, Vect};
@@ -74,7 +74,7 @@ impl Outlets {
         &self.labels[..self.named]
     }
 
-    /// Whether nobody can leave.
+    /// Whether there is no outlet.
     pub fn is_empty(&self) -> bool {
         self.labels.is_empty()
     }

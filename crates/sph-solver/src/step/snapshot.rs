@@ -4,20 +4,20 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
-/// The walls, and what their movers are told.
+/// The walls, and the loads of their movers.
 pub(crate) type MovedWalls<'a, const D: usize> = (
     Option<&'a mut (dyn Wall<D> + 'static)>,
     &'a mut Vec<WallForce<D>>,
 );
 
-/// All columns that carry history, whoever declared them, in the order the particles had, and the clock.
+/// All columns that carry history, in the order the particles had, and the clock.
 #[derive(Default)]
 pub struct Snapshot<const D: usize> {
     columns: Saved<D>,
     time: f64,
     /// The step before, s.
     dt: f64,
-    /// Walls that movers move, and what these are told.
+    /// Walls with movers, and their loads.
     walls: WallStates,
     loads: Vec<WallForce<D>>,
 }

@@ -1,4 +1,4 @@
-//! What gravity changes by.
+//! Changes of gravity.
 
 use sph_boundary::{Course, RigidMotion};
 use sph_core::Vect;

@@ -69,7 +69,7 @@ fn row(results: &Results, v: &VariantResult, refined: bool) -> Vec<String> {
     row
 }
 
-/// Heads of what a cost is told by.
+/// Heads of the columns of a cost.
 fn costs_heads(cost: Cost) -> Vec<String> {
     let heads: &[&str] = match cost {
         Cost::Step => &["time per step"],
@@ -190,7 +190,7 @@ fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Names of all errors that are told.
+/// Names of all errors in the report.
 fn errors(results: &Results) -> Vec<String> {
     let mut all = results.errors.clone();
     for name in results.frontiers.iter().flat_map(|f| &f.errors) {

@@ -1,4 +1,4 @@
-//! What a study file says.
+//! The tables of a study file.
 
 use std::collections::BTreeMap;
 
@@ -44,7 +44,7 @@ pub struct StudyFile {
     pub combine: Combine,
     /// Key of the scene over which the order of convergence is computed; `numerics.spacing` if left out and varied.
     pub refinement: Option<String>,
-    /// Cost against the number of particles, told besides `error` or without one.
+    /// Cost against the number of particles, with or without `error`.
     pub scaling: Option<Scaling>,
     /// How often a variant is run; its time is the least.
     #[parameter(default: 1, min: 1, max: 1000)]
@@ -89,7 +89,7 @@ pub struct Ladder {
     pub title: String,
     /// Scene of this axis; the study's if left out.
     pub scene: Option<String>,
-    /// References of the scene that are told; the plot shows the first.
+    /// References of the scene in the report; the plot shows the first.
     #[parameter(default)]
     pub error: OneOrMany,
     /// Scene values put on every run of this axis.

@@ -1,4 +1,4 @@
-//! How a study is run.
+//! Options of a study.
 
 use std::path::PathBuf;
 

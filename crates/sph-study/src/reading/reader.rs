@@ -42,7 +42,7 @@ pub(crate) fn refinement(file: &StudyFile, axes: &[StudyAxis]) -> Option<String>
 }
 
 impl Reader<'_> {
-    /// Every variant, or every mistake, each told once.
+    /// Every variant, or every mistake once.
     pub fn all(&self, all: &[Combination], only: &[String]) -> Result<Vec<Variant>, Refused> {
         let mut variants = Vec::new();
         let mut found: Vec<(&str, Mistake)> = Vec::new();
@@ -63,7 +63,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Each mistake once; what only some variants make of the scene is told with one of them.
+    /// Each mistake once; a mistake of some variants is shown with one of them.
     fn told_once(&self, found: Vec<(&str, Mistake)>, variants: usize) -> Vec<Mistake> {
         let mut times: BTreeMap<String, usize> = BTreeMap::new();
         for (_, mistake) in &found {

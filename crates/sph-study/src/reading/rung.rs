@@ -11,7 +11,7 @@ pub struct Ladder {
     pub title: String,
     /// Name of the scene.
     pub scene: String,
-    /// References that are told; the plot shows the first.
+    /// References in the report; the plot shows the first.
     pub errors: Vec<String>,
     /// Names of the values, from harmless to absurd.
     pub labels: Vec<String>,

@@ -19,5 +19,5 @@ pub struct SceneText {
     pub method: &'static dyn Method,
 }
 
-/// Finds the scene that a study names, from the study's folder; the error is told as it is.
+/// Finds the scene that a study names, from the study's folder; the error is passed on.
 pub type FindScene<'a> = dyn Fn(&Path, &str) -> Result<SceneText, String> + 'a;

@@ -1,4 +1,4 @@
-//! What changed between two studies.
+//! Changes between two studies.
 
 use std::path::Path;
 

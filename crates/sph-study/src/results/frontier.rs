@@ -1,4 +1,4 @@
-//! How far an axis holds with a combination of plugins.
+//! The last value of an axis that holds with a combination of plugins.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ pub struct Frontier {
     pub combination: String,
     /// Name of the scene.
     pub scene: String,
-    /// References that are told; the plot shows the first.
+    /// References in the report; the plot shows the first.
     pub errors: Vec<String>,
     /// Bounds of green and yellow.
     pub judge: Bounds,

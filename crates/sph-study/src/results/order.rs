@@ -23,7 +23,7 @@ impl Orders {
         }
     }
 
-    /// The order that is told first: the fitted one, or that of two points.
+    /// The order that is shown first: the fitted one, or that of two points.
     pub fn main(&self) -> Option<f64> {
         self.finest_three.or(self.between.last().copied())
     }

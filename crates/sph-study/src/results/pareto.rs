@@ -1,4 +1,4 @@
-//! What no other variant beats in both time and error.
+//! Variants that no other beats in both time and error.
 
 /// Names of the points of time and error that no other point beats, fastest first.
 pub fn pareto(mut points: Vec<(String, [f64; 2])>) -> Vec<String> {

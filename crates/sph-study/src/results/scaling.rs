@@ -1,4 +1,4 @@
-//! What a step, or a solve, costs against the number of particles.
+//! Cost of a step, or a solve, against the number of particles.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What came out of a variant, and which variants differ in their refinement only.
+//! Result of a variant, and series of variants that differ in their refinement only.
 
 use std::collections::BTreeMap;
 

@@ -1,17 +1,17 @@
-//! What a run costs: a step, or a solve.
+//! Cost of a run: of a step, or of a solve.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use sph_core::parameters;
 
-/// A cost that is told against the number of particles.
+/// A cost against the number of particles.
 #[parameters]
 pub struct Scaling {
     /// Of what.
     #[parameter(default)]
     pub cost: Cost,
-    /// Name of the axis whose entries compete: for each size the fastest is told, and where another takes over.
+    /// Name of the axis whose entries compete: the fastest at each size, and the sizes at which another takes over.
     #[parameter(default)]
     pub between: Option<String>,
 }
@@ -59,7 +59,7 @@ pub struct SolveCost {
     pub bytes: usize,
 }
 
-/// What the summary of a run tells of them.
+/// Their entries in the summary of a run.
 #[derive(Deserialize)]
 pub(crate) struct SolvesTold {
     by_method: BTreeMap<String, u64>,

@@ -18,7 +18,7 @@ use crate::running::watcher::Watcher;
 pub struct Outcome {
     /// One record per variant, in their order.
     pub records: Vec<Record>,
-    /// Whether it was told to stop before everything had run.
+    /// Whether it was stopped before all variants had run.
     pub stopped: bool,
     /// What kept it from going on, a full disk for instance.
     pub error: Option<IoError>,
@@ -98,7 +98,7 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
     }
 }
 
-/// Of every variant whether there is something to do, as far as records of before tell.
+/// Whether each variant has to run, by its record.
 pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
     let file = &study.file;
     let mut open = vec![false; study.variants.len()];

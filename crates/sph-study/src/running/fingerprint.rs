@@ -1,4 +1,4 @@
-//! What a variant's result depends on, as one short text.
+//! All inputs of a variant's result, as one short text.
 
 use toml::Table;
 

@@ -1,4 +1,4 @@
-//! What is kept of a variant once it has run.
+//! The record of a finished variant.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -90,7 +90,7 @@ pub struct Record {
     pub origin: Origin,
 }
 
-/// What tells whether a run was sound; numbers that are not finite are left out.
+/// Numbers by which a run is judged; numbers that are not finite are left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Health {

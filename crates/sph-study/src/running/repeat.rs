@@ -24,7 +24,7 @@ pub(crate) struct Job<'a> {
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Why a run was told to stop.
+/// The reason of a stop.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cause {
     Asked,
@@ -82,7 +82,7 @@ impl Job<'_> {
         if kept {
             return Ok(());
         }
-        // Not from under the feet of a run that somebody started there.
+        // Not where another run has started.
         let _lock = sph_io::FolderLock::take(folder)?;
         std::fs::remove_dir_all(folder).map_err(|source| {
             let path = folder.to_path_buf();
@@ -151,7 +151,7 @@ impl Job<'_> {
         Ok(record.status)
     }
 
-    /// What is told of a run that stopped at a time, s.
+    /// The note on a run that stopped at a time, s.
     fn stopped(&self, time: f64, cause: Option<Cause>) -> (Status, Option<String>) {
         let at = format!("at t = {time:.4} of {} s", self.variant.subject.end());
         match (cause, self.study.file.time_limit) {

@@ -1,4 +1,4 @@
-//! Who is told how a study goes on.
+//! Observers of the progress of a study.
 
 use sph_run::Progress;
 

@@ -1,4 +1,4 @@
-//! How much of the production counts at free surfaces.
+//! Share of the production that counts at free surfaces.
 
 use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::{Around, Values, World, walk};

@@ -1,4 +1,4 @@
-//! What all closures refuse, need and say.
+//! Common refusals, needs and remarks of all closures.
 
 use sph_contribution::{Offer, Refusal, Report, Setting, StepHook, StepPhase};
 use sph_core::{Access, Stage, suggestion};
@@ -14,7 +14,7 @@ use crate::kind::KIND;
 pub(crate) struct Distances {
     /// Which walls count; all, if empty.
     pub walls: Vec<String>,
-    /// Beyond it nobody asks, m.
+    /// Beyond it no value is needed, m.
     pub within: f64,
 }
 

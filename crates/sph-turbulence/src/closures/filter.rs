@@ -1,4 +1,4 @@
-//! How wide the filter of a large-eddy simulation is.
+//! Width of the filter of a large-eddy simulation.
 
 use sph_core::parameters;
 use sph_neighbours::World;

@@ -1,4 +1,4 @@
-//! How long eddies are by their distance from a wall.
+//! Length of eddies by their distance from a wall.
 
 /// L = κz, at most `longest`; L = κz√(1 − z/H) where there is a depth. Source: Issa 2004, Eq. 6.14 and 6.19.
 #[derive(Clone, Copy, Debug)]

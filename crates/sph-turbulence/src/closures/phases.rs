@@ -1,4 +1,4 @@
-//! Which phases a closure acts on.
+//! Phases on which a closure acts.
 
 use sph_contribution::{Refusal, Setting};
 use sph_core::{Access, Declares, Stage, StepError, fields, suggestion};

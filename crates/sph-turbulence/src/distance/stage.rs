@@ -11,7 +11,7 @@ use crate::columns::WALL_DISTANCE;
 pub struct WallDistance<const D: usize> {
     /// Which walls count; all, if empty.
     walls: Vec<String>,
-    /// Beyond it nobody asks, m.
+    /// Beyond it no value is needed, m.
     within: f64,
     /// With the places of the elements that it is of.
     tree: Option<(ElementTree<D>, Vec<Vect<D>>)>,

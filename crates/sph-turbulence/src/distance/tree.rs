@@ -1,4 +1,4 @@
-//! Which wall element is nearest to a point.
+//! The nearest wall element of a point, by a tree.
 
 use sph_core::{BoxTree, Vect};
 use sph_neighbours::{Domain, WallSet};

@@ -1,4 +1,4 @@
-//! What transported scalars know of walls and beds, and what they refuse.
+//! Walls and beds of transported scalars, and refusals.
 
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::World;

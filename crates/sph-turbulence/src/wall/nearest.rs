@@ -1,4 +1,4 @@
-//! Which wall a particle sees first.
+//! The first wall that a particle sees.
 
 use sph_core::Vect;
 use sph_neighbours::{Contact, WallSet};

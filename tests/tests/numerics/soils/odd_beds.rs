@@ -30,7 +30,7 @@ fn nothing_is_odd_about_the_shipped_bed() {
     let text = checked(BED);
     for words in [
         "stands above",
-        "nothing beneath",
+        "beneath them",
         "spacings wide",
         "bounds the first step",
     ] {
@@ -65,7 +65,10 @@ fn a_bed_with_a_gap_over_the_floor() {
         "box = [[0.0, 0.02], [0.1, 0.1]]",
     ]]);
     let text = checked(&scene);
-    says(&text, "particles of `sand` have nothing beneath them");
+    says(
+        &text,
+        "particles of `sand` have neither a wall nor a fluid beneath them",
+    );
 }
 
 #[test]

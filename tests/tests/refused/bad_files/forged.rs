@@ -27,7 +27,7 @@ fn clocks_and_counters_that_no_run_has_are_refused() {
         ("/clock/time", bits(-0.01), "before the start"),
         ("/clock/time", bits(7.0), "past the end"),
         ("/clock/time", bits(f64::INFINITY), "not finite"),
-        ("/clock/list_time", bits(0.5), "no time of before"),
+        ("/clock/list_time", bits(0.5), "not before its time"),
         (
             "/clock/list_builds",
             huge.clone(),

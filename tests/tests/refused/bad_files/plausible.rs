@@ -139,7 +139,7 @@ fn time_that_would_stand_still_is_refused() {
     let outcome = bench.call(&format!("check scene.toml {set}"));
     assert_eq!(outcome.code, Some(2), "{}", outcome.err);
     assert!(
-        outcome.err.contains("time would stand still"),
+        outcome.err.contains("the time would not advance"),
         "{}",
         outcome.err
     );

@@ -56,7 +56,7 @@ fn numbers_and_sizes(scene: &Scene, found: &mut Vec<SceneProblem>) {
         (false, Some(_)) => add(
             found,
             "grains.count",
-            "the start says how many grains there are: leave it out",
+            "the start gives the number of grains: leave it out",
         ),
         _ => {}
     }

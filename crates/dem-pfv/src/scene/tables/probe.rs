@@ -1,4 +1,4 @@
-//! What a table `[probe.NAME]` says.
+//! The table `[probe.NAME]`.
 
 use sph_derive::parameters;
 

@@ -1,4 +1,4 @@
-//! What a table `[reference.NAME]` says.
+//! The table `[reference.NAME]`.
 
 use sph_derive::parameters;
 

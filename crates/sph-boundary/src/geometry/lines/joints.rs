@@ -1,4 +1,4 @@
-//! Which ends of open walls are the same place.
+//! Ends of open walls at the same place.
 
 use sph_core::BoxTree;
 

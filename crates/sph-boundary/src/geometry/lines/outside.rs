@@ -1,4 +1,4 @@
-//! Which side of lines is the fluid's.
+//! The fluid's side of lines.
 
 use std::f64::consts::TAU;
 

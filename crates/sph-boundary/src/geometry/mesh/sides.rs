@@ -1,4 +1,4 @@
-//! What is kept to tell the sides of a mesh.
+//! Data that give the sides of a mesh.
 
 use scene_text::surface::Winding;
 

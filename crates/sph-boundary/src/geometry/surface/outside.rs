@@ -1,4 +1,4 @@
-//! Which side of surfaces is the fluid's.
+//! The fluid's side of surfaces.
 
 use scene_text::surface::Winding;
 

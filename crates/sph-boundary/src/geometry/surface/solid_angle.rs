@@ -1,4 +1,4 @@
-//! What a node stands for: the solid angle of the fluid around it and its share of the wall.
+//! The solid angle of the fluid around a node, and its share of the wall.
 
 use std::f64::consts::{PI, TAU};
 

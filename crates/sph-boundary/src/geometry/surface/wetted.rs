@@ -1,4 +1,4 @@
-//! Which pieces of walls bound the fluid where more than two meet in an edge.
+//! Pieces of walls that bound the fluid where more than two meet in an edge.
 
 use std::collections::{BTreeMap, HashSet};
 

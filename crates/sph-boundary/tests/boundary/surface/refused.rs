@@ -93,8 +93,8 @@ fn neighbours() {
 fn sizes() {
     assert_eq!(
         message(&[block("pea", [0.0; 3], [0.1; 3])], 0.1),
-        "wall `pea` is 0.17320508075688776 m across, less than two spacings of 0.1 m: the flow \
-         cannot see it"
+        "wall `pea` is 0.17320508075688776 m across, less than two spacings of 0.1 m: draw it \
+         larger, check the unit of length, or take a smaller spacing"
     );
     let walls = [
         block("pea", [0.0; 3], [1.0; 3]),
@@ -165,8 +165,7 @@ fn pieces_drawn_twice() {
     let plate = message(&[sheet("front"), sheet("back").reversed()], 0.1);
     assert_eq!(
         plate,
-        "nothing is left of wall `front`: other walls cover all of it, or turn their backs on its edges; does one of \
-         them face the other way? leave it out, or give a plate of two sides a thickness"
+        "nothing is left of wall `front`: other walls cover all of it, or face away from its edges: turn the one that faces the other way, leave the wall out, or give a plate of two sides a thickness"
     );
     // One wall folded flat.
     let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

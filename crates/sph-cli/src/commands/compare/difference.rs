@@ -1,4 +1,4 @@
-//! How two tables differ.
+//! Differences of two tables.
 
 use std::collections::HashMap;
 
@@ -48,7 +48,7 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
     let lone = a.keys.len() + b.keys.len() - 2 * pairs.len();
     if lone > 0 {
         remarks.push(format!(
-            "{file}: {lone} of {} rows have no twin",
+            "{file}: {lone} of {} rows have no counterpart",
             a.keys.len() + b.keys.len()
         ));
     }

@@ -20,7 +20,7 @@ inventory::submit! {
     PluginKind::new(
         "conductance",
         Place::Elsewhere,
-        "what a throat between two pores lets through, in [fluid.conductance.LAW]",
+        "the conductance of a throat between two pores, in [fluid.conductance.LAW]",
     )
     .with_plugins(throats)
 }

@@ -55,7 +55,7 @@ const SHOWN: [(&str, &str, &str, &str); 8] = [
 /// Longest line.
 const LONGEST: usize = 120;
 
-/// A page of kinds as `sph plugins --json` tells them.
+/// A page of kinds in the form of `sph plugins --json`.
 pub fn markdown(kinds: &[Json]) -> String {
     let mut page = String::from(
         "# Plugins\n\nAll that a scene may name. This page is what `sph plugins --markdown` prints; a test holds it to that.\n\

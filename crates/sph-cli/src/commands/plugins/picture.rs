@@ -21,7 +21,7 @@ const PRESSURE: f64 = 1000.0;
 const FAR: f64 = 2.0;
 /// Points of a curve.
 const POINTS: usize = 200;
-/// Most curves that can be told apart.
+/// Most curves that can be distinguished.
 const MOST: usize = 12;
 
 /// A specimen at a pressure.
@@ -108,7 +108,7 @@ fn no_more_than(most: usize, count: usize) -> Result<(), Trouble> {
     match count <= most {
         true => Ok(()),
         false => Err(Trouble::usage(format!(
-            "{count} curves cannot be told apart in one picture: {most} at most"
+            "{count} curves cannot be distinguished in one picture: {most} at most"
         ))),
     }
 }

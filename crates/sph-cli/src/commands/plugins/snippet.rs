@@ -1,4 +1,4 @@
-//! How a plugin is written into a scene.
+//! A plugin as lines of a scene.
 
 use serde_json::Value as Json;
 use sph_core::{Parameter, Place, PluginInfo, kind_of, parameters};

@@ -1,4 +1,4 @@
-//! What a browser gets.
+//! Answers to a browser.
 
 use std::path::{Path, PathBuf};
 

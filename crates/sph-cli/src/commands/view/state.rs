@@ -1,4 +1,4 @@
-//! What there is of a run at the moment.
+//! Present files of a run for its page.
 
 use std::collections::BTreeMap;
 use std::path::Path;

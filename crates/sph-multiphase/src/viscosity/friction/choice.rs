@@ -1,4 +1,4 @@
-//! What all operators that are sums over pairs let a scene choose.
+//! Keys of all operators that are sums over pairs.
 
 use sph_core::{Vect, parameters};
 use sph_neighbours::{Interaction, Pair, World};

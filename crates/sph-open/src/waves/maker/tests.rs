@@ -1,4 +1,4 @@
-//! What a maker is asked for, and what it refuses.
+//! Requests to a maker, and its refusals.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! How much of the space between walls the particles of a body fill.
+//! Share of the space between walls that the particles of a body fill.
 
 use sph_boundary::Wall;
 use sph_core::Vect;

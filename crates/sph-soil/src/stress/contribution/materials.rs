@@ -1,4 +1,4 @@
-//! What the contributions of a scene's laws know of each other.
+//! Data that the contributions of a scene's laws share.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::stress::{
 pub struct Materials<const D: usize> {
     /// The laws, in the order of the phase numbers.
     pub laws: Rheologies,
-    /// The gradient of the velocity, where somebody needs it.
+    /// The gradient of the velocity, where a stage needs it.
     pub gradient: Option<Arc<dyn VelocityGradient<D>>>,
     /// What makes friction of viscosities.
     pub operator: Box<dyn ViscousOperator<D>>,
@@ -112,7 +112,8 @@ impl<const D: usize> Materials<D> {
         Some(GradientStage { formula, phases })
     }
 
-    /// Whether nobody reads strain rates before the interactions, which may then leave them for those who do it later.
+    /// Whether no stage reads strain rates before the interactions, which may then leave them for those who do it
+    /// later.
     pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
         let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
         self.eddies

@@ -6,7 +6,7 @@ use sph_core::{AnyField, fields};
 use super::Materials;
 use crate::stress::{StrainRate, StrainRateTerm};
 
-/// Velocity gradients and strain rates, where a law or somebody else needs them.
+/// Velocity gradients and strain rates, where a law or a stage needs them.
 struct Straining<const D: usize>(Materials<D>);
 
 contributes!("velocity-gradient", Straining);
