@@ -4,7 +4,7 @@
 //!
 //! * [`CoupledSystem`]: steps grains and flow together; [`FlowSetup`], [`Fluid`], [`WallBoundary`] and [`FlowCondition`] are what
 //!   it starts from, [`Wave`] the load of waves on a bed.
-//! * [`Fluid::shear`], [`Lubrication`]: what neighbours feel of each other besides the pores' pressures, if wanted.
+//! * [`Fluid::shear`], [`Lubrication`]: forces between neighbours besides the pores' pressures, if chosen.
 //! * [`Remeshing`]: when pores are found anew. [`StepLimit`]: the largest stable step, of contacts and drag.
 //! * [`CoupledSystem::layer_pressure`], [`CoupledSystem::gradient`], [`GrainSystem::effective_stress`](crate::grains::GrainSystem::effective_stress),
 //!   [`CoupledSystem::mobility`]: measures.

@@ -1,7 +1,7 @@
 //! Discrete elements: spheres that touch each other, walls and meshes, moved by their contact forces.
 //!
 //! m dv/dt = ΣF, J dω/dt = ΣM with forces from small overlaps, integrated by a leap-frog (Catalano 2012, ch. 2).
-//! Dry, or with any force from outside: nothing here knows of a fluid.
+//! Dry, or with any force from outside; there is no fluid here.
 //!
 //! * [`Setup`] of [`Grain`]s, [`Wall`]s and [`Mesh`]es; [`GrainSystem`] steps it, [`Grains`] are its columns.
 //! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:

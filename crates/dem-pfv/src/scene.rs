@@ -1,6 +1,6 @@
 //! Scenes of grains: read, assembled, run, measured and written.
 //!
-//! A scene is a TOML text with a table `[grains]`. It knows of no particles of a fluid, and carries no column of
+//! A scene is a TOML text with a table `[grains]`. It has no particles of a fluid, and carries no column of
 //! theirs.
 //!
 //! 1. [`read`] turns a [`scene_text::Source`] into a [`Loaded`] scene ([`Scene`] and its tables), or into all its mistakes

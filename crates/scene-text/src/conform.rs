@@ -134,7 +134,7 @@ impl<'s> Walk<'s> {
                 first = Some(found);
             }
         }
-        // All want something else altogether: what each of them wants is told.
+        // No alternative fits: the message has the expected value of each.
         match wanted.into_iter().collect::<Option<Vec<_>>>() {
             Some(mut all) if all.len() > 1 => {
                 all.dedup();
@@ -340,7 +340,7 @@ impl<'s> Walk<'s> {
     }
 }
 
-/// What a schema wants in the place of a value, if its only problem is that this is something else.
+/// The expected type of a value of another type.
 fn wanted_in_its_place(problems: &[SceneProblem], path: &str) -> Option<String> {
     let [problem] = problems else { return None };
     let (wanted, _) = problem

@@ -1,4 +1,4 @@
-//! A schema as editors want it.
+//! The schema in a form for editors.
 
 use serde_json::{Value as Json, json};
 

@@ -1,6 +1,6 @@
 //! Scenes as texts, whatever they are about: units, schemas, overrides, and mistakes with their place.
 //!
-//! Nothing here knows what a scene describes. A reader of scenes
+//! The subject of a scene is not known here. A reader of scenes
 //!
 //! 1. makes a [`Source`] of a text, its file name and the [`Override`]s on top ([`read_text`], `--set`);
 //! 2. holds its table against a JSON schema with [`conform`], which turns "10 kPa" into pascals ([`parse_quantity`])

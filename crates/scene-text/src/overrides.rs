@@ -19,7 +19,7 @@ fn single() -> Vec<Vec<&'static str>> {
     lists.flat_map(|list| (list.0)()).collect()
 }
 
-/// A value for a key of the scene, whatever the file says.
+/// A value for a key of the scene in place of that of the file.
 ///
 /// The value is TOML; what is not TOML is taken as a string, so that a shell needs no second
 /// pair of quotes. Setting another plugin where a scene has exactly one replaces the present

@@ -211,7 +211,7 @@ pub const QUANTITIES: [Quantity; 20] = [
     },
 ];
 
-/// What is to be said of a number.
+/// The remark on a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Nothing.
@@ -238,7 +238,7 @@ impl Quantity {
         }
     }
 
-    /// What is to be said of a number of this quantity.
+    /// The remark on a number of this quantity.
     pub fn judge(&self, x: f64) -> Verdict {
         let size = x.abs();
         let with = |value: f64| match self.unit {

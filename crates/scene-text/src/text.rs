@@ -18,7 +18,7 @@ fn is_given(path: &Path) -> bool {
 /// Reads a file of the size that a scene may have.
 ///
 /// # Errors
-/// What the system says, or that it is too long or no text.
+/// The reason of the system; too long; no text.
 pub fn read_text(path: &Path) -> Result<String, String> {
     let known = std::fs::metadata(path).map_err(|e| e.to_string())?;
     if !known.is_file() && !is_given(path) {

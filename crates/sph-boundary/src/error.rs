@@ -353,7 +353,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// Something to look at that does not stop the run.
+/// A remark that does not stop the run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum WallWarning {

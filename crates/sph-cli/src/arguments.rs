@@ -141,13 +141,13 @@ Examples:
 
 Never overwrites a scene.")]
     New(NewArguments),
-    /// Tell whether two runs have the same bits, and if not where they differ most
+    /// Compare two runs: whether they have the same bits, or where they differ most
     #[command(after_help = "\
 Example:
   sph compare results/before results/after
 
 Compares series.csv, all frames of fields.pvd and the checkpoints, particle by particle. Of every column \
-that differs it tells the largest difference with time, particle and place. Writes nothing.
+that differs it has the largest difference with time, particle and place. Writes nothing.
 
 Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
     Compare(CompareArguments),
@@ -287,7 +287,7 @@ pub struct StudyArguments {
     /// Run finished variants again
     #[arg(long)]
     pub fresh: bool,
-    /// Tell what changed between two studies, given by their study.json
+    /// List the changes between two studies, given by their study.json
     #[arg(long, num_args = 2, value_names = ["A.json", "B.json"])]
     pub compare: Vec<PathBuf>,
     /// Print study.json, or the comparison, on stdout; diagnostics as a JSON array if there are any

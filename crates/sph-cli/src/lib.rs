@@ -9,7 +9,7 @@
 //!
 //! [`library`] has the commands as functions, for programs without a terminal.
 //!
-//! Every subcommand is one file; none of them knows a plugin by name. Exit codes: 0 done,
+//! Every subcommand is one file; none of them names a plugin. Exit codes: 0 done,
 //! 1 the run failed or was interrupted, 2 bad usage or a bad scene. With code 2 nothing has been
 //! written.
 

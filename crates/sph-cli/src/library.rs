@@ -148,6 +148,6 @@ pub struct StudyOptions {
     pub only: Vec<String>,
     /// Whether finished variants run again.
     pub fresh: bool,
-    /// Whether it says nothing.
+    /// Whether it is silent.
     pub quiet: bool,
 }

@@ -11,7 +11,7 @@ use sph_neighbours::decomposition::Transport;
 
 static TEAM: OnceLock<Arc<dyn Transport>> = OnceLock::new();
 
-/// Stays in the job as long as this lives.
+/// Stays in the job until this is dropped.
 pub struct Joined {
     #[cfg(feature = "mpi")]
     _job: Option<job::Job>,

@@ -28,7 +28,7 @@ pub fn read(source: Source) -> Result<AnyScene, Trouble> {
     let mistakes = |source: &Source, diagnostics: &[sph_scene::Diagnostic]| {
         Trouble::Scene(diagnostics::located(source, diagnostics))
     };
-    // What is no TOML is told by the reader of particles.
+    // Text that is no TOML is refused by the reader of particles.
     let table = source.table();
     if table.is_ok_and(|table| dem_pfv::scene::is_grain_scene(&table)) {
         let loaded = dem_pfv::scene::read(source);

@@ -98,7 +98,7 @@ pub fn data_of(text: &str) -> impl Iterator<Item = (&'static str, &'static [u8])
 /// Writes a compiled-in scene's data below a folder; returns what was written.
 ///
 /// # Errors
-/// What the system says, with the file.
+/// The reason of the system, with the file.
 pub fn unpack_data(text: &str, folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut written = Vec::new();
     for (path, content) in data_of(text) {

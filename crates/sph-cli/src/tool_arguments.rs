@@ -64,7 +64,7 @@ fn weights() -> impl TypedValueParser<Value = Weight> {
     names.map(|name| one_of(&Weight::ALL, |weight| weight.name() == name))
 }
 
-/// The one that a name stands for, which the parser knows.
+/// The one of a name, which the parser has checked.
 fn one_of<T: Copy + Default>(all: &[T], is: impl Fn(T) -> bool) -> T {
     let found = all.iter().copied().find(|one| is(*one));
     found.unwrap_or_default()

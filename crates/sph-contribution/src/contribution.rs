@@ -6,7 +6,7 @@ use sph_rheology::state::Laws;
 
 use crate::{Offer, OwnColumn, Refusal};
 
-/// What a contribution may know of the scene that it is in.
+/// The scene for a contribution.
 pub struct Setting<'a, const D: usize> {
     /// Equations of state with their reference densities and speeds of sound, in the order of the phase numbers.
     pub laws: &'a Laws,
@@ -14,7 +14,7 @@ pub struct Setting<'a, const D: usize> {
     pub phases: &'a [String],
     /// η/ρ₀ of every phase whose law has one viscosity, m²/s; none of the others.
     pub viscosities: &'a [Option<f64>],
-    /// Which phases are soils: their laws feel a pressure.
+    /// Which phases are soils: their laws read a pressure.
     pub soils: &'a [bool],
     /// The scalar that the formulation integrates for the density, with its rate.
     pub density: Evolved,
@@ -44,7 +44,7 @@ pub trait Contribution<const D: usize> {
     fn columns(&self) -> Vec<OwnColumn<D>> {
         Vec::new()
     }
-    /// Offers its pieces; asked once, of all contributions in turn.
+    /// Offers its pieces; called once, of all contributions in turn.
     ///
     /// # Errors
     /// The key that does not fit the scene, and why.

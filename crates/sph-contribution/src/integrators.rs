@@ -1,6 +1,6 @@
 //! Time integrators as plugins over [`sph_core::System`], and the coefficients of their limits.
 //!
-//! An [`Integrator`] knows kicks, drifts and evaluations, and no particle.
+//! An [`Integrator`] consists of kicks, drifts and evaluations, without particles.
 
 mod contract;
 mod leap_frog;

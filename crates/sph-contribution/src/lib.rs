@@ -1,7 +1,7 @@
 //! Offers of a piece of physics to a flow, and kinds of plugins for it from outside this project.
 //!
 //! * [`Contribution`]: columns with their values at the start, and an [`Offer`]: stages, pair terms, transported scalars,
-//!   step limits, hooks and gates. The solver asks every contribution once and knows none by name.
+//!   step limits, hooks and gates. The solver calls every contribution once and names none.
 //! * [`StepHook`]: work on velocities, positions and columns in some [`StepPhase`]s of a step; a [`Kick`] advances the
 //!   velocities itself.
 //! * [`Gate`]: particles that leave, and [`Newborn`] particles.

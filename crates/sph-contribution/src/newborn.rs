@@ -7,7 +7,7 @@ use sph_core::Vect;
 /// A particle that comes into the flow at the end of a step.
 ///
 /// Its density is that of the equation of state's pressure there; what a formulation integrates follows from it. Densities that are sums
-/// feel its mass at once: let a particle in with little of it, or where no particle is near.
+/// get its mass at once: let a particle in with little of it, or where no particle is near.
 #[derive(Clone, Debug)]
 pub struct Newborn<const D: usize> {
     /// Position, m.
@@ -22,6 +22,7 @@ pub struct Newborn<const D: usize> {
     pub phase: u32,
     /// Where it came from, for columns that [begin](crate::Birth) with it.
     pub body: Arc<str>,
-    /// Values of columns that contributions bring along, by the names of the columns; the others begin as the columns say.
+    /// Values of columns that contributions bring along, by the names of the columns; the others begin with the values
+    /// of the columns.
     pub values: Arc<[(String, f64)]>,
 }

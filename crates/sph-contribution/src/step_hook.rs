@@ -86,7 +86,7 @@ pub trait StepHook<const D: usize>: Send {
     fn name(&self) -> String;
     /// Columns that it reads and writes; those that it reads are computed.
     fn access(&self) -> Access;
-    /// The phases in which it runs; asked once.
+    /// The phases in which it runs; called once.
     fn phases(&self) -> &'static [StepPhase];
     /// Its work in a phase.
     ///

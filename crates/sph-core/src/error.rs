@@ -54,7 +54,7 @@ pub enum RegistryError {
     Unknown {
         /// Kind of plugin.
         kind: &'static str,
-        /// Name asked for.
+        /// The requested name.
         name: String,
         /// Nearest name, as `, did you mean …?`.
         hint: String,
@@ -78,7 +78,7 @@ pub enum RegistryError {
     Dimension {
         /// Kind of plugin.
         kind: &'static str,
-        /// Name asked for.
+        /// The requested name.
         name: &'static str,
         /// Dimension of the scene.
         dimension: usize,

@@ -2,7 +2,7 @@
 
 use crate::{Field, Scalar, StepError, StepLimit};
 
-/// A scalar that a formulation wants integrated in time.
+/// A scalar that a formulation integrates in time.
 #[derive(Clone, Copy, Debug)]
 pub struct Evolved {
     /// The quantity.
@@ -22,7 +22,7 @@ pub enum Recall {
     Scalars,
 }
 
-/// The system a time integrator advances. It knows no particle, only these motions.
+/// The system a time integrator advances. It has these motions, and no particles.
 pub trait System {
     /// Evaluates all rates at the present state and time.
     ///

@@ -204,7 +204,7 @@ impl<K: Kind> Field<K> {
         }
     }
 
-    /// Forgets the type, for declarations and listings.
+    /// Drops the type, for declarations and listings.
     pub const fn any(self) -> AnyField {
         AnyField {
             name: self.name,

@@ -41,7 +41,7 @@ pub const WALL_FRICTION: Field<Scalar> = Field::new(
     "Pa s/m",
     "shear stress of the wall function over the speed along the wall",
 );
-/// Pressure between the grains of a soil: what friction feels.
+/// Pressure between the grains of a soil, which makes friction.
 pub const EFFECTIVE_PRESSURE: Field<Scalar> = Field::new(
     "effective_pressure",
     "Pa",

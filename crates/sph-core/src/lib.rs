@@ -4,7 +4,7 @@
 //! * [`Field`] and [`Store`]: one column per field, allocated only when a stage or term declared it.
 //! * [`contract!`] and [`plugin`]: how a crate offers plugins of a kind, with typed
 //!   parameters whose unit, default, meaning and source travel with them.
-//! * [`Declares`], [`Stage`] and [`plan()`]: stages say what they read at the particle, what
+//! * [`Declares`], [`Stage`] and [`plan()`]: stages declare what they read at the particle, what
 //!   they read at its neighbours and what they write; the planner prunes and orders them.
 //! * [`StepLimit`]: a plugin's own largest stable time step, with its reason.
 //! * [`number`]: how numbers are written for people.

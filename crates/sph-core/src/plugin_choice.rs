@@ -4,7 +4,7 @@ use toml::Table;
 
 use crate::{RegistryError, SceneProblem};
 
-/// A plugin that the scene asks for, with its parameters as they stand in the scene.
+/// A plugin of the scene, with its parameters as they stand in the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PluginChoice {
     /// Kind of plugin: "kernel", "rheology", "probe", …

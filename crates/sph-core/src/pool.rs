@@ -1,4 +1,4 @@
-//! Buffers that tasks borrow and give back, so that a step asks for no memory.
+//! Buffers that tasks borrow and give back, so that a step allocates no memory.
 
 use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -133,7 +133,7 @@ pub trait Stage<C>: Declares + Send {
     fn needs_all(&self) -> Option<&'static str> {
         None
     }
-    /// Whether it may run for some of the particles, and then for the others, as the context asks.
+    /// Whether it may run for some of the particles, and then for the others, by the context.
     fn halves(&self) -> bool {
         false
     }

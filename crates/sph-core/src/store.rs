@@ -34,7 +34,7 @@ pub struct Store<const D: usize> {
     pub(crate) spare: Spare<D>,
 }
 
-/// A column of each kind to sort into: asked for when particles of such a column are first sorted.
+/// A column of each kind to sort into: allocated when particles of such a column are first sorted.
 #[derive(Default)]
 pub(crate) struct Spare<const D: usize> {
     scalar: Vec<f64>,

@@ -68,7 +68,7 @@ pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// * `#[rate(FIELD)]`: the slot of a rate that the term adds to;
 /// * `#[value(expression)]`: a constant of the sweep.
 ///
-/// Expressions know `self`, which is the term, and `world`.
+/// Expressions may use `self`, the term, and `world`.
 #[proc_macro_attribute]
 pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let term = parse_macro_input!(arguments as pair_term::Term);

@@ -30,7 +30,8 @@ impl Parse for Root {
     }
 }
 
-/// The type with what its attribute says. A plugin that keeps more than its parameters is no value to copy or to print.
+/// The type with the additions of its attribute. A plugin that keeps more than its parameters is no value to copy or to
+/// print.
 ///
 /// # Errors
 /// Unknown words; a union; fields without names.

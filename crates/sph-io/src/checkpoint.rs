@@ -31,7 +31,7 @@ const MAGIC: [u8; 8] = *b"SPHCKPT\0";
 const VERSION: u32 = 1;
 /// Bytes before the JSON header.
 const PREFIX: u64 = 32;
-/// Longest JSON header, bytes: what it says takes many times that in memory.
+/// Longest JSON header, bytes: its content takes many times that in memory.
 const HEADER: u64 = 64 << 20;
 /// Most columns.
 const COLUMNS: usize = 10_000;
@@ -41,7 +41,7 @@ const SUFFIX: u64 = 4;
 /// A run's state: metadata and columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checkpoint {
-    /// Whatever the caller wants to find again, as JSON: scene, time, step, ….
+    /// Data of the caller, as JSON: scene, time, step, ….
     /// Finite reals come back bit for bit; JSON has no NaN and no infinity.
     pub meta: Value,
     /// Named columns, every name once.

@@ -1,7 +1,7 @@
 //! # Pictures of a run, made afterwards
 //!
 //! Read and drawn from the frames that a run has written: streamlines of one
-//! moment, profiles along a line, tracks of single particles. It knows no particle method, only points with columns.
+//! moment, profiles along a line, tracks of single particles. It has points with columns, and no particle method.
 //!
 //! | subject | computed by | drawn and written by |
 //! |---|---|---|

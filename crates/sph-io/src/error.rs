@@ -11,7 +11,7 @@ pub type Result<T> = std::result::Result<T, IoError>;
 /// A failed read or write: which file, and why.
 ///
 /// The message of an underlying [`io::Error`] is part of the display text, so
-/// that one line says all; the error itself stays reachable as `source`.
+/// that one line has all; the error itself stays reachable as `source`.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum IoError {
@@ -20,7 +20,7 @@ pub enum IoError {
     CreateFolder {
         /// The folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// The reason of the operating system.
         source: io::Error,
     },
     /// The folder is there but nothing can be written into it.
@@ -28,7 +28,7 @@ pub enum IoError {
     NotWritable {
         /// The folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// The reason of the operating system.
         source: io::Error,
     },
     /// Another run writes into the folder.
@@ -48,7 +48,7 @@ pub enum IoError {
     DiskFull {
         /// The file that was to be written; it keeps its former content.
         path: PathBuf,
-        /// What the operating system says.
+        /// The reason of the operating system.
         source: io::Error,
     },
     /// Writing failed for another reason than a full disk.
@@ -56,7 +56,7 @@ pub enum IoError {
     Write {
         /// The file that was to be written.
         path: PathBuf,
-        /// What the operating system says.
+        /// The reason of the operating system.
         source: io::Error,
     },
     /// Reading failed.
@@ -64,7 +64,7 @@ pub enum IoError {
     Read {
         /// The file that was to be read.
         path: PathBuf,
-        /// What the operating system says.
+        /// The reason of the operating system.
         source: io::Error,
     },
     /// What has been read is not what is needed.
@@ -88,7 +88,7 @@ pub enum IoError {
     Json {
         /// The file that was to be written.
         path: PathBuf,
-        /// What the serialiser says.
+        /// The reason of the serialiser.
         source: serde_json::Error,
     },
     /// A table does not read as columns of numbers.
@@ -181,7 +181,7 @@ impl IoError {
     }
 }
 
-/// Whether `error` says that the disk, the quota or what `ulimit -f` leaves is full.
+/// Whether `error` means that the disk, the quota or what `ulimit -f` leaves is full.
 pub(crate) fn is_full(error: &io::Error) -> bool {
     use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull, WriteZero};
     matches!(

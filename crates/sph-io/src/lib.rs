@@ -1,8 +1,8 @@
 //! # Files of a simulation
 //!
-//! Plain data in, files out: this crate knows no particle method, only columns
+//! Plain data in, files out: this crate has no particle method, but columns
 //! of numbers. It serves a solver, but also any script that has positions and
-//! fields and wants to see them.
+//! fields.
 //!
 //! | subject | write | read |
 //! |---|---|---|
@@ -30,12 +30,12 @@
 //! leaves.
 //!
 //! **No anonymous error.** Every failure is an [`IoError`] that names the file;
-//! damaged checkpoints say which check failed ([`CheckpointFault`]), bad tables
+//! damaged checkpoints name the check that failed ([`CheckpointFault`]), bad tables
 //! which line and column. [`writable`] asks for trouble before the run rather
 //! than after it.
 //!
 //! All quantities are in SI units. Vectors of planar scenes are padded with a
-//! zero, because ParaView wants three components.
+//! zero, because ParaView takes three components.
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

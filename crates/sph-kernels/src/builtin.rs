@@ -74,7 +74,7 @@ kernels! {
     /// let value = sph_kernels::wendland_c4().value(1.0); // 83/768
     /// assert!((value - 83.0 / 768.0).abs() < 1e-15);
     /// ```
-    wendland_c4, "wendland-c4", "Wendland C4, support 2h: smoother, wants more neighbours",
+    wendland_c4, "wendland-c4", "Wendland C4, support 2h: smoother, needs more neighbours",
         "Wendland 1995; Dehnen & Aly 2012, Table 1", wendland(6, &[1.0, 3.0, 35.0 / 12.0]);
 
     /// Wendland C6.
@@ -92,7 +92,7 @@ kernels! {
     /// use sph_kernels::Kernel;
     /// assert_eq!(sph_kernels::wendland_c6().value(1.0), 61.0 / 1024.0);
     /// ```
-    wendland_c6, "wendland-c6", "Wendland C6, support 2h: smoothest, wants most neighbours",
+    wendland_c6, "wendland-c6", "Wendland C6, support 2h: smoothest, needs most neighbours",
         "Wendland 1995; Dehnen & Aly 2012, Table 1", wendland(8, &[1.0, 4.0, 6.25, 4.0]);
 
     /// Cubic spline M4, support 2h.

@@ -1,4 +1,4 @@
-//! Formulas in q whose size the compiler knows, so that loops over them become vector
+//! Formulas in q of constant size, so that loops over them become vector
 //! instructions.
 
 use std::fmt::Debug;

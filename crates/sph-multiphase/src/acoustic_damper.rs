@@ -85,7 +85,7 @@ struct Resistance<const D: usize> {
     /// ρ₀ of every phase, kg/m³.
     densities: Vec<f64>,
     term: [Box<dyn Interaction<D>>; 1],
-    /// What the term declares: no step asks for memory to find it out.
+    /// What the term declares: no step allocates memory for it.
     declared: Vec<Access>,
     /// The sweep sums accelerations, too; they are not read.
     unused: Vec<Vect<D>>,

@@ -40,7 +40,7 @@ pub trait Formulation<const D: usize>: Send + Sync {
     /// [`Rates`](sph_neighbours::Rates), 1/s. With Σ over particles and without walls,
     /// Σ V p D{u} = −Σ V u·G{p}.
     fn divergence(&self) -> Box<dyn Interaction<D>>;
-    /// −D lnρ/Dt by motion, 1/s, as the densities follow it: D{u}, where they do not know better.
+    /// −D lnρ/Dt by motion, 1/s, as the densities follow it: D{u} by default.
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
         self.divergence()
     }

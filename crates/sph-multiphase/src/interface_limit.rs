@@ -14,7 +14,7 @@ use sph_rheology::state::{BoundState, Reference};
 /// inertia of the light ones: half air and half water of the same speed of sound c swing with
 /// ½ S c √(ρ_j/ρ_i), a lone particle of air in water with 0.6 of that. Half of ωΔt ≤ 2 is taken: drops
 /// are denser than lattices, and friction takes a share of the 2. Where the largest is in one phase
-/// alone, the limit of the speed of sound knows it; where ρc² is the same in all phases this never binds. Ours; with a
+/// alone, the limit of the speed of sound has it; where ρc² is the same in all phases this never binds. Ours; with a
 /// step twice as long, air around drops of water in a dam break swings with 100 m/s and more.
 #[derive(Debug)]
 pub struct InterfaceLimit {

@@ -6,7 +6,7 @@
 //!   [`Jacobi`] for comparison.
 //! * [`TimeScheme`]: how friction is taken over a step, [`BackwardEuler`] or [`CrankNicolson`].
 //!
-//! Nothing here knows what is solved for: a viscous velocity, a pressure, a temperature.
+//! The unknowns are of any kind: a viscous velocity, a pressure, a temperature.
 //!
 //! ```
 //! use sph_core::Vect;

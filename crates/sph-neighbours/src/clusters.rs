@@ -224,7 +224,7 @@ impl Block {
         }
     }
 
-    /// Parts points into clusters of at most `width` that are not longer than `longest`, and forgets all candidates.
+    /// Parts points into clusters of at most `width` that are not longer than `longest`, and clears all candidates.
     fn part<const D: usize>(&mut self, points: &[Vect<D>], width: usize, longest: f64) {
         self.first.clear();
         self.of.clear();

@@ -34,7 +34,7 @@ pub struct ContactBlock<const D: usize> {
 }
 
 impl<const D: usize> ContactBlock<D> {
-    /// Forgets all.
+    /// Clears all.
     pub fn clear(&mut self) {
         self.runs.clear();
         self.elements.clear();
@@ -46,7 +46,7 @@ impl<const D: usize> ContactBlock<D> {
         self.runs.len() as u32
     }
 
-    /// Forgets all planes but the first ones.
+    /// Drops all planes but the first ones.
     pub fn truncate(&mut self, planes: u32) {
         self.runs.truncate(planes as usize);
         let end = self.runs.last().map_or(0, |run| run.to as usize);
@@ -266,7 +266,7 @@ impl<const D: usize> Contacts<D> {
         blocks + size_of::<Place>() * self.places.len() + 4 * self.particles.len()
     }
 
-    /// Forgets the contacts, so that `particles` free ones have none, and hands out the blocks for new ones.
+    /// Clears the contacts, so that `particles` free ones have none, and hands out the blocks for new ones.
     pub fn take_blocks(&mut self, particles: usize) -> Vec<ContactBlock<D>> {
         self.particles.clear();
         self.places.clear();

@@ -40,7 +40,7 @@ impl SweepHalf {
 
     /// Whether a particle is asked for.
     #[inline]
-    pub fn wants(&self, particle: usize) -> bool {
+    pub fn includes(&self, particle: usize) -> bool {
         self.edge[particle] != self.inner
     }
 }
@@ -48,5 +48,5 @@ impl SweepHalf {
 /// Whether a particle is needed: all are outside of halves.
 #[inline]
 pub fn is_wanted(half: Option<&SweepHalf>, particle: usize) -> bool {
-    half.is_none_or(|half| half.wants(particle))
+    half.is_none_or(|half| half.includes(particle))
 }

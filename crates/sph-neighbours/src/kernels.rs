@@ -1,4 +1,4 @@
-//! Kernels as plugins. The kernels themselves live in `sph-kernels`, which knows no registry.
+//! Kernels as plugins. The kernels themselves are in `sph-kernels`, which has no registry.
 
 use sph_core::{PluginInfo, contract, parameters, schema_of, typed};
 use sph_kernels::Kernel;

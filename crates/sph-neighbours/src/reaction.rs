@@ -34,7 +34,7 @@ pub fn wall_forces<const D: usize>(
     Ok(forces)
 }
 
-/// The same without [`facing_forces`], and without the integrals of the pressure, which no single rank knows on all
+/// The same without [`facing_forces`], and without the integrals of the pressure, which no single rank has on all
 /// elements; they are 0 here.
 ///
 /// # Errors

@@ -223,7 +223,7 @@ impl<const D: usize> Scratch<D> {
         self.len = n;
     }
 
-    /// Forgets the row.
+    /// Clears the row.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.len = 0;

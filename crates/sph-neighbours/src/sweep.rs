@@ -76,7 +76,7 @@ pub fn all_sums<const D: usize>(
 
 /// Lends all terms as one to `with`, each held to what it declares while it looks its columns up.
 ///
-/// Every term is on the stack of the one before it, so that no step asks for memory.
+/// Every term is on the stack of the one before it, so that no step allocates memory.
 pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
     world: &World<D>,
     declared: &[Access],

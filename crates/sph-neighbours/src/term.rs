@@ -54,7 +54,7 @@ pub trait PairTerm<const D: usize>: Send + Sync + 'static {
 pub trait RowTerm<const D: usize>: Sync {
     /// Adds the term's rates for one particle.
     fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>);
-    /// Adds the rates of all particles of a cluster, row by row unless the term knows better.
+    /// Adds the rates of all particles of a cluster, row by row unless the term has a form of its own.
     fn cluster(&self, cluster: &mut Cluster<'_, D>, rates: &mut [Rates<D>]) {
         cluster.rows(|k, neighbourhood| self.row(neighbourhood, &mut rates[k]));
     }
@@ -72,7 +72,8 @@ pub trait Interaction<const D: usize>: Send + Sync {
     fn name(&self) -> String;
     /// Columns read, and written rates of scalars of its own ([`Rates::more`]); accelerations are the sweep's.
     fn access(&self) -> Access;
-    /// Looks the columns up and calls `with`, once. The term with its columns is on the stack: no step asks for memory.
+    /// Looks the columns up and calls `with`, once. The term with its columns is on the stack: no step allocates
+    /// memory.
     ///
     /// # Errors
     /// If a column is missing, and those of `with`.

@@ -72,13 +72,13 @@ impl<'w, const D: usize> Surroundings<'w, D> {
     }
 }
 
-/// The neighbourhood of one particle, and kernel values where they were asked for.
+/// The neighbourhood of one particle, and kernel values where they were requested.
 pub struct Around<'a, const D: usize> {
     /// Rows, contacts and 1/γ.
     pub rows: Neighbourhood<'a, D>,
-    /// w of the free row, 1/m^d; empty unless asked for.
+    /// w of the free row, 1/m^d; empty unless requested.
     pub free: &'a [f64],
-    /// w of the wall row, 1/m^d; empty unless asked for.
+    /// w of the wall row, 1/m^d; empty unless requested.
     pub wall: &'a [f64],
 }
 

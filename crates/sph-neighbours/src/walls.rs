@@ -163,7 +163,7 @@ pub struct Passed {
     pub held: f64,
 }
 
-/// All that the pair loop knows of walls; empty where a scene has none.
+/// The walls for the pair loop; empty where a scene has none.
 #[derive(Clone, Debug, Default)]
 pub struct WallSet<const D: usize> {
     /// Names of the walls; one that is drawn in several pieces is there once per piece.
@@ -186,7 +186,7 @@ pub struct WallSet<const D: usize> {
     pub passed: Vec<Passed>,
     /// What the lines of movers do, wall by wall in the order of their scene; empty where there is none.
     pub pulls: Vec<LinePull<D>>,
-    /// Forces of the fluid on every wall, in the order of the names; NaN on walls that no probe asks for, empty if none
+    /// Forces of the fluid on every wall, in the order of the names; NaN on walls without a probe, empty if none
     /// asks for any.
     pub forces: Vec<WallForce<D>>,
 }
@@ -203,7 +203,7 @@ impl<const D: usize> WallSet<D> {
         frame.map_or_else(Vect::zeros, |frame| frame.round)
     }
 
-    /// Takes over where the same walls are in another set, and what has passed and pulled there; not what walls feel.
+    /// Takes over where the same walls are in another set, and volumes and forces there; not the forces of the fluid.
     pub fn follow(&mut self, other: &Self) {
         if !(other.frames.is_empty() && other.passed.is_empty()) {
             let (points, there) = (&mut self.points, &other.points);

@@ -11,7 +11,7 @@ use crate::{
     CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallSet,
 };
 
-/// The lists between the point sets, valid until [`World::refresh_lists`] says otherwise.
+/// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.
 #[derive(Default)]
 pub struct Lists<const D: usize> {
     /// Free particles around clusters of free particles, skin included.
@@ -32,7 +32,7 @@ pub struct Lists<const D: usize> {
     reference_points: Vec<Vect<D>>,
     /// Pairs that walls hide from each other; none until the walls give them at the present positions.
     pub hidden: Hidden,
-    /// Which particles a sweep is asked for, where it runs in halves.
+    /// The particles of a sweep that runs in halves.
     pub sweep_half: Option<SweepHalf>,
     /// Builds so far.
     pub builds: u64,
@@ -101,7 +101,7 @@ impl<const D: usize> World<D> {
         self.walls.scales
     }
 
-    /// γ as density sums and what belongs to them know it; none where it is 1.
+    /// γ of density sums; none where it is 1.
     pub fn sum_renormalisation(&self) -> Option<&[f64]> {
         match self.scales() {
             true => None,
@@ -314,7 +314,7 @@ impl<const D: usize> World<D> {
         }
     }
 
-    /// Rebuilds the lists if they expired; says whether it did.
+    /// Rebuilds the lists if they expired; returns whether it did.
     ///
     /// # Errors
     /// If there is no position column.

@@ -44,7 +44,8 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Velocity along the normal that an element asks for, and by how much the water before it goes out faster as far as air
+    /// Velocity along the normal that the law of an element imposes, and by how much the water before it goes out
+    /// faster as far as air
     /// is beside it, m/s.
     fn speeds(&self, k: usize) -> [f64; 2] {
         let along = |u: &Vect<D>| u.dot(&self.places[k].normal);

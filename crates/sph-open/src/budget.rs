@@ -12,7 +12,7 @@ use crate::faces::Faces;
 /// go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 
-/// Difference between what has passed a face and what it asks for that goes without saying, over the latter.
+/// Difference between what has passed a face and the requested volume without a warning, over the latter.
 const BORNE: f64 = 0.005;
 
 impl<const D: usize> Faces<D> {
@@ -70,7 +70,7 @@ impl<const D: usize> Faces<D> {
         self.laws[phase].reference().density
     }
 
-    /// Counts the volumes that the laws ask for in `dt` seconds up to a `time`, and notes when faces are dry first.
+    /// Counts the volumes that the laws request in `dt` seconds up to a `time`, and notes when faces are dry first.
     pub fn ask(&mut self, time: f64, dt: f64) {
         for f in 0..self.faces.len() {
             let own = self.faces[f].elements.clone();
@@ -89,7 +89,8 @@ impl<const D: usize> Faces<D> {
     }
 
     /// By face and phase: mass that entered, left and is held, kg; and what is missing of entered − left − (born − died) −
-    /// held, which is rounding. By face where its law asks for a volume: this and what has passed, m³ at the reference density.
+    /// held, which is rounding. By face where its law requests a volume: this and what has passed, m³ at the reference
+    /// density.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();
         let mut all = serde_json::Map::new();
@@ -133,7 +134,7 @@ impl<const D: usize> Faces<D> {
         Json::Object(all)
     }
 
-    /// Faces that have let pass another volume than they ask for, and those that ask for none and are dry at the end.
+    /// Faces that have let pass another volume than they request, and those that request none and are dry at the end.
     pub fn differences(&self) -> Vec<String> {
         let faces = 0..self.faces.len();
         faces.filter_map(|f| self.difference(f)).collect()

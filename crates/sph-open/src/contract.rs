@@ -152,7 +152,7 @@ pub struct Entering {
     pub values: BTreeMap<String, f64>,
 }
 
-/// The law of an open face. It remembers nothing: what it needs of the past is in [`Inside::mean`].
+/// The law of an open face. It has no memory: what it needs of the past is in [`Inside::mean`].
 pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Checks its table against the scene.
     ///
@@ -177,12 +177,13 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     fn keeps_rows_even(&self) -> bool {
         false
     }
-    /// Volume into the fluid per time that it asks for at the reference density, m³/s, whatever is in front of the face; none
+    /// Volume into the fluid per time that it requests at the reference density, m³/s, whatever is in front of the
+    /// face; none
     /// where the velocity follows. The velocities of such a law are those at the reference density, too.
     fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
         None
     }
-    /// Time over which it wants the [means](Inside::mean) of velocity and pressure, s, if it does.
+    /// Time of the [means](Inside::mean) of velocity and pressure, s, if it does.
     fn memory(&self) -> Option<f64> {
         None
     }

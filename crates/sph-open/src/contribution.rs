@@ -128,7 +128,7 @@ impl<const D: usize> OpenBoundaries<D> {
         lock(&self.faces).faces.iter().any(|f| f.law.lets_out())
     }
 
-    /// The largest fall, m/s, of a velocity into the fluid that a law asks for, in the mean over its face, within a
+    /// The largest fall, m/s, of a velocity into the fluid that a law requests, in the mean over its face, within a
     /// time (s) and the longest [memory](OpenBoundary::memory) up to the `end` of a run, s; with the name of that
     /// face.
     pub fn braking(&self, time: f64, end: f64) -> Option<(String, f64)> {

@@ -20,7 +20,7 @@ const FULL: f64 = 0.8;
 const BATCH: usize = 16;
 
 impl<const D: usize> Faces<D> {
-    /// Looks at the fluid in front of all elements, and asks the laws.
+    /// Measures the fluid in front of all elements, and evaluates the laws.
     pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
         let phases = self.whole.len();
         let columns = Columns::new(world)?;
@@ -92,7 +92,7 @@ impl<const D: usize> Faces<D> {
         inside
     }
 
-    /// ρ₀/ρ before an element: laws ask for volumes of a fluid that does not compress, and its mass is to pass.
+    /// ρ₀/ρ before an element: laws request volumes of a fluid that does not compress, and its mass is to pass.
     fn expansion(&self, k: usize) -> f64 {
         let (inside, q) = (&self.inside[k], self.phase(k));
         match inside.wet {
@@ -195,7 +195,7 @@ impl<const D: usize> Faces<D> {
     }
 }
 
-/// What is asked of the particles before faces.
+/// Columns of the particles before faces.
 struct Columns<'a, const D: usize> {
     position: &'a [Vect<D>],
     velocity: &'a [Vect<D>],
@@ -261,7 +261,7 @@ impl<const D: usize> Default for Scratch<D> {
 }
 
 impl<const D: usize> Scratch<D> {
-    /// Finds the particles before an element; the kernel is asked once for all of them.
+    /// Finds the particles before an element; the kernel is evaluated once for all of them.
     fn fill(
         &mut self,
         world: &World<D>,

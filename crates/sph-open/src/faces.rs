@@ -59,7 +59,7 @@ pub(crate) struct Faces<const D: usize> {
     pub faces: Vec<Face<D>>,
     /// Equations of state by phase.
     pub laws: Laws,
-    /// Pressure of every phase at its reference density, Pa; asked for every particle before a face.
+    /// Pressure of every phase at its reference density, Pa; used for every particle before a face.
     pub backgrounds: Vec<f64>,
     /// Mass of a whole particle by phase, kg.
     pub whole: Vec<f64>,
@@ -79,7 +79,7 @@ pub(crate) struct Faces<const D: usize> {
     /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
     pub present: Vec<Vect<D>>,
     pub outside: Vec<Outside<D>>,
-    /// Volume per time that the law of every face [asks](OpenBoundary::asked) for, m³/s.
+    /// Volume per time that the law of every face [requests](OpenBoundary::asked), m³/s.
     pub asked: Vec<Option<f64>>,
     /// Velocity of the row of particles in front of every element, m/s.
     pub rows: Vec<Vect<D>>,

@@ -44,7 +44,7 @@ pub(crate) struct Volumes {
 }
 
 impl Volumes {
-    /// What was asked for and what has passed, m³.
+    /// The requested and the passed volume, m³.
     pub fn both(&self) -> [f64; 2] {
         [self.asked, self.passed].map(|sum| sum.value())
     }
@@ -119,7 +119,7 @@ impl<const D: usize> Memory<D> {
         to.push(self.dt);
     }
 
-    /// Takes what [`numbers`](Self::numbers) gave; says whether it could.
+    /// Takes what [`numbers`](Self::numbers) gave; returns whether it could.
     pub fn put_back(&mut self, from: &[f64]) -> bool {
         if from.len() != self.count() || from.iter().any(|x| !x.is_finite()) {
             return false;

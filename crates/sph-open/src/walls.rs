@@ -6,7 +6,7 @@ use sph_neighbours::{DepthGauge, WallSet, World};
 
 use crate::faces::{SharedFaces, lock};
 
-/// The walls of a scene; what their treatment says of open faces is overwritten by the laws of these.
+/// The walls of a scene; the values of their treatment at open faces is overwritten by the laws of these.
 pub(crate) struct OpenWalls<const D: usize> {
     pub walls: Box<dyn Wall<D>>,
     pub faces: SharedFaces<D>,
@@ -94,8 +94,8 @@ impl<const D: usize> WallMotion<D> for OpenWalls<D> {
         self.walls.advance(walls, gravity, time, dt)
     }
 
-    fn feels(&self, wall: usize) -> bool {
-        self.walls.feels(wall)
+    fn needs_forces(&self, wall: usize) -> bool {
+        self.walls.needs_forces(wall)
     }
 
     fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {

@@ -27,7 +27,7 @@ impl ProbeColumn {
     }
 }
 
-/// A scene as probes know it.
+/// The scene for probes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProbeScene<'a> {
     /// Names of the phases, in the order of their numbers.

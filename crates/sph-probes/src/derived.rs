@@ -1,6 +1,6 @@
-//! Fields that follow from velocity and viscosity, for outputs and probes that ask for them by name.
+//! Fields that follow from velocity and viscosity, for outputs and probes that name them.
 //!
-//! A scene that asks for none has no column, no stage and no velocity gradient for their sake.
+//! A scene without them has no column, no stage and no velocity gradient for their sake.
 
 use nalgebra::SMatrix;
 use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, Vector, fields};
@@ -60,7 +60,7 @@ const ALL: [(Derived, &str); 4] = [
     (Derived::ShearStress, SHEAR_STRESS.name),
 ];
 
-/// Names of the fields that can be asked for besides those that the plugins of a scene write.
+/// Names of the fields on request besides those that the plugins of a scene write.
 pub fn derived_fields() -> impl Iterator<Item = &'static str> {
     ALL.iter().map(|(_, name)| *name)
 }

@@ -9,7 +9,7 @@
 //!   [`PorePressureProbe`]).
 //! * [`Statistic`] composes a quantity, the particles that count and reductions; probes as [`Front`] are such measurements
 //!   with names of their own.
-//! * [`derived_stages`]: vorticity and other fields that outputs and probes ask for by name.
+//! * [`derived_stages`]: vorticity and other fields that outputs and probes name.
 //! * [`surface_distance`]: the distance to the free surface, computed when it is written.
 //! * [`Solution`]: analytical flows, as references and as initial states.
 //! * [`norm`]: the norms in which errors are reported.

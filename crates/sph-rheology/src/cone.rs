@@ -14,7 +14,7 @@ use sph_core::parameters;
 ///
 /// Mohr–Coulomb is a pyramid; the first three cones touch its outer edges, its inner edges and its
 /// faces. In simple shear
-/// the circumscribed one is stronger than the angle says: ψ = 30° stands like 34.7°. `sin` is
+/// the circumscribed one is stronger than the angle: ψ = 30° stands like 34.7°. `sin` is
 /// Mohr–Coulomb in isochoric plane strain; `tan` stands on a slope of ψ.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 4.39–4.42 and 4.53–4.55, for the first; Drucker & Prager 1952 for

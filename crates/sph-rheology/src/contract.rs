@@ -13,7 +13,7 @@ pub struct Needs {
     pub pressure: bool,
 }
 
-/// The inputs of a batch; slices that the law did not ask for are empty.
+/// The inputs of a batch; slices that the law does not need are empty.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Inputs<'a> {
     /// Magnitude of the deviatoric strain rate, 1/s.
@@ -23,7 +23,7 @@ pub struct Inputs<'a> {
 }
 
 impl Inputs<'_> {
-    /// Strain rate and pressure of one entry; zero for what was not asked for.
+    /// Strain rate and pressure of one entry; zero where not needed.
     pub(crate) fn at(&self, k: usize) -> (f64, f64) {
         let of = |column: &[f64]| column.get(k).copied().unwrap_or(0.0);
         (of(self.strain_rate), of(self.pressure))
@@ -39,7 +39,7 @@ pub struct Yielding {
     pub solid: f64,
     /// min(1, τ_y/|τ|): what the yield stress leaves of a stress that was not cut.
     pub held: f64,
-    /// Whether the material is liquid and forgets that it was deformed.
+    /// Whether the material is liquid and loses its memory.
     pub forgets: bool,
 }
 

@@ -19,7 +19,7 @@ use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding, jau
 /// at most for q = 2. In steady shear |τ| is τ_y at every strain rate (less (τ_y/𝒢)²/8 where solid
 /// and liquid meet at an angle).
 ///
-/// Liquid at x ≥ 1 forgets its stress; to chatter less, a stress that is zero stays zero down to
+/// Liquid at x ≥ 1 loses its stress; to chatter less, a stress that is zero stays zero down to
 /// x = 0.9 (ours).
 ///
 /// Nothing of this damps the vibrations of a soil at rest, each of which cuts a little of its stress, so that it

@@ -1,7 +1,7 @@
 //! Constitutive laws on slices: no particles, no neighbours.
 //!
-//! A [`Rheology`] says what it [`Needs`] and turns it into an effective viscosity; one that is
-//! [`Elastic`] also advances a stress that it remembers. The crate knows nothing of kernels or
+//! A [`Rheology`] declares what it [`Needs`] and turns it into an effective viscosity; one that is
+//! [`Elastic`] also advances a stress that it remembers. The crate has no kernels and no
 //! walls; an embedder hands it slices and gets slices back. Equations of state are in [`state`].
 //!
 //! ```

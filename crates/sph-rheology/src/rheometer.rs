@@ -62,7 +62,7 @@ pub fn shear_stresses(
     stresses.collect()
 }
 
-/// The inputs that the law asks for.
+/// The inputs that the law needs.
 fn inputs<'a>(law: &dyn Rheology, strain_rate: &'a [f64], pressure: &'a [f64]) -> Inputs<'a> {
     let needs = law.needs();
     let asked = |needed: bool, column: &'a [f64]| if needed { column } else { &[] };

@@ -221,7 +221,7 @@ impl Driver<'_> {
         }
     }
 
-    /// Reports a step; whether the observer or the bound on the run time asks to stop.
+    /// Reports a step; whether the observer or the bound on the run time stops it.
     fn wants_to_stop(&mut self, now: &ModelTime, observer: &mut Watch<'_>) -> bool {
         let command = observer.step(&Progress {
             time: now.time,

@@ -1,13 +1,13 @@
 //! One driver for the runs of all models: clock, series, fields, pictures, films, checkpoints, resume, summary.
 //!
-//! A [`Model`] advances to a limit, gives rows and fields, saves itself and reports its end. The driver knows no
+//! A [`Model`] advances to a limit, gives rows and fields, saves itself and reports its end. The driver has no
 //! physics: it decides when something is due by a [`Schedule`], owns the files of the run's folder, which it locks, and
 //! asks an [`Observer`] after every step whether to go on.
 //!
 //! * [`run()`]: a whole run.
 //! * [`Opened`]: the same in two parts, for a model whose processes must agree in between.
 //! * [`Subject`]: a scene that can be run, of whatever [`Method`]: what studies vary.
-//! * [`save_state()`], [`SavedState`]: a checkpoint of any state that `serde` knows.
+//! * [`save_state()`], [`SavedState`]: a checkpoint of any state with `serde`.
 
 mod drive;
 mod frames;

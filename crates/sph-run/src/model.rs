@@ -19,7 +19,7 @@ pub trait Model {
     /// Content of `summary.json`.
     type Summary: Serialize;
 
-    /// Puts the model where the run begins: as the scene says, or at a checkpoint; `own` is that of the run's folder.
+    /// Puts the model where the run begins: by the scene, or at a checkpoint; `own` is that of the run's folder.
     /// Gives what was counted until there.
     ///
     /// # Errors
@@ -31,7 +31,7 @@ pub trait Model {
         observer: &mut Watch<'_>,
     ) -> Result<RunCounters, Self::Error>;
 
-    /// One step that does not go beyond a time (s), tried again as the model likes. At a time that is reached nothing
+    /// One step that does not go beyond a time (s), repeated by the model. At a time that is reached nothing
     /// moves: the state is made ready to be looked at, and judged.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ pub trait Model {
     /// If it cannot be written.
     fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), Self::Error>;
 
-    /// Common decision of all processes of the run: the error of any, or the wish of any to stop.
+    /// Common decision of all processes of the run: the error of any, or a stop of any.
     ///
     /// # Errors
     /// A file that one could not write; a process that is gone.
@@ -107,7 +107,7 @@ pub struct ModelTime {
 pub enum Poll<E> {
     /// Whether what was due has been written.
     Written(Result<(), E>),
-    /// Whether this one wants to stop.
+    /// Whether this one stops.
     Stop(bool),
 }
 

@@ -34,7 +34,7 @@ pub trait Observer {
     fn message(&mut self, text: &str);
 }
 
-/// A watcher that says nothing.
+/// A silent watcher.
 impl Observer for () {
     fn step(&mut self, _progress: &Progress) -> Command {
         Command::Continue
@@ -42,5 +42,5 @@ impl Observer for () {
     fn message(&mut self, _text: &str) {}
 }
 
-/// A watcher that a model may talk to.
+/// A watcher for messages of a model.
 pub type Watch<'a> = dyn Observer + Send + 'a;

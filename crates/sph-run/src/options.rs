@@ -27,7 +27,7 @@ pub struct RunOptions {
 /// Start of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// As the scene says, at t = 0.
+    /// At t = 0.
     #[default]
     Afresh,
     /// With the checkpoint in the run's own folder, as if it had never stopped.

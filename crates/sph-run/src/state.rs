@@ -1,4 +1,4 @@
-//! Checkpoints of states that `serde` knows.
+//! Checkpoints of states with `serde`.
 
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! Scene files: from a TOML text to plain validated data and particle positions.
 //!
-//! A scene is data. This crate knows no kernel, no wall treatment and no rheology: every table
+//! A scene is data. This crate has no kernel, no wall treatment and no rheology: every table
 //! that names a plugin is kept as it stands ([`PluginChoice`](sph_core::PluginChoice)) and handed to the code that
 //! builds
-//! plugins. What it does know is the form of a scene, its units, its geometry, and how to say
+//! plugins. It has the form of a scene, its units, its geometry, and how to say
 //! where a mistake is.
 //!
 //! The way of a scene:

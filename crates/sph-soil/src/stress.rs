@@ -13,7 +13,7 @@
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //! * `contribution` brings all that into a scene.
 //!
-//! Nothing here runs in a scene whose laws do not ask for it.
+//! Nothing here runs in a scene whose laws do not need it.
 
 mod adjoint;
 mod bed_system;

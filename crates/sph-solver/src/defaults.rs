@@ -1,4 +1,4 @@
-//! Plugins that messages advise to take; the only names the solver knows.
+//! Plugins that messages advise to take; the only names in the solver.
 
 /// Skin of the neighbour lists as a share of the support radius.
 pub const SKIN: f64 = 0.1;
@@ -13,13 +13,13 @@ const SUGGESTIONS: [(&str, &str); 2] = [
 pub const ONE_KICK: &str = "`[integrator.symplectic-euler]`";
 /// Walls that can be opened.
 pub const OPEN_WALLS: &str = "`[walls.usaw]` with `vertices = false`";
-/// Walls that every formulation and pressure scheme knows.
+/// Walls for every formulation and pressure scheme.
 pub const KNOWN_WALLS: &str = "`[walls.usaw]`";
 /// Lets fluid out.
 pub const OUTFLOW: &str = "`open-boundary.outflow`";
 /// Takes sound that walls feed.
 pub const SOUND_DAMPING: &str = "`[damping.acoustic]`";
-/// Lets densities forget a surface.
+/// Relaxes densities at former surfaces.
 pub const SURFACE: &str = "`[surface.cone-test]`";
 
 /// The table of what a scene without a plugin of a kind is advised to take.

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Anything that keeps a scene from a flow that can be stepped.
 #[derive(Debug, Error)]
 pub enum SolverError {
-    /// The scene asks for something that is not there or cannot be.
+    /// The scene has a wrong name or an impossible value.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Scene(Vec<SceneProblem>),
     /// The plugins of the scene do not fit together.

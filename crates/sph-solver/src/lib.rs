@@ -1,6 +1,6 @@
 //! Assembles the plugins a scene names into a plan, and steps it.
 //!
-//! The solver knows traits and the registry, never a concrete kernel, wall, rheology,
+//! The solver has traits and the registry, and no concrete kernel, wall, rheology,
 //! formulation, integrator, probe or solution: names come from the scene, or from
 //! [`defaults`] where the scene is silent.
 //!

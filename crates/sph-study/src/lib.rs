@@ -3,7 +3,7 @@
 //! A study file names a scene, what is varied and the error that is judged. The way of a study:
 //! 1. [`Study::read`] crosses or pairs its axes into variants, reads the scene of each, and finds
 //!    every mistake before anything runs; [`Study::assemble`] puts a variant's plugins together.
-//!    A scene is a [`Subject`](sph_run::Subject) of any [`Method`](sph_run::Method): a study knows no physics.
+//!    A scene is a [`Subject`](sph_run::Subject) of any [`Method`](sph_run::Method): a study has no physics.
 //! 2. [`execute`] runs what no [`Record`] settles; it can be stopped at any time and goes on where
 //!    it was.
 //! 3. [`Results`] has errors, times and orders of convergence; [`publish`] writes them as JSON,

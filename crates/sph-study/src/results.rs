@@ -62,7 +62,7 @@ pub struct Results {
     pub series: Vec<SeriesResult>,
     /// Variants that no other one beats in both error and time, fastest first.
     pub pareto: Vec<String>,
-    /// Costs against the number of particles, of studies that ask for them.
+    /// Costs against the number of particles, of studies that have them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,
 }

@@ -193,7 +193,7 @@ impl FlowSystem {
             .map_or(0.0, |s| self.void_volumes[cell].max(0.0) * per_volume(s))
     }
 
-    /// Pressures of all cells (Pa) from which conjugate gradients start; the last ones if nothing is said. A
+    /// Pressures of all cells (Pa) from which conjugate gradients start; the last ones by default. A
     /// factorisation takes no notice.
     ///
     /// # Errors

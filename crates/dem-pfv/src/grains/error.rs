@@ -173,7 +173,7 @@ pub enum GrainError {
         /// Laws given.
         laws: usize,
     },
-    /// A law wants to remember too much.
+    /// A law remembers more numbers than there is room for.
     #[error("contact law {law} remembers {wanted} numbers per contact; there is room for {room}")]
     Memory {
         /// Its number.

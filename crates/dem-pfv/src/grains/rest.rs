@@ -16,7 +16,7 @@ impl GrainSystem {
     /// ```
     ///
     /// with the resultant force F, the mean contact force F_c, the mean radius R and the mean mass m. Held grains do not
-    /// count. A tolerance of 1 and more asks for nothing: the resultant force in free fall is the weight.
+    /// count. A tolerance of 1 and more has no effect: the resultant force in free fall is the weight.
     ///
     /// # Errors
     /// A piston of unknown area.

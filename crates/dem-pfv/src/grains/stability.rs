@@ -19,7 +19,7 @@ pub(crate) struct Limit {
 /// Overlap over radius from which the stiffness of the first touch is guessed.
 const FIRST_TOUCH: f64 = 1e-3;
 
-/// The critical step of grains with these contacts: what [`GrainSystem::critical_step`] says.
+/// The critical step of grains with these contacts: the value of [`GrainSystem::critical_step`].
 ///
 /// [`GrainSystem::critical_step`]: crate::grains::GrainSystem::critical_step
 pub(crate) fn critical(

@@ -257,7 +257,7 @@ impl GrainSystem {
         self.integrate_unchecked(step)
     }
 
-    /// The same without asking for the critical step: for those who know a better limit.
+    /// The same without asking for the critical step: for callers with a better limit.
     ///
     /// # Errors
     /// A pressed wall of unknown area, a step too short to move the clock, [`GrainError::TooDeep`]; nothing is moved

@@ -28,7 +28,7 @@ pub struct Assembled {
 /// Puts a scene together and prepares its grains; reports its steps.
 ///
 /// # Errors
-/// What the scene asks for and cannot be, by its key.
+/// Impossible values of the scene, by their keys.
 pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled, DemError> {
     let scene = &loaded.scene;
     let laws = Laws::from_scene(scene)?;

@@ -25,7 +25,7 @@ pub enum DemError {
     Threads {
         /// Asked for.
         threads: usize,
-        /// What the system says.
+        /// The reason of the system.
         reason: String,
     },
     /// The run failed.
@@ -39,7 +39,7 @@ impl DemError {
         Self::Scene(vec![SceneProblem::new(path, message.to_string())])
     }
 
-    /// 2 where nothing was run because of what was asked for, 1 otherwise.
+    /// 2 where nothing was run because of a wrong request, 1 otherwise.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {

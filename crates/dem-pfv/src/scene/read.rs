@@ -34,7 +34,7 @@ pub fn is_grain_scene(table: &Table) -> bool {
     table.contains_key("grains")
 }
 
-/// Reads the scene of a text that knows where it comes from.
+/// Reads the scene of a text with its origin.
 ///
 /// # Errors
 /// Every mistake found, with its place.

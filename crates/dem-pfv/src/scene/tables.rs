@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 /// Parameter tables by plugin name.
 pub type Plugins = BTreeMap<String, toml::Table>;
 
-/// What the schema says of [`Plugins`], whose keys a plugin knows.
+/// The schema of [`Plugins`], whose keys are those of a plugin.
 pub(crate) type AnyPlugins = BTreeMap<String, serde_json::Map<String, serde_json::Value>>;
 
 /// A point or a vector along x, y and z.

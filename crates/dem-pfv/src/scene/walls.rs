@@ -86,7 +86,7 @@ fn surface(
     Ok(Mesh::new(vertices, triangles.collect()))
 }
 
-/// What moves a wall; pistons under the stress that is asked for, with their share of the grains' mass (kg).
+/// What moves a wall; pistons under their stress, with their share of the grains' mass (kg).
 pub(crate) fn control(
     table: &tables::Wall,
     mass: f64,

@@ -9,7 +9,7 @@ use crate::surface::winding::Winding;
 
 /// Corners of a file nearer to each other than this share of its extent are one: single precision has 6·10⁻⁸.
 const SAME_CORNER: f64 = 1e-6;
-/// Facets at which the side that a surface faces is asked for, at most.
+/// Most facets at which the side of a surface is sought.
 const ASKED: usize = 256;
 
 impl Facets {

@@ -25,9 +25,10 @@ const FASTEST: f64 = 10.0;
 /// The force is the reaction to what the wall does to the particles, so that momentum is conserved to rounding. Mass and
 /// inertia follow from the shape where a `density` is given.
 ///
-/// The pressure at a wall feels its acceleration, and an acceleration that follows the force at once would make light
+/// The pressure at a wall depends on its acceleration, and an acceleration that follows the force at once would make
+/// light
 /// bodies swing from step to step. It is let follow: (M + A*) (ã' − ã) = M (a − ã), with a the acceleration of the body, ã
-/// the one that the pressure feels, A* the inertia of a layer of fluid as thick as the smoothing length. The change of ã per
+/// the one in the pressure, A* the inertia of a layer of fluid as thick as the smoothing length. The change of ã per
 /// step is that of a body heavier by A*: no body is too light for it, and the body's own motion stays M a = F.
 ///
 /// ```toml

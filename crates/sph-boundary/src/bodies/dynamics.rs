@@ -9,7 +9,7 @@ use crate::bodies::prescribed::{Prescribed, moved};
 use crate::bodies::spatial_vector::{blocks, padded, parts, rotation, six, solve};
 use crate::{Load, RigidState};
 
-/// A body as the equations of motion know it; matrices as it is drawn.
+/// A body in the equations of motion; matrices in the drawn place.
 #[derive(Clone, Debug)]
 pub(crate) struct Dynamics {
     pub mass: f64,
@@ -74,7 +74,7 @@ impl Dynamics {
         state = state.turned_by((turned * dt).into());
         state.angular_velocity = omega_next.into();
 
-        // What the pressure at the wall feels follows what the body does.
+        // The acceleration in the pressure at the wall follows that of the body.
         let felt = six(
             padded(now.acceleration.as_slice()),
             now.angular_acceleration.into(),
@@ -317,7 +317,8 @@ mod tests {
         assert!(state.pose.translation[0].abs() < 0.1);
     }
 
-    /// F = F₀ − A ã, as a fluid at rest answers the acceleration that its wall pressures feel. With the layer A* ≥ A the
+    /// F = F₀ − A ã, the force of a fluid at rest with the acceleration ã in its wall pressures. With the layer A* ≥ A
+    /// the
     /// body comes to F₀/(M + A) whatever its mass; without, every body lighter than A is thrown about.
     #[test]
     fn no_body_is_too_light_for_the_layer_and_without_it_those_below_the_added_mass_are() {

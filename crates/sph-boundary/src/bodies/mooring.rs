@@ -1,4 +1,4 @@
-//! Lines as a body in motion knows them: what they pull with, and how stiff they are.
+//! Lines for a body in motion: their force and stiffness.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 

@@ -1,4 +1,4 @@
-//! Times in which a body is moved as the scene says, whatever pushes it.
+//! Times of prescribed motion of a body, against all forces.
 
 use nalgebra::{Vector3, Vector6};
 use sph_core::{Vect, parameters};
@@ -30,7 +30,7 @@ pub struct Prescribed {
     pub course: Vec<Vec<f64>>,
 }
 
-/// Refuses times that are not one after the other, courses that do not say all, and those that move a point of the body,
+/// Refuses times that are not one after the other, incomplete courses, and those that move a point of the body,
 /// at most `radius` m from its centre, faster than `sound`, m/s.
 pub(crate) fn check<const D: usize>(
     all: &[Prescribed],
@@ -112,7 +112,7 @@ impl Prescribed {
         self.from <= time && time < self.to
     }
 
-    /// What its course says at a time; nothing without a course.
+    /// Its course at a time; nothing without a course.
     pub(crate) fn at(&self, time: f64) -> Option<ImposedMotion> {
         let place = self.course.partition_point(|row| row[0] <= time);
         // A course has two rows at least: it covers a time.

@@ -20,7 +20,7 @@ impl Drawing {
         }
     }
 
-    /// Its points, with as many coordinates as are asked for, m.
+    /// Its points, with a given number of coordinates, m.
     pub fn points<const D: usize>(&self) -> Vec<[f64; D]> {
         match self {
             Self::Line(line) => line.points.iter().map(cut).collect(),

@@ -129,7 +129,7 @@ pub struct Gammas {
 }
 
 impl Gammas {
-    /// Forgets all.
+    /// Clears all.
     pub fn clear(&mut self) {
         self.all.clear();
         self.behind.clear();

@@ -9,7 +9,7 @@ use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 /// Moves one wall. What it remembers is the wall's state alone: that is rolled back with the particles, and in
 /// checkpoints.
 pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
-    /// Learns how its wall is drawn and what is around it; asked once, before anything else.
+    /// Learns how its wall is drawn and what is around it; called once, first of all.
     ///
     /// # Errors
     /// The key of its table that does not fit the scene.
@@ -22,11 +22,11 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     }
     /// The state at time 0.
     fn start(&self) -> RigidState<D>;
-    /// Whether it asks what the fluid does to the wall; the force is then measured before every kick.
-    fn feels(&self) -> bool {
+    /// Whether it needs the force of the fluid on the wall; the force is then measured before every kick.
+    fn needs_forces(&self) -> bool {
         true
     }
-    /// Where it looks at the fluid before its wall, in a state; the depth there is then in [`Load`].
+    /// The gauge of the depth before its wall, in a state; the depth there is then in [`Load`].
     fn looks(&self, _now: &RigidState<D>) -> Option<DepthGauge<D>> {
         None
     }
@@ -49,12 +49,12 @@ contract!(
     pub MoverEntry, "mover", InWall, "the motion of a wall by the force of the fluid on it", Mover<D>
 );
 
-/// Prescribed courses feel nothing.
+/// Prescribed courses ignore forces.
 impl<const D: usize> Mover<D> for RigidMotion<D> {
     fn start(&self) -> RigidState<D> {
         self.state(0.0)
     }
-    fn feels(&self) -> bool {
+    fn needs_forces(&self) -> bool {
         false
     }
     fn next(&self, _: &RigidState<D>, _: &Load<D>, time: f64, dt: f64) -> RigidState<D> {

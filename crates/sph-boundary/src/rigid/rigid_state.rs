@@ -13,7 +13,7 @@ pub struct RigidState<const D: usize> {
     pub centre: [f64; D],
     /// Velocity of that point, m/s.
     pub velocity: Vect<D>,
-    /// Its acceleration as the pressure at the wall feels it, m/s².
+    /// Its acceleration in the pressure at the wall, m/s².
     pub acceleration: Vect<D>,
     /// Angular velocity ω, right-handed, rad/s; (0, 0, ω) in the plane.
     pub angular_velocity: [f64; 3],

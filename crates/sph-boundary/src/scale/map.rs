@@ -77,7 +77,7 @@ struct Cells<const D: usize> {
     lumps: Vec<Lump<D>>,
     /// ln s of the flat faces at the lumps.
     flat_at_lumps: Vec<f64>,
-    /// The curved wall that is nearest to every node, where that was asked.
+    /// The curved wall that is nearest to every node, on request.
     nearest: Vec<u32>,
     /// Nodes that are solved for, with the share of their value that counts.
     active: Vec<(usize, f64)>,
@@ -182,7 +182,7 @@ struct NodeKind<const D: usize> {
     /// Distance from the nearest curved element, m.
     from_curved: f64,
     lumps: Vec<Lump<D>>,
-    /// The wall of that element, where that was asked.
+    /// The wall of that element, on request.
     nearest: u32,
 }
 

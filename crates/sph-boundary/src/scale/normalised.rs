@@ -1,4 +1,4 @@
-//! s(x) ∫ s w = 1 next to walls of many shapes, by a quadrature that the scale does not know.
+//! s(x) ∫ s w = 1 next to walls of many shapes, by a quadrature of its own.
 
 use sph_core::Vect;
 use sph_kernels::Kernel;

@@ -13,7 +13,7 @@ use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
 use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
 
-/// Size of the elements of faces, over h: the scale knows faces, whatever pieces they have.
+/// Size of the elements of faces, over h: the scale is that of faces, whatever pieces they have.
 const ELEMENT: f64 = 4.0;
 
 /// The scale of all walls.
@@ -71,7 +71,7 @@ pub(crate) struct ScaleAt<const D: usize> {
 }
 
 impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
-    /// Of the walls of a scene; `groups` says for each with which it moves.
+    /// Of the walls of a scene; `groups` has the group of each.
     ///
     /// # Errors
     /// If a wall cannot have a scale.

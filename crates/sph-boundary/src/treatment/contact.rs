@@ -169,7 +169,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let distance = there.norm();
             let entry = nearest.entry(self.groups[element.wall]);
             let entry = entry.or_insert((f64::INFINITY, there, element));
-            // At a corner the element that faces the place most tells on which side it is.
+            // At a corner the element that faces the place most gives its side.
             let faces = element.normal.dot(&there).abs() > entry.2.normal.dot(&entry.1).abs();
             let same = (distance - entry.0).abs() <= 1e-9 * self.spacing;
             if (same && faces) || (!same && distance < entry.0) {

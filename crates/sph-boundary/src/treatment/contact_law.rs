@@ -71,7 +71,7 @@ impl Law {
 mod tests {
     use super::*;
 
-    /// By small steps: the share that is left is the one that was asked for, also of a body far heavier than that
+    /// By small steps: the share that is left is the given one, also of a body far heavier than that
     /// whose contact it is.
     #[test]
     fn an_impact_leaves_the_share_that_was_asked_for() {

@@ -93,7 +93,7 @@ pub struct WallStates {
     pub listed: Option<Vec<f64>>,
 }
 
-/// A wall so thin that the fluid on one side feels that on the other.
+/// A wall so thin that the fluid on one side is within reach of that on the other.
 #[derive(Clone, Debug)]
 pub struct ThinWall<const D: usize> {
     /// Its name.
@@ -167,12 +167,12 @@ pub trait WallMotion<const D: usize> {
         dt: f64,
     ) -> Result<(), BoundaryError>;
 
-    /// Whether the mover of a wall, by its number, asks for forces.
-    fn feels(&self, _wall: usize) -> bool {
+    /// Whether the mover of a wall, by its number, needs forces.
+    fn needs_forces(&self, _wall: usize) -> bool {
         false
     }
 
-    /// Where movers look at the fluid before their walls, by the numbers of these.
+    /// Gauges of the depth before walls with movers, by the numbers of these.
     fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
         Vec::new()
     }

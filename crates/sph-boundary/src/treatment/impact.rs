@@ -66,7 +66,7 @@ impl<const D: usize> NearLists<D> {
                 u.map(|u| (p, u))
             })
             .collect();
-        let forces = match outline.any_feels() {
+        let forces = match outline.any_needs_forces() {
             true => {
                 for body in &world.walls.bodies {
                     give_way(body, world, &mut changed)?;
@@ -157,7 +157,7 @@ fn blows<const D: usize, M: WallMesh<D>>(
         }
     }
     let whole = |(wall, blows): (usize, &Vec<[f64; 6]>)| {
-        if outline.groups[wall] != wall || !outline.feels(wall) {
+        if outline.groups[wall] != wall || !outline.needs_forces(wall) {
             return Ok(WallForce::zero());
         }
         let sums = world.sums_of(blows.len(), &|k| Some(blows[k]))?;
@@ -237,7 +237,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         movement.velocity + movement.acceleration * (0.5 * self.dt)
     }
 
-    /// The change of velocity that a hindrance asks for.
+    /// The change of velocity by a hindrance.
     fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
         let least = self.least;
         // What is missing of the velocity along e to end at the least clearance.

@@ -22,13 +22,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         specs.map(state).collect()
     }
 
-    /// Moves the mesh to what is prescribed at a time; says whether anything moved.
+    /// Moves the mesh to what is prescribed at a time; returns whether anything moved.
     pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
         let states = self.states_at(time, &self.states);
         self.put(states, time)
     }
 
-    /// Moves the mesh on by `dt`; says whether anything moved.
+    /// Moves the mesh on by `dt`; returns whether anything moved.
     pub fn advance(
         &mut self,
         forces: &[WallForce<D>],
@@ -126,13 +126,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
     }
 
-    /// Whether the mover of a wall asks for forces.
-    pub fn feels(&self, wall: usize) -> bool {
+    /// Whether the mover of a wall needs forces.
+    pub fn needs_forces(&self, wall: usize) -> bool {
         let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
-        mover.is_some_and(|mover| mover.feels())
+        mover.is_some_and(|mover| mover.needs_forces())
     }
 
-    /// Where movers look at the fluid before their walls.
+    /// Gauges of the depth before walls with movers.
     pub fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
         let look = |k: usize| {
             let mover = self.specs[k].mover.as_ref()?;
@@ -141,9 +141,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.moved().filter_map(look).collect()
     }
 
-    /// Whether any mover asks for forces.
-    pub fn any_feels(&self) -> bool {
-        (0..self.specs.len()).any(|wall| self.feels(wall))
+    /// Whether any mover needs forces.
+    pub fn any_needs_forces(&self) -> bool {
+        (0..self.specs.len()).any(|wall| self.needs_forces(wall))
     }
 
     /// The walls with movers, each by its first piece.
@@ -162,7 +162,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
     }
 
-    /// Puts walls back where they were at a time; says whether anything moved.
+    /// Puts walls back where they were at a time; returns whether anything moved.
     pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool, BoundaryError> {
         let given = |numbers: &[f64]| {
             let mut states = self.states_at(time, &self.states);

@@ -15,7 +15,7 @@ use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, W
 /// How far queries look, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
 
-/// The walls of a scene as a mesh, with what the scene says of each.
+/// The walls of a scene as a mesh, with the keys of each in the scene.
 #[derive(Debug)]
 pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub mesh: M,
@@ -354,9 +354,9 @@ macro_rules! shaped_by_outline {
                 moved
             }
 
-            fn feels(&self, wall: usize) -> bool {
+            fn needs_forces(&self, wall: usize) -> bool {
                 let set_up = self.set_up.as_ref();
-                set_up.is_some_and(|s| s.outline.feels(wall))
+                set_up.is_some_and(|s| s.outline.needs_forces(wall))
             }
 
             fn depth_gauges(&self) -> Vec<(usize, sph_neighbours::DepthGauge<D>)> {

@@ -1,4 +1,4 @@
-//! Walls so thin that the fluid on one side feels that on the other.
+//! Walls so thin that the fluid on one side is within reach of that on the other.
 
 use std::collections::HashSet;
 

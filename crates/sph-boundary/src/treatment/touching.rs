@@ -1,4 +1,4 @@
-//! Walls that meet: a penalty on the distance between their surfaces, in as many parts of a step as it asks for.
+//! Walls that meet: a penalty on the distance between their surfaces, in as many parts of a step as it needs.
 
 use std::collections::BTreeMap;
 
@@ -177,7 +177,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 return Err(BoundaryError::Through { wall, other });
             }
         }
-        // What the pressure at the walls feels is that of one step with the mean of the contacts.
+        // The acceleration in the pressure at the walls is that of one step with the mean of the contacts.
         for (load, sum) in loads.iter_mut().zip(&sums) {
             let mean = 1.0 / f64::from(parts);
             load.contact_force = sum.force * mean;

@@ -20,7 +20,7 @@ const MACH: f64 = 0.1 * (1.0 + 1e-9);
 /// Time that the first steps of a scene may take, for an estimate of all of them.
 const TRIAL: Duration = Duration::from_secs(2);
 
-/// Tells what follows from a scene, without running it.
+/// Lists sizes, costs and remarks of a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
     let picture = arguments.picture.as_deref();
     let picture = picture

@@ -1,4 +1,4 @@
-//! `sph compare`: whether two runs have the same bits, and if not where they differ most.
+//! `sph compare`: whether two runs have the same bits, or where they differ most.
 
 mod difference;
 mod tables;

@@ -10,7 +10,7 @@ use crate::terminal::console;
 use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::{DrawCommand, ProfileArguments, StreamlineArguments, TrackArguments};
 
-/// Draws what is asked for.
+/// Draws the requested curves.
 pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
     match asked {
         DrawCommand::Streamlines(a) => streamlines(a),
@@ -135,7 +135,7 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
     Ok(place)
 }
 
-/// What cannot be written is a failure, all else a mistake of the one who asks.
+/// What cannot be written is a failure, all else a mistake in the arguments.
 pub fn trouble(error: DrawError) -> Trouble {
     match error {
         DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => error.into(),

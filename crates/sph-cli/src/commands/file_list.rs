@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::terminal::layout::columns;
 use crate::terminal::shell::quoted;
 
-/// Known files, in the order in which a person wants them.
+/// Known files, in the order of their use.
 const KNOWN: [(&str, &str); 4] = [
     ("fields.pvd", "fields over time: open it in ParaView"),
     ("series.csv", "time series: energies, extrema, probes"),

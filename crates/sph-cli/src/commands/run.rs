@@ -47,7 +47,7 @@ pub fn folder(arguments: &RunArguments, opened: &Opened) -> PathBuf {
     out.unwrap_or_else(|| Path::new("results").join(&opened.stem))
 }
 
-/// Runs an opened scene, of particles or of grains, and says nothing itself.
+/// Runs an opened scene, of particles or of grains, without output of its own.
 pub fn execute(
     arguments: &RunArguments,
     opened: &Opened,

@@ -18,7 +18,7 @@ use answer::{Answer, answer};
 
 /// Longest head of a request, bytes.
 const LONGEST: usize = 8192;
-/// Time that a browser has to say what it wants, and to take it.
+/// Time of a browser for its request, and for the answer.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// Browsers that are served at once.
 const MOST: usize = 16;

@@ -31,10 +31,10 @@ fn note(written: std::io::Result<()>) {
     }
 }
 
-/// Whether something that was asked for on stdout is not there.
+/// Whether output on stdout is incomplete.
 static UNWRITTEN: AtomicBool = AtomicBool::new(false);
 
-/// Whether stdout took all that was said.
+/// Whether stdout took all output.
 pub fn complete() -> bool {
     !UNWRITTEN.load(Ordering::Relaxed)
 }

@@ -37,7 +37,7 @@ pub fn located(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Located> {
     diagnostics.iter().map(with_text).collect()
 }
 
-/// The diagnostics as a person wants them: the line, a mark under it, what was expected.
+/// The diagnostics for a person: the line, a mark under it, what was expected.
 pub fn render(all: &[Located], colour: bool) -> String {
     let mut text = String::new();
     for located in all.iter().take(MOST) {
@@ -118,7 +118,7 @@ fn line_around(text: &str, span: &Range<usize>) -> usize {
     before.len() - start + after.find('\n').unwrap_or(after.len())
 }
 
-/// A diagnostic without characters that a terminal obeys, and cut where it is too long; spans stay where they are.
+/// A diagnostic without control characters, and cut where it is too long; spans stay where they are.
 fn cleaned(d: &Diagnostic) -> Diagnostic {
     let told = |text: &str| {
         let end = text.char_indices().map(|(k, _)| k).find(|k| *k > LONGEST);
@@ -145,7 +145,7 @@ fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
     Some(last..before.len())
 }
 
-/// The diagnostics as a program wants them.
+/// The diagnostics for a program.
 pub fn json(all: &[Located]) -> Json {
     let one = |l: &Located| {
         let d = &l.diagnostic;

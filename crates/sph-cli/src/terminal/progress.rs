@@ -66,7 +66,7 @@ impl Watcher {
         Watcher { noun, ..self }
     }
 
-    /// Removes the bar, or says where the run ended.
+    /// Removes the bar, or prints the end of the run.
     pub fn finish(&mut self) {
         match (&self.display, self.last.take(), self.meter.take()) {
             (Display::Bar(bar), ..) => bar.finish_and_clear(),

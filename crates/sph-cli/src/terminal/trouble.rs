@@ -14,9 +14,9 @@ use crate::number;
 use crate::terminal::console;
 use crate::terminal::diagnostics::{self, Located};
 
-/// Why a command did not do what it was asked for.
+/// The reason why a command ended early.
 pub enum Trouble {
-    /// The command line asks for something that cannot be.
+    /// The command line has a mistake.
     Usage(String),
     /// The scene has mistakes.
     Scene(Vec<Located>),
@@ -33,9 +33,9 @@ pub enum Trouble {
         /// How to go on.
         advice: Option<String>,
     },
-    /// The run stopped with a checkpoint; everything has been said.
+    /// The run stopped with a checkpoint; all messages are written.
     Interrupted,
-    /// What was compared differs; everything has been said.
+    /// What was compared differs; all messages are written.
     Different,
 }
 
@@ -211,7 +211,7 @@ impl Trouble {
         }
     }
 
-    /// Tells a person on stderr, and with `json` a program on stdout.
+    /// Reports to a person on stderr, and with `json` a program on stdout.
     pub fn report(&self, json: bool) {
         let text = self.text(console::terminal());
         match self {

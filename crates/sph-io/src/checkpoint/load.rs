@@ -17,7 +17,7 @@ use crate::files::folder::readable;
 const CHUNK: usize = 1 << 16;
 
 impl Checkpoint {
-    /// Reads the checkpoint at `path`; any damage is an error that says which
+    /// Reads the checkpoint at `path`; any damage is an error that names the
     /// check failed.
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();

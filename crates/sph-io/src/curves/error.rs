@@ -19,7 +19,7 @@ pub enum DrawError {
         "no field `{name}` was written (there are: {known}); name it in output.fields and run again"
     )]
     NoField {
-        /// What was asked for.
+        /// The request.
         name: String,
         /// What there is.
         known: String,
@@ -31,7 +31,7 @@ pub enum DrawError {
         name: String,
         /// Its number of components.
         components: usize,
-        /// What was asked for.
+        /// The request.
         component: String,
     },
     /// A particle that no frame has.

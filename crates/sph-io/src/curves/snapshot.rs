@@ -16,7 +16,7 @@ pub struct Snapshot {
 
 /// One number per particle.
 pub struct Column {
-    /// What was asked for, with spaces and its unit: `velocity x [m/s]`.
+    /// The request, with spaces and its unit: `velocity x [m/s]`.
     pub label: String,
     /// Unit.
     pub unit: String,

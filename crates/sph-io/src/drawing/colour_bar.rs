@@ -1,4 +1,4 @@
-//! The scale beside a picture that says which colour is which number.
+//! The scale beside a picture of colours and numbers.
 
 use crate::drawing::axes::crisp;
 use crate::drawing::canvas::Canvas;

@@ -147,7 +147,7 @@ impl<'a> Mark<'a> {
                 Style::Highlight => size / 2.2,
                 _ => size / 8.0,
             },
-            // Colours that come round again are told apart by dashes.
+            // Colours that come round again are distinguished by dashes.
             dashed: match self.series.style {
                 Style::Dashes => true,
                 Style::Background | Style::Highlight => false,

@@ -29,7 +29,7 @@ impl Picture<'_> {
             if x.is_finite() && y.is_finite() {
                 let (spot, radius) = (axes.spot(x, y), radius(i));
                 let fill = Fill::solid(colour);
-                // A rim tells spheres of one colour apart.
+                // A rim separates spheres of one colour.
                 let rim = if self.diameters.is_empty() {
                     0.0
                 } else {

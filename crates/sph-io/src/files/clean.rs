@@ -1,11 +1,11 @@
-//! Texts from files, so that a terminal shows them and does not obey them.
+//! Texts from files, so that a terminal shows them and does not execute them.
 //!
 //! Escape sequences move the cursor, set titles and clear what stands there; marks of direction show a text in
 //! another order than it has. Either may stand in a title, a key, a value or the name of a file.
 
 use std::borrow::Cow;
 
-/// Whether a terminal obeys a character instead of showing it; line ends and tabs are left alone.
+/// Whether a terminal executes a character instead of showing it; line ends and tabs are left alone.
 fn obeyed(c: char) -> bool {
     let mark = matches!(c,
         // Marks, embeddings, overrides and isolates of direction (Unicode Standard Annex 9).

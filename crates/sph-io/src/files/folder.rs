@@ -42,7 +42,7 @@ impl std::fmt::Display for Checksum {
 /// Length and CRC-32 of a plain file of at most `most` bytes, read piece by piece.
 ///
 /// # Errors
-/// What [`readable`] refuses, and what the system says.
+/// Refusals of [`readable`], and errors of the system.
 pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
     let path = path.as_ref();
     readable(path, most)?;

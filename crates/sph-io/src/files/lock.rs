@@ -106,7 +106,7 @@ impl FolderLock {
                 continue;
             }
             let before = holder(&mut file);
-            // A full disk is told by what is written next, and in better words.
+            // A full disk is reported by the next write, with a better message.
             let _ = sign(&mut file);
             let file = Some(file);
             return Ok(FolderLock { path, file, before });

@@ -1,4 +1,4 @@
-//! Folders for what is needed while a process lives.
+//! Folders for temporary files of a process.
 
 use std::fs;
 use std::path::{Path, PathBuf};

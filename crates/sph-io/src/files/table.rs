@@ -161,7 +161,7 @@ impl Source {
         Ok(Table { columns })
     }
 
-    /// The places of the columns asked for.
+    /// The places of the requested columns.
     fn choose(
         &self,
         headings: &[TableColumn],

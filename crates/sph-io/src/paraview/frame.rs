@@ -42,7 +42,7 @@ pub enum Cells<'a> {
     Tetrahedra(Cow<'a, [[u32; 4]]>),
 }
 
-/// Where the values of a field live.
+/// The place of the values of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     /// One tuple per point.
@@ -113,7 +113,7 @@ impl<'a> FieldData<'a> {
         Self::new(name, unit, 3, FieldValues::F64(data.as_flattened().into()))
     }
 
-    /// Two reals per point, padded with a zero: ParaView wants vectors of three.
+    /// Two reals per point, padded with a zero: ParaView takes vectors of three.
     pub fn planar_vector(
         name: impl Into<Cow<'a, str>>,
         unit: impl Into<Cow<'a, str>>,

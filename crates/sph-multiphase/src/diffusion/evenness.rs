@@ -7,7 +7,7 @@ use sph_neighbours::{
     lattice_sum, unlike, walk_in_lanes, walk_some,
 };
 
-/// What the neighbourhood of a particle says of its arrangement.
+/// Measures of the arrangement of a particle's neighbourhood.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Evenness<const D: usize> {
     /// The concentration C = ΣθVw/γ: 1 in the bulk.

@@ -121,7 +121,7 @@ struct ShiftVelocity<const D: usize> {
     parameters: Fickian,
     /// Speed of sound of every phase, m/s.
     speeds: Vec<f64>,
-    /// What is said of every particle's neighbourhood, kept from step to step.
+    /// The measures of every particle's neighbourhood, kept from step to step.
     all: Vec<Evenness<D>>,
 }
 

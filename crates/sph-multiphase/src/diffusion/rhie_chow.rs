@@ -12,7 +12,8 @@ use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:
 /// s_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b 2/(ρ_a + ρ_b) (p_b − p_a) ∇w_ab over free neighbours of all phases.
 ///
-/// The narrow Laplacian of the pressure less what its wide gradient resolves: it sees noise, and knows no force. A linear
+/// The narrow Laplacian of the pressure less what its wide gradient resolves: it is that of noise, without the forces.
+/// A linear
 /// pressure that stays is left alone wherever it is and whatever bears it, beside walls and at surfaces too. One more walk
 /// over the neighbours.
 ///

@@ -80,7 +80,7 @@ where
         self.solve_roughly(operator, right, x, 0.0)
     }
 
-    fn wants_entries(&self, operator: &dyn Operator<D>) -> bool {
+    fn needs_entries(&self, operator: &dyn Operator<D>) -> bool {
         match operator.diagonal() {
             Some(Diagonal::Scalar(_)) => !mild(operator),
             _ => false,

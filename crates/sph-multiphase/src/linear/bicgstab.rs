@@ -33,7 +33,7 @@ pub struct Bicgstab {
 const METHOD: &str = "BiCGSTAB";
 
 impl<const D: usize> LinearSolver<D> for Bicgstab {
-    fn wants_entries(&self, _: &dyn Operator<D>) -> bool {
+    fn needs_entries(&self, _: &dyn Operator<D>) -> bool {
         self.preconditioner.factorises()
     }
 

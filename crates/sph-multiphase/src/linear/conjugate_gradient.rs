@@ -38,7 +38,7 @@ pub struct ConjugateGradient {
     pub memories: Memories,
 }
 
-/// Iterations after which it gives up, unless a scene says otherwise.
+/// Iterations after which it gives up, by default.
 pub(crate) const ITERATIONS: usize = 2000;
 const METHOD: &str = "conjugate gradients";
 /// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
@@ -57,7 +57,7 @@ where
         self.solve_roughly(operator, right, x, 0.0)
     }
 
-    fn wants_entries(&self, _: &dyn Operator<D>) -> bool {
+    fn needs_entries(&self, _: &dyn Operator<D>) -> bool {
         self.preconditioner.factorises()
     }
 
@@ -80,7 +80,7 @@ where
 /// Solves A x = b, starting from x, in the memory of solves before.
 ///
 /// # Errors
-/// If x is not what was asked for.
+/// If the residual is above the tolerance.
 pub(crate) fn iterate<const D: usize>(
     preconditioner: Preconditioner,
     tolerance: Tolerance,

@@ -46,7 +46,8 @@ pub trait Operator<const D: usize>: Sync {
     /// y = A x; x has a value for every column, y for every row.
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
-    /// The same operator in a form that is worth its making where many products are asked for; none where there is no such form.
+    /// The same operator in a form that is worth its making where many products are needed; none where there is no such
+    /// form.
     fn prepared<'a>(&'a self, _memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
         None
     }

@@ -22,7 +22,7 @@ pub trait LinearSolver<const D: usize>: Send {
     /// Solves A x = b, starting from x; right and x have a value for every row.
     ///
     /// # Errors
-    /// If x is not what was asked for; it is then no better than a start for another solver.
+    /// If the residual is above the tolerance; x is then no better than a start for another solver.
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,
@@ -45,8 +45,8 @@ pub trait LinearSolver<const D: usize>: Send {
         self.solve(operator, right, x)
     }
 
-    /// Whether it asks for the entries of an operator in any case, and not for products and the diagonal alone.
-    fn wants_entries(&self, _operator: &dyn Operator<D>) -> bool {
+    /// Whether it needs the entries of an operator in any case, and not for products and the diagonal alone.
+    fn needs_entries(&self, _operator: &dyn Operator<D>) -> bool {
         true
     }
 }

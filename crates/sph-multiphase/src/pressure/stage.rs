@@ -12,7 +12,7 @@ use crate::{Acting, FREE_SURFACE, Place};
 
 const NAME: &str = "implicit pressure";
 
-/// Density over that at rest at which a law is asked for its largest tension.
+/// Density over that at rest at which the largest tension of a law is taken.
 const TORN: f64 = 0.5;
 
 /// Applies the equations of state, and solves for the pressure of the end of the step.

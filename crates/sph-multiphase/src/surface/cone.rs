@@ -50,7 +50,8 @@ const FULL: f64 = 0.95;
 /// The cone test: a particle is at a free surface where no neighbour lies within 45° of n = −∇C/|∇C|, C = Σθδr^d w, or where
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
-/// Volumes are those of the lattice, δr^d, so that the test knows nothing of densities. Walls count in ∇C as filled. Only
+/// Volumes are those of the lattice, δr^d, so that the test does not depend on densities. Walls count in ∇C as filled.
+/// Only
 /// particles whose support is filled to less than 0.95 are looked at, where the sum is known from γρ − K.
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
@@ -63,7 +64,7 @@ pub(super) struct FreeSurface {
 }
 
 impl FreeSurface {
-    /// Tells whether densities are K and a sum.
+    /// Sets whether densities are K and a sum.
     pub(super) fn new(sums: bool) -> Self {
         FreeSurface {
             sums,
@@ -157,7 +158,7 @@ fn apart2<const D: usize>(world: &World<D>, a: &Vect<D>, b: &Vect<D>) -> f64 {
     world.domain.nearest_image(a - b).norm_squared()
 }
 
-/// What the neighbourhood of a particle says, but for surfaces of others.
+/// Measures of the neighbourhood of a particle, but for surfaces of others.
 fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
     let rows = &around.rows;
     let points = &world.walls.points;

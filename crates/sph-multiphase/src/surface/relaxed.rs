@@ -1,4 +1,4 @@
-//! Densities that forget a surface that is no more, and know one that is new.
+//! Density constants that relax where a surface has gone, and hold at a new one.
 
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};

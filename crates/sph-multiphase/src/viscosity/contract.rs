@@ -21,7 +21,7 @@ pub enum Viscosity {
 pub trait ViscousOperator<const D: usize>: Send {
     /// The viscous term of the interaction sweep.
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>>;
-    /// What the term needs to know of all particles before the sweep.
+    /// Columns of all particles that the term needs before the sweep.
     fn stages(&self, _viscosity: Viscosity) -> Stages<D> {
         Vec::new()
     }
@@ -29,7 +29,7 @@ pub trait ViscousOperator<const D: usize>: Send {
     fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>>;
     /// How much stiffer than Morris's operator it is: divides the viscous step limit.
     fn stiffness(&self) -> f64;
-    /// Whether a rigid rotation feels nothing of it, at free surfaces too.
+    /// Whether it is zero in rigid rotation, at free surfaces too.
     fn leaves_rotations(&self) -> bool {
         false
     }

@@ -10,7 +10,7 @@ use crate::viscosity::friction::{Choice, PairFriction, PairOperator};
 /// [`Morris`](crate::viscosity::Morris): div(η(∇u + ∇uᵀ)) for constant η and div u = 0.
 ///
 /// For variable η half of the transposed gradient is lost: the limit is
-/// η∇²u + ∇u·∇η + ½(∇u)ᵀ∇η. On a square lattice with h = 2δr a sheared layer feels 2 % too
+/// η∇²u + ∇u·∇η + ½(∇u)ᵀ∇η. On a square lattice with h = 2δr a sheared layer has 2 % too
 /// little, whatever the spacing. Conserves linear momentum, not angular momentum. Explicitly
 /// stable for νΔt/h² ≤ 0.17.
 ///

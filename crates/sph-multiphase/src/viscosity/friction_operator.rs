@@ -1,4 +1,4 @@
-//! The left side of a system with implicit friction: products in lanes, and a matrix where one is asked for.
+//! The left side of a system with implicit friction: products in lanes, and a matrix where one is needed.
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 

@@ -286,7 +286,7 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
         filled?;
         let space = world.space()?;
         let operator = system.operator(world, &space)?;
-        if self.solver.wants_entries(&operator) {
+        if self.solver.needs_entries(&operator) {
             operator.assembled();
         }
         let vectors = VECTORS * world.free.len() * size_of::<Vect<D>>();

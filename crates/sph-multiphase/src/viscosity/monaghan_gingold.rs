@@ -10,7 +10,7 @@ use crate::viscosity::friction::{Choice, PairFriction, PairOperator};
 /// [`Morris`](crate::viscosity::Morris): div(η(∇u + ∇uᵀ)) + ∇(η div u), also for variable η.
 ///
 /// Forces are along the line of centres: conserves linear and angular momentum. On a square lattice
-/// with h = 2δr a sheared layer feels 4 % too little. Explicitly stable for νΔt/h² ≤ 0.1.
+/// with h = 2δr a sheared layer has 4 % too little. Explicitly stable for νΔt/h² ≤ 0.1.
 ///
 /// Source: Monaghan & Gingold 1983; Cleary 1998; as discussed with Krimi et al. 2018, Eq. 41.
 ///

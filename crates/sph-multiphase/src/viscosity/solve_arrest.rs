@@ -7,7 +7,7 @@ use sph_neighbours::World;
 /// Mean share of the weight above which a result is not right: what falls with 0.95 g has a tenth less kinetic energy.
 const MUCH: f64 = 0.05;
 
-/// Mean share of the weight of a soil that the solve bears beyond what the law says.
+/// Mean share of the weight of a soil that the solve bears beyond the strength of the law.
 ///
 /// The law dissipates ∫(η + s𝒢Δt)γ̇² dV in what is solved for, and its stress is cut to τ_y. The operator sums over pairs, and resists as well what is
 /// no shear: changes of volume with 5/3 of this viscosity, and motions of neighbours that no gradient sees. None of that is cut, so that a stiff
@@ -64,7 +64,7 @@ impl SolveArrest {
         Ok(())
     }
 
-    /// What a person should know of it.
+    /// A warning about it.
     pub(crate) fn warning(&self) -> Option<String> {
         (self.mean > MUCH).then(|| {
             format!(

@@ -32,7 +32,7 @@ impl<const D: usize> Parts<D> {
     }
 
     /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
-    /// has that knows one.
+    /// has that has one.
     pub fn confess(&mut self, cause: StepError) -> StepError {
         self.link.confess(cause)
     }

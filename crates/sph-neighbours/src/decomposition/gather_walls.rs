@@ -8,7 +8,7 @@ use crate::{Clusters, World};
 impl<const D: usize> Parts<D> {
     /// Gives the points and elements of the walls at rank 0, which has the `whole`, the pressures that the ranks found there. A rank
     /// that has a particle of its own within reach has all that the mean is taken over, so that all such have found the same.
-    /// It knows the corners of such elements as well, and every rank knows open faces.
+    /// It has the corners of such elements as well, and every rank has open faces.
     ///
     /// # Errors
     /// Messages that fail; a column that is missing.

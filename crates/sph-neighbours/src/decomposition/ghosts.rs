@@ -49,7 +49,7 @@ impl<const D: usize> RankBox<D> {
     }
 }
 
-/// Tells who is needed: particles within reach of a box, and near walls those beyond, since a wall that a particle touches has a
+/// Finds needed particles: those within reach of a box, and near walls those beyond, since a wall that a particle touches has a
 /// state that is a mean over all that are within reach of the wall.
 pub struct Needs<'a, const D: usize> {
     domain: &'a Domain<D>,

@@ -28,7 +28,7 @@ pub(crate) struct Link {
     pub partners: RwLock<Partners>,
     /// How often a stage goes from particles to their neighbours.
     pub rings: usize,
-    /// Whether all ranks know of the failure at hand.
+    /// Whether all ranks have got the failure at hand.
     told: AtomicBool,
     /// Whether messages failed where no error could be returned.
     lost: AtomicBool,
@@ -97,7 +97,7 @@ impl Link {
     }
 
     /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
-    /// has that knows one.
+    /// has that has one.
     pub fn confess(&self, cause: StepError) -> StepError {
         if !self.told.swap(false, Ordering::Relaxed) {
             // They answer with the failure itself.

@@ -11,7 +11,7 @@ use crate::{
 
 /// A still water level behind the face: the pressure is hydrostatic below it, and nothing passes above.
 ///
-/// For flows slower than their waves, which feel the level.
+/// For flows slower than their waves, which depend on the level.
 ///
 /// ```toml
 /// [wall.tail.open-boundary.level]

@@ -73,7 +73,7 @@ pub struct WaveMaker<const D: usize> {
     feedback: Option<Feedback<D>>,
 }
 
-/// What a paddle looks at, and what it makes of it.
+/// The gauge of a paddle, and its feedback.
 #[derive(Clone, Debug)]
 struct Feedback<const D: usize> {
     face: Face<D>,
@@ -270,7 +270,7 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
     fn start(&self) -> RigidState<D> {
         self.motion.state(0.0)
     }
-    fn feels(&self) -> bool {
+    fn needs_forces(&self) -> bool {
         false
     }
     fn looks(&self, now: &RigidState<D>) -> Option<DepthGauge<D>> {

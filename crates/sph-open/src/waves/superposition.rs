@@ -1,4 +1,4 @@
-//! The waves that a maker is asked for.
+//! The waves of a maker.
 
 use std::f64::consts::{PI, TAU};
 
@@ -46,7 +46,7 @@ impl Component {
     }
 }
 
-/// The waves that a maker is asked for.
+/// The waves of a maker.
 #[parameters]
 #[derive(Copy)]
 pub enum Waves {

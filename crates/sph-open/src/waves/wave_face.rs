@@ -277,7 +277,8 @@ mod tests {
         assert!(yields(&format!("current = 0.2\nyields = true\n{waves}")));
     }
 
-    /// A wave that runs to the face has the pressure and the velocity that the face asks for, at every depth: neither changes.
+    /// A wave that runs to the face has the pressure and the velocity that the face imposes, at every depth: neither
+    /// changes.
     #[test]
     fn a_wave_that_comes_to_a_face_goes_out() {
         let (depth, gravity, omega, current) = (0.5, 9.81, TAU / 1.2, -0.2);

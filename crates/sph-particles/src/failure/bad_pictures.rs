@@ -72,7 +72,7 @@ pub fn draw<const D: usize>(
     let mut written = Vec::new();
     let mut save = |picture: &Picture<'_>, name: &str| {
         let path = folder.join(name);
-        // A run that fails is told of without pictures, too.
+        // A failed run is reported without pictures, too.
         if picture.save(&path).is_ok() {
             written.push(path);
         }

@@ -216,7 +216,7 @@ mod tests {
             let sees = !flow.world.walls.contacts.of_particle(k).is_empty();
             assert_eq!(
                 touched, sees,
-                "particle {k} feels walls where there are some"
+                "particle {k} is within reach of walls where there are some"
             );
             walls += usize::from(sees);
         }

@@ -6,7 +6,7 @@ use sph_solver::defaults;
 
 use crate::failure::findings::{Findings, Share, Sighting};
 
-/// What the plugins of a scene say of their terms, by kind.
+/// Remedies of the plugins of a scene for their terms, by kind.
 pub type Remedies = [(&'static str, String)];
 
 /// Roll-backs from which a shorter step is no remedy.

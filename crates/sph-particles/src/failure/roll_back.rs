@@ -51,7 +51,7 @@ impl<const D: usize> Running<'_, D> {
 
     /// The leak of a wall beside the particle that a failed step names: no shorter step mends a wall.
     ///
-    /// Parts of a divided flow try again, as each knows its own walls only.
+    /// Parts of a divided flow repeat it, as each has its own walls only.
     fn leak_at(&self, cause: &StepError) -> Option<&Leak<D>> {
         let world = &self.parts.flow.world;
         let StepError::Bad { position, .. } = cause else {

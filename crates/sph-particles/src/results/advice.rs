@@ -6,7 +6,7 @@ use sph_solver::step::LISTS_NAME;
 
 /// Share of the steps, or of the time, above which something is worth a word.
 const MOST: f64 = 0.5;
-/// Steps below which shares say nothing.
+/// Fewest steps for shares to count.
 const FEW_STEPS: u64 = 20;
 /// Wall seconds of a stage below which it is not worth a word.
 const SHORT: f64 = 10.0;
@@ -27,7 +27,7 @@ pub struct Costs<'a> {
     pub wall_seconds: f64,
     /// Share of the steps limited by each bound.
     pub dt_limiters: &'a BTreeMap<String, f64>,
-    /// What lengthens a bound, where its plugin knows.
+    /// Remedy of a bound, where its plugin has one.
     pub remedies: &'a BTreeMap<String, String>,
     /// Mean of every bound, s.
     pub dt_limits: &'a BTreeMap<String, f64>,
@@ -149,7 +149,7 @@ mod tests {
         let room = room_of_sound(0.02, [0.9984, 1.0004]);
         assert!((room - 2.5).abs() < 1e-9, "{room}: the density");
         assert!((room_of_sound(0.05, [1.0, 1.0001]) - 2.0).abs() < 1e-9);
-        // Who lowered it to ten times the largest speed is not told to lower it again.
+        // There is no advice to lower it below ten times the largest speed.
         assert!(room_of_sound(0.1, [1.0; 2]) < ROOMY);
         let told = |sound| {
             limiter(&Costs {

@@ -146,7 +146,7 @@ pub struct Summary {
     /// What has left by outlets, by `outlet.NAME.PHASE`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub left: BTreeMap<String, OutletTotals>,
-    /// What relaxing the first particles did, if the scene asked for it.
+    /// The relaxation of the first particles, if the scene has one.
     #[serde(default)]
     pub relaxation: Option<Relaxation>,
     /// Errors against the scene's references.
@@ -154,7 +154,7 @@ pub struct Summary {
     /// Settings to try where one bound or one stage costs most of the run, or speeds near that of sound.
     #[serde(default)]
     pub advice: Vec<String>,
-    /// Things a person should know.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Files of the run, relative to its folder.
     pub files: Vec<String>,

@@ -42,7 +42,7 @@ struct Meta<T> {
     run: T,
 }
 
-/// Writes the state of a flow with its walls; `run` is whatever the driver wants back.
+/// Writes the state of a flow with its walls; `run` is the data of the driver.
 pub fn save<const D: usize, T: Serialize>(
     (flow, walls): (&Flow<D>, Option<&dyn Wall<D>>),
     path: &Path,

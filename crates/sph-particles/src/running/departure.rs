@@ -20,7 +20,7 @@ pub(crate) struct DepartureWatch {
 }
 
 impl DepartureWatch {
-    /// Looks at the walls that move; gives what is to be said, once of each.
+    /// Looks at the walls that move; returns a warning, once for each.
     pub fn look<const D: usize>(&mut self, scene: &Scene, flow: &Flow<D>) -> Vec<String> {
         let (world, mut told) = (&flow.world, Vec::new());
         for (name, wall) in &scene.wall {

@@ -19,7 +19,7 @@ pub(crate) struct MachWatch {
 }
 
 impl MachWatch {
-    /// Looks at the sums of a state; gives what is to be said, once in a run.
+    /// Looks at the sums of a state; returns a warning, once in a run.
     pub fn look<const D: usize>(&mut self, now: &Balance<D>) -> Option<String> {
         let share = |mass: f64| mass / now.mass.max(f64::MIN_POSITIVE);
         let [_, fast, supersonic] = now.faster.map(share);

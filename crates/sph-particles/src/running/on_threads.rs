@@ -38,7 +38,7 @@ pub fn run_on_threads(
         };
         for other in others {
             let ended = other.join().unwrap_or_else(|_| Err(panicked()));
-            // The first rank has told of it, if it could.
+            // The first rank has reported it, if it could.
             if first.is_ok() {
                 ended?;
             }

@@ -62,8 +62,9 @@ impl Outputs {
         }
     }
 
-    /// Writes everything the scene asks for at the flow's present time; `among` has this process' part of it and the number of
-    /// ranks, where these write frames together. Tells what changes in the pictures.
+    /// Writes all outputs of the scene at the flow's present time; `among` has this process' part of it and the number
+    /// of
+    /// ranks, where these write frames together. Returns changes of the pictures.
     pub fn write<const D: usize>(
         &self,
         flow: &Flow<D>,
@@ -131,7 +132,7 @@ impl Outputs {
         Ok(remarks)
     }
 
-    /// Adds a frame for ParaView; `depths` are distances to the surface, if these are asked for.
+    /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
     fn write_frame<const D: usize>(
         &self,
         flow: &Flow<D>,

@@ -145,7 +145,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
-    /// Gives the walls of the whole flow the pressures that the ranks found; every rank must ask.
+    /// Gives the walls of the whole flow the pressures that the ranks found; every rank must call it.
     pub(crate) fn gather_walls(&mut self) -> Result<(), RunError> {
         let flow = &self.parts.flow;
         let Some(parts) = &flow.parts else {
@@ -156,7 +156,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(gathered.map_err(StepError::from)?)
     }
 
-    /// Tells the first rank what each had; every rank must ask.
+    /// Gives the first rank the results of each; every rank must call it.
     pub(crate) fn share(&mut self) -> Result<(), RunError> {
         let steps = self.counters.steps.max(1) as f64;
         let flow = &self.parts.flow;
@@ -208,7 +208,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
-    /// A cause to end the run that any rank has, which all must ask for.
+    /// A cause to end the run that any rank has, which all must call.
     pub(crate) fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return own;
@@ -234,7 +234,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Tells the other ranks of a failure that they may not know of; gives the cause that the first of those has who know one.
+    /// Informs the other ranks of a failure; returns the cause of the first rank that has one.
     pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {
             None => cause,

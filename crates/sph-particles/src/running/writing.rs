@@ -25,7 +25,7 @@ fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
 
 impl<const D: usize> Running<'_, D> {
     /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
-    /// alone has found. Tells what changes in the pictures.
+    /// alone has found. Returns changes of the pictures.
     pub(crate) fn write_output(
         &mut self,
         frames: Option<&mut Frames>,

@@ -51,7 +51,7 @@ pub struct Assembled<const D: usize> {
     pub warnings: Vec<String>,
     /// Walls behind which fluid can get.
     pub leaks: Vec<Leak<D>>,
-    /// What relaxing the first particles did, if it was asked for.
+    /// The relaxation of the first particles, if there was one.
     pub relaxation: Option<Relaxation>,
     /// Extent of all bodies along gravity, m.
     pub height: f64,
@@ -323,7 +323,7 @@ fn give_places<const D: usize>(
     Ok(())
 }
 
-/// Keeps displacements where an output or a probe asks for them; refuses outputs of fields that there are none of.
+/// Keeps displacements where an output or a probe needs them; refuses outputs of fields that there are none of.
 fn show<const D: usize>(
     scene: &Scene,
     shown: &[String],

@@ -60,7 +60,7 @@ const TINY: f64 = 1e-8;
 /// Steps from which on a remedy is worth a word before the run.
 const MANY: f64 = 1e6;
 
-/// Names the bound that makes steps short, and its remedy where its plugin knows one.
+/// Names the bound that makes steps short, and its remedy where its plugin has one.
 ///
 /// # Errors
 /// If steps are so short that time would stand still.

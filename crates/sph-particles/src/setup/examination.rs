@@ -79,11 +79,11 @@ pub struct Examination {
     pub neighbours: f64,
     /// What it will cost.
     pub estimate: Estimate,
-    /// Pairs in the sweeps of all steps: a measure of a run that knows no machine.
+    /// Pairs in the sweeps of all steps: a measure of a run without a machine.
     pub pairs: f64,
     /// What its memory goes to.
     pub memory: Memory,
-    /// What relaxing the first particles did, if the scene asks for it.
+    /// The relaxation of the first particles, if the scene has one.
     pub relaxation: Option<Relaxation>,
     /// Remarks.
     pub warnings: Vec<String>,

@@ -11,7 +11,7 @@ use sph_solver::setup::Choices;
 
 use crate::setup::shapes::Drawn;
 
-/// Tells every mover of the scene, and every wall what moves it; takes the movers out of the choices.
+/// Gives every mover the scene, and every wall its mover; takes the movers out of the choices.
 ///
 /// # Errors
 /// The keys that do not fit.

@@ -17,7 +17,7 @@ pub(crate) fn check_output_fields<const D: usize>(
         ("output.fields", &scene.output.fields),
         ("output.picture", &scene.output.picture),
     ];
-    // What can be asked for is told with what there is.
+    // Fields on request are listed with the others.
     let written = sph_probes::SURFACE_DISTANCE.name;
     let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name, written]);
     let more = more.filter(|name| !free.has(name));

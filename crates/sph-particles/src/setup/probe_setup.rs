@@ -8,7 +8,7 @@ use sph_solver::setup::own_accounts;
 
 use crate::setup::reference_table::LONGEST;
 
-/// Tells the probes the names of the phases and what is in their files, and refuses references to columns that no probe has.
+/// Gives the probes the names of the phases and the contents of their files, and refuses references to columns that no probe has.
 ///
 /// # Errors
 /// All names that are not there, with the nearest one that is.

@@ -24,7 +24,7 @@ struct Concentration<const D: usize> {
     gradient: Vect<D>,
 }
 
-/// Relaxes the first particles if the scene asks for it.
+/// Relaxes the first particles if the scene has `relax`.
 ///
 /// # Errors
 /// If a wall stage fails.

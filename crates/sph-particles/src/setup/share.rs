@@ -20,7 +20,7 @@ pub enum Share<const D: usize> {
     Columns(Option<Box<ExistingWalls<D>>>),
 }
 
-/// Walls that stand already: the plugin, and what pair sums know of them.
+/// Walls that stand already: the plugin, and the data of pair sums.
 pub type ExistingWalls<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
 
 /// Refuses what cannot be divided between ranks.
@@ -41,7 +41,7 @@ pub fn refuse_the_indivisible<const D: usize>(
     }
 }
 
-/// Whether all ranks are ready, which all must ask.
+/// Whether all ranks are ready, which all must call.
 pub fn all_ready<T, E: From<StepError>>(
     ranks: &dyn Transport,
     ready: Result<T, E>,

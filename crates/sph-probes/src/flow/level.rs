@@ -117,7 +117,8 @@ fn length_where(holds: impl Fn(f64) -> bool, from: f64, to: f64, step: f64) -> f
     middles.filter(|z| holds(*z)).count() as f64 * each
 }
 
-/// Whether the highest particle within a spacing of the line feels a wall, and not the floor below `floor`.
+/// Whether the highest particle within a spacing of the line is within reach of a wall, and not the floor below
+/// `floor`.
 fn beside_a_wall<const D: usize>(
     world: &World<D>,
     near: &[(Vect<D>, f64, usize)],

@@ -89,7 +89,7 @@ pub(crate) trait Preset: Send {
     fn plan(&self, dimension: usize) -> Plan<'_>;
 }
 
-/// A probe that measures as its parameters say.
+/// A probe that measures by its parameters.
 pub(crate) struct Measured<P> {
     preset: P,
     number: Option<u32>,

@@ -10,7 +10,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBo
 ///
 /// A regularised law has no plug that does not move at all: what counts as yielded is a choice. A
 /// phase without particles has no share, and without one that yields there is no mean: NaN. Only
-/// scenes with a law that feels the strain rate have one; the probe then makes it known in all phases.
+/// scenes with a law that reads the strain rate have one; the probe computes it in all phases.
 ///
 /// Source: ours.
 ///

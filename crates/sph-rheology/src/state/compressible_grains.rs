@@ -7,7 +7,7 @@ use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference}
 /// p = ρ₀c₀² u with the largest root of u (u + 1 − ρ/ρ₀)² = A (1 + u)², where
 /// A = (γ̇d/c₀)² Δφ²/φ_max³; at rest p = c₀² max(ρ − ρ₀, 0).
 ///
-/// The grains obey ρ_s = ρ_s0 (1 + K_t p), their share of space is φ = φ_max − Δφ I with the inertial
+/// The grains have ρ_s = ρ_s0 (1 + K_t p), their share of space is φ = φ_max − Δφ I with the inertial
 /// number I = γ̇d√(ρ_s0/p), and ρ = φρ_s. The scene's phase gives what the source calls K_t and ρ_s0: the
 /// reference density is that of grains at rest, ρ₀ = φ_max ρ_s0, and the speed of sound at rest
 /// is c₀ = 1/√(K_t ρ₀). The pressure is never negative: a layer that has dilated to below ρ₀ has one only

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::state::{BoundState, Reference};
 
-/// Pressure that is added to all laws of a scene, Pa: set once at most, before the first of them is asked.
+/// Pressure that is added to all laws of a scene, Pa: set once at most, before the first of them is used.
 #[derive(Clone, Debug, Default)]
 pub struct Lift(Arc<OnceLock<f64>>);
 

@@ -105,7 +105,7 @@ fn course(given: &[&str], table: &Option<Vec<[f64; 2]>>, path: &str, found: &mut
     }
 }
 
-/// Keys that say how a file is to be read: they need one, and a unit and a factor say the same.
+/// Keys of the form of a file: they need one, and a unit and a factor are the same thing.
 fn of_file(file: bool, given: &[&str], path: &str, found: &mut Problems) {
     if let Some(key) = given.first().filter(|_| !file) {
         found.add(

@@ -249,7 +249,7 @@ fn ramp(wedge: &Wedge, of: Dimension, path: &str, found: &mut Problems) {
     }
 }
 
-/// The name of a file says what it holds.
+/// The name of a file gives its kind.
 fn geometry_file(file: &str, of: Dimension, path: &str, found: &mut Problems) {
     let is = |endings: &[&str]| endings.iter().any(|e| has_ending(file, e));
     let wanted = match of.0 {

@@ -2,7 +2,7 @@
 
 use sph_core::{suggestion, unit_factor};
 
-/// What a scene says of two columns of a file.
+/// Keys of a scene for two columns of a file.
 #[derive(Clone, Debug)]
 pub(crate) struct Form {
     /// Their names, or their numbers from 1; the only two if left out.

@@ -90,7 +90,7 @@ macro_rules! with_course {
                 ])
             }
 
-            /// The keys that say how the file is read, of those that are given.
+            /// The given keys of the form of a file.
             pub(crate) fn in_force(&self) -> Vec<&'static str> {
                 given([
                     ("unit", self.unit.is_some()),
@@ -116,7 +116,7 @@ macro_rules! with_course {
                 chosen(plain, &self.table, || self.rows(), place)
             }
 
-            /// What the scene says of the columns of the file.
+            /// Keys of the scene for the columns of the file.
             ///
             /// # Errors
             /// The key that is wrong, and why.

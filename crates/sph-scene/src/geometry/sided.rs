@@ -13,7 +13,7 @@ const NO_INSIDE: f64 = 0.02;
 const TOLD: usize = 3;
 
 impl Wall {
-    /// The facets of a file with the fluid on the side that the wall asks for; `odd` is the first facet whose normal
+    /// The facets of a file with the fluid on the side of the wall's key; `odd` is the first facet whose normal
     /// in the file is not that of its corners.
     pub(crate) fn sided(
         &self,

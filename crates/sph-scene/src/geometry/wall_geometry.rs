@@ -61,7 +61,7 @@ impl Wall {
                 SceneProblem::new(format!("{place}.fluid"), message)
             }
             Unsided::Tangled => problem(
-                "its lines have too many edges beside each other to tell which is within which: leave \
+                "its lines have too many edges beside each other to find which is within which: leave \
                  out `fluid` and draw them with the fluid on the left of travel"
                     .to_string(),
             ),
@@ -127,7 +127,7 @@ impl Wall {
     }
 
     /// How many corners or facets the shape of the wall will have, where that is not in the length of the
-    /// scene itself; none of a file, which says so when it is read.
+    /// scene itself; none of a file, which has its own error.
     pub fn declared(&self, spacing: f64) -> usize {
         let spacing = spacing / self.factor();
         let sides = |given: Option<usize>, radius: f64| {

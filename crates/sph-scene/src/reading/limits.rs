@@ -7,7 +7,7 @@ use toml::{Table, Value};
 pub(crate) const WALL_CORNERS: usize = 1_000_000;
 /// Most corners of a polygon that is filled.
 pub(crate) const BODY_CORNERS: usize = 10_000;
-/// Most lines of a drawing: which lies within which is asked of every two.
+/// Most lines of a drawing: each two of which are compared.
 pub(crate) const LINES: usize = 20_000;
 /// Most keys of a table, of whatever depth, and most fields of an output.
 pub(crate) const TABLES: usize = 1_000;

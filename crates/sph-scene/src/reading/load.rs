@@ -71,7 +71,7 @@ pub enum LoadError {
     Unreadable {
         /// Name of the file.
         file: String,
-        /// What the system says.
+        /// The reason of the system.
         reason: String,
     },
     /// The scene has mistakes.
@@ -82,7 +82,7 @@ pub enum LoadError {
 /// Reads a scene file, with overrides put on top.
 ///
 /// # Errors
-/// If the file cannot be read, or with the mistakes in it: all of its form and its plugins, or else all of what it says.
+/// If the file cannot be read, or with the mistakes in it: all of its form and its plugins, or else all of its content.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
     load_allowing(path, overrides, &[])
 }
@@ -113,7 +113,7 @@ pub fn parse(text: &str, name: &str, overrides: &[Override]) -> Result<Loaded, R
     read(Source::new(text, name, overrides))
 }
 
-/// Reads the scene of a text that knows where it comes from.
+/// Reads the scene of a text with its origin.
 ///
 /// # Errors
 /// Every mistake found.

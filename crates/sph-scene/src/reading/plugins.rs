@@ -26,7 +26,7 @@ inventory::submit! {
 /// Parameter tables by plugin name.
 pub type Plugins = BTreeMap<String, Table>;
 
-/// What the schema says of a table whose keys a plugin knows.
+/// The schema of a table whose keys are those of a plugin.
 pub(crate) type AnyTable = serde_json::Map<String, serde_json::Value>;
 
 /// What the schema says of [`Plugins`].

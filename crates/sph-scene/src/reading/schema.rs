@@ -26,7 +26,7 @@ pub fn schema() -> Json {
     root
 }
 
-/// The schema of what is the scene's own, and of the tables that name plugins, whose keys it does not know.
+/// The schema of the scene's own tables, and of those that name plugins, whose keys are open.
 pub(crate) fn of_scene() -> Json {
     let mut root = schema_of::<Scene>();
     let Some(properties) = root.get_mut("properties").and_then(Json::as_object_mut) else {

@@ -8,7 +8,7 @@ use crate::Heading;
 ///
 /// A particle that is there at the end of a step is taken out, and its mass counted. Nothing is
 /// there at the start. Neither the outlet nor what has left through it holds the flow back: what is upstream
-/// feels the empty place as a free surface, which suits falls and flows faster than their waves.
+/// has a free surface there, which suits falls and flows faster than their waves.
 #[parameters]
 pub struct Outlet {
     /// Lower and upper corner of a box, m.

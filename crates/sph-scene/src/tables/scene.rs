@@ -10,7 +10,7 @@ use crate::reading::plugins::{Plugins, Probe, in_table, probes, single};
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
 use sph_core::PluginChoice;
 
-/// Displacement at the start, over the spacing, where particles are shifted and the scene says nothing.
+/// Displacement at the start, over the spacing, where particles are shifted and the scene has no key for it.
 ///
 /// Shifts follow the symmetry of the particles: those of a perfect lattice cancel however it is stretched, until
 /// rounding has grown. From 0.001 on, the errors of vortices at 50² are those of a full disorder (L1 0.0023, from 0.01
@@ -20,9 +20,9 @@ pub const OFF_LATTICE: f64 = 0.01;
 /// A scene: what flows where, under which laws, for how long, and what is written.
 #[parameters]
 pub struct Scene {
-    /// One line that says what the scene is, with its publication.
+    /// The scene in one line, with its publication.
     pub title: String,
-    /// What the scene shows and what to look at.
+    /// Subject of the scene and its results.
     pub description: Option<String>,
     /// Number of space dimensions.
     #[parameter(min: 2, max: 3)]

@@ -13,7 +13,7 @@ use crate::geometry::level::nearest;
 /// u_x = ±c Δh/h, u_y = (y/h) ∂Δh/∂t = (y/h) 2kcΔh tanh(kξ).
 ///
 /// It solves the equation of Korteweg and de Vries, not that of Navier and Stokes, and changes its
-/// form a little on its way. In three dimensions z is up, and the wave is the same for all y. It wants
+/// form a little on its way. In three dimensions z is up, and the wave is the same for all y. It needs
 /// `pressure = "hydrostatic"`: the weight of the water up to the surface of the wave. A place is filled
 /// if it is inside, with `[walls.usaw]` if it is half a spacing inside: draw `bottom` half a spacing up there.
 ///

@@ -4,7 +4,7 @@ use sph_contribution::{Contribution, contribution_kind};
 use sph_core::Work;
 
 /// Reference densities of the soils among the phases, kg/m³, in the order of the phase numbers; `None` for
-/// a phase whose law feels no pressure.
+/// a phase whose law reads no pressure.
 pub type Soils = Vec<Option<f64>>;
 
 contribution_kind!(

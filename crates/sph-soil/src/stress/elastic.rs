@@ -20,7 +20,7 @@ use crate::stress::{GradientStage, LawInputs, StrainRate};
 pub struct ElasticMotion<const D: usize> {
     /// The gradient of the velocity.
     pub gradient: GradientStage<D>,
-    /// The laws and what they feel.
+    /// The laws and their inputs.
     pub law_inputs: LawInputs,
     /// Whether the force is made of displacements.
     pub displaced: bool,

@@ -15,7 +15,7 @@ use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
 ///
 /// f being all other forces. Where a soil rests both parts of its acceleration cancel in every sub-step; an
 /// impulse Δt f would shake it by more than the strain rate at which a stiff soil yields. Friction that is solved for comes after; the
-/// last step of τ is left to the drift, which knows the velocity after friction.
+/// last step of τ is left to the drift, which has the velocity after friction.
 ///
 /// Particles drift with ū + (1 − 1/N)/2 (uᴺ − u⁰), ū being the mean of u¹ … uᴺ: without elastic forces that is uᴺ, so that what the others do stays symplectic,
 /// and added up over the steps it is the way that the stress has seen, but for half a step: vibrations faster than the flow's step take nothing along.

@@ -9,7 +9,7 @@ use crate::stress::{NeighbourSums, VelocityGradient};
 /// Sums of one particle: of velocities, then of positions.
 ///
 /// An element stands at the foot of the particle on its plane. Walls that do not rub stop the velocity normal to them,
-/// and know nothing of that along them: they take part in the gradient of the normal component alone. (Without them a
+/// and have no velocity along them: they take part in the gradient of the normal component alone. (Without them a
 /// wall's force would do work that no strain answers.) So do open faces, apart from such walls: where both meet, what a wall
 /// at rest says of the velocity along it is not to be taken for what the face says of that through it.
 #[derive(Clone, Copy)]

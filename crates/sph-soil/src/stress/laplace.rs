@@ -26,7 +26,8 @@ pub enum PressureSolver {
 /// ∇²p' = 0 in the soil, p' = |g| Δρ max(β δr, d/2) at its surface, ∂p'/∂n = Δρ g·n at walls.
 ///
 /// Symbols: p' effective pressure (Pa); Δρ = ρ₀ − ρ_p, the density of the soil less that of the fluid
-/// in its pores (kg/m³); g gravity. It knows nothing of the depth of the water above, nor of the noise of the equation
+/// in its pores (kg/m³); g gravity. It does not depend on the depth of the water above, nor of the noise of the
+/// equation
 /// of state, and it is exact for a flat bed. Limits: static, whatever the soil does; not exact under steep surfaces.
 ///
 /// The surface is found by an empty cone above a particle (soil and walls only), so that loose grains
@@ -140,7 +141,7 @@ struct Solve<const D: usize> {
     least_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
-    /// Whether the solver asks for the rows of all particles.
+    /// Whether the solver needs the rows of all particles.
     whole: bool,
     /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
@@ -290,7 +291,7 @@ impl<const D: usize> Solve<D> {
         depth * world.gravity.norm()
     }
 
-    /// Whether copies of others' particles are at the surface, their owners know.
+    /// Whether copies of others' particles are at the surface is known to their owners.
     fn refresh(
         &self,
         world: &World<D>,

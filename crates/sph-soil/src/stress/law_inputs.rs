@@ -21,12 +21,12 @@ pub struct LawInputs {
 }
 
 impl LawInputs {
-    /// Whether some law feels the strain rate.
+    /// Whether some law reads the strain rate.
     pub fn strain_rate(&self) -> bool {
         self.laws.iter().any(|l| l.needs().strain_rate)
     }
 
-    /// Whether some law feels a pressure.
+    /// Whether some law reads a pressure.
     fn feels_pressure(&self) -> bool {
         self.laws.iter().any(|l| l.needs().pressure)
     }
@@ -46,8 +46,8 @@ impl LawInputs {
         }
     }
 
-    /// Gives every run of particles of one phase to `work`, with their law and what it feels; slices of columns
-    /// that no law asked for are empty.
+    /// Gives every run of particles of one phase to `work`, with their law and its inputs; slices of columns
+    /// that no law needs are empty.
     pub(crate) fn each<const D: usize, T: Send>(
         &self,
         world: &World<D>,

@@ -8,7 +8,7 @@ use crate::stress::{Blend, LawInputs};
 /// η of every particle by the law of its phase; where phases differ or a law depends on the flow. Where forces are
 /// blended it is that of the liquid alone.
 pub struct ViscosityStage {
-    /// The laws and what they feel.
+    /// The laws and their inputs.
     pub law_inputs: LawInputs,
     /// Whether there is an eddy viscosity to add.
     pub eddies: bool,

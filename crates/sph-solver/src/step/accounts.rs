@@ -1,4 +1,4 @@
-//! Opens the books of energy where a probe asks for them.
+//! Opens the energy budget where a probe reads it.
 
 use sph_contribution::integrators::Integrator;
 use sph_core::SceneProblem;
@@ -12,10 +12,10 @@ use crate::setup::choices::own_accounts;
 use crate::step::energy_budget::EnergyBudget;
 use crate::step::flow::Flow;
 
-/// Opens the books of a flow, if a probe reads them.
+/// Opens the energy budget of a flow, if a probe reads it.
 ///
 /// # Errors
-/// If steps have another form than the books know, or particles come in or leave.
+/// If steps have another form than the budget takes, or particles come in or leave.
 pub fn open<const D: usize>(
     scene: &Scene,
     probes: &[(String, Box<dyn Probe<D>>)],

@@ -17,7 +17,7 @@ const BATCH: usize = 2048;
 /// The stage in which walls move.
 pub const WALL_MOTION: &str = "wall motion";
 
-/// What hooks before a drift may ask for at the present positions.
+/// Data of hooks before a drift at the present positions.
 const STATE: [AnyField; 4] = [
     fields::RENORMALISATION.any(),
     fields::DENSITY.any(),

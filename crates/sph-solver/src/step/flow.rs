@@ -90,7 +90,7 @@ pub struct Flow<const D: usize> {
     pub outlets: Outlets,
     /// What newborn particles begin with, where some may come in.
     pub nursery: Option<NewParticleDefaults<D>>,
-    /// Observers of the boundaries within a step, where a probe asks for one.
+    /// Observers of the boundaries within a step, where a probe needs one.
     pub(crate) observers: Vec<Box<dyn Observer<D>>>,
     /// What this process has of a flow that is divided between several.
     pub parts: Option<Parts<D>>,
@@ -132,7 +132,7 @@ impl<const D: usize> Flow<D> {
         self.world.lists.reference.is_empty()
     }
 
-    /// What lengthens each bound, by its name, where its plugin knows.
+    /// Remedy of each bound, by its name, where its plugin has one.
     pub fn remedies_of_bounds(&self) -> Result<BTreeMap<String, String>, StepError> {
         let mut all = BTreeMap::new();
         for limiter in &self.limiters {
@@ -340,7 +340,7 @@ impl<const D: usize> Flow<D> {
         state.map(|(name, ..)| name).collect()
     }
 
-    /// All that is asked of a state, as in every evaluation of a run.
+    /// All columns of a state, as in every evaluation of a run.
     ///
     /// # Errors
     /// The first particle that is out of bounds.

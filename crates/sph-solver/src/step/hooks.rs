@@ -9,7 +9,7 @@ pub struct Hooked<const D: usize> {
     pub kind: &'static str,
     /// The hook.
     pub hook: Box<dyn StepHook<D>>,
-    /// Its columns: asked once, since each answer asks for memory.
+    /// Its columns: collected once, since each list takes memory.
     pub access: Access,
 }
 

@@ -46,21 +46,21 @@ impl<const D: usize> Flow<D> {
         self.load_walls_more(&force_requests)
     }
 
-    /// Whether the mover of each wall asks for forces; empty if none does.
+    /// Whether the mover of each wall needs forces; empty if none does.
     fn force_requests(&self) -> Vec<bool> {
         let Some(walls) = &self.walls else {
             return Vec::new();
         };
         let names = &self.world.walls.names;
-        if !(0..names.len()).any(|k| walls.feels(k)) {
+        if !(0..names.len()).any(|k| walls.needs_forces(k)) {
             return Vec::new();
         }
-        let movers: Vec<bool> = (0..names.len()).map(|k| walls.feels(k)).collect();
+        let movers: Vec<bool> = (0..names.len()).map(|k| walls.needs_forces(k)).collect();
         let all_of_it = |name: &String| (names.iter().zip(&movers)).any(|(n, f)| *f && n == name);
         names.iter().map(all_of_it).collect()
     }
 
-    /// Measures what the terms of the sweep do to walls whose movers ask for it, with the velocities of the sweep.
+    /// Measures the forces of the terms of the sweep on walls whose movers need them, with the velocities of the sweep.
     fn load_walls(&mut self, force_requests: &[bool]) -> Result<(), StepError> {
         if force_requests.is_empty() || self.world.lists.builds == 0 {
             return Ok(());
@@ -75,7 +75,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Measures the depth of the fluid before walls whose movers look at it.
+    /// Measures the depth of the fluid before walls whose movers need it.
     fn look_before_walls(&mut self) -> Result<(), StepError> {
         let Some(walls) = &self.walls else {
             return Ok(());

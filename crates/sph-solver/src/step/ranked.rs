@@ -87,7 +87,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Tells ghosts all that their owners know.
+    /// Gives ghosts all columns of their owners.
     pub fn tell_all(&mut self) -> Result<(), StepError> {
         match &mut self.parts {
             None => Ok(()),
@@ -95,7 +95,7 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Whether any rank has a reason; every rank must ask.
+    /// Whether any rank has a reason; every rank must call it.
     pub fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
         match &mut self.parts {
             None => Ok(own),

@@ -113,7 +113,7 @@ fn y_label(results: &Results) -> String {
     }
 }
 
-/// What the plots say in a line: the fastest within ever smaller errors.
+/// The plots in a line: the fastest within ever smaller errors.
 pub fn pareto_lines(results: &Results) -> Vec<[String; 3]> {
     let line = |name: &String| {
         let variant = results.variant(name)?;

@@ -145,7 +145,7 @@ fn named(axes: &[StudyAxis], all: Vec<Vec<usize>>) -> Vec<Combination> {
             true => "scene".to_string(),
             false => name,
         };
-        // Some file systems do not tell case apart.
+        // Some file systems ignore case.
         let mut free = name.clone();
         let mut number = 1;
         while !taken.insert(free.to_lowercase()) {

@@ -14,9 +14,9 @@ type SceneValues = serde_json::Map<String, Json>;
 /// A study file as it stands.
 #[parameters]
 pub struct StudyFile {
-    /// One line that says what is compared.
+    /// The comparison in one line.
     pub title: String,
-    /// What the study shows and what to look at.
+    /// Subject of the study and its results.
     pub description: Option<String>,
     /// The scene: a path relative to the study file, or the name of a shipped scene. Every `axis` may have its own.
     pub scene: Option<String>,
@@ -55,7 +55,7 @@ pub struct StudyFile {
     /// Wall-clock time after which a variant is given up, s; no limit if left out.
     #[parameter(unit: "s", above: 0.0)]
     pub time_limit: Option<f64>,
-    /// Whether variants write the pictures, fields and checkpoints that the scene asks for.
+    /// Whether variants write the pictures, fields and checkpoints of the scene.
     #[parameter(default)]
     pub keep_output: bool,
     /// Combinations that are left out: names of axes, each with a label or a list of labels.

@@ -21,7 +21,7 @@ use crate::reading::variant::Variant;
 pub struct Study {
     /// Name of the file without extension.
     pub name: String,
-    /// What the file says.
+    /// The file.
     pub file: StudyFile,
     /// Name of the scene.
     pub scene: String,
@@ -148,7 +148,7 @@ impl Parts<'_> {
         let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
         let errors = file.error.paths("error");
         if errors.is_empty() && file.scaling.is_none() {
-            let why = "a study judges by an error, or tells the `scaling` of a cost";
+            let why = "a study needs an `error`, or the `scaling` of a cost";
             return Err(refused(vec![SceneProblem::new("error", why)]));
         }
         let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());

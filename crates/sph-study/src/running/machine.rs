@@ -94,7 +94,7 @@ fn said(command: &mut Command) -> Option<String> {
 
 /// Commit of the repository that this program was built in, with `-dirty` if files were changed.
 ///
-/// Taken from the build (`SPH_COMMIT`) if it says, else from the repository around the
+/// Taken from the build (`SPH_COMMIT`) if it has it, else from the repository around the
 /// executable or the working folder, provided it is the one with this crate.
 fn commit() -> Option<String> {
     if let Some(commit) = option_env!("SPH_COMMIT") {

@@ -49,7 +49,7 @@ impl Status {
     }
 }
 
-/// All that a study knows of a variant that has run.
+/// The record of a variant that has run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Record {

@@ -173,7 +173,7 @@ fn remove(file: &Path) {
     let _ = std::fs::remove_file(file);
 }
 
-/// Passes a run's steps on, and the wish to stop back.
+/// Passes a run's steps on, and a stop back.
 struct Watching<'a> {
     job: &'a Job<'a>,
     since: Instant,

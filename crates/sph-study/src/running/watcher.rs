@@ -21,5 +21,5 @@ pub trait Watcher: Sync {
     }
 }
 
-/// A watcher that says nothing.
+/// A silent watcher.
 impl Watcher for () {}

@@ -1,4 +1,4 @@
-//! A bed as a rough wall: what a scene says of it.
+//! A bed as a rough wall: its keys.
 
 use sph_contribution::{Refusal, Setting};
 use sph_core::{parameters, suggestion};

@@ -13,7 +13,7 @@ use crate::wall::{LEAST_DISTANCE, WallLaw};
 pub(crate) struct BedShear {
     /// Number of the bed's phase.
     pub bed: u32,
-    /// ν of every phase, m²/s; none of those that do not feel the bed.
+    /// ν of every phase, m²/s; none of those without a bed.
     pub viscosities: Vec<Option<f64>>,
     /// The law.
     pub law: WallLaw,

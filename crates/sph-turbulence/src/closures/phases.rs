@@ -119,7 +119,7 @@ pub(crate) struct PhaseFilter<S> {
 pub(crate) struct BedEddies {
     /// The law of the wall over it.
     pub law: WallLaw,
-    /// ν of every phase, m²/s; none of those that do not feel the bed.
+    /// ν of every phase, m²/s; none of those without a bed.
     pub viscosities: Vec<Option<f64>>,
 }
 

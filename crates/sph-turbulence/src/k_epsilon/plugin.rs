@@ -29,7 +29,7 @@ use crate::kind::KIND;
 ///
 /// the standard model, with P = min(√C_μ, C_μ k S/ε) k S. Diffusion is explicit, and what is dissipated is that of the end
 /// of the step, so that both are positive by construction; nothing is clipped. Within a spacing of walls with a wall
-/// function k = u*²/√C_μ and ε = u*³/(κz), or what `at_wall` says. Nothing passes through other walls and the surface.
+/// function k = u*²/√C_μ and ε = u*³/(κz), or that of `at_wall`. Nothing passes through other walls and the surface.
 /// `variant` takes other equations, "realisable" those of [`RealisableModel`], "explicit-algebraic" C_μ of [`AlgebraicStress`].
 ///
 /// The constants imply κ = √((C_ε2 − C_ε1) σ_ε √C_μ) = 0.433 in a logarithmic layer.
@@ -88,7 +88,7 @@ impl KEpsilon {
         }
     }
 
-    /// k and ε at the start, at a height; none if the scene does not say.
+    /// k and ε at the start, at a height; none if the scene has none.
     fn start(&self, height: f64) -> Option<[f64; 2]> {
         let model = KEpsilonModel::default();
         match (self.channel, self.energy, self.dissipation) {

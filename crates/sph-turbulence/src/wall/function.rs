@@ -23,7 +23,7 @@ const KIND: &str = "wall-function";
 ///
 /// The law is [`WallLaw`]: sublayer, buffer and logarithm over a smooth wall (z⁺ from 0 on), Nikuradse's over a fully
 /// rough one. The shear takes the place of η u_t/z in the wall term of the viscous operator, its factor κ included, so that
-/// the wall feels what the fluid does, explicitly or with implicit viscosity, in the plane and in space, on walls that move
+/// the wall gets the force of the fluid, explicitly or with implicit viscosity, in the plane and in space, on walls that move
 /// too. The walls are semi-analytical without vertices, and slip freely but for this shear; beside a phase without one
 /// viscosity, as a soil, they may have a condition that is that phase's alone. In the first half spacing the distance is not
 /// less than a quarter of one.

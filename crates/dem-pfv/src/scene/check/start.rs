@@ -46,7 +46,7 @@ fn ways(scene: &Scene, found: &mut Vec<SceneProblem>) {
     }
 }
 
-/// How many grains there are and how large, unless the start says it.
+/// Number and sizes of the grains, unless the start has them.
 fn numbers_and_sizes(scene: &Scene, found: &mut Vec<SceneProblem>) {
     let s = &scene.start;
     let by_height = s.rained.as_ref().is_some_and(|r| r.height.is_some());

@@ -4,7 +4,7 @@ use sph_derive::parameters;
 
 use super::{Axis, Triple};
 
-/// A measurement; the key `kind` says which.
+/// A measurement of the `kind`.
 #[parameters(crate: crate::reexport)]
 #[serde(tag = "kind")]
 pub enum Probe {

@@ -2,7 +2,7 @@
 
 use sph_derive::parameters;
 
-/// A comparison; the key `kind` says with what.
+/// A comparison of the `kind`.
 #[parameters(crate: crate::reexport)]
 #[serde(tag = "kind")]
 pub enum Reference {

@@ -9,9 +9,9 @@ use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
 /// Which grains, between which walls, in which fluid, for how long, and what is written.
 #[parameters(crate: crate::reexport)]
 pub struct Scene {
-    /// One line that says what the scene is, with its publication.
+    /// The scene in one line, with its publication.
     pub title: String,
-    /// What the scene shows and what to look at.
+    /// Subject of the scene and its results.
     pub description: Option<String>,
     /// How long the scene runs and how carefully.
     pub run: Run,
@@ -28,7 +28,7 @@ pub struct Scene {
     pub fluid: Option<Fluid>,
     /// Makes an oedometer test of it.
     pub oedometer: Option<Oedometer>,
-    /// Measurements by name, `[probe.NAME]`; `kind` says of what, the other keys are its parameters.
+    /// Measurements by name, `[probe.NAME]`; `kind` chooses it, the other keys are its parameters.
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub probe: Plugins,

@@ -1,4 +1,4 @@
-//! Nodes, elements and faces of walls, and what may be asked of them.
+//! Nodes, elements and faces of walls, and their queries.
 
 use std::sync::OnceLock;
 
@@ -143,7 +143,7 @@ pub struct Mesh<const D: usize> {
     pub(crate) poses: Vec<Pose<D>>,
     /// How each wall moves; only a bend matters.
     pub(crate) motions: Vec<RigidMotion<D>>,
-    /// Made when first asked for, and again after a motion.
+    /// Made at the first request, and again after a motion.
     pub(crate) sides: OnceLock<Sides<D>>,
 }
 

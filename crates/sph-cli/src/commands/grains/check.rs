@@ -8,7 +8,7 @@ use crate::terminal::layout::{columns, remarks};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 
-/// Tells what follows from a scene, without preparing its grains.
+/// Lists sizes, costs and remarks of a scene, without preparing its grains.
 pub fn output(loaded: &Loaded, shown: &str) -> Result<CommandOutput, Trouble> {
     let examined = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(CommandOutput {

@@ -1,4 +1,4 @@
-//! The kinds of plugins that scenes of grains know.
+//! The kinds of plugins of scenes of grains.
 
 use dem_pfv::Entry;
 use dem_pfv::flow::conductances;

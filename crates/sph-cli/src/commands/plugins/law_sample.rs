@@ -86,7 +86,7 @@ fn specimen(plugin: &PluginInfo, table: &Table, label: String) -> Result<LawSamp
     Ok(LawSample { label, law })
 }
 
-/// Which law an override is for, and the override as its own table knows it.
+/// Which law an override is for, and the override within its own table.
 fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override), Trouble> {
     if plugins.len() == 1 {
         return Ok((0, set.clone()));

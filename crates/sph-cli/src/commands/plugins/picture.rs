@@ -66,7 +66,7 @@ fn check(file: &Path) -> Result<(), Trouble> {
     }
 }
 
-/// Writes a picture and says so.
+/// Writes a picture and prints its name.
 pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
     check(file)?;
     let saved = panels.save(file);

@@ -57,7 +57,7 @@ impl<const D: usize> Materials<D> {
         })
     }
 
-    /// What the laws feel.
+    /// The inputs of the laws.
     pub(crate) fn law_inputs(&self) -> LawInputs {
         let blend = self.force.as_ref().map(|force| force.blend());
         LawInputs {
