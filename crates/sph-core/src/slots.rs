@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_ghosts_and_no_others_are_found() {
+    fn every_identity_has_its_slot_and_unknown_ones_have_none() {
         for identities in [vec![3, 0, 2], vec![4_000_000_000, 7, 90]] {
             let slots = Slots::from_identities(&identities);
             for (slot, id) in identities.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The fluid in front of faces, equal on all ranks, so that all let the same pass.
+//! The fluid in front of faces, the same for all owners, so that all let the same pass.
 
 use sph_core::{StepError, Vect};
 use sph_neighbours::{Words, World};

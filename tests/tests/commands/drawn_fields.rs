@@ -184,7 +184,7 @@ fn tracks_follow_identities_through_other_orders() {
 }
 
 #[test]
-fn missing_and_written_files_are_listed() {
+fn missing_columns_are_named_with_the_written_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let frames = frames(folder.path());
     let snapshot = frames.read(frames.at(None)).expect("a frame");

@@ -22,12 +22,12 @@ pub trait Operator<const D: usize>: Sync {
     /// Gives the copies, x\[rows..columns\], the values of their owners.
     fn import(&self, _x: &mut [Vect<D>]) {}
 
-    /// The sum over the owners of all rows of what each has summed over its own; the same bits on all ranks.
+    /// The sum over the owners of all rows of what each has summed over its own; the same bits for all.
     fn total(&self, part: f64) -> f64 {
         part
     }
 
-    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits on all ranks.
+    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits for all.
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
         let rows = self.rows();
         self.total(inner(&x[..rows], &y[..rows]))

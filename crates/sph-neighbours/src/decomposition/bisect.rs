@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn indivisible_plugins_are_named() {
+    fn impossible_divisions_are_refused() {
         let places = lattice();
         let costs = vec![1.0; places.len()];
         let told = |places: &[Vector2<f64>], costs: &[f64], ranks| {

@@ -127,7 +127,7 @@ mod tests {
 
     /// What is added can be read off again, of a piston and of a flap, along any direction.
     #[test]
-    fn added_files_are_found_again() {
+    fn an_added_motion_is_read_back() {
         for arm in [None, Some(0.5)] {
             let face = Face::<3> {
                 along: Vect::<3>::new(0.6, -0.8, 0.0),

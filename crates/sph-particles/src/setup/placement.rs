@@ -25,7 +25,7 @@ pub struct Placed<const D: usize> {
 }
 
 /// Where a place is, as the walls see it.
-enum WallSide<'a, const D: usize> {
+enum Site<'a, const D: usize> {
     Fluid,
     TooNear,
     Behind(&'a dyn Wall<D>),
@@ -63,21 +63,19 @@ pub fn place<const D: usize>(
         let held = |position: &[f64; D]| {
             let x = Vect::from(*position);
             let side = match walls {
-                Some(walls) if walls.clearance(&x, TOO_NEAR * spacing).is_some() => {
-                    WallSide::TooNear
-                }
-                Some(walls) if !walls.contains(&x) => WallSide::Behind(walls),
-                _ => WallSide::Fluid,
+                Some(walls) if walls.clearance(&x, TOO_NEAR * spacing).is_some() => Site::TooNear,
+                Some(walls) if !walls.contains(&x) => Site::Behind(walls),
+                _ => Site::Fluid,
             };
             (x, side)
         };
         let all: Vec<_> = filled.positions.par_iter().map(held).collect();
         for (x, side) in all {
             match side {
-                WallSide::Fluid => kept.push(x),
-                WallSide::TooNear => dropped += usize::from(!clipped),
-                WallSide::Behind(_) if clipped => behind.push(x),
-                WallSide::Behind(walls) => {
+                Site::Fluid => kept.push(x),
+                Site::TooNear => dropped += usize::from(!clipped),
+                Site::Behind(_) if clipped => behind.push(x),
+                Site::Behind(walls) => {
                     problems.push(through_a_wall(name, &x, walls, spacing));
                     break;
                 }

@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rank_that_stops_early_is_followed_by_the_others() {
+    fn the_next_entry_is_fastest_where_one_has_no_more_sizes() {
         let all = [
             ("direct".to_string(), vec![[1e2, 1.0], [1e4, 50.0]]),
             (
