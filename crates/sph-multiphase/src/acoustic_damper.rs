@@ -71,7 +71,7 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
     }
 }
 
-/// What the damper adds to the pressure.
+/// The damper's part of the pressure.
 pub const DAMPING_PRESSURE: Field<Scalar> = Field::new(
     "damping_pressure",
     "Pa",
@@ -85,7 +85,7 @@ struct Resistance<const D: usize> {
     /// ρ₀ of every phase, kg/m³.
     densities: Vec<f64>,
     term: [Box<dyn Interaction<D>>; 1],
-    /// What the term declares: no step allocates memory for it.
+    /// Declared columns of the term: no step allocates memory for it.
     declared: Vec<Access>,
     /// The sweep sums accelerations, too; they are not read.
     unused: Vec<Vect<D>>,

@@ -63,7 +63,7 @@ contract!(
     Formulation<D>, .by_default("hu-adams").ordered(10).works(Work::Pressure)
 );
 
-/// What a [`PressureScheme`] works with.
+/// Input of a [`PressureScheme`].
 pub struct Acting<const D: usize> {
     /// The stage that applies the equations of state.
     pub state: PressureStage,
@@ -73,7 +73,7 @@ pub struct Acting<const D: usize> {
     pub surfaces: bool,
 }
 
-/// Which pressure acts in a step, where it is not that of the equation of state at its beginning.
+/// The pressure that acts in a step, where it is not that of the equation of state at its beginning.
 pub trait PressureScheme<const D: usize>: Send + Sync {
     /// The stage that writes [`PRESSURE`](sph_core::fields::PRESSURE); it finds there that of the step before.
     fn stage(&self, acting: Acting<D>) -> Box<dyn Stage<World<D>>>;

@@ -12,9 +12,9 @@ use crate::{
 
 /// The formulation that a scene names, with its equations of state.
 struct Compressible<const D: usize> {
-    /// What density is.
+    /// The formulation: density and its pressure.
     formulation: Box<dyn Formulation<D>>,
-    /// Which pressure acts; that of the equations of state if there is none.
+    /// The pressure scheme; the equations of state if there is none.
     scheme: Option<Box<dyn PressureScheme<D>>>,
     /// Whether the scene names what free surfaces are.
     surfaces: bool,

@@ -6,7 +6,7 @@ use sph_neighbours::{
     minus, pair_term,
 };
 
-/// Which weight a pair has in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
+/// The weight of a pair in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
 ///
 /// With walls that scale the kernel it is D_a{u} = −Σ_b W_ab s_a s_b [u_ab·∇w_ab + w_ab (σ_a + σ_b)], b = a included,
 /// σ_a = d ln s_a/dt = u_a·∇ln s_a + ∂ ln s_a/∂t.

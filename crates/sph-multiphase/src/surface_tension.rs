@@ -49,7 +49,7 @@ pub struct SurfaceTension {
     /// Surface tension σ.
     #[parameter(unit: "N/m", min: 0.0, source: "Hu & Adams 2006")]
     pub tension: f64,
-    /// Which isotropic part the stress has.
+    /// The isotropic part of the stress.
     #[parameter(default, source: "Lafaurie et al. 1994; Hu & Adams 2006")]
     pub stress: SurfaceStress,
     /// Angle at which interfaces meet walls; 90° if left out.

@@ -66,7 +66,7 @@ impl<const D: usize> Faces<D> {
         world.agreed(looked, looks, |k| self.nothing(k))
     }
 
-    /// What is seen where no particle is near.
+    /// The mean where no particle is near.
     pub(crate) fn nothing(&self, k: usize) -> AdjacentFluid<D> {
         let (mean_pressure, mean) = match self.memory.dt > 0.0 {
             true => self.memory.mean[k],

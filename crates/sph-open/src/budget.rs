@@ -8,7 +8,8 @@ use crate::faces::Faces;
 
 /// How long a port keeps an error of its mass, over the time in which a row passes.
 ///
-/// What passes by the law and what particles carry differ by what the mean before the face smooths; the difference is let
+/// The flux of the law and that of the particles differ by the smoothing of the mean before the face; the difference is
+/// let
 /// go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 

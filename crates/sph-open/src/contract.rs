@@ -45,7 +45,7 @@ pub struct Inside<const D: usize> {
 }
 
 impl<const D: usize> Inside<D> {
-    /// What is seen where there is no fluid.
+    /// The mean where there is no fluid.
     pub(crate) fn nothing() -> Self {
         Inside {
             wet: false,
@@ -60,7 +60,7 @@ impl<const D: usize> Inside<D> {
     }
 }
 
-/// What the face does to the fluid.
+/// Values of the face for the fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outside<const D: usize> {
     /// Velocity with which fluid passes, m/s.
@@ -77,7 +77,7 @@ pub struct Outside<const D: usize> {
 }
 
 impl<const D: usize> Outside<D> {
-    /// What is left where there is no fluid: nothing passes.
+    /// Values where there is no fluid: nothing passes.
     pub fn dry() -> Self {
         Outside {
             velocity: Vect::zeros(),
@@ -88,7 +88,7 @@ impl<const D: usize> Outside<D> {
     }
 }
 
-/// What a law learns of the scene before the start.
+/// The scene for a law before the start.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenSetting<'a> {
     /// Names of the phases, in the order of their numbers.
@@ -129,7 +129,7 @@ impl<const D: usize> Moment<D> {
 pub struct OpenRefusal {
     /// The key in the table; the table itself, if empty.
     pub key: String,
-    /// What is wrong, and what to do.
+    /// The defect and its remedy.
     pub why: String,
 }
 
@@ -143,7 +143,7 @@ impl OpenRefusal {
     }
 }
 
-/// What comes in.
+/// The fluid that comes in.
 #[derive(Clone, Debug, Default)]
 pub struct Entering {
     /// Name of the phase; that of the fluid in front of the face if none is given.
@@ -166,7 +166,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     fn fit(&self, _places: &[Place<D>]) -> Result<(), OpenRefusal> {
         Ok(())
     }
-    /// What comes in.
+    /// The fluid that comes in.
     fn entering(&self) -> Entering {
         Entering::default()
     }

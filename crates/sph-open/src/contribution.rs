@@ -106,7 +106,7 @@ impl<const D: usize> OpenBoundaries<D> {
         all.map(place).collect()
     }
 
-    /// What laws find wrong with the elements of their faces, each with the name of the face.
+    /// Refusals of laws for the elements of their faces, each with the name of the face.
     pub fn misfits(&self) -> Vec<(String, OpenRefusal)> {
         let faces = lock(&self.faces);
         let one = |face: &Face<D>| {
@@ -116,7 +116,7 @@ impl<const D: usize> OpenBoundaries<D> {
         faces.faces.iter().filter_map(one).collect()
     }
 
-    /// What comes in by every face, with its name.
+    /// The fluid that comes in by every face, with its name.
     pub fn entering(&self) -> Vec<(String, Entering)> {
         let faces = lock(&self.faces);
         let all = faces.faces.iter();

@@ -38,7 +38,7 @@ impl<const D: usize> PassedParticle<D> {
     }
 }
 
-/// Who passes faces at the end of a step.
+/// Particles that pass faces at the end of a step.
 #[derive(Default)]
 pub(crate) struct Exits<const D: usize> {
     /// Particles here, each with the number of its face.
@@ -47,7 +47,7 @@ pub(crate) struct Exits<const D: usize> {
     pub places: Vec<Vect<D>>,
 }
 
-/// What a particle that leaves hands over.
+/// Data of a particle that leaves.
 struct LeavingParticle<const D: usize> {
     identity: u64,
     ports: [usize; 2],
@@ -223,7 +223,8 @@ impl<const D: usize> Faces<D> {
     /// How far before the face, over the spacing, a particle is to be born at a port with fluid that comes in, if it is time:
     /// the port has the mass for it, and the nearest particle has gone far enough.
     ///
-    /// What is born too near to others is too dense for the room it has, which the density does not show (it does not jump):
+    /// A particle born too near to others is too dense for the space it has, which the density does not show (it does
+    /// not jump):
     /// under gravity it would sink, and stir still water.
     fn ripeness(&self, k: usize) -> Option<f64> {
         if self.through(k).dot(&self.places[k].normal) <= 0.0 {

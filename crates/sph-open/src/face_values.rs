@@ -73,7 +73,7 @@ impl<const D: usize> Faces<D> {
         Ok(())
     }
 
-    /// What is seen in front of an element, as it arrives at the face.
+    /// The mean in front of an element, as it arrives at the face.
     ///
     /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
     /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as all are kicked once in a

@@ -27,7 +27,8 @@ const LAST: f64 = 0.75;
 /// as one row after the other comes nearer and passes, and a little more while one waits for its birth. A row farther away
 /// is the last one: the share falls to nothing by θ = 1.
 ///
-/// What a port *holds* is the same but for its errors. These would stay as long as a row takes to pass, for ever where
+/// The mass that a port *holds* is the same but for its errors. These would stay as long as a row takes to pass, for
+/// ever where
 /// the flow is slow, as beside a wall, and a background pressure makes a barrier of them.
 pub(crate) fn as_share(lacks: f64) -> f64 {
     match lacks > LAST {
@@ -46,7 +47,7 @@ pub(crate) const CLOSED: u32 = u32::MAX;
 pub(crate) struct Face<const D: usize> {
     pub name: String,
     pub law: Arc<dyn OpenBoundary<D>>,
-    /// What comes in.
+    /// The fluid that comes in.
     pub phase: Option<u32>,
     pub values: Arc<[(String, f64)]>,
     pub body: Arc<str>,
@@ -89,20 +90,21 @@ pub(crate) struct Faces<const D: usize> {
     pub full: Vec<f64>,
     /// Volume that [stands](crate::row::stands) before every element where the face is full, m^d.
     pub stands: Vec<f64>,
-    /// What a whole particle at the port of every element would add to that weight.
+    /// Share of a whole particle at the port of every element in that weight.
     pub at_port: Vec<f64>,
-    /// What the row before every element lacks of a full face, over the weight of a row on the face: φ − ½ with a row at φ δr.
+    /// The missing part of the row before every element, over the weight of a row on the face: φ − ½ with a row at φ
+    /// δr.
     pub lacks: Vec<f64>,
     /// Distance of the particle that is nearest to the centre of every element, m.
     pub nearest: Vec<f64>,
     /// The [share](as_share) of a particle with which every port takes part in sums.
     pub lacking: Vec<f64>,
     pub memory: Memory<D>,
-    /// What [`balance`](Self::balance) adds to velocities, m/s; zero in between.
+    /// Change of velocities by [`balance`](Self::balance), m/s; zero in between.
     pub kicks: Vec<Vect<D>>,
     /// Pressure that it takes out before every particle, Pa; zero in between.
     pub before: Vec<f64>,
-    /// What was seen before the elements, to be filled again.
+    /// The means before the elements, to be filled again.
     pub looked: Vec<AdjacentFluid<D>>,
     /// Whether particles come and go at the end of this step.
     pub due: bool,
@@ -323,7 +325,7 @@ impl<const D: usize> Faces<D> {
         walls.passed = self.passed(walls);
     }
 
-    /// What has passed, face by face and phase by phase.
+    /// Passed mass, face by face and phase by phase.
     pub fn passed(&self, walls: &WallSet<D>) -> Vec<Passed> {
         let phases = self.whole.len();
         let mut all = Vec::with_capacity(self.memory.totals.len());

@@ -24,7 +24,7 @@ impl Sum {
     }
 }
 
-/// What has passed a face of a phase, kg.
+/// Mass of a phase that has passed a face, kg.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Totals {
     pub entered: Sum,

@@ -53,7 +53,7 @@ pub struct RigidBody {
     /// as the body is drawn, or xx, yy, zz, xy, yz, zx of the tensor. That of a uniform body of this mass if left out.
     #[parameter(unit: "kg m²", examples: [[1.0]])]
     pub inertia: Option<Vec<f64>>,
-    /// What it is free to do; everything if left out. The rest is locked.
+    /// Free degrees of freedom; all if left out. The others are locked.
     pub free: Option<Vec<Freedom>>,
     /// Velocity of the centre at the start, m/s.
     #[parameter(unit: "m/s")]

@@ -24,7 +24,7 @@ enum Kind {
     Hanging(Catenary, Vector3<f64>),
 }
 
-/// What a line does at a place and velocity of its body.
+/// Action of a line at a place and velocity of its body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pull {
     /// Force on the body and its moment about the centre.

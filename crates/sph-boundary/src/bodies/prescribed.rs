@@ -8,7 +8,7 @@ use crate::{MoverRefusal, RigidState};
 
 /// A time in which the body moves as given: it keeps the velocities that it had, or takes those of a course.
 ///
-/// What pushes it is measured all the same, and nothing stops it.
+/// Forces on it are measured all the same, and nothing stops it.
 ///
 /// ```toml
 /// [[wall.float.mover.rigid-body.prescribed]]

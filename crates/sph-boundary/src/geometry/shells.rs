@@ -7,7 +7,7 @@ const BEHIND: f64 = 1e-9;
 /// Least γ: that of a point in a corner behind several shells.
 const LEAST: f64 = 0.01;
 
-/// Which elements hang together with a free end.
+/// Elements that are connected to a free end.
 #[derive(Clone, Debug, Default)]
 pub struct Shells {
     /// By element, from 1 on; 0 where the wall is closed. Empty where all are.

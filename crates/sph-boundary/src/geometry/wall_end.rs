@@ -1,6 +1,6 @@
 //! Ends of open walls.
 
-/// Which end of an open wall.
+/// An end of an open wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallEnd {
     /// Where the direction of travel starts.
@@ -23,7 +23,7 @@ impl std::fmt::Display for WallEnd {
 pub struct FreeEnd {
     /// Index of the wall.
     pub wall: usize,
-    /// Which end of it.
+    /// Its end.
     pub end: WallEnd,
     /// Index of the node.
     pub node: usize,

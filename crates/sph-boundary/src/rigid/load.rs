@@ -108,7 +108,7 @@ impl<'a, const D: usize> MoverSetting<'a, D> {
 pub struct MoverRefusal {
     /// The key in its table; the table itself, if empty.
     pub key: String,
-    /// What is wrong, and what to do.
+    /// The defect and its remedy.
     pub why: String,
 }
 

@@ -14,7 +14,8 @@ pub struct RigidMotion<const D: usize = 2> {
     pub translations: Vec<Translation<D>>,
     /// Rotation.
     pub rotation: Option<Rotation<D>>,
-    /// What bends the wall; it counts its time from 0. It leaves the wall where translations and rotation put it, so have
+    /// Bending of the wall; it counts its time from 0. It leaves the wall where translations and rotation put it, so
+    /// have
     /// one or the other.
     pub bend: Option<Arc<Bend>>,
     /// Start, s; the courses count from here.

@@ -30,7 +30,8 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     fn looks(&self, _now: &RigidState<D>) -> Option<DepthGauge<D>> {
         None
     }
-    /// What lines pull the wall in a state: the force of each on it, N, and its tension at the other end, N; none if it
+    /// Forces of the lines on the wall in a state: the force of each on it, N, and its tension at the other end, N;
+    /// none if it
     /// hangs on nothing.
     fn pulls(&self, _now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
         Vec::new()

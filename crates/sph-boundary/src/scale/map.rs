@@ -43,11 +43,11 @@ pub(crate) struct ScaleMap<const D: usize> {
     walls: Vec<u32>,
 }
 
-/// What a map is made from.
+/// Input of a map.
 pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     /// The walls, where they were drawn.
     pub mesh: &'a M,
-    /// Which elements are on no flat face.
+    /// Elements that are on no flat face.
     pub curved: &'a [bool],
     /// ln s of the flat faces at a place.
     pub flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
@@ -175,7 +175,7 @@ impl<const D: usize> ScaleMap<D> {
     }
 }
 
-/// What is known of a node.
+/// Data of a node.
 struct NodeKind<const D: usize> {
     /// Distance from the walls, m, negative behind them.
     height: f64,

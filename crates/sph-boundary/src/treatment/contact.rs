@@ -25,7 +25,7 @@ const REACH: f64 = GAP + 1.0;
 
 /// A piece of a surface near another one.
 pub(crate) struct Near<const D: usize> {
-    /// Which is pushed along `away`, and which against it: groups of walls.
+    /// The groups of walls that are pushed along `away`, and against it.
     pub pair: [usize; 2],
     /// The walls themselves.
     pub walls: [usize; 2],

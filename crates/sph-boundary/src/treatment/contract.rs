@@ -63,13 +63,13 @@ pub struct WallSpec<const D: usize> {
     pub surface_velocity: Vect<D>,
     /// Motion of the wall.
     pub motion: RigidMotion<D>,
-    /// What moves it instead, with the force of the fluid.
+    /// Its mover, with the force of the fluid.
     pub mover: Option<Arc<dyn Mover<D>>>,
     /// Whether fluid passes it: it stops no particle.
     pub open: bool,
 }
 
-/// What a wall treatment needs to set itself up.
+/// Input of a wall treatment.
 pub struct WallSetup<'a, const D: usize> {
     /// The walls of the scene.
     pub walls: &'a [WallSpec<D>],

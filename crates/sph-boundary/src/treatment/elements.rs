@@ -23,12 +23,12 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     moves: u64,
     /// Version of the near lists, moves and positions for which the contacts were found.
     found_for: (u64, u64, Vec<Vect<D>>),
-    /// What was found last, batch by batch; kept for its memory.
+    /// The last results, batch by batch; kept for their memory.
     found: Vec<Found<M::Scratch>>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
     /// those on no plane's fluid side.
     clearance: Vec<f64>,
-    /// What the fluid was last like at points and elements; kept for its memory.
+    /// The last state of the fluid at points and elements; kept for its memory.
     means: [Vec<WallMean>; 2],
     /// Elements around each corner.
     around: Vec<u32>,
@@ -37,7 +37,7 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
 /// Particles that one task works through.
 const BATCH: usize = 64;
 
-/// What is found of a batch of particles.
+/// Results of a batch of particles.
 #[derive(Debug, Default)]
 struct Found<R> {
     gammas: Gammas,

@@ -177,7 +177,7 @@ struct Corrected<const D: usize> {
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
 
-/// What a step would do to a particle next to a wall.
+/// Hindrance of a particle next to a wall in a step.
 struct Impact<'a, const D: usize, M: WallMesh<D>> {
     outline: &'a Outline<D, M>,
     spacing: f64,

@@ -106,7 +106,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         Ok(states)
     }
 
-    /// What acts on a wall with all its pieces.
+    /// Loads of a wall with all its pieces.
     fn load(&self, wall: usize, forces: &[WallForce<D>], gravity: Vect<D>) -> Load<D> {
         if self.specs[wall].mover.is_none() || is_piece(&self.specs, wall) {
             return Load::of_gravity(gravity);

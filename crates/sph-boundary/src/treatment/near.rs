@@ -47,7 +47,7 @@ pub(crate) struct NearLists<const D: usize> {
     room: Scratch<D>,
 }
 
-/// What a search needs besides.
+/// Buffers of a search.
 #[derive(Debug, Default)]
 struct Scratch<const D: usize> {
     sorted: Vec<Row<D>>,
@@ -55,7 +55,7 @@ struct Scratch<const D: usize> {
     found: Vec<Found<D>>,
 }
 
-/// What one task has found.
+/// Results of one task.
 #[derive(Debug, Default)]
 struct Found<const D: usize> {
     places: Vec<Vect<D>>,

@@ -33,7 +33,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     /// Distance beyond which nothing of the kernel counts, m.
     pub far_sight: f64,
     pub domain: Domain<D>,
-    /// What stopping particles in front of walls did to these in the last drift.
+    /// Forces on walls by stopped particles in the last drift.
     pub struck: Vec<WallForce<D>>,
     /// The walls that forces move.
     pub bodies: Vec<FreeBody<D>>,
@@ -175,7 +175,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         frames.get(wall).map_or(place, |frame| place - frame.round)
     }
 
-    /// What the lines of movers do to their walls.
+    /// Forces of the lines of movers on their walls.
     pub fn pulls(&self) -> Vec<LinePull<D>> {
         let walls = self.specs.iter().zip(&self.states).enumerate();
         let of_wall = |(wall, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {

@@ -46,7 +46,7 @@ impl<const D: usize> Touching<D> {
         parts.min(MOST_PARTS) as u32
     }
 
-    /// What the walls do to each other, by the first of the walls that move together; `velocity` is that of the first of
+    /// Forces between the walls, by the first of the walls that move together; `velocity` is that of the first of
     /// a pair against the second.
     fn forces(&self, velocity: &[Vect<D>], forces: &mut [WallForce<D>]) {
         forces.fill(WallForce::zero());
@@ -77,7 +77,7 @@ impl<const D: usize> Touching<D> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
-    /// What touches within a step, if anything does.
+    /// Contacts within a step, if there are any.
     fn touching(&self, gravity: Vect<D>, dt: f64) -> Option<Touching<D>> {
         let touches = self.touches();
         if touches.iter().all(Option::is_none) {

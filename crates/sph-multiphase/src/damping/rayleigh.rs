@@ -9,7 +9,7 @@ use sph_core::{Access, StepError, Vect, Work, fields, plugin};
 use crate::damping::zone::Zone;
 
 contribution_kind!(
-    /// What takes motion away, that a scene may name.
+    /// Damping that a scene may name.
     pub DampingEntry, "damping", Any, "what takes motion away: of a fluid that is to settle, of waves, of sound",
     .works(Work::Damping)
 );

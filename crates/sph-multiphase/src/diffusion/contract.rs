@@ -26,7 +26,8 @@ pub struct Smoothing<const D: usize> {
     pub term: Box<dyn Interaction<D>>,
     /// Strength δ: the diffusivity of the density over h c.
     pub strength: f64,
-    /// Which accelerations the term takes the mean of, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if it does.
+    /// Accelerations of which the term takes the mean, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if
+    /// it does.
     pub accelerated: Option<Accelerated>,
     /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
     /// step.

@@ -46,7 +46,7 @@ pub struct DeltaMultiphase {
     /// Whether walls count.
     #[parameter(default: true, source: "ours")]
     pub walls: bool,
-    /// What is not to be diffused.
+    /// The gradient that is not diffused.
     #[parameter(default, source: "ours; literal: Krimi et al. 2018, Eq. 30")]
     pub balance: Balance,
     /// Whether the hydrostatic balance has the mean acceleration A. Left out: where all walls move, and where the fluid falls
@@ -55,7 +55,7 @@ pub struct DeltaMultiphase {
     pub accelerations: Option<bool>,
 }
 
-/// What is not to be diffused.
+/// The gradient that is not diffused.
 #[parameters]
 pub enum Balance {
     /// The compression of a fluid at rest or in an accelerated frame.

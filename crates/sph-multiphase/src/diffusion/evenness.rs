@@ -112,7 +112,7 @@ fn power<L: Lane>(ratio: L, exponent: i32) -> L {
     }
 }
 
-/// What free neighbours add to an [`Evenness`].
+/// Sums of free neighbours for an [`Evenness`].
 struct FreeSums<'a> {
     volume: &'a [f64],
     phase: Option<&'a [u32]>,
@@ -197,7 +197,7 @@ fn images<const D: usize>(
 /// Least weight of an image that is looked at.
 const FAINT: f64 = 1e-4;
 
-/// What a particle near a free surface may not do.
+/// Limits of shifts near a free surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Held<const D: usize> {
     /// Far from surfaces: nothing.
@@ -209,7 +209,7 @@ pub(crate) enum Held<const D: usize> {
 }
 
 impl<const D: usize> Held<D> {
-    /// What is left of a shift.
+    /// The admissible part of a shift.
     pub fn held(&self, shift: Vect<D>) -> Vect<D> {
         match self {
             Held::No => shift,

@@ -22,7 +22,7 @@ use crate::diffusion::shifted_sum::ShiftedSum;
 /// Arrangements that noise disturbs at the speed of sound are mended at a share of it. B h c is kept below h²/4Δt, beyond which an explicit
 /// diffusion would overshoot.
 ///
-/// What a particle carries belongs to the fluid, not to the particle: with `transport = "all"` it takes up
+/// Carried quantities belong to the fluid, not to the particle: with `transport = "all"` it takes up
 /// what is where it goes, du/dt += (s·∇)u and dρ/dt += s·∇ρ (and, where the density is a sum over
 /// positions, the constant K takes back what the move does to the sum). Without it the density of a
 /// summed formulation follows the rearrangement, which is noise, and noise rubs: a channel at Re = 100, 25 particles
@@ -67,7 +67,7 @@ pub struct Fickian {
     /// The outer row of a lattice has 0.78, 0.69 and 0.62 at h/δr = 1.3, 2 and 3.
     #[parameter(default: 0.85, unit: "1", min: 0.0, max: 1.0, source: "measured on lattices")]
     pub surface: f64,
-    /// What a shifted particle takes up where it goes.
+    /// Quantities that a shifted particle takes up where it goes.
     #[parameter(default: Transport::All, source: "Sun et al. 2019")]
     pub transport: Transport,
     /// How fast the density that is taken up comes back to that of the arrangement, over the rate at which
@@ -80,7 +80,7 @@ pub struct Fickian {
     pub along_walls: bool,
 }
 
-/// What a shifted particle takes up where it goes.
+/// Quantities that a shifted particle takes up where it goes.
 #[parameters]
 pub enum Transport {
     /// Nothing: it keeps its velocity, and its density follows the formulation.

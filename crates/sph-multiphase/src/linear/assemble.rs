@@ -17,7 +17,7 @@ use crate::linear::{Entry, Pattern, Values};
 pub struct Assembly<E, const C: usize> {
     /// Where entries are; a matrix may share it.
     pub pattern: Arc<Pattern>,
-    /// What they are.
+    /// Their values.
     pub values: Values<E>,
     /// Parts of the right-hand side, one per row.
     pub sources: Vec<Vect<C>>,

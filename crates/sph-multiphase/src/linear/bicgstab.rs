@@ -19,7 +19,7 @@ use crate::linear::{
     source: "van der Vorst 1992; Ghaïtanellis 2017, §5.1.1")]
 #[derive(Copy)]
 pub struct Bicgstab {
-    /// What shortens the iteration.
+    /// The preconditioner.
     #[parameter(default: Preconditioner::Jacobi, source: "Ghaïtanellis 2017, §5.1.1: jacobi")]
     pub preconditioner: Preconditioner,
     /// Relative residual |b − A x| / |b| at which it ends.

@@ -36,7 +36,7 @@ impl Cholesky {
     }
 }
 
-/// What outlives a solve.
+/// Memory kept between solves.
 struct Kept {
     pattern: Arc<Pattern>,
     blocks: bool,

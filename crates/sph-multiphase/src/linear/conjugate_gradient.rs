@@ -24,7 +24,7 @@ use crate::linear::{
     source: "Hestenes & Stiefel 1952")]
 #[derive(Clone)]
 pub struct ConjugateGradient {
-    /// What shortens the iteration.
+    /// The preconditioner.
     #[parameter(default, source: "docs/validation/implicit.md: iterations against contrast")]
     pub preconditioner: Preconditioner,
     /// Relative residual |b − A x| / |b| at which it ends.

@@ -14,7 +14,7 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     type Short: Copy + Send + Sync + std::fmt::Debug + 'static;
     /// s a, shortened.
     fn short(&self, factor: f64) -> Self::Short;
-    /// What is left of a shortened entry.
+    /// A shortened entry at full length.
     fn long(short: &Self::Short) -> Self;
     /// a v.
     fn apply(&self, v: &Vect<D>) -> Vect<D>;

@@ -11,7 +11,7 @@ pub enum SolveError {
         history_text(history)
     )]
     NotConverged {
-        /// Which solver.
+        /// The solver.
         method: String,
         /// Asked for.
         wanted: f64,
@@ -23,7 +23,7 @@ pub enum SolveError {
     /// A pivot or a curvature is not positive.
     #[error("{method}: the matrix is not positive definite at row {row}")]
     NotPositive {
-        /// Which solver.
+        /// The solver.
         method: String,
         /// Where it was seen.
         row: usize,
@@ -31,7 +31,7 @@ pub enum SolveError {
     /// A number is not finite.
     #[error("{method}: {what} of the system is not finite")]
     NotFinite {
-        /// Which solver.
+        /// The solver.
         method: String,
         /// Matrix or right-hand side.
         what: &'static str,
@@ -39,13 +39,13 @@ pub enum SolveError {
     /// Entries that the method needs are not there.
     #[error("{method} needs all entries of the matrix, and this operator only multiplies")]
     NotWhole {
-        /// Which solver.
+        /// The solver.
         method: String,
     },
     /// The factorisation has no room.
     #[error("{method}: no memory for the factorisation of {rows} rows")]
     NoMemory {
-        /// Which solver.
+        /// The solver.
         method: String,
         /// Size of the system.
         rows: usize,

@@ -82,7 +82,7 @@ impl<'s> Watch<'s> {
         self.history.len().saturating_sub(1)
     }
 
-    /// What the solve took.
+    /// Effort of the solve.
     pub fn report(&self, residual: f64, bytes: usize) -> Report {
         Report {
             method: self.method,

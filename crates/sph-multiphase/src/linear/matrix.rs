@@ -11,7 +11,7 @@ use crate::linear::{Block, Entry};
 /// Rows that one task works through.
 pub(crate) const ROWS: usize = 256;
 
-/// Which particles are coupled, the diagonal left out; columns ascend within rows.
+/// Pairs of coupled particles without the diagonal; columns ascend within rows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pattern {
     /// First entry of every row, one more than there are rows.
@@ -118,7 +118,7 @@ impl<const D: usize> Default for Entries<D> {
 pub struct Matrix<const D: usize> {
     /// Where entries are.
     pub pattern: Arc<Pattern>,
-    /// What they are.
+    /// Their values.
     pub entries: Entries<D>,
 }
 

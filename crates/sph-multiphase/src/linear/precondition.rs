@@ -33,7 +33,7 @@ pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     IncompleteBlock(&'s Incomplete<Block<D>, [[f32; D]; D]>),
 }
 
-/// What preconditioners are made of.
+/// Factors of preconditioners.
 #[derive(Default)]
 pub(crate) struct Factors<const D: usize> {
     scalar: Vec<f64>,

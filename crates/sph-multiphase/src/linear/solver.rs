@@ -4,10 +4,10 @@ use sph_core::{Vect, contract};
 
 use crate::linear::{Operator, SolveError};
 
-/// What a solve took.
+/// Effort of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
-    /// Who solved.
+    /// The solver.
     pub method: &'static str,
     /// Iterations; for a factorisation those that were spent before it was tried, 0 if it was the first.
     pub iterations: usize,

@@ -10,7 +10,7 @@ use crate::linear::Operator;
 /// with more they follow within some steps.
 const RESPONSE: f64 = 4.0;
 
-/// What bodies leave in the system of the pressure: p moves a body within the step, and the body the fluid.
+/// Share of bodies in the system of the pressure: p moves a body within the step, and the body the fluid.
 ///
 /// With B_a = −γ_aV_a ∂(1/γ_a Σ_s u_s·∇γ_as)/∂(v, ω), W the mobility of a body, a its acceleration over the last step
 /// and pⁿ the pressure before,

@@ -31,7 +31,7 @@ pub(crate) struct SolvePressure<const D: usize> {
 /// beside walls and between phases sums are off by 0.02.
 const OPEN: f64 = 0.15;
 
-/// What a solve fills anew, kept for its memory.
+/// Buffers of a solve, kept for their memory.
 struct Scratch<const D: usize> {
     rate: Vec<f64>,
     /// The sweep sums accelerations, too; they are not read.
@@ -187,7 +187,7 @@ impl<const D: usize> SolvePressure<D> {
         interactions(world, &self.dilatation, unused, Some(rate))
     }
 
-    /// What every row has of its own.
+    /// The own entries of every row.
     fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
         let free = &world.free;
         let volume = free.get(fields::VOLUME)?;

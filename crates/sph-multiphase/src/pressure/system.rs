@@ -7,7 +7,7 @@ use sph_neighbours::{
 
 use crate::linear::Rows;
 
-/// What couples the pressures of two particles.
+/// Couplings of the pressures of two particles.
 pub(crate) struct Couplings<'a, const D: usize> {
     /// The rows that count.
     pub owned: &'a Owned,
@@ -17,7 +17,7 @@ pub(crate) struct Couplings<'a, const D: usize> {
     pub density: &'a [f64],
     /// γ, where there are walls that cut supports.
     pub gamma: Option<&'a [f64]>,
-    /// What else stands in a row.
+    /// The other entries of a row.
     pub parts: &'a [Part],
     /// m/s².
     pub gravity: Vect<D>,
@@ -27,7 +27,7 @@ pub(crate) struct Couplings<'a, const D: usize> {
     pub full: f64,
 }
 
-/// What a particle alone has in its row.
+/// The own entries of a particle in its row.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Part {
     /// γV/(ρc²), m^d/Pa.
@@ -40,7 +40,7 @@ pub(crate) struct Part {
     pub outside: f64,
 }
 
-/// What a cluster leaves for its rows.
+/// Numbers of a cluster for its rows.
 #[derive(Default)]
 pub(crate) struct ClusterCoefficients {
     /// c and what it adds to the source, for every candidate, one number per lane each.
@@ -101,7 +101,7 @@ impl<const D: usize> Couplings<'_, D> {
         self.gamma.map_or(1.0, |gamma| 1.0 / gamma[i])
     }
 
-    /// What a support that is cut by a free surface lacks of its couplings.
+    /// Missing couplings of a support that is cut by a free surface.
     fn lacking(&self, i: usize, coupling: f64) -> f64 {
         let full = self.squared_step * self.full * self.volume[i] / self.density[i];
         match self.parts[i].open {

@@ -88,7 +88,7 @@ struct Relaxation {
     plugin: ConeTest,
     /// ρ₀, kg/m³, and c, m/s, of every phase.
     phases: Vec<(f64, f64)>,
-    /// What it has given to the particles, J.
+    /// Energy that it has given to the particles, J.
     energy: f64,
     scratch: Scratch,
 }
@@ -98,7 +98,7 @@ struct Relaxation {
 struct Scratch {
     /// Share of the difference that goes in a step, phase by phase.
     parts: Vec<f64>,
-    /// What was given to each batch of particles, J.
+    /// Energy given to each batch of particles, J.
     given: Vec<f64>,
 }
 
@@ -111,7 +111,7 @@ struct Seen {
 }
 
 impl Relaxation {
-    /// What is added to K of a particle in a step of which a share `part` of the difference goes.
+    /// Change of K of a particle in a step of which a share `part` of the difference goes.
     fn change(&self, seen: &Seen, reference: f64, part: f64) -> f64 {
         let slack = self.plugin.tolerance * reference;
         let place = |p: Place| seen.place == p.number();

@@ -22,11 +22,11 @@ pub trait Coupling<const D: usize>: Send + Sync {
     ) -> Result<(), StepError>;
 }
 
-/// What is done with a coupling that has its columns.
+/// Work with a coupling that has its columns.
 pub type WithCoupling<'w, const D: usize> =
     dyn FnMut(&dyn BoundCoupling<D>) -> Result<(), StepError> + 'w;
 
-/// What a particle gets from walls.
+/// Wall terms of a particle.
 #[derive(Clone, Copy, Debug)]
 pub struct CouplingRow<W, const D: usize> {
     /// W_a, N s/m.
@@ -37,7 +37,7 @@ pub struct CouplingRow<W, const D: usize> {
 
 /// A [`Coupling`] with its columns. Since the separation is the only direction, C_ab = α 1 + β r rᵀ.
 pub trait BoundCoupling<const D: usize>: Sync {
-    /// Which of α and β are not zero everywhere.
+    /// Whether α and β are not zero everywhere.
     fn kinds(&self) -> Kinds;
 
     /// α (N s/m), β (N s/m³) and their norm |α| + |β| r² for every candidate of a cluster, one number per lane each;

@@ -39,12 +39,12 @@ pub(crate) struct Matrices<const D: usize> {
     pub block: Assembly<Block<D>, D>,
 }
 
-/// What a lock holds; a panic elsewhere leaves memory that is as good as any.
+/// The content of a lock; a panic elsewhere leaves memory that is as good as any.
 fn held<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
     lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What every row has of its own, and its whole diagonal.
+/// The own entries of every row, and its whole diagonal.
 #[derive(Clone, Copy)]
 pub(crate) enum RowsOf<'a, const D: usize> {
     Scalar(&'a [f64], &'a [f64]),

@@ -47,7 +47,7 @@ impl<E> Default for Diagonals<E> {
     }
 }
 
-/// What of friction acts from the end of a step.
+/// The part of friction at the end of a step.
 #[derive(Clone, Copy)]
 struct Part<'a, const D: usize> {
     coupling: &'a dyn BoundCoupling<D>,

@@ -22,9 +22,9 @@ const INNER: f64 = 0.1;
 /// Vectors of a solve: right-hand side, uⁿ, u*, what they start from, and those of conjugate gradients.
 const VECTORS: usize = 8;
 
-/// What makes the viscosity follow the velocity within a step.
+/// Updates of the viscosity with the velocity within a step.
 pub struct Lagged<const D: usize> {
-    /// What gives the viscosity of the present velocity; empty where it does not depend on it.
+    /// Stages of the viscosity of the present velocity; empty where it does not depend on it.
     pub stages: Stages<D>,
     /// Whether an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
     pub stiffens: bool,

@@ -23,7 +23,7 @@ pub struct InterfaceDistance {
     mixed: Mixed,
 }
 
-/// Who has another phase within the reach of its list; phases change with the lists only.
+/// Particles with another phase within the reach of their list; phases change with the lists only.
 #[derive(Default)]
 struct Mixed {
     built_for: u64,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::linear::Report;
 use crate::viscosity::SolveArrest;
 
-/// What the implicit solves of a run took.
+/// Effort of the implicit solves of a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Solves {
     /// How many systems were solved by each method.
@@ -27,12 +27,12 @@ pub struct Solves {
     /// How often the viscosity followed the velocity, where it depends on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer: Option<OuterSolves>,
-    /// What held a soil beyond its strength, with stresses of the end of the step.
+    /// Weight of a soil that solves bore beyond its strength, with stresses of the end of the step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held_back: Option<SolveArrest>,
 }
 
-/// What iterating on the viscosity took.
+/// Effort of the iterations on the viscosity.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct OuterSolves {
     /// Steps so far.

@@ -80,7 +80,7 @@ pub enum BoundViscosity<'a> {
     Column(&'a [f64], Within, Option<Layers<'a>>),
 }
 
-/// What a mean reads of the particle itself, or of several: phases are small whole numbers, exact as any.
+/// Columns of a mean at the particle itself, or several: phases are small whole numbers, exact as any.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnViscosity<L> {
     /// η, Pa s.

@@ -113,7 +113,7 @@ mod tests {
 
     const WATER: [f64; 2] = [0.5, 9.81];
 
-    /// What comes back of a wave of the amplitude 1 that runs against the paddle: with X = −H η/(iω) and
+    /// The reflected part of a wave of the amplitude 1 that runs against the paddle: with X = −H η/(iω) and
     /// η = 2 + (i e₀ + E) X it is (1 − (e₀ + i E) H/ω)/(1 + (e₀ − i E) H/ω).
     fn comes_back(paddle: Paddle, omega: f64, response: [f64; 2]) -> f64 {
         let e0 = paddle.transfer(

@@ -96,7 +96,7 @@ impl<const D: usize> Face<D> {
         [now[0] - plan[0], now[1] - plan[1]]
     }
 
-    /// What is prescribed, and a way, a velocity and an acceleration besides.
+    /// The prescribed motion, and a way, a velocity and an acceleration besides.
     pub fn moved(
         &self,
         plan: RigidState<D>,
@@ -125,7 +125,7 @@ impl<const D: usize> Face<D> {
 mod tests {
     use super::*;
 
-    /// What is added can be read off again, of a piston and of a flap, along any direction.
+    /// An added motion can be read off again, of a piston and of a flap, along any direction.
     #[test]
     fn an_added_motion_is_read_back() {
         for arm in [None, Some(0.5)] {

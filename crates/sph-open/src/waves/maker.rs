@@ -190,7 +190,7 @@ impl<const D: usize> WaveMaker<D> {
         Ok(parts)
     }
 
-    /// What the paddle does besides, if it absorbs.
+    /// The additional motion of a paddle that absorbs.
     fn feedback(
         &self,
         paddle: Paddle,

@@ -64,7 +64,7 @@ pub struct ReflectionProbe {
     sums: Mutex<Sums>,
 }
 
-/// What is gathered: the last row (time, levels), and ∫ η cos ωt dt, −∫ η sin ωt dt for every gauge and frequency.
+/// Sums so far: the last row (time, levels), and ∫ η cos ωt dt, −∫ η sin ωt dt for every gauge and frequency.
 #[derive(Clone, Debug, Default)]
 struct Sums {
     last: Option<Vec<f64>>,

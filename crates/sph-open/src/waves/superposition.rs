@@ -117,7 +117,7 @@ pub struct Focused {
 /// How many waves a focused group has.
 const GROUP: f64 = 64.0;
 
-/// What of a table is wrong: its key and why.
+/// The wrong key of a table, with the reason.
 pub(crate) type Fault = (&'static str, String);
 
 impl Waves {

@@ -68,7 +68,7 @@ pub struct WaveFace {
     settled: OnceLock<Settled>,
 }
 
-/// What follows from the table.
+/// Quantities derived from the table.
 #[derive(Clone, Debug)]
 struct Settled {
     orbits: Orbits,

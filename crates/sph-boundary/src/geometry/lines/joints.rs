@@ -8,7 +8,7 @@ use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::{add, sub, widened};
 use crate::geometry::wall_end::WallEnd;
 
-/// What follows the last point of a wall.
+/// Continuation of a wall behind its last point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Continuation {
     /// Nothing.

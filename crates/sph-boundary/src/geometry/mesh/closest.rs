@@ -4,7 +4,7 @@ use super::elements::Mesh;
 use super::near_element::NearElement;
 use crate::geometry::vector::{along, dot, norm, sub};
 
-/// Which part of an element is nearest.
+/// The nearest part of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feature {
     /// A place within.
@@ -20,7 +20,7 @@ pub enum Feature {
 pub struct Closest<const D: usize> {
     /// From the point to it, m.
     pub offset: [f64; D],
-    /// What it is of the element.
+    /// The part of the element.
     pub feature: Feature,
     /// Height of the point above the element's line or plane, positive on the fluid's side, m.
     pub height: f64,

@@ -259,7 +259,7 @@ impl Mesh<3> {
         &self.free_edges
     }
 
-    /// What the free edges surround.
+    /// The openings that free edges surround.
     pub fn openings(&self) -> &[Opening] {
         &self.openings
     }

@@ -10,7 +10,7 @@ const CELLS_PER_ENTRY: usize = 8;
 /// Size of a cell over the reach.
 const PART_OF_REACH: f64 = 0.5;
 
-/// What rounding may do to a squared distance, relatively.
+/// Rounding of a squared distance, relative.
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// A uniform grid whose cells list the elements with their centre in them.

@@ -23,14 +23,14 @@ const RIM: f64 = 1e-9;
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
 
-/// What a ray and the eye see of a mesh of one dimension.
+/// Queries of a ray and the eye to a mesh of one dimension.
 pub trait Outside<const D: usize> {
     /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
     /// of it and −1 where it is on the far side.
     fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
     /// Whether the fluid lies beyond all walls along the positive direction of an axis.
     fn is_fluid_beyond(&self, along: usize) -> bool;
-    /// What winds around a place where walls end freely.
+    /// Winding number of a place where walls end freely.
     fn wind(&self, sides: &mut Sides<D>);
     /// How far walls that end freely enclose a place.
     fn wound(&self, sides: &Sides<D>, point: [f64; D]) -> Option<f64>;

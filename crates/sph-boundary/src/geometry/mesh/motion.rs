@@ -6,11 +6,11 @@ use super::elements::Mesh;
 use crate::error::BoundaryError;
 use crate::rigid::pose::Pose;
 
-/// What the elements of a mesh are measured by.
+/// Measures of the elements of a mesh.
 pub trait Measured {
     /// Measure, centre and normal of an element from the positions of its nodes.
     fn measure(&mut self, element: usize);
-    /// What else of nodes and faces changes with walls that moved.
+    /// Changes of nodes and faces by walls that moved.
     fn follow(&mut self, moved: &[bool]);
 }
 

@@ -7,7 +7,7 @@ use crate::geometry::vector::{bounds, dot, norm, sub};
 /// Diagonal of the box around points that are served together, over the radius.
 const TOGETHER: f64 = 0.75;
 
-/// What may be near one of several points.
+/// Elements that may be near one of several points.
 #[derive(Default)]
 struct Candidates<const D: usize> {
     /// By image and element.

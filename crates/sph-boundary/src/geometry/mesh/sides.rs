@@ -5,7 +5,7 @@ use scene_text::surface::Winding;
 use super::grid::Grid;
 use super::rays::Rays;
 
-/// What the question on which side a point is needs of a mesh, for the present position.
+/// Data of a mesh for the side of a point, at the present position.
 #[derive(Clone, Debug)]
 pub struct Sides<const D: usize> {
     /// Along one axis; if all are periodic, along each, and the last one goes

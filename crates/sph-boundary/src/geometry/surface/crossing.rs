@@ -21,7 +21,7 @@ pub(super) struct Contact {
     pub image: [i32; 3],
 }
 
-/// What two triangles do to each other.
+/// Intersection of two triangles.
 enum Intersection {
     /// They are apart or touch.
     Apart,

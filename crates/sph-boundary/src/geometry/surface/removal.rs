@@ -52,7 +52,7 @@ pub(super) fn remove_contacts(
     Touched { edges, pieces }
 }
 
-/// What is left of a patch without others, each moved by whole periods.
+/// The rest of a patch without others, each moved by whole periods.
 fn difference(
     patch: usize,
     others: &BTreeSet<(u32, [i32; 3])>,

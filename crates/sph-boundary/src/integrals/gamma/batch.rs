@@ -13,7 +13,7 @@ pub struct SegmentBatch {
     distance2: [Vec<f64>; 2],
     /// h ∫ w dS and Γ of the discs.
     discs: [Vec<f64>; 2],
-    /// Which segment, and how high the point is over its line, m.
+    /// The segment, and the height of the point over its line, m.
     pub(crate) seen: Vec<(u32, f64)>,
     /// Segments up to and including each point's.
     pub(crate) ends: Vec<usize>,

@@ -49,7 +49,7 @@ pub struct Renormalisation2d {
     pub(super) support: f64,
     /// Discs of the closed form, from the outermost inwards.
     pub(super) knots: Vec<Knot>,
-    /// What is left to quadrature.
+    /// The part by quadrature.
     pub(super) rings: Vec<Ring>,
 }
 

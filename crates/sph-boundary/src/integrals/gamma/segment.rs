@@ -23,7 +23,7 @@ pub enum Contact {
     Inside,
 }
 
-/// What one segment adds to γ and ∇γ of one point.
+/// The share of one segment in γ and ∇γ of one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentIntegral {
     /// ∫_s w dS: ∇Γ_as is this times the inward normal, 1/m.
@@ -75,7 +75,7 @@ impl Renormalisation2d {
         }
     }
 
-    /// What the discs of the closed form add: h ∫ w dS and Γ, several segments side by side.
+    /// The discs of the closed form: h ∫ w dS and Γ, several segments side by side.
     #[inline(always)]
     pub(super) fn discs<L: Lane>(&self, seen: &OnLine<L>) -> [L; 2] {
         let (a, zero) = (seen.height, L::splat(0.0));

@@ -15,7 +15,7 @@ const DISPLACEMENT: Point = [
     0.627_693_841_720_3e-10,
 ];
 
-/// What one facet adds to γ and ∇γ of one point.
+/// The share of one facet in γ and ∇γ of one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FacetIntegral {
     /// ∫_s w dS: ∇Γ_as is this times the inward normal, 1/m.

@@ -99,7 +99,7 @@ impl Renormalisation3d {
         }
     }
 
-    /// What is accurate for a squared distance of the centre and an area, m².
+    /// The accurate rule for a squared distance of the centre and an area, m².
     #[inline(always)]
     pub(super) fn rule(&self, centre: f64, area: f64) -> Rule {
         let over_h2 = area * (self.per_h * self.per_h);

@@ -43,7 +43,7 @@ pub enum OnLattice {
 }
 
 impl OnLattice {
-    /// What an operator is multiplied with.
+    /// Factor of an operator.
     pub fn scale<const D: usize, F: PairFriction<D>>(self, friction: F, world: &World<D>) -> f64 {
         let response = match self {
             OnLattice::Exact => lattice_sum(world, |pair| sheared(friction, world, pair)),
@@ -58,7 +58,7 @@ impl OnLattice {
     }
 }
 
-/// What a pair of a lattice with the scene's spacing and kernel gives for u = (y², 0, …), over the exact sum 2.
+/// The sum of a lattice with the scene's spacing and kernel gives for u = (y², 0, …), over the exact sum 2.
 fn sheared<const D: usize, F: PairFriction<D>>(
     friction: F,
     world: &World<D>,
@@ -70,7 +70,7 @@ fn sheared<const D: usize, F: PairFriction<D>>(
     0.5 * friction.force(cell, cell, &relative, pair)[0]
 }
 
-/// What all operators that are sums over pairs let a scene choose.
+/// Keys of all operators that are sums over pairs.
 #[parameters]
 #[derive(Copy)]
 pub struct Choice {
@@ -98,7 +98,7 @@ pub trait PairOperator<const D: usize>: Send {
     const LEAVES_ROTATIONS: bool = false;
     /// The formula.
     fn formula(&self) -> Self::Formula;
-    /// What the scene chose.
+    /// The choices of the scene.
     fn choice(&self) -> Choice;
 }
 

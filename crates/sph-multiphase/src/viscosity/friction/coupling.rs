@@ -65,7 +65,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 /// α, β and their norm of pairs.
 struct Strengths<'a, 'b, const D: usize, F>(&'a BoundFriction<'b, D, F>);
 
-/// What a particle has of a pair.
+/// Values of a particle in a pair.
 #[derive(Clone, Copy)]
 struct Own<L> {
     volume: L,
