@@ -1,4 +1,4 @@
-//! Densities of those who stay when particles come or go.
+//! Densities of the remaining particles when others come or go.
 
 use rayon::prelude::*;
 use sph_core::{FieldError, Vect, fields};

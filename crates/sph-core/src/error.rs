@@ -25,7 +25,7 @@ pub enum PlanError {
     NoWriter {
         /// The missing field.
         field: &'static str,
-        /// Who needs it.
+        /// The work that needs it.
         reader: String,
     },
     /// Two stages that write the same field.

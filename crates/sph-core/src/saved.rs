@@ -75,8 +75,8 @@ impl<const D: usize> Store<D> {
         Ok(())
     }
 
-    /// Puts everything back as it was saved: who has left comes back, who has been born since is gone. State columns that have
-    /// come since become zero; derived ones have to be computed anew.
+    /// Puts everything back as it was saved: particles that left come back, particles born since are gone. State
+    /// columns that have come since become zero; derived ones have to be computed anew.
     ///
     /// # Errors
     /// If a column has changed its type.
@@ -88,8 +88,8 @@ impl<const D: usize> Store<D> {
     }
 
     /// Puts the copies of the state columns back whose names are `wanted`; `places` has the place of every present
-    /// particle in the copies,
-    /// and is `None` if the order is the same. Wanted state columns that have come since the copies were made become zero.
+    /// particle in the copies, and is `None` if the order is the same. Wanted state columns that have come since the
+    /// copies were made become zero.
     ///
     /// # Errors
     /// If a column has changed its type, or another number of particles was copied.

@@ -154,7 +154,7 @@ impl<const D: usize> Store<D> {
         Ok(found)
     }
 
-    /// The entries of a column for who divides a flow, which no work declares.
+    /// The entries of a column for the division of a flow, which no work declares.
     ///
     /// # Errors
     /// As [`get`](Self::get).

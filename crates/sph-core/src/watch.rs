@@ -4,13 +4,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::{Access, AnyField, fields};
 
-/// Who is at work, the innermost last, with what they touched.
+/// The works in progress, the innermost last, with what they touched.
 #[derive(Default)]
 pub(crate) struct Watch(Mutex<AtWork>);
 
 #[derive(Default)]
 struct AtWork {
-    /// Those at work, and behind them the buffers of those who were.
+    /// The works in progress, and behind them the buffers of earlier ones.
     all: Vec<Watched>,
     /// How many are at work.
     depth: usize,

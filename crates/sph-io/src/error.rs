@@ -40,7 +40,7 @@ pub enum IoError {
     InUse {
         /// The folder.
         path: PathBuf,
-        /// Who holds it, since when.
+        /// The process that holds it, since when.
         by: String,
     },
     /// No room left for the file (disk or quota).

@@ -16,7 +16,7 @@ pub struct ClassRate<const D: usize> {
 
 /// The sums of `N` classes of terms at the state of the last sweep, one entry per particle; terms of no class are left out.
 ///
-/// Every term goes over the neighbours on its own: for those who account for a step, not for the step.
+/// Every term goes over the neighbours on its own: for the account of a step, not for the step.
 ///
 /// # Errors
 /// If a term misses a column.

@@ -12,7 +12,7 @@ use crate::scaling::Scaling;
 use crate::separation::{Distances, grow};
 use crate::{Blocked, ContactRow, Contacts, Domain, Neighbourhood, Row, Scratch};
 
-/// A few particles that follow each other, with distances and kernel gradients for all whom they may have as neighbours.
+/// A few particles that follow each other, with distances and kernel gradients for all possible neighbours.
 pub struct Cluster<'a, const D: usize> {
     pub(crate) width: Width,
     pub(crate) members: Members<'a>,
@@ -126,7 +126,7 @@ impl<const D: usize> Cluster<'_, D> {
         self.members.from..self.members.from + self.members.count
     }
 
-    /// Whom any of them may have as a neighbour, in index order, the particles themselves among them.
+    /// Possible neighbours of any of them, in index order, the particles themselves among them.
     #[inline(always)]
     pub fn candidates(&self) -> &[u32] {
         self.members.candidates

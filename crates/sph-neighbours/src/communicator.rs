@@ -1,4 +1,4 @@
-//! Others who hold particles of the same flow.
+//! Communication with other ranks that hold particles of the same flow.
 
 use sph_core::{AnyField, StepError, Store, Vect};
 

@@ -24,8 +24,8 @@ impl Kinds {
     }
 }
 
-/// C_ab of the pairs of all particles, for sums Σ_b C_ab (u_a − u_b): for each cluster the neighbours with whom any of its
-/// members is coupled, and one number per lane, number and neighbour.
+/// C_ab of the pairs of all particles, for sums Σ_b C_ab (u_a − u_b): for each cluster the neighbours with which any of
+/// its members is coupled, and one number per lane, number and neighbour.
 ///
 /// A quarter to a half of the memory of a matrix of blocks, which they replace where only products are needed.
 #[derive(Clone, Debug, Default)]

@@ -21,8 +21,7 @@ pub struct DepthGauge<const D: usize> {
 
 impl<const D: usize> DepthGauge<D> {
     /// Share with which a place counts: 1 at the face, falling to 0 as (1 − q)² (1 + 2q) over the reach, so that no
-    /// particle
-    /// who comes or goes there is felt.
+    /// particle that comes or goes there is felt.
     fn share(&self, x: &Vect<D>) -> f64 {
         let apart = x - self.place;
         let height = apart[D - 1].max(0.0);

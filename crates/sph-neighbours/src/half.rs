@@ -1,4 +1,4 @@
-//! Sweeps in two halves: first who is sent to others, then the rest, while the messages are on their way.
+//! Sweeps in two halves: first the particles sent to others, then the rest, while the messages are on their way.
 
 use crate::{CHUNK, Clusters};
 

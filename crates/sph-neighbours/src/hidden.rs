@@ -2,7 +2,7 @@
 
 use crate::members::Members;
 
-/// Sorted pairs of indices; whom an index does not see is a row.
+/// Sorted pairs of indices; a row holds what an index does not see.
 #[derive(Clone, Debug, Default)]
 pub struct Blocked {
     pairs: Vec<[u32; 2]>,
@@ -27,7 +27,7 @@ impl Blocked {
         self.pairs.is_empty()
     }
 
-    /// Whom an index does not see, ascending.
+    /// Indices that an index does not see, ascending.
     pub fn row(&self, index: usize) -> impl Iterator<Item = u32> + '_ {
         let from = self.pairs.partition_point(|[i, _]| (*i as usize) < index);
         let row = self.pairs[from..].iter();

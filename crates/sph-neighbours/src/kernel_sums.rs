@@ -113,7 +113,7 @@ fn over_points<const D: usize>(
     w.iter().zip(shares).map(|(w, share)| w * share).sum()
 }
 
-/// Σ w in every lane, and who is within the support of any.
+/// Σ w in every lane, and the particles within the support of any.
 struct Total<'a> {
     distance2: &'a [f64],
     value: &'a [f64],
@@ -233,7 +233,7 @@ impl<const D: usize> TargetPoints<'_, D> {
     }
 }
 
-/// Who is within the support of a target, and the squared distances of all targets, `N` numbers for each particle.
+/// Particles within the support of a target, and the squared distances of all targets, `N` numbers for each particle.
 struct DistancesAround<'a, const D: usize> {
     around: &'a TargetPoints<'a, D>,
     members: Members<'a>,

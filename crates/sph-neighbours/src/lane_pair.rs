@@ -20,7 +20,7 @@ pub struct LanePair<const D: usize, L> {
     pub separation: [L; D],
     /// |r_i − r_j|², m²; infinite for a particle and itself.
     pub distance2: L,
-    /// F = w'(r)/r ≤ 0, 1/m^(d+2); 0 for whom the neighbour is beyond the support, and for itself.
+    /// F = w'(r)/r ≤ 0, 1/m^(d+2); 0 where the neighbour is beyond the support, and for itself.
     pub factor: L,
     /// w, 1/m^d, where a sum asks for it ([`PairSum::VALUES`](crate::PairSum::VALUES)), else 0; 0 beyond the support.
     pub value: L,

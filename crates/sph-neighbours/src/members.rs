@@ -2,7 +2,7 @@
 
 use sph_kernels::lanes::MOST;
 
-/// Some particles that follow each other, and whom any of them may have within reach.
+/// Some particles that follow each other, and all that any of them may have within reach.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members<'a> {
     /// The first particle.

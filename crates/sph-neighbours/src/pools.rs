@@ -20,7 +20,7 @@ pub(crate) struct Pools<const D: usize> {
     pub numbers: Pool<Vec<f64>>,
     /// Of kernel sums, with the candidates that are kept.
     pub pruned: Pool<(SumScratch, Vec<u32>)>,
-    /// Kernel values around a place, who is within the support, and sums.
+    /// Kernel values around a place, the particles within the support, and sums.
     pub means: Pool<(Values, Vec<u32>, particles::Rows)>,
     /// Candidates of clusters, with the ranges of cells.
     pub clusters: Pool<(Vec<u32>, Vec<Range<usize>>)>,

@@ -101,7 +101,7 @@ impl<const D: usize> Space<D> {
         }
     }
 
-    /// Whether it holds for all who have rows.
+    /// Whether it holds for all particles with rows.
     pub fn all(&self, holds: bool) -> bool {
         match &self.communicator {
             None => holds,
@@ -109,7 +109,7 @@ impl<const D: usize> Space<D> {
         }
     }
 
-    /// The largest value of all who have rows.
+    /// The largest value of all particles with rows.
     pub fn largest(&self, value: f64) -> f64 {
         self.communicator
             .as_ref()

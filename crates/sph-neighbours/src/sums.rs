@@ -14,7 +14,7 @@ const BATCH: usize = 1024;
 
 impl<const D: usize> World<D> {
     /// Sums over all particles, of those of other ranks, too: each value in whole numbers of 2⁻⁸⁰ of the largest one, so that the
-    /// sum does not depend on the order, the threads, nor on who holds which particle.
+    /// sum does not depend on the order, the threads, nor on the ranks of the particles.
     ///
     /// # Errors
     /// If another rank has failed.

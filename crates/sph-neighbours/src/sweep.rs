@@ -152,7 +152,7 @@ where
         rates.resize(particles, start);
         sweep.block(term, |i| is_wanted(half, i), buffers, block, rates);
     };
-    // Those of a block who are asked for, by their places in it.
+    // The requested particles of a block, by their places in it.
     let wanted = |(block, k): (usize, usize)| is_wanted(half, block * CHUNK + k);
     let Sums {
         acceleration,

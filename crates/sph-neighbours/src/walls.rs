@@ -172,7 +172,7 @@ pub struct WallSet<const D: usize> {
     pub points: WallPoints<D>,
     /// Elements with a share of ∇γ.
     pub elements: Elements<D>,
-    /// Who touches which element.
+    /// Contacts of particles with elements.
     pub contacts: Contacts<D>,
     /// Whether the walls scale the kernel.
     pub scales: bool,

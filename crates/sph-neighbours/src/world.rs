@@ -82,7 +82,7 @@ pub struct World<const D: usize> {
     pub transported: Vec<AnyField>,
     /// That of all particles, where others hold some of them; `None` where all are here.
     pub extent: Option<Extent<D>>,
-    /// Others who hold particles of this flow; `None` where all are here.
+    /// Other ranks with particles of this flow; `None` where all are here.
     pub communicator: Option<Arc<dyn Communicator<D>>>,
 }
 

@@ -9,8 +9,7 @@ use crate::faces::Faces;
 /// How long a port keeps an error of its mass, over the time in which a row passes.
 ///
 /// The flux of the law and that of the particles differ by the smoothing of the mean before the face; the difference is
-/// let
-/// go instead of gathering at the port.
+/// let go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 
 /// Difference between what has passed a face and the requested volume without a warning, over the latter.

@@ -178,8 +178,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
         false
     }
     /// Volume into the fluid per time that it requests at the reference density, m³/s, whatever is in front of the
-    /// face; none
-    /// where the velocity follows. The velocities of such a law are those at the reference density, too.
+    /// face; none where the velocity follows. The velocities of such a law are those at the reference density, too.
     fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
         None
     }

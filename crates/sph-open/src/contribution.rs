@@ -26,8 +26,7 @@ pub struct OpenBoundaries<const D: usize> {
 /// Opens faces in the walls of a scene: the treatment of all of them, and what lets mass through.
 ///
 /// `given` are the names of the walls with their laws; `phases` are the names of the phases; `summed` is whether
-/// densities
-/// are sums over positions.
+/// densities are sums over positions.
 pub fn open<const D: usize>(
     walls: Box<dyn Wall<D>>,
     given: Vec<(String, Arc<dyn OpenBoundary<D>>)>,

@@ -43,7 +43,7 @@ impl<const D: usize> PassedParticle<D> {
 pub(crate) struct Exits<const D: usize> {
     /// Particles here, each with the number of its face.
     pub here: Vec<(u32, usize)>,
-    /// Where all stood, those who are at home elsewhere among them, in the order of identities.
+    /// Positions of all, those at home elsewhere among them, in the order of identities.
     pub places: Vec<Vect<D>>,
 }
 

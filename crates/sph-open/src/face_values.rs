@@ -77,8 +77,7 @@ impl<const D: usize> Faces<D> {
     ///
     /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
     /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as all are kicked once in a
-    /// step,
-    /// and are delayed by as much less.
+    /// step, and are delayed by as much less.
     fn arriving(&self, k: usize, seen: &AdjacentFluid<D>) -> Inside<D> {
         let mut inside = seen.inside;
         let dt = self.memory.dt;

@@ -28,8 +28,7 @@ const LAST: f64 = 0.75;
 /// is the last one: the share falls to nothing by θ = 1.
 ///
 /// The mass that a port *holds* is the same but for its errors. These would stay as long as a row takes to pass, for
-/// ever where
-/// the flow is slow, as beside a wall, and a background pressure makes a barrier of them.
+/// ever where the flow is slow, as beside a wall, and a background pressure makes a barrier of them.
 pub(crate) fn as_share(lacks: f64) -> f64 {
     match lacks > LAST {
         true => (LAST * (1.0 - lacks) / (1.0 - LAST)).max(0.0),

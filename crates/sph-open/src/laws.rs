@@ -26,8 +26,7 @@ pub(crate) fn imposed_velocity<const D: usize>(place: &Place<D>, normal: f64) ->
 
 impl<const D: usize> Outside<D> {
     /// The fluid behind the face yields: it has a pressure p₀ and a velocity u₀, and another pressure where the fluid
-    /// passes
-    /// with another velocity,
+    /// passes with another velocity,
     ///
     ///   p = p₀ − ζ (u_n − u₀ₙ),   u_n inwards,
     ///

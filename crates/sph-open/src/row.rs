@@ -16,7 +16,7 @@ pub(crate) struct Row<const D: usize> {
     volume: f64,
 }
 
-/// Share with which a row counts who is beside a place by the square of a distance, m²: exp(−2 t²/δr²).
+/// Share with which a row counts a particle beside a place by the square of a distance, m²: exp(−2 t²/δr²).
 pub(crate) fn near(squared: f64, spacing: f64) -> f64 {
     (-2.0 * squared / (spacing * spacing)).exp()
 }

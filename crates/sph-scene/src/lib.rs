@@ -2,9 +2,7 @@
 //!
 //! A scene is data. This crate has no kernel, no wall treatment and no rheology: every table
 //! that names a plugin is kept as it stands ([`PluginChoice`](sph_core::PluginChoice)) and handed to the code that
-//! builds
-//! plugins. It has the form of a scene, its units, its geometry, and how to say
-//! where a mistake is.
+//! builds plugins. It has the form of a scene, its units, its geometry, and how to say where a mistake is.
 //!
 //! The way of a scene:
 //! 1. [`load`] reads a file (or [`parse`] a text), puts [`Override`]s on top (`--set`), holds

@@ -11,8 +11,8 @@ impl CoupledSystem {
         &self.grains
     }
 
-    /// The grains, to steer walls, to set gravity or another contact law. Who moves or scales grains here makes the
-    /// mesh anew with [`CoupledSystem::remesh`].
+    /// The grains, to steer walls, to set gravity or another contact law. Code that moves or scales grains here makes
+    /// the mesh anew with [`CoupledSystem::remesh`].
     pub fn grains_mut(&mut self) -> &mut GrainSystem {
         self.evaluated = false;
         &mut self.grains

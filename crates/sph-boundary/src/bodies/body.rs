@@ -26,10 +26,9 @@ const FASTEST: f64 = 10.0;
 /// inertia follow from the shape where a `density` is given.
 ///
 /// The pressure at a wall depends on its acceleration, and an acceleration that follows the force at once would make
-/// light
-/// bodies swing from step to step. It is let follow: (M + A*) (ã' − ã) = M (a − ã), with a the acceleration of the body, ã
-/// the one in the pressure, A* the inertia of a layer of fluid as thick as the smoothing length. The change of ã per
-/// step is that of a body heavier by A*: no body is too light for it, and the body's own motion stays M a = F.
+/// light bodies swing from step to step. It is let follow: (M + A*) (ã' − ã) = M (a − ã), with a the acceleration of
+/// the body, ã the one in the pressure, A* the inertia of a layer of fluid as thick as the smoothing length. The change
+/// of ã per step is that of a body heavier by A*: no body is too light for it, and the body's own motion stays M a = F.
 ///
 /// ```toml
 /// [wall.float.mover.rigid-body]

@@ -318,8 +318,7 @@ mod tests {
     }
 
     /// F = F₀ − A ã, the force of a fluid at rest with the acceleration ã in its wall pressures. With the layer A* ≥ A
-    /// the
-    /// body comes to F₀/(M + A) whatever its mass; without, every body lighter than A is thrown about.
+    /// the body comes to F₀/(M + A) whatever its mass; without, every body lighter than A is thrown about.
     #[test]
     fn no_body_is_too_light_for_the_layer_and_without_it_those_below_the_added_mass_are() {
         let swings = |mass: f64, added: f64, layer: f64| {

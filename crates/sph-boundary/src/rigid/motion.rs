@@ -15,8 +15,7 @@ pub struct RigidMotion<const D: usize = 2> {
     /// Rotation.
     pub rotation: Option<Rotation<D>>,
     /// Bending of the wall; it counts its time from 0. It leaves the wall where translations and rotation put it, so
-    /// have
-    /// one or the other.
+    /// have one or the other.
     pub bend: Option<Arc<Bend>>,
     /// Start, s; the courses count from here.
     pub start: f64,

@@ -181,7 +181,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             let place = |k: u32| (b * BATCH) as u32 + k;
             behind.extend(found.gammas.behind.iter().map(|(k, s)| (place(*k), *s)));
         }
-        // Whom they are behind is no contact, and how near it is was not measured.
+        // A particle in front of them is no contact, and its distance was not measured.
         for (place, _) in behind {
             self.clearance[*place as usize] = 0.0;
         }

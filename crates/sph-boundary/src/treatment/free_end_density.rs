@@ -24,7 +24,7 @@ impl<const D: usize> NearLists<D> {
     /// more: what comes into sight behind a free end may be water or nothing, and neither is a change of density.
     ///
     /// ```text
-    /// ΔK = ρ (Δγ − ∇γ·Δr) − m (Σ w of those who come into gauge − Σ w of those who go out of gauge)
+    /// ΔK = ρ (Δγ − ∇γ·Δr) − m (Σ w of particles that come into gauge − Σ w of particles that go out of gauge)
     /// ```
     ///
     /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and no particle near a free end

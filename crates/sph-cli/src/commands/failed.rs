@@ -9,7 +9,7 @@ use crate::terminal::layout::{columns, remarks};
 /// Number of terms in the report.
 const TERMS: usize = 6;
 
-/// Whom it happened to, what acted there, what to try, and where to look.
+/// The particle, the terms that acted there, remedies, and files to look at.
 pub fn text(failure: &Failure) -> String {
     let found = &failure.findings;
     let mut text = found.particle.as_ref().map_or(String::new(), suspect);

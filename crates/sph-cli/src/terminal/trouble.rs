@@ -24,7 +24,7 @@ pub enum Trouble {
     Failed {
         /// What happened.
         error: String,
-        /// To whom, and what may help, in lines.
+        /// The particle, and possible remedies, in lines.
         more: String,
         /// Exit code.
         code: u8,

@@ -49,7 +49,7 @@ impl Snapshot {
         Cloud::new(self.points(), self.spacing)
     }
 
-    /// Who is who.
+    /// Identities of the particles.
     ///
     /// # Errors
     /// If identities were not written.

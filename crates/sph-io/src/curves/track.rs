@@ -7,7 +7,7 @@ use crate::curves::{DrawError, Frames, Snapshot};
 /// The places of a particle, frame by frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    /// Who it is.
+    /// Identity of the particle.
     pub identity: u32,
     /// Time (s) and place (m) in every frame that has it.
     pub places: Vec<(f64, [f64; 3])>,

@@ -19,7 +19,7 @@ const LOCK: &str = ".lock";
 /// Longest content that is read of it, bytes.
 const LONGEST: u64 = 4096;
 
-/// Who holds a folder.
+/// The process that holds a folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Holder {
     /// Number of the process.
@@ -113,7 +113,7 @@ impl FolderLock {
         }
     }
 
-    /// Who held it before and ended without giving it back.
+    /// The process that held it before and ended without giving it back.
     pub fn taken_over_from(&self) -> Option<&Holder> {
         self.before.as_ref()
     }

@@ -161,8 +161,7 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
     }
 
     /// The same where `others` adds a row for each member of a cluster in which no member is `wanted`: no neighbours
-    /// are searched
-    /// there.
+    /// are searched there.
     ///
     /// # Errors
     /// If the world has no positions.

@@ -33,7 +33,7 @@ pub trait Operator<const D: usize>: Sync {
         self.total(inner(&x[..rows], &y[..rows]))
     }
 
-    /// Whether it holds for all who share the operator; all must call it.
+    /// Whether it holds for every part of a divided system; all must call it.
     fn all(&self, holds: bool) -> bool {
         holds
     }

@@ -35,7 +35,7 @@ impl Place {
 /// Cosine of the half angle of the cone that is empty over a surface, 45°.
 const CONE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// A particle of a plane surface has half of its support filled: who has less looks out on two sides.
+/// A particle of a plane surface has half of its support filled: one with less looks out on two sides.
 const HALF: f64 = 0.5;
 
 /// |∇C| of a support that is full but for noise, over 1/R: it has no outward normal. In the first row of a plane surface it is
@@ -43,16 +43,15 @@ const HALF: f64 = 0.5;
 const FAINT: f64 = 0.2;
 
 /// Kernel sum of a support above which no surface is searched. The empty cone alone takes 1/4 of a disc and 0.146 of a
-/// ball, so
-/// that an even surface has at most 0.75 and 0.854. A crowded one may have more: it lacks nothing, and counts as inside. Ours.
+/// ball, so that an even surface has at most 0.75 and 0.854. A crowded one may have more: it lacks nothing, and counts
+/// as inside. Ours.
 const FULL: f64 = 0.95;
 
 /// The cone test: a particle is at a free surface where no neighbour lies within 45° of n = −∇C/|∇C|, C = Σθδr^d w, or where
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
 /// Volumes are those of the lattice, δr^d, so that the test does not depend on densities. Walls count in ∇C as filled.
-/// Only
-/// particles whose support is filled to less than 0.95 are looked at, where the sum is known from γρ − K.
+/// Only particles whose support is filled to less than 0.95 are looked at, where the sum is known from γρ − K.
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
 /// sheets and lone particles are ours.

@@ -12,7 +12,7 @@ use crate::{Communicator, World};
 /// Slots that are sent to, or received from, a rank.
 pub(crate) type Partner = (usize, Vec<u32>);
 
-/// Who has copies of whom.
+/// Copies that ranks have of each other's particles.
 #[derive(Debug, Default)]
 pub(crate) struct Partners {
     /// Own particles that others have as ghosts, by rank.
@@ -60,8 +60,7 @@ impl Link {
     }
 
     /// Replaces each value by the largest of all ranks, if none has failed. Every message between ranks is preceded by
-    /// this or
-    /// is this, so that a rank that fails anywhere in a step reaches the others, who wait here.
+    /// this or is this, so that a rank that fails anywhere in a step reaches the others, which wait here.
     pub fn agree(&self, failed: bool, values: &mut [f64]) -> Result<(), PartError> {
         let failed = failed || self.lost.load(Ordering::Relaxed);
         let mut all = values.to_vec();
@@ -127,7 +126,8 @@ impl Link {
         sends.map(|(rank, slots)| (*rank, pack(slots))).collect()
     }
 
-    /// Sends messages to those who have copies, and does some `work` meanwhile; gives what comes for the ghosts, owner by owner.
+    /// Sends messages to the ranks with copies, and does some `work` meanwhile; gives what comes for the ghosts, owner
+    /// by owner.
     fn swapped(
         &self,
         out: Vec<(usize, Vec<u8>)>,

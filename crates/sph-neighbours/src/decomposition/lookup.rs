@@ -1,4 +1,4 @@
-//! Particles of an earlier moment, who have gone to other ranks since.
+//! Particles of an earlier moment, which have gone to other ranks since.
 
 use sph_core::{AnyField, Slots, Store, fields};
 
@@ -7,8 +7,8 @@ use crate::decomposition::owner::OWNER;
 use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
-    /// Brings an earlier copy of this rank's particles into the order of now: who has come since is asked of who had it then,
-    /// who has gone is left out. Every rank must ask.
+    /// Brings an earlier copy of this rank's particles into the present order: particles that have come since are asked
+    /// of their earlier ranks, particles that have gone are left out. Every rank must ask.
     ///
     /// # Errors
     /// Another rank that has failed; messages that fail; a particle that no rank had.

@@ -131,7 +131,7 @@ impl<const D: usize> Parts<D> {
         }
     }
 
-    /// Finds the ghosts, by their owners; drops partners with whom there is nothing to share.
+    /// Finds the ghosts, by their owners; drops partners with nothing to share.
     fn know_ghosts(&self, free: &Store<D>, mut sends: Vec<Partner>) -> Result<(), PartError> {
         let owners = free.get(OWNER)?;
         let rank = self.link.transport.rank();

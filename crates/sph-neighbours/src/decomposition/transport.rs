@@ -23,8 +23,8 @@ pub trait Transport: Send + Sync + Debug {
     /// How many ranks there are.
     fn ranks(&self) -> usize;
 
-    /// Sends each message to its rank, and receives one from every rank of `from`, in their order. Who is sent a message
-    /// must ask for it.
+    /// Sends each message to its rank, and receives one from every rank of `from`, in their order. A rank that is sent
+    /// a message must ask for it.
     ///
     /// # Errors
     /// If a rank has ended, or the network fails; as everywhere below.

@@ -24,7 +24,7 @@ pub struct Failure {
     pub first: Trouble,
     /// Summary of the run so far.
     pub summary: Option<Box<Summary>>,
-    /// Whom it happened to, what was largest, what to try.
+    /// The particle, the largest terms, and remedies.
     pub findings: Findings,
     /// Checkpoint of the last good state, if one was written.
     pub checkpoint: Option<PathBuf>,

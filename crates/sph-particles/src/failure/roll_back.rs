@@ -134,7 +134,7 @@ impl<const D: usize> Running<'_, D> {
         failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
     }
 
-    /// Who it was, where, and what acted on it if the bad state was evaluated.
+    /// The particle, its place, and what acted on it if the bad state was evaluated.
     fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
         let flow = &self.shown().flow;
         let Some((k, named)) = suspect(flow, &failure.cause) else {

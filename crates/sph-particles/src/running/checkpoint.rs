@@ -206,7 +206,7 @@ fn read<const D: usize, T: DeserializeOwned>(
     Ok((checkpoint, meta))
 }
 
-/// Sets all columns that carry the state; takes out who has left by an outlet.
+/// Sets all columns that carry the state; takes out particles that left by an outlet.
 fn fill<const D: usize>(
     flow: &mut Flow<D>,
     checkpoint: &Checkpoint,

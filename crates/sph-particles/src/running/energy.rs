@@ -71,8 +71,7 @@ impl EnergyWatch {
     }
 
     /// Looks at the sums of a state at a time, s; gives a warning, once in a run. The sums over the remaining particles
-    /// give
-    /// nothing once some of the fluid has left.
+    /// give nothing once some of the fluid has left.
     pub fn look<const D: usize>(
         &mut self,
         now: &Balance<D>,

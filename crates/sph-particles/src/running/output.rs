@@ -63,8 +63,7 @@ impl Outputs {
     }
 
     /// Writes all outputs of the scene at the flow's present time; `among` has this process' part of it and the number
-    /// of
-    /// ranks, where these write frames together. Returns changes of the pictures.
+    /// of ranks, where these write frames together. Returns changes of the pictures.
     pub fn write<const D: usize>(
         &self,
         flow: &Flow<D>,

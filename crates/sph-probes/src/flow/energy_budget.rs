@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// Who gives energy to a particle or takes it, in the order of [`ENERGY_WORKS`].
+/// Terms that give energy to a particle or take it, in the order of [`ENERGY_WORKS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnergyWork {
     /// Friction, explicit or solved for, of eddies and at walls too; what moving walls rub in.
@@ -76,8 +76,7 @@ pub const ENERGY_AT_START: Field<Scalar> = Field::new(
 );
 
 /// Kinetic, potential and internal energy (of compression) of all particles, and the work of all parts that give or
-/// take
-/// energy since the start, J (per metre of depth in 2D). Positive work gives:
+/// take energy since the start, J (per metre of depth in 2D). Positive work gives:
 ///
 /// | column | work of |
 /// |---|---|

@@ -9,8 +9,7 @@ pub struct Interpolated<const D: usize> {
     /// Σ V w: 1 deep inside the fluid, 0 where there is none.
     pub filling: f64,
     /// Σ V [p + ρ (g − A)·(x − r)] w / Σ V w, Pa: exact at rest, and in a tank that is accelerated, where the smoother
-    /// has
-    /// the mean accelerations A.
+    /// has the mean accelerations A.
     pub pressure: f64,
     /// Σ V u w / Σ V w, m/s.
     pub velocity: Vect<D>,

@@ -74,7 +74,7 @@ impl Scene {
         array::<D>(self.numerics.gravity.as_deref().unwrap_or(&[])).into()
     }
 
-    /// Whether gravity changes over time: who holds against it or goes with it takes or gives energy.
+    /// Whether gravity changes over time: a motion against it or with it takes or gives energy.
     pub fn swings(&self) -> bool {
         self.numerics.gravity_over_time.is_some() || self.numerics.frame.is_some()
     }

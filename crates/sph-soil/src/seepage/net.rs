@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-/// Who seeps through whom.
+/// Phases that seep, each with the soil it seeps through.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Phase {
     /// Number of the phase with the pores.

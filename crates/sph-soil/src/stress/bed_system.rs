@@ -1,4 +1,4 @@
-//! The system of the effective pressure: who is in it, and what couples them.
+//! The system of the effective pressure: its particles and their couplings.
 
 use sph_core::{Pool, Vect};
 use sph_multiphase::linear::Rows;

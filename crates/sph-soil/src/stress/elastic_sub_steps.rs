@@ -20,8 +20,8 @@ use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
 /// Particles drift with ū + (1 − 1/N)/2 (uᴺ − u⁰), ū being the mean of u¹ … uᴺ: without elastic forces that is uᴺ, so that what the others do stays symplectic,
 /// and added up over the steps it is the way that the stress has seen, but for half a step: vibrations faster than the flow's step take nothing along.
 ///
-/// Only soils and those who have one among their neighbours take part. With sub-steps elastic waves are resolved in time, those
-/// also that are faster than the flow's step.
+/// Only soils and particles with one among their neighbours take part. With sub-steps elastic waves are resolved in
+/// time, those also that are faster than the flow's step.
 ///
 /// Ours, after the multiple time steps of Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990.
 pub struct ElasticSubSteps<const D: usize> {
@@ -79,7 +79,7 @@ impl<const D: usize> ElasticSubSteps<D> {
         Ok(())
     }
 
-    /// Who carries stress or has a neighbour that does.
+    /// Particles that carry stress or have a neighbour that does.
     fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
         let carries: Vec<bool> = self
             .law_inputs

@@ -27,8 +27,8 @@ pub enum PressureSolver {
 ///
 /// Symbols: p' effective pressure (Pa); Δρ = ρ₀ − ρ_p, the density of the soil less that of the fluid
 /// in its pores (kg/m³); g gravity. It does not depend on the depth of the water above, nor of the noise of the
-/// equation
-/// of state, and it is exact for a flat bed. Limits: static, whatever the soil does; not exact under steep surfaces.
+/// equation of state, and it is exact for a flat bed. Limits: static, whatever the soil does; not exact under steep
+/// surfaces.
 ///
 /// The surface is found by an empty cone above a particle (soil and walls only), so that loose grains
 /// are surface, too, and no system is singular. What is solved is

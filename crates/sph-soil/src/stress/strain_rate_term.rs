@@ -11,8 +11,8 @@ use crate::stress::VelocityGradient;
 use crate::stress::gathered::{Gathered, LaneSums, add_free};
 use crate::stress::strain_rate::magnitude;
 
-/// [`STRAIN_RATE`](fields::STRAIN_RATE) along with the interactions, for those who read it after them: the walk over the
-/// neighbours, their distances and the gradients of the kernel are there already.
+/// [`STRAIN_RATE`](fields::STRAIN_RATE) along with the interactions, for terms that read it after them: the walk over
+/// the neighbours, their distances and the gradients of the kernel are there already.
 #[derive(Clone)]
 pub struct StrainRateTerm<const D: usize> {
     /// The formula of the gradient.

@@ -253,8 +253,7 @@ impl<const D: usize> EnergyBudget<D> {
     }
 
     /// After a kick over `dt` seconds and all that followed: the work of all parts, with the mean of the velocities
-    /// before
-    /// and after.
+    /// before and after.
     fn settled(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mean = self.before.iter().zip(&self.velocity);
         let mean: Vec<Vect<D>> = mean.map(|(a, b)| (a + b) * 0.5).collect();
@@ -290,7 +289,7 @@ impl<const D: usize> EnergyBudget<D> {
         // What the weight has given; `drifts` takes what the drift costs.
         let fallen = each(n, |i| work(i, world.steady_gravity * dt));
         book(world, own(EnergyWork::Remainder), &fallen)?;
-        // Densities in the middle of the motion: who changes them in this step does it all along.
+        // Densities in the middle of the motion: a term that changes them in this step does it all along.
         let all = self.density.par_iter_mut().zip(&dilatation);
         all.for_each(|(rho, rate)| *rho *= 1.0 - 0.5 * rate * dt);
         self.spread(world, dt)

@@ -349,7 +349,7 @@ impl<const D: usize> Flow<D> {
         guard::rates(&self.world, &self.laws, density_bounds)
     }
 
-    /// Starts all timings anew; after a change of who is at work.
+    /// Starts all timings anew; after a change of the works.
     pub fn reset_timings(&mut self) {
         let services = [LISTS_NAME, MOTION_NAME].map(String::from);
         let names = services

@@ -7,8 +7,8 @@ use sph_neighbours::{SweepHalf, World};
 
 use crate::step::stages::Work;
 
-/// Runs a piece of work and gives ghosts what it has found: where it may run in halves, those who are ghosts elsewhere come
-/// first, and the others while the messages are on their way.
+/// Runs a piece of work and gives ghosts what it has found: where it may run in halves, those that are ghosts elsewhere
+/// come first, and the others while the messages are on their way.
 pub(crate) fn run_and_update_ghosts<const D: usize>(
     work: &mut Work<D>,
     access: &Access,

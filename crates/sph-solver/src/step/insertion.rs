@@ -7,7 +7,7 @@ use crate::step::flow::Flow;
 use crate::step::new_particles::NewParticleDefaults;
 
 impl<const D: usize> Flow<D> {
-    /// Lets in who is born at the end of a step of `dt` seconds.
+    /// Lets in particles born at the end of a step of `dt` seconds.
     ///
     /// # Errors
     /// If a new particle is impossible, or a column is missing.
@@ -45,7 +45,7 @@ impl<const D: usize> Flow<D> {
         self.begin_density(nursery, first)
     }
 
-    /// Refuses who cannot be.
+    /// Refuses impossible particles.
     fn refuse(&self, newborn: &Newborn<D>) -> Result<(), StepError> {
         let sound = newborn.mass > 0.0
             && newborn.mass.is_finite()
@@ -79,7 +79,7 @@ impl<const D: usize> Flow<D> {
         let free = &mut self.world.free;
         let slots = free.give_birth(all.len())?;
         if let Some(parts) = &self.parts {
-            // All ranks bear all; who is at home elsewhere goes when the lists are built.
+            // All ranks insert all; particles of other ranks go when the lists are built.
             let places: Vec<_> = all.iter().map(|n| n.position).collect();
             parts.house(free, slots.clone(), &places)?;
         }

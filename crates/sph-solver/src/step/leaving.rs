@@ -42,7 +42,7 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a column is missing.
     pub fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
-        // First those who look at wall contacts, which are by slots.
+        // First the gates that look at wall contacts, which are by slots.
         self.by_gates(dt)?;
         self.by_outlets(dt)
     }
@@ -78,7 +78,7 @@ impl<const D: usize> Flow<D> {
         self.world.free.set_removed(taken);
     }
 
-    /// Takes out whom gates let out, and counts them.
+    /// Takes out particles that gates let out, and counts them.
     fn by_gates(&mut self, dt: f64) -> Result<(), StepError> {
         let mut first = self.outlets.all.len();
         for k in 0..self.gates.len() {
@@ -111,7 +111,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Takes out who is in an outlet.
+    /// Takes out particles in an outlet.
     fn by_outlets(&mut self, dt: f64) -> Result<(), StepError> {
         let (all, border) = (&self.outlets.all, self.outlets.border);
         if all.is_empty() && border.is_none() {
@@ -153,7 +153,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Counts who leaves by which exit, on all ranks, and gives their places, in the order of identities.
+    /// Counts the particles that leave by each exit, on all ranks, and gives their places, in the order of identities.
     fn count_leavers(
         &mut self,
         left: impl Iterator<Item = (usize, usize)>,
@@ -164,7 +164,7 @@ impl<const D: usize> Flow<D> {
         let phase = free.get(fields::PHASE).ok();
         let owned = self.world.owned();
         let phases = self.laws.len();
-        // Copies of others' particles leave as their owners do, who count them.
+        // Copies of others' particles leave as on their owners, which count them.
         let left = left.filter(|(k, _)| owned.has(*k));
         let leavers = left.map(|(k, exit)| LeavingParticle {
             identity: identity[k],

@@ -1,4 +1,4 @@
-//! Particles are sorted when lists expire: who goes on with what was derived before takes it along.
+//! Particles are sorted when lists expire: a step that goes on with what was derived before takes it along.
 
 use sph_core::{Slots, StepError, fields};
 

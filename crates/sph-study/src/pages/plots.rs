@@ -63,8 +63,7 @@ pub fn convergence(results: &Results) -> Option<Plot> {
 }
 
 /// Every series of which anything has run; if there are too many to be distinguished, only the most accurate on the
-/// Pareto line
-/// by name, and the others in the background.
+/// Pareto line by name, and the others in the background.
 fn drawn(results: &Results, of: impl Fn(&SeriesResult) -> (String, Vec<[f64; 2]>)) -> Vec<Series> {
     let best = best(results);
     let mut named = Vec::new();

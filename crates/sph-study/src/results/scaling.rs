@@ -13,7 +13,7 @@ use crate::running::cost::{Cost, Scaling};
 /// A name with its particles and seconds, by size.
 type Competitor = (String, Vec<[f64; 2]>);
 
-/// Costs of all series, and who is the fastest where.
+/// Costs of all series, and the fastest at each size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scale {
     /// Of what.
@@ -141,7 +141,7 @@ impl SeriesCost {
     }
 }
 
-/// Who is the fastest of some competitors, from the least to the largest size.
+/// The fastest of some competitors, from the least to the largest size.
 fn reigns(among: &str, all: &[Competitor]) -> Vec<FastestRange> {
     let mut sizes: Vec<f64> = all.iter().flat_map(|(_, p)| p).map(|p| p[0]).collect();
     sizes.sort_by(f64::total_cmp);

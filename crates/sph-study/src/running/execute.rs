@@ -151,7 +151,7 @@ fn skipped(before: &Variant, variant: &Variant, options: &Options) -> Record {
     })
 }
 
-/// A lock whose holder never panics half-way through a change.
+/// The content of a lock; no holder panics half-way through a change.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex
         .lock()

@@ -108,7 +108,7 @@ impl<const D: usize, const N: usize> PairSum<D> for BoundDiffusion<'_, D, N> {
         pair: &LanePair<D, L>,
         sums: &mut [L; N],
     ) {
-        // Nothing passes to or from those on whom the closure does not act.
+        // Nothing passes to or from particles without the closure.
         let there_too = self.diffusivity(j);
         if there_too[0] <= 0.0 {
             return;

@@ -112,7 +112,7 @@ impl<const D: usize> Materials<D> {
         Some(GradientStage { formula, phases })
     }
 
-    /// Whether no stage reads strain rates before the interactions, which may then leave them for those who do it
+    /// Whether no stage reads strain rates before the interactions, which may then leave them for terms that do it
     /// later.
     pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
         let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
