@@ -21,7 +21,7 @@ pub struct Birth<'a, const D: usize> {
 
 type Formula<const D: usize, T> = Box<dyn Fn(&Birth<'_, D>) -> T + Send + Sync>;
 
-/// What stands in a column at the start.
+/// Values of a column at the start.
 pub enum Initial<const D: usize> {
     /// Zero.
     Zero,

@@ -14,7 +14,7 @@ pub struct Setting<'a, const D: usize> {
     pub phases: &'a [String],
     /// η/ρ₀ of every phase whose law has one viscosity, m²/s; none of the others.
     pub viscosities: &'a [Option<f64>],
-    /// Which phases are soils: their laws read a pressure.
+    /// Phases that are soils: their laws read a pressure.
     pub soils: &'a [bool],
     /// The scalar that the formulation integrates for the density, with its rate.
     pub density: Evolved,

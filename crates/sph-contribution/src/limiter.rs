@@ -12,7 +12,7 @@ pub trait Limiter<const D: usize>: Send + Sync {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError>;
     /// The formula, for listings.
     fn formula(&self) -> String;
-    /// What takes the bound away or lengthens it, for runs that it holds up; a sentence without its end.
+    /// Remedies that take the bound away or lengthen it, for runs that it holds up; a sentence without its end.
     fn remedy(&self) -> Option<String> {
         None
     }

@@ -20,7 +20,7 @@ pub struct Newborn<const D: usize> {
     pub mass: f64,
     /// Number of its phase.
     pub phase: u32,
-    /// Where it came from, for columns that [begin](crate::Birth) with it.
+    /// Its origin, for columns that [begin](crate::Birth) with it.
     pub body: Arc<str>,
     /// Values of columns that contributions bring along, by the names of the columns; the others begin with the values
     /// of the columns.

@@ -1,4 +1,4 @@
-//! Why a contribution cannot be part of a scene.
+//! Errors of a contribution that cannot be part of a scene.
 
 /// A key of a scene, and what is wrong with it there.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -7,7 +7,7 @@ pub struct Refusal {
     pub kind: &'static str,
     /// The key in that table; the table itself, if empty.
     pub key: String,
-    /// What is wrong, and what to do.
+    /// The defect and its remedy.
     pub why: String,
 }
 

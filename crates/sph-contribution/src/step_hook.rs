@@ -48,7 +48,7 @@ pub enum StepPhase {
 }
 
 impl StepPhase {
-    /// How many there are.
+    /// Their number.
     pub const COUNT: usize = 6;
 }
 
@@ -121,9 +121,9 @@ pub struct Report {
     pub counts: Option<Json>,
     /// Key of the counts in the summary; `None` leaves them out.
     pub summary: Option<&'static str>,
-    /// Why the run has no result.
+    /// The error that leaves the run without a result.
     pub verdict: Option<StepError>,
-    /// Why results should be doubted.
+    /// Reasons to doubt the results.
     pub warnings: Vec<String>,
     /// Changes that a person may try next time.
     pub advice: Vec<String>,

@@ -104,11 +104,11 @@ pub enum StepError {
         quantity: &'static str,
         /// Identity of the particle.
         particle: u32,
-        /// Where it is.
+        /// Its place.
         position: Vec<f64>,
         /// The value.
         value: f64,
-        /// Why it is bad.
+        /// The reason.
         reason: String,
     },
     /// A stage failed for a reason of its own.
@@ -116,7 +116,7 @@ pub enum StepError {
     Stage {
         /// Name of the stage.
         stage: String,
-        /// What happened and what to change.
+        /// The error and its remedy.
         reason: String,
     },
 }

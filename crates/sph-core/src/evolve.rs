@@ -11,7 +11,7 @@ pub struct Evolved {
     pub rate: Field<Scalar>,
 }
 
-/// What [`System::recall`] puts back.
+/// The state that [`System::recall`] puts back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Recall {
     /// Positions, velocities, integrated scalars and the clock.

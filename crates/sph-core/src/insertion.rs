@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::{FieldError, Inserted, Store, fields};
 
 impl<const D: usize> Store<D> {
-    /// What has been born so far.
+    /// Particles born so far.
     pub fn inserted(&self) -> Inserted {
         self.born
     }

@@ -3,7 +3,7 @@
 use crate::field::AnyField;
 use crate::{Declares, PlanError};
 
-/// Which of the offered stages run, in which order.
+/// The offered stages that run, in their order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     /// Indices into the offered stages.

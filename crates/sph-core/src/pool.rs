@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Buffers of one kind: as many as tasks were ever at work side by side.
 ///
-/// Which one a task gets depends on the threads, so that no task may read what the last one left in it.
+/// The one that a task gets depends on the threads, so that no task may read what the last one left in it.
 #[derive(Debug)]
 pub struct Pool<T>(Mutex<Vec<Box<T>>>);
 

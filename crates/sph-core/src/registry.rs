@@ -18,9 +18,9 @@ pub struct Parameter {
     pub unit: String,
     /// Default value, if the key may be left out.
     pub default: Option<Json>,
-    /// What it means.
+    /// Its meaning.
     pub meaning: String,
-    /// Where it comes from.
+    /// Its source.
     pub source: String,
 }
 
@@ -64,7 +64,7 @@ pub trait Contract: Sized + 'static {
     const KIND: PluginKind;
     /// Entries registered in any crate that the binary mentions.
     fn discovered() -> Vec<&'static Self>;
-    /// What is known without building.
+    /// Data known without building.
     fn info(&self) -> &PluginInfo;
 }
 
@@ -139,7 +139,7 @@ impl<E: Contract> Registry<E> {
 
 /// A kind of plugin, its plugins built by one call whatever they are: in D dimensions, or in none of their own.
 pub trait Makes<const D: usize>: Contract {
-    /// What a plugin of the kind is.
+    /// Description of a plugin of the kind.
     type Made: ?Sized;
     /// Builds the plugin from its table of parameters.
     ///
@@ -195,7 +195,7 @@ macro_rules! contract {
     ) => {
         $(#[$doc])*
         $vis struct $entry {
-            /// What is known without building.
+            /// Data known without building.
             pub info: $crate::PluginInfo,
             /// Builds the two-dimensional form.
             pub build_2d: Option<
@@ -245,7 +245,7 @@ macro_rules! contract {
     ) => {
         $(#[$doc])*
         $vis struct $entry {
-            /// What is known without building.
+            /// Data known without building.
             pub info: $crate::PluginInfo,
             /// Builds the plugin from its table of parameters.
             pub build:

@@ -51,7 +51,7 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    /// What has been taken out so far, by outlet and phase.
+    /// Particles taken out so far, by outlet and phase.
     pub fn removed(&self) -> &[Removed] {
         &self.taken
     }

@@ -6,7 +6,7 @@ use crate::field::{AnyField, Column};
 use crate::watch::Watch;
 use crate::{Access, Field, FieldError, Inserted, Kind, Removed, StepError, Symmetric, Vect};
 
-/// What happens to a column over a time step.
+/// Treatment of a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Carries history: sorted with the particles, written to checkpoints.
@@ -26,9 +26,9 @@ pub(crate) struct Entry<const D: usize> {
 pub struct Store<const D: usize> {
     pub(crate) len: usize,
     pub(crate) entries: Vec<Entry<D>>,
-    /// What has been taken out.
+    /// Particles taken out.
     pub(crate) taken: Vec<Removed>,
-    /// What has been born.
+    /// Particles born.
     pub(crate) born: Inserted,
     pub(crate) watch: Watch,
     pub(crate) spare: Spare<D>,

@@ -1,6 +1,6 @@
 //! Outflow and inflow of a store while a flow ran.
 
-/// What has been taken out of a store by one outlet of one phase.
+/// Particles of one phase that one outlet has taken out of a store.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Removed {
     /// Number of the outlet.
@@ -13,7 +13,7 @@ pub struct Removed {
     pub particles: u64,
 }
 
-/// What came into a store after the start.
+/// Particles that came into a store after the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inserted {
     /// Identities that were given so far, those of the start included: none of them is given again.

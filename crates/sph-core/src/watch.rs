@@ -12,7 +12,7 @@ pub(crate) struct Watch(Mutex<AtWork>);
 struct AtWork {
     /// The works in progress, and behind them the buffers of earlier ones.
     all: Vec<Watched>,
-    /// How many are at work.
+    /// Number of works in progress.
     depth: usize,
 }
 
@@ -43,7 +43,7 @@ impl Watch {
         declared.into_iter().for_each(|access| own.allow(access));
     }
 
-    /// What was touched without being declared since the last beginning.
+    /// Columns touched without being declared since the last beginning.
     pub fn end(&self) -> Vec<String> {
         let mut at_work = self.at_work();
         let Some(place) = at_work.depth.checked_sub(1) else {

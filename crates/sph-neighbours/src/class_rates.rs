@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect};
 
 use crate::{Interaction, Rates, Rows, Surroundings, World};
 
-/// What one class of terms does to a particle.
+/// Contribution of one class of terms to a particle.
 #[derive(Clone, Copy, Debug)]
 pub struct ClassRate<const D: usize> {
     /// Acceleration, m/s², without gravity and driving.

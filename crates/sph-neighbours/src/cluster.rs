@@ -32,7 +32,7 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) buffers: &'a mut Buffers<D>,
 }
 
-/// What is kept from cluster to cluster; one per thread.
+/// Memory kept from cluster to cluster; one per thread.
 pub(crate) struct Buffers<const D: usize> {
     /// Squared distances, one number per lane for each candidate; infinite for a particle and itself.
     pub distance2: Vec<f64>,

@@ -17,9 +17,9 @@ const LONGEST: f64 = 1.5;
 /// Clusters of one task.
 #[derive(Clone, Debug, Default)]
 struct Block {
-    /// Where each cluster begins, counted from the block's first particle; the number of particles at the end.
+    /// Begin of each cluster, counted from the block's first particle; the number of particles at the end.
     first: Vec<u8>,
-    /// Where the candidates of each cluster begin, and where the last ones end.
+    /// Begin of the candidates of each cluster, and the end of the last ones.
     starts: Vec<u32>,
     candidates: Vec<u32>,
     /// The cluster of each particle.
@@ -266,7 +266,7 @@ struct Near<'a, const D: usize> {
 }
 
 impl<const D: usize> Body for Near<'_, D> {
-    /// How many slots are filled.
+    /// Number of filled slots.
     type Output = usize;
 
     #[inline(always)]

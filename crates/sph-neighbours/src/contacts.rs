@@ -7,7 +7,7 @@ use sph_core::Vect;
 /// A wall element within the support of a particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<const D: usize> {
-    /// Which element.
+    /// Number of the element.
     pub element: u32,
     /// Its share of ∇γ at the particle, along the inward normal, 1/m.
     pub gradient: Vect<D>,
@@ -133,7 +133,7 @@ impl<'a, const D: usize> ContactRow<'a, D> {
         weights: &[],
     };
 
-    /// How many.
+    /// Their number.
     pub fn len(&self) -> usize {
         self.runs
             .iter()
@@ -186,7 +186,7 @@ impl<'a, const D: usize> IntoIterator for ContactRow<'a, D> {
 /// Goes over a [`ContactRow`].
 #[derive(Clone, Debug)]
 pub struct ContactIter<'a, const D: usize> {
-    /// What is left of it but for the plane at hand.
+    /// The rest of it without the present plane.
     row: ContactRow<'a, D>,
     normal: Vect<D>,
     distance: f64,

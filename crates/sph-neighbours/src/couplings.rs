@@ -8,7 +8,7 @@ use crate::lane_vector::{minus, vector};
 use crate::separation::places;
 use crate::{CHUNK, Domain, World};
 
-/// Which numbers of C = α 1 + β r rᵀ are not zero.
+/// The numbers of C = α 1 + β r rᵀ that are not zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kinds {
     /// α.
@@ -18,7 +18,7 @@ pub struct Kinds {
 }
 
 impl Kinds {
-    /// How many are kept of a pair.
+    /// Number of values kept per pair.
     pub(crate) fn count(self) -> usize {
         usize::from(self.even) + usize::from(self.along)
     }
@@ -48,9 +48,9 @@ pub(crate) struct Group {
     pub width: Width,
     /// The first particle.
     pub from: u32,
-    /// How many.
+    /// Their number.
     pub count: u32,
-    /// Where its columns end.
+    /// The end of its columns.
     pub to: u32,
     /// Whether images across periodic faces may be nearer.
     pub wraps: bool,
@@ -196,7 +196,7 @@ impl<const D: usize> CouplingsAt<'_, D> {
     }
 }
 
-/// What looks at couplings one by one.
+/// A visitor of couplings, one by one.
 pub trait Visitor<const D: usize> {
     /// A particle, and how many couplings it has at most.
     fn begin(&mut self, particle: usize, most: usize);

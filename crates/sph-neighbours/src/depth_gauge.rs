@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields};
 
 use crate::World;
 
-/// Where a wall looks at the fluid before it.
+/// The place at which a wall looks at the fluid before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthGauge<const D: usize> {
     /// A point of its face, m; the lowest one that leans.
@@ -13,7 +13,7 @@ pub struct DepthGauge<const D: usize> {
     pub along: Vect<D>,
     /// By how much the face leans forward above `place`, m per metre of height.
     pub lean: f64,
-    /// How far it looks, m.
+    /// Distance to which it looks, m.
     pub reach: f64,
     /// From where to where it looks to the side, m; without meaning in the plane.
     pub sideways: [f64; 2],

@@ -4,7 +4,7 @@ use sph_core::{Access, Stage, StepError};
 
 use crate::World;
 
-/// What is written as whole numbers, and read elsewhere.
+/// Data written as whole numbers, and read elsewhere.
 pub trait Words: Sized {
     /// Writes the numbers behind others.
     fn write(&self, to: &mut Vec<u64>);

@@ -15,7 +15,8 @@ const SAME_PLACE: f64 = 1e-6;
 /// Intervals of the table of the kernel's outer part.
 const INTERVALS: usize = 64;
 
-/// What walls within a support of each other exert through the fluid that is not between them, on the wanted ones.
+/// Forces that walls within a support of each other exert through the fluid that is not between them, on the wanted
+/// ones.
 ///
 /// The sum of a wall's ∇γ over the particles before it is that over its whole support; a second wall at a distance g leaves
 /// out the part beyond g, and the force on the first one is p S (1 − 2 (1 − γ₂)), γ₂ that of the second wall at the
@@ -86,7 +87,7 @@ pub fn facing_forces<const D: usize>(
 struct Facing {
     /// The first is one of a wanted wall.
     pair: [usize; 2],
-    /// Which part of 1 − γ each leaves at the other: the second at the first, the first at the second.
+    /// The part of 1 − γ that each leaves at the other: the second at the first, the first at the second.
     parts: [f64; 2],
 }
 
@@ -214,7 +215,7 @@ fn angle<const D: usize>(world: &World<D>, element: usize, at: usize) -> f64 {
     -size.copysign(to_centre.dot(&elements.normal[element]))
 }
 
-/// Which part of the kernel is beyond a distance.
+/// The part of the kernel beyond a distance.
 struct OuterPart {
     support: f64,
     /// At the ends of the intervals.

@@ -7,8 +7,8 @@ use crate::Domain;
 /// Cells per search radius: smaller cells waste fewer candidates, more of them cost loops.
 const CELLS_PER_RADIUS: usize = 2;
 
-/// What the cells of a grid follow from: where points are and how many. If a process holds some of the points of others, all
-/// of them number their cells alike when they take the extent of all.
+/// Input of the cells of a grid: the extent of the points and their number. If a process holds some of the points of
+/// others, all of them number their cells alike when they take the extent of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent<const D: usize> {
     /// Least coordinates, m.
@@ -44,7 +44,7 @@ pub struct CellGrid<const D: usize> {
     all: [usize; D],
     /// The first of them that this grid has.
     first: [usize; D],
-    /// How many it has.
+    /// Their number.
     counts: [usize; D],
     periodic: [bool; D],
     starts: Vec<u32>,

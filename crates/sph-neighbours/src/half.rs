@@ -2,7 +2,7 @@
 
 use crate::{CHUNK, Clusters};
 
-/// Which particles a sweep is to sum for; what it has summed for the others stays.
+/// Particles for which a sweep is to sum; what it has summed for the others stays.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SweepHalf {
     /// Whether each particle, or one of its cluster, is sent to others.

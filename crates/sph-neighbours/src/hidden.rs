@@ -56,7 +56,7 @@ impl Blocked {
     }
 }
 
-/// What walls hide, at the present positions. A pair infinitely far apart is in no sum.
+/// Pairs hidden by walls, at the present positions. A pair infinitely far apart is in no sum.
 #[derive(Clone, Debug, Default)]
 pub struct Hidden {
     /// Free particles from free particles, both ways.

@@ -19,7 +19,7 @@ pub struct Weak<'a, const D: usize> {
     pub limit: &'a [f64],
 }
 
-/// What a particle's couplings come to.
+/// The couplings of a particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Tally<const D: usize> {
     /// Σ_b C_ab of those that are kept, N s/m.
@@ -28,7 +28,7 @@ pub struct Tally<const D: usize> {
     pub weak: Vect<D>,
 }
 
-/// Where the clusters of a block leave their couplings.
+/// Couplings of the clusters of a block.
 pub struct Keeper<'a> {
     kept: &'a mut Kept,
     kinds: Kinds,
@@ -232,7 +232,7 @@ fn add_block<const D: usize, L: Lane>(
     }
 }
 
-/// What is summed in a lane; of blocks the lower half is.
+/// Sums of a lane; of blocks the lower half.
 #[inline(always)]
 fn tally<const D: usize, L: Lane>(blocks: &[[L; D]; D], force: &[L; D], lane: usize) -> Tally<D> {
     let mut kept = nalgebra::SMatrix::zeros();

@@ -217,7 +217,7 @@ struct TargetPoints<'a, const D: usize> {
     /// Places of all targets, m.
     targets: &'a [Vect<D>],
     positions: &'a [Vect<D>],
-    /// Where images across periodic faces may be nearer.
+    /// The domain, where images across periodic faces may be nearer.
     domain: Option<&'a Domain<D>>,
 }
 
@@ -243,7 +243,7 @@ struct DistancesAround<'a, const D: usize> {
 }
 
 impl<const D: usize> Body for DistancesAround<'_, D> {
-    /// How many there are.
+    /// Their number.
     type Output = usize;
 
     #[inline(always)]

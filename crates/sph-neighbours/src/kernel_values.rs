@@ -53,6 +53,6 @@ impl Values {
 pub(crate) struct SumScratch {
     pub lanes: Values,
     pub row: Values,
-    /// Which candidates some member has within its support.
+    /// Candidates that some member has within its support.
     pub inside: Vec<bool>,
 }

@@ -9,7 +9,7 @@ use crate::pair_sum::{PairSum, sum_cluster};
 use crate::sweep::Sweep;
 use crate::{CHUNK, Neighbourhood, World};
 
-/// What `of` makes of the sum over free neighbours and of the walls near every particle that is wanted, into a place per
+/// Results of `of` for the sum over free neighbours and the walls near every particle that is wanted, into a place per
 /// particle; those of others stay as they are. The neighbourhood's free row is empty.
 ///
 /// # Errors

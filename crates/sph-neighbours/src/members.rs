@@ -7,7 +7,7 @@ use sph_kernels::lanes::MOST;
 pub(crate) struct Members<'a> {
     /// The first particle.
     pub from: usize,
-    /// How many.
+    /// Their number.
     pub count: usize,
     /// Candidates, the members themselves among them, in index order.
     pub candidates: &'a [u32],

@@ -5,7 +5,7 @@ use sph_core::{FieldError, Vect, fields};
 
 use crate::World;
 
-/// What particles have near them, added up.
+/// Numbers of neighbours of particles, added up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearby {
     /// Particles that were looked at.
@@ -56,7 +56,7 @@ impl Nearby {
 }
 
 impl<const D: usize> World<D> {
-    /// What the particles that are `counted` have near them; lists must have been built.
+    /// Neighbours of the particles that are `counted`; lists must have been built.
     ///
     /// # Errors
     /// If there is no position column.

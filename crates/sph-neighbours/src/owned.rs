@@ -4,7 +4,7 @@ use sph_core::{FieldError, Vect, fields};
 
 use crate::World;
 
-/// Which particles, or rows of theirs, count: all but the copies of those that are at home elsewhere.
+/// Particles, or rows of theirs, that count: all but the copies of those that are at home elsewhere.
 #[derive(Clone, Debug)]
 pub struct Owned(Option<Vec<bool>>);
 
@@ -70,7 +70,7 @@ impl<const D: usize> World<D> {
     }
 }
 
-/// Which elements of walls count: where there are copies, those whose mean over the fluid has the particle of the lowest
+/// Elements of walls that count: where there are copies, those whose mean over the fluid has the particle of the lowest
 /// number at home here. All others in the mean are then here too, or copies of them.
 pub struct OwnedElements<'a, const D: usize> {
     world: &'a World<D>,

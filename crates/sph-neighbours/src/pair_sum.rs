@@ -16,7 +16,7 @@ pub trait PairSum<const D: usize>: Sync {
     const SCALED: bool = false;
     /// Own values of `L::N` particles.
     type Own<L: Lane>: Copy;
-    /// What is summed, from zero.
+    /// The sum, from zero.
     type Sum<L: Lane>: InLanes<L, One = Self::Sum<f64>>;
     /// Reads the own values.
     fn own<L: Lane>(&self, particles: Particles) -> Self::Own<L>;

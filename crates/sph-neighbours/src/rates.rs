@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-/// What the interaction sweep sums per particle.
+/// Sums of the interaction sweep per particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Rates<const D: usize> {
     /// Acceleration, m/s².

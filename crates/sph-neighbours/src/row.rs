@@ -49,7 +49,7 @@ pub struct Neighbourhood<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Neighbourhood<'a, D> {
-    /// What walls that scale the kernel make of the particle.
+    /// Values of the particle near walls that scale the kernel.
     #[inline(always)]
     pub fn scale(&self) -> Option<WallScale<D>> {
         self.scaling.map(|scaling| scaling.at(self.particle))

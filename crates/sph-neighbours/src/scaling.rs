@@ -78,7 +78,7 @@ impl<'a, const D: usize> Scaling<'a, D> {
     }
 }
 
-/// What walls that scale the kernel make of a particle.
+/// Values of a particle near walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]
 pub struct WallScale<const D: usize> {
     /// w̃_aa = s_a² w(0), 1/m^d: what the particle adds to its own sum.

@@ -28,7 +28,7 @@ pub(crate) fn distance2_at<const D: usize, L: Lane>(x: &[L; D], there: &Vect<D>)
 pub(crate) struct Distances<'a, const D: usize, const KEPT: bool> {
     pub members: Members<'a>,
     pub positions: &'a [Vect<D>],
-    /// Where images across periodic faces may be nearer.
+    /// The domain, where images across periodic faces may be nearer.
     pub domain: Option<&'a Domain<D>>,
     pub out: &'a mut Vec<f64>,
     pub separations: &'a mut Vec<f64>,

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect};
 
 use crate::{ContactRow, Interaction, Neighbourhood, Rates, Rows, Scratch, Surroundings, World};
 
-/// What one term does to a particle.
+/// Contribution of one term to a particle.
 #[derive(Clone, Debug)]
 pub struct TermShare<const D: usize> {
     /// Name of the term.
@@ -15,7 +15,7 @@ pub struct TermShare<const D: usize> {
     pub of_walls: Rates<D>,
 }
 
-/// What every term does to a particle at the state of the last sweep.
+/// Contribution of every term to a particle at the state of the last sweep.
 ///
 /// # Errors
 /// If a term misses a column.

@@ -36,12 +36,12 @@ pub fn interactions<const D: usize>(
     all_sums(world, &declared(terms), terms, sums)
 }
 
-/// What terms declare: asked once and not in every step.
+/// Declarations of the terms: asked once and not in every step.
 pub fn declared<const D: usize>(terms: &[Box<dyn Interaction<D>>]) -> Vec<Access> {
     terms.iter().map(|term| term.access()).collect()
 }
 
-/// Where a sweep leaves what it sums, one entry per particle.
+/// Sums of a sweep, one entry per particle.
 pub struct Sums<'a, const D: usize> {
     /// Accelerations, m/s².
     pub acceleration: &'a mut [Vect<D>],
@@ -239,7 +239,7 @@ pub fn accelerations_of<const D: usize>(
 /// Buffers of a thread, and the rates of its block.
 pub(crate) type TaskScratch<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
-/// What a walk over neighbourhoods looks at.
+/// Input of a walk over neighbourhoods.
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
     world: &'a World<D>,
     kernel: &'a K,

@@ -91,7 +91,7 @@ pub enum Values {
     Both,
 }
 
-/// What `of` makes of every particle's neighbourhood, in the order of the particles.
+/// Results of `of` for every particle's neighbourhood, in the order of the particles.
 ///
 /// # Errors
 /// If the world has no positions.

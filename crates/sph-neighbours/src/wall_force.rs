@@ -50,7 +50,7 @@ impl<const D: usize> WallForce<D> {
         both.chain([&self.depth]).copied().collect()
     }
 
-    /// How many [`numbers`](Self::numbers) a force has.
+    /// Number of [`numbers`](Self::numbers) of a force.
     pub const NUMBERS: usize = 2 * D + 7;
 
     /// From its numbers, of which there are [`NUMBERS`](Self::NUMBERS); zero where some are missing.

@@ -13,7 +13,7 @@ use crate::{
     Scratch, World,
 };
 
-/// What a particle exerts on a wall.
+/// Force of a particle on a wall.
 #[derive(Clone, Copy, Debug)]
 pub struct WallPart<const D: usize> {
     /// The particle.
@@ -24,7 +24,7 @@ pub struct WallPart<const D: usize> {
     pub force: Vect<D>,
 }
 
-/// What the wanted particles exert on the walls that they see, by particle and wall: the parts of
+/// Forces of the wanted particles on the walls that they see, by particle and wall: the parts of
 /// [`wall_forces`](crate::wall_forces).
 ///
 /// Terms are of the form a = (B + Σ_k W_k)/γ, B the sum over particles and W_k that over the points and elements of wall
@@ -88,7 +88,7 @@ struct SeparateWalls<const D: usize> {
     near: Vec<Near>,
     /// Of members that see several walls.
     pieces: Vec<Piece<D>>,
-    /// What all terms make of every member with all walls, and without any and with γ = 1.
+    /// Accelerations of every member by all terms, with all walls, and without any and with γ = 1.
     whole: Vec<Rates<D>>,
     bare: Vec<Rates<D>>,
     walls: Vec<u32>,
@@ -104,7 +104,7 @@ struct Near {
     pieces: Range<usize>,
 }
 
-/// What a member sees of one wall.
+/// One wall as a member sees it.
 struct Piece<const D: usize> {
     wall: u32,
     points: Scratch<D>,
@@ -113,7 +113,7 @@ struct Piece<const D: usize> {
     slope: Vect<D>,
     /// About its own 1 − γ, in any unit.
     deficit: f64,
-    /// What all terms make of the member with this wall alone and γ = 1, m/s².
+    /// Acceleration of the member by all terms with this wall alone and γ = 1, m/s².
     acceleration: Vect<D>,
 }
 

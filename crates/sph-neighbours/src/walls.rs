@@ -28,10 +28,10 @@ pub struct WallPoints<const D: usize> {
     pub friction_factor: Vec<f64>,
     /// Slip length, m, and unit normal into the fluid; empty where no wall slips partly.
     pub slip: Vec<(f64, Vect<D>)>,
-    /// Which named wall the point belongs to.
+    /// The named wall of the point.
     pub wall: Vec<u32>,
-    /// How many of the first points are corners of elements alone, without any fluid of their own: they are in no list
-    /// and in no sum.
+    /// Number of the first points that are corners of elements alone, without any fluid of their own: they are in no
+    /// list and in no sum.
     pub corners: usize,
     /// Whether the points behind the corners are the ports of open faces: masses that grow until a particle is born, and
     /// that are in no density sum.
@@ -77,13 +77,13 @@ pub struct Elements<const D: usize> {
     pub open: Vec<bool>,
     /// Friction of soils; empty where no wall has a coefficient.
     pub coulomb: Vec<Coulomb>,
-    /// Which named wall the element belongs to.
+    /// The named wall of the element.
     pub wall: Vec<u32>,
     /// Corner points of every element, for pictures: indices into the wall points.
     pub corners: Vec<[u32; D]>,
 }
 
-/// How soils slide on an element.
+/// Friction of soils on an element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coulomb {
     /// Coefficient of friction μ; 0 where there is none.
@@ -103,7 +103,7 @@ impl<const D: usize> Elements<D> {
     }
 }
 
-/// Where a moving wall is: x = R X + b, with X the place at which it was drawn.
+/// The pose of a moving wall: x = R X + b, with X the place at which it was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame<const D: usize> {
     /// R, row by row.
@@ -137,10 +137,10 @@ impl<const D: usize> Frame<D> {
     }
 }
 
-/// What a line does to the wall that it holds.
+/// Action of a line on the wall that it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePull<const D: usize> {
-    /// Which wall it holds.
+    /// The wall that it holds.
     pub wall: u32,
     /// Force on the wall, N (N/m in two dimensions); its size is the tension there.
     pub force: Vect<D>,
@@ -148,10 +148,10 @@ pub struct LinePull<const D: usize> {
     pub anchor: f64,
 }
 
-/// What has passed an open face of a phase since the start.
+/// Mass of a phase that has passed an open face since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Passed {
-    /// Which named wall the face is.
+    /// The named wall of the face.
     pub wall: u32,
     /// Number of the phase.
     pub phase: u32,
@@ -178,13 +178,13 @@ pub struct WallSet<const D: usize> {
     pub scales: bool,
     /// ∇ ln s of every particle by wall, where walls scale the kernel.
     pub slopes: Slopes<D>,
-    /// Where every wall is, in the order of the names; empty where no wall ever moves.
+    /// The pose of every wall, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
     /// The walls that forces move; empty where there is none.
     pub bodies: Vec<FreeBody<D>>,
-    /// What has passed the open faces, face by face; empty where there is none.
+    /// Mass that has passed the open faces, face by face; empty where there is none.
     pub passed: Vec<Passed>,
-    /// What the lines of movers do, wall by wall in the order of their scene; empty where there is none.
+    /// Actions of the lines of movers, wall by wall in the order of their scene; empty where there is none.
     pub pulls: Vec<LinePull<D>>,
     /// Forces of the fluid on every wall, in the order of the names; NaN on walls without a probe, empty if none
     /// asks for any.

@@ -70,7 +70,7 @@ pub struct World<const D: usize> {
     pub skin: f64,
     /// Hydrostatic gravity of this moment, m/s².
     pub gravity: Vect<D>,
-    /// What of it is the same all the time, m/s², and has a potential.
+    /// The part of it that is constant in time, m/s², and has a potential.
     pub steady_gravity: Vect<D>,
     /// Body acceleration that drives a periodic flow and is not balanced by pressure, m/s².
     pub driving: Vect<D>,
@@ -87,7 +87,7 @@ pub struct World<const D: usize> {
 }
 
 impl<const D: usize> World<D> {
-    /// Where in [`Rates::more`](crate::Rates) a term adds to the rate of a scalar of its own.
+    /// The place in [`Rates::more`](crate::Rates) where a term adds to the rate of a scalar of its own.
     ///
     /// # Errors
     /// If no term of the sweep declares to write it.

@@ -31,8 +31,7 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
         None
     }
     /// Forces of the lines on the wall in a state: the force of each on it, N, and its tension at the other end, N;
-    /// none if it
-    /// hangs on nothing.
+    /// none if it hangs on nothing.
     fn pulls(&self, _now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
         Vec::new()
     }

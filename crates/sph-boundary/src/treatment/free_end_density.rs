@@ -28,8 +28,7 @@ impl<const D: usize> NearLists<D> {
     /// ```
     ///
     /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and no particle near a free end
-    /// or behind a
-    /// wall nothing is asked.
+    /// or behind a wall nothing is asked.
     pub fn unveil<M: WallMesh<D>>(
         &self,
         outline: &Outline<D, M>,

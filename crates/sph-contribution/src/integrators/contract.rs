@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, System, contract};
 
-/// How much of each physical time scale one step may take.
+/// The part of each physical time scale that one step may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitCoefficients {
     /// Δt ≤ C h / c.

@@ -143,7 +143,7 @@ impl System for Trial {
     }
 }
 
-/// What a scheme promises on the oscillator.
+/// Promises of a scheme on the oscillator.
 pub struct StatedOrders {
     /// Order without damping.
     pub sound: f64,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use sph_core::Vect;
 use thiserror::Error;
 
-/// Why there are no owners.
+/// Errors of a division by bisection.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum DecompositionError {
     /// No rank at all.
@@ -30,7 +30,7 @@ pub enum DecompositionError {
     /// A place or a cost that is not a number, or a cost below zero.
     #[error("particle {particle} has a place or a cost that cannot be divided")]
     NotFinite {
-        /// Which one.
+        /// Its number.
         particle: usize,
     },
 }

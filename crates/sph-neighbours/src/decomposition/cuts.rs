@@ -181,7 +181,7 @@ fn mean(costs: &[f64], communicator: &dyn Transport) -> Result<f64, TransportErr
     Ok((sums[0] as f64 / 1e6 / sums[1].max(1) as f64).max(1e-6) * most[0])
 }
 
-/// Why there are no cuts.
+/// Errors of cuts.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CutError {
     /// The particles cannot be divided.

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::decomposition::{CutError, DecompositionError, TransportError};
 
-/// What keeps a rank from its part.
+/// Errors that keep a rank from its part.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PartError {
     /// The particles cannot be divided.

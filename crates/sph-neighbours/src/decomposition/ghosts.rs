@@ -58,7 +58,7 @@ pub struct Needs<'a, const D: usize> {
     /// Centres of elements, and points that are in sums.
     walls: Vec<Vect<D>>,
     grid: Option<CellGrid<D>>,
-    /// How far from a particle the centre of an element may be that it touches, m.
+    /// Largest distance of a particle from the centre of an element that it touches, m.
     touched: f64,
 }
 

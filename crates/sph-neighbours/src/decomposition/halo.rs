@@ -14,9 +14,9 @@ use crate::decomposition::ghosts::{Needs, RankBox};
 pub struct Halo {
     ranks: usize,
     owned: Vec<usize>,
-    /// How many go to (first) from (second).
+    /// Number of copies to (first) from (second).
     sent: BTreeMap<[u32; 2], usize>,
-    /// How many each rank sends.
+    /// Number of copies that each rank sends.
     given: Vec<usize>,
 }
 
@@ -83,7 +83,7 @@ impl Halo {
         self.to(rank).map(|([_, from], _)| *from as usize).collect()
     }
 
-    /// What goes to a rank.
+    /// Copies for a rank.
     fn to(&self, rank: usize) -> impl Iterator<Item = (&[u32; 2], &usize)> {
         let rank = rank as u32;
         self.sent.range([rank, 0]..=[rank, u32::MAX])

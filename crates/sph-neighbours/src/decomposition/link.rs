@@ -26,7 +26,7 @@ pub(crate) struct Partners {
 pub(crate) struct Link {
     pub transport: Arc<dyn Transport>,
     pub partners: RwLock<Partners>,
-    /// How often a stage goes from particles to their neighbours.
+    /// Number of times that a stage goes from particles to their neighbours.
     pub rings: usize,
     /// Whether all ranks have got the failure at hand.
     told: AtomicBool,
@@ -119,7 +119,7 @@ impl Link {
         }
     }
 
-    /// What `pack` makes of the particles that others have copies of, by their ranks.
+    /// Results of `pack` for the particles that others have copies of, by their ranks.
     fn packed(&self, pack: impl Fn(&[u32]) -> Vec<u8>) -> Vec<(usize, Vec<u8>)> {
         let partners = self.partners();
         let sends = partners.sends.iter();

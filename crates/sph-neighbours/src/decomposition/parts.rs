@@ -20,7 +20,7 @@ const BUILDS_TO_LOOK: u64 = 20;
 /// Imbalance from which the space is cut anew: the largest share over the mean, less one.
 const UNEVEN: f64 = 0.05;
 
-/// What has been sent so far.
+/// Data sent so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
     /// Messages to neighbours.
@@ -109,7 +109,7 @@ impl<const D: usize> Parts<D> {
         self.link.transport.rank() == 0
     }
 
-    /// What has been sent so far.
+    /// Data sent so far.
     pub fn traffic(&self) -> Traffic {
         Traffic {
             messages: self.link.messages.load(Ordering::Relaxed),
@@ -119,7 +119,7 @@ impl<const D: usize> Parts<D> {
         }
     }
 
-    /// How the particles are divided.
+    /// The division of the particles.
     pub fn divided(&self, free: &Store<D>) -> Divided {
         let partners = self.link.partners();
         let count = |all: &[Partner]| all.iter().map(|(_, slots)| slots.len()).sum::<usize>();

@@ -72,7 +72,7 @@ impl Transport for Thread {
 mod tests {
     use super::*;
 
-    /// What every rank finds.
+    /// Results of every rank.
     fn each<T: Send>(ranks: usize, work: impl Fn(&Thread) -> T + Sync) -> Vec<T> {
         std::thread::scope(|scope| {
             let communicator = Thread::communicator(ranks);

@@ -20,7 +20,7 @@ pub trait Transport: Send + Sync + Debug {
     /// The number of this rank, from 0.
     fn rank(&self) -> usize;
 
-    /// How many ranks there are.
+    /// Number of ranks.
     fn ranks(&self) -> usize;
 
     /// Sends each message to its rank, and receives one from every rank of `from`, in their order. A rank that is sent

@@ -18,7 +18,7 @@ pub struct Failure {
     pub time: f64,
     /// Step.
     pub step: u64,
-    /// What went wrong, where.
+    /// The error and its place.
     pub cause: StepError,
     /// The first step that failed, which a shorter one may have got over for a while.
     pub first: Trouble,
@@ -51,7 +51,7 @@ pub enum RunError {
     Resume {
         /// The checkpoint.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         reason: String,
     },
 }

@@ -12,7 +12,7 @@ const NEAR: f64 = 4.0;
 /// The entry `failure` of `summary.json`. Numbers that are not finite are null.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Findings {
-    /// What ended the run.
+    /// The cause of the run's end.
     pub cause: Trouble,
     /// Roll-backs before it was given up.
     pub retries: u32,
@@ -22,11 +22,11 @@ pub struct Findings {
     pub limiter: String,
     /// The particle at fault, or the one with the largest acceleration where none is named.
     pub particle: Option<Suspect>,
-    /// What acted on it at the last good state, largest first.
+    /// Terms that acted on it at the last good state, largest first.
     pub before: Vec<Share>,
-    /// What acted on it at the bad state, largest first; empty where it is not known.
+    /// Terms that acted on it at the bad state, largest first; empty where they are not known.
     pub after: Vec<Share>,
-    /// What to try.
+    /// Remedies.
     pub advice: Vec<String>,
     /// Files that show the bad state, and the checkpoint of the last good one, relative to the run's folder.
     pub files: Vec<String>,
@@ -68,12 +68,12 @@ pub struct Sighting {
     pub wall: Option<(String, f64)>,
 }
 
-/// What a term does to the particle.
+/// Action of a term on the particle.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Share {
     /// The term.
     pub term: String,
-    /// What plugin of the scene it comes from, as in `viscous-operator`; empty for gravity.
+    /// The plugin of the scene that it comes from, as in `viscous-operator`; empty for gravity.
     pub kind: String,
     /// |a|, m/s².
     pub acceleration: Option<f64>,
@@ -132,13 +132,13 @@ pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Opti
     worst.map(|k| (k, false))
 }
 
-/// Where the particle of a number is now.
+/// The present place of the particle of a number.
 pub(crate) fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<usize> {
     let identity = flow.world.free.get(fields::IDENTITY).ok()?;
     identity.iter().position(|i| *i == number)
 }
 
-/// What acts on a particle at the state of the last evaluation, largest first.
+/// Terms that act on a particle at the state of the last evaluation, largest first.
 pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
     let terms = shares_at(&flow.world, &flow.forces(), particle).unwrap_or_default();
     let of = |share| Share::new(share, &flow.kinds);

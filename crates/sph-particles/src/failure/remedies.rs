@@ -16,7 +16,7 @@ const LARGE: f64 = 100.0;
 /// Distance over the spacing below which two particles are too close.
 const CLOSE: f64 = 0.3;
 
-/// What to try: what helps against the quantity first, then against the largest term, then against the step.
+/// Remedies: against the quantity first, then against the largest term, then against the step.
 pub fn remedies(
     scene: &Scene,
     cause: &StepError,

@@ -165,7 +165,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Where a particle is, or was before it left the domain.
+    /// The place of a particle, or its last one before it left the domain.
     fn place(&self, number: u32) -> Option<Vect<D>> {
         let flow = &self.shown().flow;
         let now = flow.world.free.get(fields::POSITION).ok()?[place_of(flow, number)?];

@@ -19,7 +19,7 @@ const LIQUID: f64 = 0.1;
 /// The bound of sound, by the name that [`SoundLimit`](sph_contribution::SoundLimit) gives it.
 const SOUND: &str = "sound";
 
-/// What a run cost, and why.
+/// Cost of a run, and its reasons.
 pub struct Costs<'a> {
     /// Steps taken.
     pub steps: u64,

@@ -125,7 +125,7 @@ fn cited(source: &str) -> Option<String> {
     })
 }
 
-/// Which of a reference's times a picture shows: those to a little beyond the end of the run, or all if there are none.
+/// Times of a reference that a picture shows: those to a little beyond the end of the run, or all if there are none.
 fn shown(times: &[f64], end: f64) -> Vec<usize> {
     let shown = (0..times.len()).filter(|k| times[*k] <= end * (1.0 + BEYOND));
     match shown.collect::<Vec<_>>() {

@@ -129,7 +129,7 @@ fn counts(reference: &Reference, t: f64) -> bool {
     inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)
 }
 
-/// What is averaged over the rows that count: the error itself, the value, the period.
+/// Means over the rows that count: the error itself, the value, the period.
 fn averaged(reference: &Reference, times: &[f64], values: &[f64]) -> Result<ErrorEntry, String> {
     let rows = times.iter().zip(values);
     let rows = rows.filter(|(t, v)| counts(reference, **t) && v.is_finite());

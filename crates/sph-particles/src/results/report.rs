@@ -97,7 +97,7 @@ impl<const D: usize> Running<'_, D> {
         })
     }
 
-    /// What has left by whatever the scene names, and by the border of the domain if anything did.
+    /// Particles that left by whatever the scene names, and by the border of the domain if anything did.
     fn left(&self) -> BTreeMap<String, OutletTotals> {
         let flow = &self.parts.flow;
         let named = flow.outlets.labels().len();
@@ -131,7 +131,7 @@ impl<const D: usize> Running<'_, D> {
         [limited.map(share).collect(), means]
     }
 
-    /// What would make the run shorter.
+    /// Advice for a shorter run.
     fn advise(
         &self,
         wall_seconds: f64,

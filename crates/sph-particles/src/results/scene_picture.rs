@@ -23,7 +23,7 @@ const TICKS: usize = 160;
 /// Length of ticks and half the width of crosses over the spacing, and over the width of the scene at least.
 const LENGTH: f64 = 1.5;
 const SHARE: f64 = 0.008;
-/// How far outside of the scene a line may be and be shown, over the width of the scene.
+/// Largest distance of a shown line from the scene, over the width of the scene.
 const FAR: f64 = 0.25;
 
 /// Draws walls with ticks to the fluid's side, particles by their phases, open faces, outlets, probes, and ends of walls that
@@ -203,7 +203,7 @@ impl<const D: usize> Notes<D> {
         }
     }
 
-    /// What of a probe has a place: a point, a line, a box, a gauge that stands upright.
+    /// Parts of a probe that have a place: a point, a line, a box, a gauge that stands upright.
     fn probe(&mut self, name: &str, table: &Table) {
         let list = |key: &str| table.get(key).and_then(lengths);
         let place = |key: &str| {

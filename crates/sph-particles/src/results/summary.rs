@@ -27,11 +27,11 @@ pub struct ErrorEntry {
     pub samples: usize,
     /// First and last time compared, s.
     pub window: [f64; 2],
-    /// What it was compared with.
+    /// The reference of the comparison.
     pub against: String,
 }
 
-/// What one of several ranks had, at the end of a run.
+/// Data of one of several ranks, at the end of a run.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct RankShare {
     /// Particles that it owned.
@@ -44,7 +44,7 @@ pub struct RankShare {
     pub bytes_per_step: f64,
     /// Particles that went from it to others during the run.
     pub moved: u64,
-    /// What the flow's part held at the end, bytes; on the first without the columns of the whole.
+    /// Memory of the flow's part at the end, bytes; on the first without the columns of the whole.
     #[serde(default)]
     pub memory_bytes: f64,
 }
@@ -70,7 +70,7 @@ pub struct Summary {
     pub schema_version: u32,
     /// Title of the scene.
     pub scene: String,
-    /// How it ended.
+    /// The way it ended.
     pub status: Status,
     /// Version of the program.
     pub version: String,
@@ -108,7 +108,7 @@ pub struct Summary {
     pub nanoseconds_per_pair: f64,
     /// Bytes of the columns per particle.
     pub bytes_per_particle: usize,
-    /// What the memory went to, bytes.
+    /// Memory by its use, bytes.
     #[serde(default)]
     pub memory: Memory,
     /// Builds of the neighbour lists.
@@ -143,7 +143,7 @@ pub struct Summary {
     pub density_constant_range: Option<[f64; 2]>,
     /// Particles behind a wall at the end.
     pub escaped: usize,
-    /// What has left by outlets, by `outlet.NAME.PHASE`.
+    /// Particles and mass that left by outlets, by `outlet.NAME.PHASE`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub left: BTreeMap<String, OutletTotals>,
     /// The relaxation of the first particles, if the scene has one.

@@ -327,7 +327,7 @@ fn set_clock<const D: usize>(
     Ok(())
 }
 
-/// What cannot be in a state of this scene, though the file is whole: numbers of particles and phases
+/// Errors of a state that is none of this scene, though the file is whole: numbers of particles and phases
 /// that there are none of, places that are none.
 fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>, RunError> {
     let free = &flow.world.free;

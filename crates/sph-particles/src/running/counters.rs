@@ -27,7 +27,7 @@ pub(crate) struct Counters {
     /// Highest energy, largest Mach number and largest share of fast mass of all rows; an earlier version wrote fewer.
     #[serde(default)]
     pub(crate) series_peaks: Option<Vec<u64>>,
-    /// What the watch on energy has seen.
+    /// State of the watch on energy.
     #[serde(default)]
     pub(crate) energies: Option<[u64; 5]>,
     #[serde(default)]
@@ -48,10 +48,10 @@ pub(crate) struct Counters {
     /// Mass (as bits) and number of particles that have left, by outlet and phase.
     #[serde(default)]
     pub(crate) left: Vec<[u64; 2]>,
-    /// What the work within steps has counted so far, by its name.
+    /// Counts of the work within steps so far, by its name.
     #[serde(default)]
     pub(crate) works: BTreeMap<String, Json>,
-    /// What probes have gathered so far, bit by bit, by their names.
+    /// Sums of probes so far, bit by bit, by their names.
     #[serde(default)]
     pub(crate) probes: BTreeMap<String, Vec<u64>>,
     /// Most bytes of the system that each stage has solved so far.
@@ -69,7 +69,7 @@ pub(crate) const MOST: u64 = 1 << 53;
 const ROUNDING: f64 = 1e-9;
 
 impl Counters {
-    /// What the driver counts, at a time (s).
+    /// Counts of the driver, at a time (s).
     pub(crate) fn books(&self, time: f64) -> RunCounters {
         RunCounters {
             time,
@@ -105,7 +105,7 @@ impl Counters {
         }
     }
 
-    /// Why no run of the scene can have counted so at a time, if none can.
+    /// The error of counts that no run of the scene can have at a time.
     ///
     /// A checkpoint with right checksums may be of any origin. Counts that decide what is done
     /// next must fit the time; others need only be such that counting on is possible.
@@ -197,7 +197,7 @@ impl Counters {
         (time / every * (1.0 + ROUNDING)).floor() as u64 + 1
     }
 
-    /// What is counted in intervals of the scene, for a scene whose intervals may be others than before.
+    /// Counts in intervals of the scene, for a scene whose intervals may be others than before.
     pub(crate) fn recount(&mut self, scene: &Scene, time: f64) {
         if let Some(last) = self.last_row.map(f64::from_bits) {
             self.rows = (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;

@@ -44,7 +44,7 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) departure: DepartureWatch,
     /// Every rank's share, on the first at the end.
     pub(crate) shares: Vec<RankShare>,
-    /// What the particles of all ranks have near them, at the end.
+    /// Neighbours of the particles of all ranks, at the end.
     pub(crate) around: Nearby,
 }
 

@@ -61,7 +61,7 @@ impl DepartureWatch {
         }
     }
 
-    /// What stands in the summary: warnings, and advice.
+    /// Lines of the summary: warnings, and advice.
     pub fn remarks(&self) -> (Vec<String>, Vec<String>) {
         let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find the force that throws it \
                     (the probe `wall-force` measures the force of the fluid)";
@@ -76,7 +76,7 @@ impl DepartureWatch {
         )
     }
 
-    /// Why the run ends, if a body is no longer in the domain.
+    /// The reason for the run's end, if a body is no longer in the domain.
     pub fn verdict(&self) -> Option<StepError> {
         let (name, time) = self.gone.as_ref()?;
         Some(StepError::Stage {

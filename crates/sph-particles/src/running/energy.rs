@@ -65,7 +65,7 @@ impl EnergyWatch {
         }
     }
 
-    /// What a run that is resumed needs.
+    /// State for a run that is resumed.
     pub fn bits(&self) -> Option<[u64; 5]> {
         self.so_far.map(|all| all.map(f64::to_bits))
     }
@@ -104,7 +104,7 @@ impl EnergyWatch {
         (self.share > TOLD).then(|| [self.message(), advice])
     }
 
-    /// Why the run has no result, if it made too much energy.
+    /// The error of a run that made too much energy.
     pub fn verdict(&self) -> Option<StepError> {
         (self.share > GROSS).then(|| StepError::Stage {
             stage: "energy".into(),

@@ -36,7 +36,7 @@ impl MachWatch {
         ))
     }
 
-    /// Why the run ends, if too much of it is faster than sound and the scene does not allow that.
+    /// The reason for the run's end, if too much of it is faster than sound and the scene does not allow that.
     pub fn verdict(&self, scene: &Scene) -> Option<StepError> {
         let share = self.supersonic.filter(|_| !scene.numerics.supersonic)?;
         Some(StepError::Stage {

@@ -51,7 +51,7 @@ pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outla
 }
 
 impl Outputs {
-    /// What a scene shows, whose fluid at rest has a pressure (Pa).
+    /// Pictures of a scene whose fluid at rest has a pressure (Pa).
     pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
         Outputs {
             fields: scene.output.fields.clone(),

@@ -18,7 +18,7 @@ use crate::running::course::Running;
 use crate::running::output::shows_depths;
 use crate::setup::{Assembled, Memory, Share, assemble_share};
 
-/// What a process assembles: on ranks only where particles settle first does each hold the whole for a while.
+/// The part that a process assembles: on ranks only where particles settle first does each hold the whole for a while.
 pub(crate) fn share<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
@@ -69,7 +69,7 @@ fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
 }
 
 impl<const D: usize> Running<'_, D> {
-    /// What is shown and measured: the whole flow, where this process has it.
+    /// The particles that are shown and measured: the whole flow, where this process has it.
     pub(crate) fn shown(&self) -> &Assembled<D> {
         self.whole.as_ref().unwrap_or(&self.parts)
     }

@@ -6,7 +6,7 @@ use crate::failure::error::RunError;
 use crate::results::balance::Balance;
 use crate::setup::Probes;
 
-/// What the rows have seen so far.
+/// Extremes of the rows so far.
 #[derive(Clone, Copy, Debug)]
 pub struct Extrema {
     /// Least and largest density ratio over all rows.

@@ -162,7 +162,7 @@ impl<const D: usize> Stepper<D> {
         Ok(self.steps - before)
     }
 
-    /// What every probe measures now: name with suffix, unit, value.
+    /// Present values of every probe: name with suffix, unit, value.
     ///
     /// # Errors
     /// If a column is missing, or the state is bad.

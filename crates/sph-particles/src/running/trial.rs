@@ -15,7 +15,7 @@ const FEWEST: usize = 32;
 /// estimate.
 const SETTLED: f64 = 0.1;
 
-/// What the first steps of a scene took.
+/// Cost of the first steps of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
     /// Steps that were timed.

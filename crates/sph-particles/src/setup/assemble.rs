@@ -32,7 +32,7 @@ use crate::setup::start::{Start, phases_of_bodies, start};
 use crate::setup::wall_speeds::speeds;
 use crate::setup::{lattices, movers, open_faces, variable_gravity};
 
-/// How far the fastest point of a wall goes within a step, over the spacing: two that meet close half a spacing.
+/// Way of the fastest point of a wall within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
 
 /// A flow with everything a run needs besides.
@@ -159,7 +159,7 @@ fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
     Ok(choices)
 }
 
-/// What is odd about the places of the particles, which are brought into the box.
+/// Warnings about the places of the particles, which are brought into the box.
 fn remarks<const D: usize>(
     scene: &Scene,
     ground: &Ground,
@@ -173,7 +173,7 @@ fn remarks<const D: usize>(
     Ok(all)
 }
 
-/// What newborn particles begin with, where some may come in.
+/// Initial values of newborn particles, where some may come in.
 fn nursery<const D: usize>(
     scene: &Scene,
     formulation: Arc<dyn Formulation<D>>,
@@ -199,7 +199,7 @@ fn wall_speeds<const D: usize>(
     }
 }
 
-/// What a plan is about, before there is one.
+/// Input of a plan, before there is one.
 struct About<'a, const D: usize> {
     scene: &'a Scene,
     formulation: &'a dyn Formulation<D>,

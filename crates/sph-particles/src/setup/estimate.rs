@@ -99,7 +99,7 @@ fn memory_available() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// How large a scene is, known before memory is touched.
+/// Size of a scene, known before memory is touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
     /// About how many free particles, counted in the boxes around the bodies.
@@ -137,7 +137,7 @@ impl Size {
     }
 }
 
-/// How large a scene is; its walls are drawn for it, and files of walls are read.
+/// Size of a scene; its walls are drawn for it, and files of walls are read.
 ///
 /// # Errors
 /// If a wall or a body cannot be drawn.

@@ -77,11 +77,11 @@ pub struct Examination {
     pub wall_elements: usize,
     /// Mean number of true neighbours.
     pub neighbours: f64,
-    /// What it will cost.
+    /// Its expected cost.
     pub estimate: Estimate,
     /// Pairs in the sweeps of all steps: a measure of a run without a machine.
     pub pairs: f64,
-    /// What its memory goes to.
+    /// Its memory by use.
     pub memory: Memory,
     /// The relaxation of the first particles, if the scene has one.
     pub relaxation: Option<Relaxation>,
@@ -184,7 +184,7 @@ pub fn examine_in<const D: usize>(
     Ok((examined, assembled))
 }
 
-/// What a run holds: the forces are evaluated once, and the first matrix is put together.
+/// Memory of a run: the forces are evaluated once, and the first matrix is put together.
 fn memory<const D: usize>(
     scene: &Scene,
     flow: &mut Flow<D>,

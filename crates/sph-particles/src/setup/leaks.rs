@@ -17,7 +17,7 @@ const UPRIGHT: f64 = 0.1;
 /// A wall behind which fluid can get.
 #[derive(Clone, Debug)]
 pub struct Leak<const D: usize> {
-    /// Where in the scene the wall is, the wall, what is wrong, and what to do.
+    /// The place in the scene, the wall, the defect and its remedy.
     pub text: String,
     /// Places of it, m.
     pub places: Vec<Vect<D>>,
@@ -71,7 +71,7 @@ impl<const D: usize> About<'_, D> {
         Leak { text, places }
     }
 
-    /// What is wrong with an end of a wall, if anything is.
+    /// The defect of an end of a wall, if it has one.
     fn rim(&self, rim: &Rim<D>) -> Option<Leak<D>> {
         let points = &self.walls.points.position;
         let wall = |node: usize| self.walls.points.wall[node] as usize;
@@ -167,7 +167,7 @@ impl<const D: usize> About<'_, D> {
         }
     }
 
-    /// Where a rim is.
+    /// The place of a rim.
     fn ends(&self, rim: &Rim<D>) -> String {
         let points = &self.walls.points.position;
         match D {
@@ -223,7 +223,7 @@ impl<const D: usize> About<'_, D> {
         at.map(off).fold(apart.norm(), f64::min)
     }
 
-    /// How high the fluid reaches at the start, along the direction against gravity, m.
+    /// Highest level of the fluid at the start, along the direction against gravity, m.
     fn level(&self) -> f64 {
         let Some(up) = self.up else {
             return f64::INFINITY;
@@ -255,7 +255,7 @@ impl<const D: usize> About<'_, D> {
 }
 
 impl<const D: usize> Rim<D> {
-    /// How wide it is, m.
+    /// Its width, m.
     fn size(&self, points: &[Vect<D>], domain: &sph_neighbours::Domain<D>) -> f64 {
         match (D, self.nodes.as_slice()) {
             (2, [last, first]) => domain.nearest(points[*first] - points[*last]).norm(),
@@ -272,7 +272,7 @@ fn within<const D: usize>(skin: &Skin<D>, x: &Vect<D>) -> bool {
     (0..D).all(|k| skin.low[k] <= x[k] && x[k] <= skin.high[k])
 }
 
-/// How a wall is closed.
+/// The way to close a wall.
 fn closing<const D: usize>() -> &'static str {
     match D {
         2 => " (`closed = true`)",

@@ -6,9 +6,9 @@ use sph_neighbours::{Clusters, Contact, NeighbourList, World};
 use sph_scene::Scene;
 use sph_solver::Flow;
 
-/// What lists keep free for longer rows: they are cut to a sixteenth more than they need.
+/// Room that lists keep free for longer rows: they are cut to a sixteenth more than they need.
 const SPARE: f64 = 17.0 / 16.0;
-/// What vectors that grow by doubling hold over what they need, in the mean.
+/// Excess of vectors that grow by doubling over what they need, in the mean.
 const GROWN: f64 = 1.5;
 /// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with what
 /// an allocator counted in two and three dimensions.
@@ -20,7 +20,7 @@ const PIXELS: f64 = 1200.0 * 850.0;
 const BYTES_OF_RELIEF: f64 = 0.75 * 32.0;
 /// Bytes of a pixel while a picture is drawn and encoded: once each.
 const BYTES_PER_PIXEL: f64 = 8.0;
-/// What solves keep over the matrix.
+/// Memory that solves keep over the matrix.
 const SHARES: f64 = 2.0 + 2.0 * 2.0 / 3.0;
 /// Bytes of a place of a particle for pictures and files: three coordinates and a value.
 const BYTES_PER_PLACE: f64 = 32.0;

@@ -16,7 +16,7 @@ use crate::setup::shapes::Drawn;
 use crate::setup::tension;
 use crate::setup::tension::Filled;
 
-/// How far in front of a port the room of a particle is looked at, over the spacing.
+/// Distance in front of a port in which the room of a particle is looked at, over the spacing.
 const ROOM: f64 = 0.5;
 
 /// Opens the walls of a scene that have a law for it; takes the laws out of the choices.

@@ -24,7 +24,7 @@ pub struct Placed<const D: usize> {
     pub warnings: Vec<String>,
 }
 
-/// Where a place is, as the walls see it.
+/// Side of a place, as the walls see it.
 enum Site<'a, const D: usize> {
     Fluid,
     TooNear,

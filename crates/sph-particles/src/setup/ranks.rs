@@ -24,7 +24,7 @@ pub struct RankUse {
     pub partners: Vec<usize>,
 }
 
-/// What is sent after a stage.
+/// Columns sent after a stage.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExchangeUse {
     /// The stage.
@@ -42,7 +42,7 @@ pub struct Ranks {
     pub ranks: Vec<RankUse>,
     /// Largest cost over the mean, less one.
     pub imbalance: f64,
-    /// What is sent after which stage.
+    /// Columns sent after each stage.
     pub exchanges: Vec<ExchangeUse>,
     /// Bytes per ghost in an evaluation.
     pub bytes_per_ghost: usize,

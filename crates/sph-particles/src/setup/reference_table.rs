@@ -33,7 +33,7 @@ pub fn reference_table(reference: &Reference, path: &Path) -> Result<Table, IoEr
     }
 }
 
-/// Why nothing can be compared with a table.
+/// Errors of a table that cannot be compared with.
 fn unfit(table: &Table, band: bool) -> Option<String> {
     let used = if band { 3 } else { 2 };
     let columns = &table.columns[..used.min(table.columns.len())];

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What relaxing did; errors are |Σ θ V w / γ − 1| with the volume V that a particle ends up with.
+/// Results of a relaxation; errors are |Σ θ V w / γ − 1| with the volume V that a particle ends up with.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Relaxation {
     /// Steps taken.

@@ -18,7 +18,7 @@ pub(crate) struct Skin<const D: usize> {
     pub open: bool,
 }
 
-/// Where skins end: two ends in the plane, the edges around a hole in space.
+/// Ends of skins: two ends in the plane, the edges around a hole in space.
 pub(crate) struct Rim<const D: usize> {
     /// The skins, one or two.
     pub skins: [usize; 2],

@@ -8,7 +8,7 @@ use sph_neighbours::WallSet;
 use sph_neighbours::decomposition::{PartError, Transport};
 use sph_solver::{Flow, SolverError};
 
-/// How much of a flow a process begins with.
+/// The part of a flow that a process begins with.
 pub enum Share<const D: usize> {
     /// All of it.
     Whole,

@@ -15,7 +15,7 @@ use crate::setup::relaxation::Relaxation;
 use crate::setup::shapes::Drawn;
 use crate::setup::share::{Share, all_ready, refuse_the_indivisible};
 
-/// What the first state of all particles is made from.
+/// Input of the first state of all particles.
 pub(crate) struct Start<'a, const D: usize> {
     /// The scene.
     pub scene: &'a Scene,
@@ -25,7 +25,7 @@ pub(crate) struct Start<'a, const D: usize> {
     pub body_of: &'a [u32],
     /// Initial fields, by the body's name.
     pub initial: &'a [(String, Box<dyn Solution<D>>)],
-    /// What density is.
+    /// The formulation of density.
     pub formulation: &'a dyn Formulation<D>,
     /// Columns that contributions bring along.
     pub columns: &'a [OwnColumn<D>],

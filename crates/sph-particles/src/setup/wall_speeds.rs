@@ -17,9 +17,9 @@ const SPEEDS: [f64; 2] = [1.0, 10.0];
 
 /// Problems and remarks.
 pub struct Speeds {
-    /// What is refused.
+    /// Refusals.
     pub refused: Vec<SceneProblem>,
-    /// What is said.
+    /// Remarks.
     pub remarks: Vec<String>,
 }
 

@@ -13,7 +13,7 @@ use crate::step::snapshot::Snapshot;
 use crate::step::stages::WALL_STATE;
 use crate::step::variable_gravity::VariableGravity;
 
-/// What a flow is made of besides its plan.
+/// Parts of a flow besides its plan.
 pub struct FlowInputs<const D: usize> {
     /// The walls, if there are any.
     pub walls: Option<Box<dyn Wall<D>>>,
@@ -21,9 +21,9 @@ pub struct FlowInputs<const D: usize> {
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub kinematic_viscosities: Vec<f64>,
-    /// What gravity changes by, if it does.
+    /// The change of gravity, if there is one.
     pub swing: Option<VariableGravity<D>>,
-    /// Where particles leave.
+    /// The outlets.
     pub outlets: Outlets,
     /// The scalar with its rate that the formulation integrates.
     pub density: Evolved,

@@ -21,7 +21,7 @@ pub struct Choices<const D: usize> {
     pub integrator: Box<dyn Integrator>,
     /// The treatment of walls; none without walls.
     pub walls: Option<Box<dyn Wall<D>>>,
-    /// What moves walls, by the wall's name.
+    /// Movers of walls, by the wall's name.
     pub movers: Vec<(String, Box<dyn Mover<D>>)>,
     /// Laws of open faces, by the wall's name.
     pub open: Vec<(String, Box<dyn OpenBoundary<D>>)>,
@@ -62,7 +62,7 @@ pub fn own_accounts(scene: &Scene) -> Vec<&'static str> {
         .collect()
 }
 
-/// What a scene names for things with names of their own.
+/// Choices of a scene for things with names of their own.
 fn named<T>(
     names: impl IntoIterator<Item = impl ToString>,
     choice: impl Fn(&str) -> Option<T>,

@@ -17,7 +17,7 @@ use crate::step::stages::{InteractionSweep, Work};
 /// Pair terms shared by the sweep and measurements with them.
 pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
 
-/// What is run, what is not, and with which pair terms.
+/// The works that run, those that do not, and the pair terms.
 pub struct Planned<const D: usize> {
     /// Stages in order.
     pub stages: Vec<Work<D>>,
@@ -25,27 +25,27 @@ pub struct Planned<const D: usize> {
     pub pruned: Vec<String>,
     /// The pair terms of the sweep.
     pub terms: SharedTerms<D>,
-    /// What plugin every term comes from, by the term's name.
+    /// The plugin of every term, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
     /// Work within a step, in order.
     pub hooks: Hooks<D>,
     /// All other pieces.
     pub offer: Offer<D>,
-    /// What to change where a term of a kind has thrown a particle about, or where a stage has failed.
+    /// Remedies where a term of a kind has thrown a particle about, or where a stage has failed.
     pub remedies: Vec<(&'static str, String)>,
     /// Rates that the sweep sums besides those of the formulation, in the order of their slots.
     pub transported: Vec<AnyField>,
 }
 
-/// What a plan is made from.
+/// Input of a plan.
 pub struct Planning<'a, const D: usize> {
     /// The scene.
     pub scene: &'a Scene,
-    /// What contributions learn of it.
+    /// The part of it that contributions see.
     pub setting: &'a Setting<'a, D>,
     /// The walls, if there are any.
     pub walls: Option<&'a dyn Wall<D>>,
-    /// How density diffusion reaches what the formulation integrates.
+    /// The way from density diffusion to what the formulation integrates.
     pub diffused: Diffused,
     /// Names of columns that outputs show and probes measure.
     pub shown: &'a [String],
@@ -141,7 +141,7 @@ impl<const D: usize> Planning<'_, D> {
         SolverError::at(path, refusal.why)
     }
 
-    /// What stages and terms read, probes measure and outputs show.
+    /// Columns that stages and terms read, probes measure and outputs show.
     fn read(&self, stages: &[Work<D>], by_terms: Vec<AnyField>) -> Vec<AnyField> {
         let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
         let shown = gradients

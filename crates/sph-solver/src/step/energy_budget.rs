@@ -76,12 +76,12 @@ pub struct EnergyBudget<const D: usize> {
     before: Vec<Vect<D>>,
     /// Velocities as booked, m/s.
     velocity: Vec<Vect<D>>,
-    /// What work has added to velocities in this kick, m/s, and to densities, kg/m³.
+    /// Changes of velocities in this kick by work, m/s, and to densities, kg/m³.
     turns: Vec<(Account, Vec<Vect<D>>)>,
     changes: Vec<(Account, Vec<f64>)>,
     /// Rates of all classes before the kick.
     rates: Vec<[ClassRate<D>; MOST]>,
-    /// What the formulation integrates, as booked.
+    /// The integrated quantity of the formulation, as booked.
     scalar: Vec<f64>,
     /// Densities as booked, kg/m³.
     density: Vec<f64>,

@@ -61,7 +61,7 @@ pub struct Flow<const D: usize> {
     pub stored: Vec<Box<dyn StoredEnergy<D>>>,
     /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
-    /// What all of these declare.
+    /// Declarations of all of these.
     pub(crate) columns: Columns,
     /// Whether particles moved since the last evaluation.
     pub moved: bool,
@@ -79,20 +79,20 @@ pub struct Flow<const D: usize> {
     pub kinematic_viscosities: Vec<f64>,
     /// The pair terms of the interaction sweep.
     pub(crate) terms: Arc<[Box<dyn Interaction<D>>]>,
-    /// What plugin every term comes from, by the term's name.
+    /// The plugin of every term, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
-    /// What to change where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
+    /// Remedies where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
     pub remedies: Vec<(&'static str, String)>,
     pub(crate) timings: Vec<Timing>,
-    /// What gravity changes by, if it does.
+    /// The change of gravity, if there is one.
     pub(crate) swing: Option<VariableGravity<D>>,
-    /// Where particles leave.
+    /// The outlets.
     pub outlets: Outlets,
-    /// What newborn particles begin with, where some may come in.
+    /// Initial values of newborn particles, where some may come in.
     pub nursery: Option<NewParticleDefaults<D>>,
     /// Observers of the boundaries within a step, where a probe needs one.
     pub(crate) observers: Vec<Box<dyn Observer<D>>>,
-    /// What this process has of a flow that is divided between several.
+    /// The part of this process of a flow that is divided between several.
     pub parts: Option<Parts<D>>,
 }
 
@@ -284,14 +284,14 @@ impl<const D: usize> Flow<D> {
         self.hooks.all.iter().map(|h| h.hook.report(&self.world))
     }
 
-    /// What hooks have counted, by their names.
+    /// Counts of hooks, by their names.
     pub fn counts(&self) -> BTreeMap<String, Json> {
         let all = self.hooks.all.iter().zip(self.reports());
         all.filter_map(|(h, report)| Some((h.hook.name(), report.counts?)))
             .collect()
     }
 
-    /// What hooks have counted, by the keys of the summary.
+    /// Counts of hooks, by the keys of the summary.
     pub fn counts_of_summary(&self) -> BTreeMap<String, Json> {
         let keyed = |report: Report| Some((report.summary?.into(), report.counts?));
         self.reports().filter_map(keyed).collect()

@@ -184,7 +184,7 @@ impl<const D: usize> Flow<D> {
         Ok(leavers.iter().map(|leaver| leaver.position).collect())
     }
 
-    /// What a resumed run has counted: mass as bits, and particles.
+    /// Counts of a resumed run: mass as bits, and particles.
     pub fn recount(&mut self, left: &[[u64; 2]]) {
         let mut taken = self.world.free.removed().to_vec();
         for (count, [mass, particles]) in taken.iter_mut().zip(left) {
@@ -198,7 +198,7 @@ impl<const D: usize> Flow<D> {
         self.world.free.removed().iter().map(|t| t.mass).sum()
     }
 
-    /// What has left, by the labels of the outlets and phases.
+    /// Mass and particles that left, by the labels of the outlets and phases.
     pub fn left(&self) -> impl Iterator<Item = (&String, OutletTotals)> {
         let taken = self.world.free.removed().iter().map(|t| OutletTotals {
             mass: t.mass,

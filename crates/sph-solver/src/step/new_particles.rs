@@ -6,7 +6,7 @@ use sph_contribution::OwnColumn;
 use sph_multiphase::Formulation;
 use sph_scene::Scene;
 
-/// What newborn particles begin with.
+/// Initial values of newborn particles.
 pub struct NewParticleDefaults<const D: usize> {
     pub(crate) formulation: Arc<dyn Formulation<D>>,
     /// Columns that contributions bring along.

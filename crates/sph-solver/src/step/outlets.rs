@@ -15,7 +15,7 @@ pub struct Outlets {
     pub(crate) border: Option<usize>,
 }
 
-/// What has left by an outlet of a phase.
+/// Mass and particles of a phase that left by an outlet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OutletTotals {
     /// Mass, kg (per metre of depth in 2D).

@@ -21,7 +21,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// How often a stage goes from particles to their neighbours.
+    /// Number of times that a stage goes from particles to their neighbours.
     pub fn rings(&self) -> usize {
         let hooks = self.hooks.all.iter().map(|hook| &hook.access);
         let all = self.columns.stages.iter().chain(hooks);
@@ -29,7 +29,7 @@ impl<const D: usize> Flow<D> {
         all.fold(1, usize::max)
     }
 
-    /// Why the flow cannot be divided between ranks, if it cannot.
+    /// The reason why the flow cannot be divided between ranks, if it cannot.
     pub fn indivisible(&self) -> Option<String> {
         let mut all = self.stages.iter().filter_map(|work| work.stage());
         let (name, why) = all.find_map(|stage| Some((stage.name(), stage.needs_all()?)))?;

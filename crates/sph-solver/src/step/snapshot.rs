@@ -51,14 +51,14 @@ impl<const D: usize> Snapshot<D> {
         free.save_state(&mut self.columns)
     }
 
-    /// Where the particle of a number was.
+    /// The earlier place of the particle of a number.
     pub fn position_of(&self, number: u32) -> Option<Vect<D>> {
         let identity = self.columns.get(fields::IDENTITY);
         let place = identity.iter().position(|i| *i == number)?;
         self.columns.get(fields::POSITION).get(place).copied()
     }
 
-    /// Where every particle of now is in the copy; `None` if the order is the same.
+    /// The place of every present particle in the copy; `None` if the order is the same.
     pub(crate) fn places(&self, free: &Store<D>) -> Result<Option<Vec<u32>>, FieldError> {
         let now = free.get(fields::IDENTITY)?;
         let then = self.columns.get(fields::IDENTITY);

@@ -24,7 +24,7 @@ pub enum Work<const D: usize> {
     },
     /// Pressures and volumes at the walls.
     WallState,
-    /// What a piece of physics brings along.
+    /// Stages and terms of a piece of physics.
     Stage(Box<dyn Stage<World<D>>>),
 }
 
@@ -93,7 +93,7 @@ impl<const D: usize> Declares for Work<D> {
 pub struct InteractionSweep<const D: usize> {
     /// The terms, fused where a fusion is registered.
     terms: Arc<[Box<dyn Interaction<D>>]>,
-    /// What density diffusion changes, if there is any.
+    /// The column that density diffusion changes, if there is any.
     diffused: Option<Diffused>,
     /// Whether walls exist.
     walls: bool,

@@ -7,11 +7,11 @@ use sph_core::Vect;
 pub struct VariableGravity<const D: usize> {
     /// Motion of the frame.
     pub frame: RigidMotion<D>,
-    /// What is added to gravity.
+    /// Addition to gravity.
     pub given: AddedGravity<D>,
 }
 
-/// What is added to gravity over time.
+/// Addition to gravity over time.
 pub enum AddedGravity<const D: usize> {
     /// Nothing.
     None,
@@ -22,7 +22,7 @@ pub enum AddedGravity<const D: usize> {
 }
 
 impl<const D: usize> VariableGravity<D> {
-    /// What is added to gravity at a time (s), m/s².
+    /// Addition to gravity at a time (s), m/s².
     pub fn at(&self, time: f64) -> Vect<D> {
         self.given.at(time) - self.frame.state(time).acceleration
     }
