@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-/// Which text a mistake stands in.
+/// The text of a mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// The scene file.
@@ -15,7 +15,7 @@ pub enum Origin {
 /// A mistake in a scene: what is wrong and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// What is wrong, what was expected, the nearest valid name.
+    /// The defect, the expected value, the nearest valid name.
     pub message: String,
     /// Dotted path of the key, empty for the scene as a whole and for errors of syntax.
     pub path: String,
@@ -27,7 +27,7 @@ pub struct Diagnostic {
     pub column: usize,
     /// Name of the file, `--set` for an override.
     pub file: String,
-    /// Which text the span is in.
+    /// The text of the span.
     pub origin: Origin,
 }
 

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
-/// What the user can do about it.
+/// The remedy.
 const ADVICE: &str =
     "allow its folder with `--allow-path DIR`, or give the path on the command line with `--set`";
 

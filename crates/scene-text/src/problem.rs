@@ -12,7 +12,7 @@ pub const MOST_PROBLEMS: usize = 200;
 pub struct SceneProblem {
     /// Dotted path of the key, `phase.water.density`.
     pub path: String,
-    /// What is wrong, what was expected, the nearest valid name.
+    /// The defect, the expected value, the nearest valid name.
     pub message: String,
 }
 

@@ -114,7 +114,7 @@ pub fn parse_unit(text: &str) -> Result<(f64, Dimensions), String> {
 /// Factor from a unit to the SI of one that it must be alike: "mm" to "m".
 ///
 /// # Errors
-/// What is wrong with the unit.
+/// The defect of the unit.
 pub fn unit_factor(unit: &str, alike: &str) -> Result<f64, String> {
     let (factor, own) = parse_unit(unit)?;
     let kind = match alike {
@@ -206,7 +206,7 @@ fn tidy(x: f64) -> f64 {
     }
 }
 
-/// Where the leading decimal number of a text ends.
+/// The end of the leading decimal number of a text.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
     let mut end = 0;

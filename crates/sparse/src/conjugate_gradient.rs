@@ -6,7 +6,7 @@ use crate::{SparseError, UpperTriangle};
 /// Source: Hestenes & Stiefel 1952; Saad 2003, Algorithm 9.1.
 ///
 /// # Errors
-/// What has not converged by then.
+/// A system that has not converged by then.
 pub fn conjugate_gradient(
     matrix: &UpperTriangle,
     right: &[f64],

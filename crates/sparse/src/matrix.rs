@@ -3,7 +3,7 @@
 /// A symmetric matrix by the columns of its upper triangle: rows of each column ascending, the diagonal last.
 #[derive(Clone, Debug, Default)]
 pub struct UpperTriangle {
-    /// Where each column begins, and the end of the last one.
+    /// Begin of each column, and the end of the last one.
     pub starts: Vec<u32>,
     /// Row of each value.
     pub rows: Vec<u32>,

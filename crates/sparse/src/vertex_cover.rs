@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-/// Which ends on the right each end on the left is joined to: row by row.
+/// Ends on the right that each end on the left is joined to: row by row.
 #[derive(Default)]
 pub struct Joins {
     pub starts: Vec<u32>,

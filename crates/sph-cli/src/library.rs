@@ -30,7 +30,7 @@ pub use crate::terminal::trouble::Trouble;
 /// A scene of particles.
 pub use sph_scene::Scene as ParticleScene;
 
-/// What goes with a scene.
+/// Companions of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Request {
     /// Values put on top of the scene: `numerics.spacing=0.01`.
@@ -49,7 +49,7 @@ impl Request {
     }
 }
 
-/// Where a run begins.
+/// Begin of a run.
 #[derive(Clone, Debug, Default)]
 pub enum Begin {
     /// With the bodies of the scene.
@@ -137,7 +137,7 @@ pub fn study(
     studies::conduct(&arguments, stop)
 }
 
-/// How a study is run.
+/// Options of a study.
 #[derive(Clone, Debug, Default)]
 pub struct StudyOptions {
     /// Folder of the results; `None` is `results/studies/NAME`.

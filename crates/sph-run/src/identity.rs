@@ -40,7 +40,7 @@ impl Identity {
         }
     }
 
-    /// How this scene differs from the one that a checkpoint was written with, if it does.
+    /// Difference of this scene from that of a checkpoint, if there is one.
     pub fn differs_from(&self, written: &Identity) -> Option<String> {
         let changed = changed(&written.files, &self.files);
         if self.scene != written.scene {

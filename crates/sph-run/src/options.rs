@@ -11,7 +11,7 @@ pub const SERIES: &str = "series.csv";
 /// Name of the summary in a run's folder.
 pub const SUMMARY: &str = "summary.json";
 
-/// How a scene is run.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
     /// Folder of all files of the run; it is created.

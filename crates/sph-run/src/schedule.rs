@@ -47,7 +47,7 @@ pub fn next_multiple(interval: f64, end: f64, time: f64) -> Option<f64> {
     }
 }
 
-/// How many intervals are over by a time, s.
+/// Number of intervals that are over by a time, s.
 fn over(time: f64, every: f64) -> u64 {
     (time / every).floor() as u64
 }

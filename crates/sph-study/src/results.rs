@@ -40,7 +40,7 @@ pub struct Results {
     pub scene: String,
     /// Text of the study file.
     pub definition: String,
-    /// What was put on top of every variant, as `--set` has it.
+    /// Settings put on top of every variant, as of `--set`.
     pub set: Vec<String>,
     /// Judged errors, the first one by plots.
     pub errors: Vec<String>,
@@ -53,7 +53,7 @@ pub struct Results {
     /// On what and by what this was last run.
     #[serde(flatten)]
     pub origin: Origin,
-    /// How far each axis holds, of studies that go along axes until they break.
+    /// Range of each axis, of studies that go along axes until they break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub frontiers: Vec<Frontier>,
     /// Variants in the order of the study.

@@ -58,7 +58,7 @@ impl CoupledSystem {
         &self.clock.rates
     }
 
-    /// How many meshes were made, the first included.
+    /// Number of meshes made, the first included.
     #[must_use]
     pub fn meshes(&self) -> u64 {
         self.clock.meshes

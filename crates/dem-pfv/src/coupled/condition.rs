@@ -12,7 +12,7 @@ use crate::triangulation::Vertex;
 /// A wall as the fluid sees it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct WallBoundary {
-    /// What is given there.
+    /// The value given there.
     pub condition: FlowCondition,
     /// Whether fluid sticks to the wall; otherwise it slides, as on a plane of symmetry.
     pub sticks: bool,
@@ -38,7 +38,7 @@ pub enum FlowCondition {
     },
     /// The load of a wave.
     Wave(Wave),
-    /// What another computation has left.
+    /// Result of another computation.
     Recorded(Recorded),
     /// An even inflow, m/s; negative lets fluid out.
     Inflow(f64),

@@ -33,7 +33,7 @@ pub(crate) struct Loads {
     pub walls: Vec<Vector>,
 }
 
-/// What is between two neighbours.
+/// The gap between two neighbours.
 struct Gap {
     /// From the sphere to its neighbour.
     normal: Vector,
@@ -147,7 +147,7 @@ fn wall_mobility(grains: &GrainSystem, wall: usize) -> f64 {
     }
 }
 
-/// What is between two neighbours now; nothing where their centres coincide.
+/// The present gap between two neighbours; nothing where their centres coincide.
 fn gap(edge: &Edge, grains: &GrainSystem, fluid: &Fluid) -> Option<Gap> {
     let g = grains.grains();
     let (x, radius) = (g.positions()[edge.sphere], g.radii()[edge.sphere]);

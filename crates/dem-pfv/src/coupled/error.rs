@@ -47,7 +47,7 @@ pub enum CoupledError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// The allowed values.
         valid: &'static str,
     },
     /// A condition at a wall that means nothing.

@@ -7,7 +7,7 @@ use crate::coupled::{CoupledError, Vector};
 use crate::flow::Boundary;
 use crate::grains::{Control, GrainSystem};
 
-/// What limits a step.
+/// Limits of a step.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct StepLimit {
     /// Largest stable step Δt, s.

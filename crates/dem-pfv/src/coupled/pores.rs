@@ -11,7 +11,7 @@ use crate::flow::{
 use crate::grains::GrainSystem;
 use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
-/// Where grains and walls were; with the radii it is all that a mesh follows from.
+/// Places of grains and walls; with the radii it is all that a mesh follows from.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Places {
     pub centres: Vec<Vector>,

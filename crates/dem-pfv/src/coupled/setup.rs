@@ -164,9 +164,9 @@ pub struct FlowSetup {
     pub sides: Vec<WallBoundary>,
     /// When pores are found anew.
     pub remeshing: Remeshing,
-    /// How solid angles are summed.
+    /// Sums of solid angles.
     pub angles: SolidAngles,
-    /// How pressures are found.
+    /// Solver of the pressures.
     pub solver: Solver,
 }
 

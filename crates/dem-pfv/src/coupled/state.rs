@@ -18,13 +18,13 @@ pub struct State {
     remeshing: Remeshing,
     angles: SolidAngles,
     solver: Solver,
-    /// Where the mesh was made; it is made again there.
+    /// Places at which the mesh was made; it is made again there.
     places: Places,
     clock: Clock,
 }
 
 impl CoupledSystem {
-    /// What must be kept to resume.
+    /// State to resume.
     #[must_use]
     pub fn save(&self) -> State {
         let setup = &self.setup;

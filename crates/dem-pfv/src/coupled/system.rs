@@ -32,7 +32,7 @@ pub struct CoupledSystem {
     pub(crate) inflows: Option<Vec<f64>>,
 }
 
-/// What is remembered from step to step.
+/// State remembered from step to step.
 #[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub(crate) struct Clock {
     /// Volumes of the cells where grains are now, m³.

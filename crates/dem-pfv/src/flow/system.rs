@@ -8,7 +8,7 @@ use crate::flow::assembly::{
 };
 use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
 
-/// How the system is solved.
+/// Solvers of the system.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub enum Solver {
     /// Cholesky factorisation by faer, kept from solve to solve.
@@ -216,7 +216,7 @@ impl FlowSystem {
         Ok(())
     }
 
-    /// How many pressures are unknown.
+    /// Number of unknown pressures.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         self.matrix.len()

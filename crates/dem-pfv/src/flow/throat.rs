@@ -8,7 +8,7 @@ use crate::flow::inscribed::inscribed_radius;
 use crate::flow::solid_angle;
 use crate::triangulation::{Triangulation, Vertex};
 
-/// How fluid meets a wall.
+/// Condition of the fluid at a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlipCondition {
     /// It sticks: the wall's area counts as wetted and takes its share of the viscous force.
@@ -17,7 +17,7 @@ pub enum SlipCondition {
     Slip,
 }
 
-/// How solid angles of throats are summed.
+/// Sums of the solid angles of throats.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub enum SolidAngles {
     /// With their signs: void volume and wetted surface add up to those of the packing exactly.
@@ -53,7 +53,7 @@ pub struct Throat {
     pub fluid_volume: f64,
     /// Radius of the circle in the facet between its discs and walls, m; 0 if there is none.
     pub inscribed_radius: f64,
-    /// How many walls without grip are among its vertices.
+    /// Number of walls without grip among its vertices.
     pub slip_walls: usize,
     /// True if its length is zero but for rounding, as in lattices: both cells are one pore.
     pub open: bool,
@@ -67,7 +67,7 @@ impl Throat {
     }
 }
 
-/// What throats are made from.
+/// Input of throats.
 pub struct Pores<'a> {
     pub mesh: &'a Triangulation,
     pub centres: &'a [Vector3<f64>],

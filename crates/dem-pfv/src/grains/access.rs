@@ -65,7 +65,7 @@ impl GrainSystem {
         self.steps
     }
 
-    /// How often the lists of neighbours were made.
+    /// Number of times that the lists of neighbours were made.
     #[must_use]
     pub fn renewals(&self) -> u64 {
         self.renewals
@@ -148,7 +148,7 @@ impl GrainSystem {
         &mut self.grains.spin
     }
 
-    /// Which grains keep their velocity whatever acts on them.
+    /// Grains that keep their velocity whatever acts on them.
     pub fn held_mut(&mut self) -> &mut [bool] {
         &mut self.grains.held
     }

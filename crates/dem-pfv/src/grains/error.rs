@@ -89,7 +89,7 @@ pub enum GrainError {
     TooDeep {
         /// The grain.
         grain: usize,
-        /// Where its centre is, m.
+        /// Its centre, m.
         at: [f64; 3],
         /// The grain, wall or triangle that it overlaps.
         body: String,
@@ -155,7 +155,7 @@ pub enum GrainError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is valid.
+        /// The valid values.
         valid: &'static str,
     },
     /// A contact law that cannot be found by name, or built.
@@ -190,7 +190,7 @@ pub enum GrainError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is valid.
+        /// The valid values.
         valid: &'static str,
     },
     /// A step that the stiffest contacts do not bear.
@@ -236,7 +236,7 @@ pub enum GrainError {
         what: &'static str,
         /// Steps made.
         steps: u64,
-        /// What is left.
+        /// The rest.
         unbalanced: f64,
         /// Reached, Pa.
         stress: f64,

@@ -8,7 +8,7 @@ use crate::Entry;
 use crate::grains::{GrainError, Vector};
 use crate::registry::{built, entries};
 
-/// How many numbers a law may remember per contact.
+/// Largest number of values that a law remembers per contact.
 pub const MEMORY: usize = 8;
 
 /// A contact of a grain, the first, with a second body: another grain, a wall or a triangle.
@@ -28,7 +28,7 @@ pub struct Contact {
     pub mass: [f64; 2],
     /// Time since the last evaluation, s.
     pub step: f64,
-    /// What the law wrote here at the last evaluation; zeros in a new contact.
+    /// Values of the law of the last evaluation; zeros in a new contact.
     pub memory: [f64; MEMORY],
     /// For the law to write: force on the first body, N; its opposite acts on the second.
     pub force: Vector,
@@ -38,7 +38,7 @@ pub struct Contact {
     pub(crate) turn: Turn,
 }
 
-/// How the contact frame turned since the last evaluation.
+/// Rotation of the contact frame since the last evaluation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Turn {
     /// n_old × n_new.

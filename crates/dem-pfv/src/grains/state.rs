@@ -28,7 +28,7 @@ pub struct State {
 }
 
 impl GrainSystem {
-    /// What must be kept to resume.
+    /// State to resume.
     #[must_use]
     pub fn save(&self) -> State {
         State {

@@ -69,7 +69,7 @@ impl GrainSystem {
         Ok(system)
     }
 
-    /// What must hold at the start and after a resumption.
+    /// Conditions at the start and after a resumption.
     pub(crate) fn check(&self) -> Result<(), GrainError> {
         let most = 1 << 26;
         let grains = self.grains.len();

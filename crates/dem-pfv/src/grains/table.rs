@@ -73,7 +73,7 @@ struct PreviousState {
     vertices: Vec<Vec<Vector>>,
 }
 
-/// What the table is made of.
+/// Input of the table.
 #[derive(Clone, Copy)]
 pub(crate) struct Bodies<'a> {
     pub grains: &'a Grains,

@@ -21,7 +21,7 @@ pub(crate) struct View<'a> {
     pub step: f64,
 }
 
-/// What a grain leans on: a plane or a point of a triangle.
+/// The support of a grain: a plane or a point of a triangle.
 struct Touched {
     normal: Vector,
     overlap: f64,

@@ -1,6 +1,6 @@
-//! Why grains are not at rest.
+//! Causes of unrest of grains.
 
-/// Why grains are not at rest.
+/// Causes of unrest of grains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Unrest {
     /// The mean resultant force on a grain, over the mean contact force: [`unbalanced_force`](crate::grains::GrainSystem::unbalanced_force).

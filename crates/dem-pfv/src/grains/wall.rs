@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::grains::{GrainError, Vector};
 
-/// What moves a wall along its normal.
+/// Control of a wall along its normal.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub enum Control {
     /// Nothing but its velocity, which may be zero.
@@ -43,7 +43,7 @@ pub struct Wall {
     pub velocity: Vector,
     /// Number of its contact law.
     pub law: usize,
-    /// What moves it.
+    /// Its control.
     pub control: Control,
     /// Area, m²; `None` is that between the walls and periods along the other two axes.
     pub area: Option<f64>,
@@ -56,7 +56,7 @@ pub struct Wall {
 
 /// s and the share of the last displacement in [`Control::Stress`].
 const FILTER: [f64; 2] = [0.25, 0.8];
-/// How fast [`Control::StrainRate`] relaxes, per step.
+/// Relaxation of [`Control::StrainRate`] per step.
 const RELAXATION: f64 = 0.01;
 
 impl Wall {

@@ -19,7 +19,7 @@ use crate::scene::walls::{FAR, control};
 pub struct Assembled {
     /// The system.
     pub model: Model,
-    /// What measurements refer to.
+    /// Reference values of measurements.
     pub origin: Origin,
     /// Loads that change.
     pub loads: Vec<Load>,
@@ -82,7 +82,7 @@ pub fn loads(scene: &Scene) -> Vec<Load> {
     all.filter(Load::varies).collect()
 }
 
-/// What moves the walls in the run.
+/// Controls of the walls in the run.
 fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
     let mass: f64 = grains.grains().masses().iter().sum();
     for (number, name) in planes(scene).iter().enumerate() {

@@ -9,7 +9,7 @@ use crate::scene::error::DemError;
 use crate::scene::model::Saved;
 use crate::scene::origin::Origin;
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Progress {
     /// Rows of the series written.
@@ -46,9 +46,9 @@ pub struct Progress {
 pub struct Kept {
     /// The system.
     pub model: Saved,
-    /// What measurements refer to.
+    /// Reference values of measurements.
     pub origin: Origin,
-    /// How far it has come.
+    /// Its progress.
     pub progress: Progress,
 }
 

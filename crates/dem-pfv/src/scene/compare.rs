@@ -19,15 +19,15 @@ use crate::scene::tables::{Probe, Reference, Statistic};
 pub struct Compared {
     /// The error; none if there was nothing to compare.
     pub value: Option<f64>,
-    /// What is measured: "rms", "relative".
+    /// The measure: "rms", "relative".
     pub norm: String,
     /// Against what.
     pub against: String,
     /// Rows compared.
     pub samples: usize,
-    /// What the run has, where it is one number.
+    /// Value of the run, where it is one number.
     pub found: Option<f64>,
-    /// What the reference has, where it is one number.
+    /// Value of the reference, where it is one number.
     pub wanted: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Why a scene cannot be read, assembled or run.
+//! Errors of scenes that cannot be read, assembled or run.
 
 use scene_text::SceneProblem;
 use sph_io::IoError;
@@ -8,7 +8,7 @@ use crate::coupled::CoupledError;
 use crate::flow::FlowError;
 use crate::grains::GrainError;
 
-/// What keeps a scene from its end.
+/// Errors that keep a scene from its end.
 #[derive(Debug, Error)]
 pub enum DemError {
     /// Mistakes of the scene, by their keys.
@@ -57,14 +57,14 @@ pub struct Failure {
     pub time: f64,
     /// Steps made.
     pub step: u64,
-    /// What happened; it names the grain, the wall or the cell.
+    /// The error; it names the grain, the wall or the cell.
     #[source]
     pub error: CoupledError,
     /// Names of the grains and the wall that the error has as numbers, in brackets; empty without names.
     pub named: String,
     /// The grain at fault, if it is one.
     pub grain: Option<usize>,
-    /// Where that grain was, m.
+    /// Place of that grain, m.
     pub position: Option<[f64; 3]>,
 }
 

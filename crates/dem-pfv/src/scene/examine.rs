@@ -11,7 +11,7 @@ use crate::scene::read::Loaded;
 use crate::scene::summary::PluginInForce;
 use crate::scene::tables::{Fluid, Scene};
 
-/// What is known of a scene before it runs.
+/// Data of a scene before it runs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Examination {
     /// Title.
@@ -20,7 +20,7 @@ pub struct Examination {
     pub method: &'static str,
     /// Grains; as expected where the start decides.
     pub grains: Option<usize>,
-    /// How they are prepared.
+    /// Their preparation.
     pub start: &'static str,
     /// Walls, those of the box first.
     pub walls: Vec<String>,
@@ -32,11 +32,11 @@ pub struct Examination {
     pub plugins: Vec<PluginInForce>,
     /// Columns of the series with their units.
     pub columns: Vec<(String, String)>,
-    /// What is kept and computed per grain, with the bytes of each.
+    /// Data per grain, with the bytes of each.
     pub memory: Vec<(String, f64)>,
-    /// What a step does, in order.
+    /// Works of a step, in order.
     pub stages: Vec<String>,
-    /// What limits the step.
+    /// Limiters of the step.
     pub limits: Vec<String>,
     /// Quantities that follow from the numbers of the scene: name, value, unit.
     pub derived: Vec<(String, f64, String)>,

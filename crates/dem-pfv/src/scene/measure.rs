@@ -25,7 +25,7 @@ pub fn unit(probe: &Probe) -> &'static str {
     }
 }
 
-/// What a probe measures now; not a number where there is nothing to measure.
+/// Present value of a probe; not a number where there is nothing to measure.
 pub fn value(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> f64 {
     measured(probe, scene, model, origin).unwrap_or(f64::NAN)
 }

@@ -33,7 +33,7 @@ pub enum Saved {
 pub struct Made {
     /// Its length, s.
     pub step: f64,
-    /// What limited it.
+    /// Its limiter.
     pub limiter: &'static str,
 }
 
@@ -170,7 +170,7 @@ impl Model {
         }
     }
 
-    /// What must be kept to go on bit for bit.
+    /// State to go on bit for bit.
     #[must_use]
     pub fn save(&self) -> Saved {
         match self {

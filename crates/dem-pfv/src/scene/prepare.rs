@@ -22,7 +22,7 @@ const BEFORE_GROWTH: f64 = 0.25;
 /// The grains of a scene, prepared, with the laws of the run.
 ///
 /// # Errors
-/// What cannot be placed, grown or settled.
+/// Grains that cannot be placed, grown or settled.
 pub fn grains(
     loaded: &Loaded,
     mut laws: Laws,
@@ -289,7 +289,7 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
 /// Strain of the box along z under the load of an oedometer when it comes dry and in parts that settle.
 ///
 /// # Errors
-/// What does not settle.
+/// Grains that do not settle.
 pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Result<f64, DemError> {
     let key = "oedometer";
     let told = |e: GrainError| DemError::at(key, e);

@@ -17,7 +17,7 @@ pub struct Summary {
     pub scene: String,
     /// What is computed: always "grains".
     pub method: &'static str,
-    /// How it ended.
+    /// The way it ended.
     pub status: Status,
     /// Version of the program.
     pub version: &'static str,
@@ -49,11 +49,11 @@ pub struct Summary {
     pub grain_steps_per_second: f64,
     /// Shares of the steps by what limited them.
     pub dt_limiters: BTreeMap<String, f64>,
-    /// What was measured before the run started.
+    /// Values measured before the run started.
     pub derived: BTreeMap<String, f64>,
     /// Errors against the references.
     pub errors: BTreeMap<String, Compared>,
-    /// What is odd.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 

@@ -9,7 +9,7 @@ use crate::scene::names::{BOX, planes};
 use crate::scene::read::Loaded;
 use crate::scene::tables;
 
-/// How far away a wall is that is not there, m.
+/// Distance of a wall that is not there, m.
 pub(crate) const FAR: f64 = 1e4;
 
 /// The planes and surfaces of a scene, at rest; a top that comes down later is out of the way.
@@ -86,7 +86,7 @@ fn surface(
     Ok(Mesh::new(vertices, triangles.collect()))
 }
 
-/// What moves a wall; pistons under their stress, with their share of the grains' mass (kg).
+/// Control of a wall; pistons under their stress, with their share of the grains' mass (kg).
 pub(crate) fn control(
     table: &tables::Wall,
     mass: f64,

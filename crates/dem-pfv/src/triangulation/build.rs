@@ -20,7 +20,7 @@ pub struct Builder<'a> {
     /// 2n for cells in conflict with sphere n of the insertion, 2n + 1 for those tested without.
     marks: Vec<u32>,
     stamp: u32,
-    /// Where the next walk begins.
+    /// The begin of the next walk.
     last: u32,
     carved: Vec<u32>,
     /// Facets between a carved cell and one that stays: cell, place of the vertex opposite, neighbour.

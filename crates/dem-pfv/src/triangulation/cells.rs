@@ -50,7 +50,7 @@ impl Cell {
         (self.neighbours[i] != NONE).then_some(self.neighbours[i] as usize)
     }
 
-    /// How many of its vertices are walls, 0 to 3.
+    /// Number of walls among its vertices, 0 to 3.
     #[must_use]
     pub fn walls(&self) -> usize {
         self.vertices.iter().filter(|v| **v & WALL != 0).count()
@@ -62,7 +62,7 @@ impl Cell {
 pub struct Facet {
     /// The cells on both sides, the lower number first.
     pub cells: [usize; 2],
-    /// Which vertex of the first cell is opposite.
+    /// The opposite vertex of the first cell.
     pub opposite: usize,
     /// Its vertices, in the order in which the first cell has them.
     pub vertices: [Vertex; 3],

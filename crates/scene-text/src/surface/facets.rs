@@ -17,7 +17,7 @@ impl Facets {
     /// first facet whose normal is not that of its corners' order.
     ///
     /// # Errors
-    /// What cannot be read, with the name of the file and the number of the facet.
+    /// A file that cannot be read, with the name of the file and the number of the facet.
     pub fn read(path: &Path) -> Result<(Self, Option<usize>), String> {
         Self::welded(read(path)?, &path.display().to_string())
     }

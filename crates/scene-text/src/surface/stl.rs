@@ -29,7 +29,7 @@ pub struct StlFile {
 /// The surface in a file.
 ///
 /// # Errors
-/// What cannot be read, with the name of the file and the number of the facet.
+/// A file that cannot be read, with the name of the file and the number of the facet.
 pub fn read(path: &Path) -> Result<StlFile, String> {
     parse(bytes(path)?, &path.display().to_string())
 }

@@ -16,7 +16,7 @@ pub struct Opening {
     pub size: f64,
 }
 
-/// How the facets of a surface hang together.
+/// Topology of the facets of a surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Topology {
     /// The openings, the largest first.
@@ -42,7 +42,7 @@ struct DirectedEdge {
 type EdgeNeighbours = Vec<Vec<(u32, bool)>>;
 
 impl Facets {
-    /// How the facets hang together.
+    /// Topology of the facets.
     pub fn topology(&self) -> Topology {
         let mut halves = Vec::with_capacity(3 * self.triangles.len());
         for (facet, t) in self.triangles.iter().enumerate() {

@@ -55,7 +55,7 @@ fn drawn<'a>(opened: &Opened, path: &'a Path) -> Result<&'a Path, Trouble> {
     Ok(path)
 }
 
-/// What follows from a scene, for a number of threads.
+/// Derived quantities of a scene, for a number of threads.
 pub fn output(opened: &Opened, threads: Option<usize>) -> Result<CommandOutput, Trouble> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.unwrap_or(cores);

@@ -17,12 +17,12 @@ use crate::tool_arguments::CompareArguments;
 use difference::{Difference, differences};
 use tables::Table;
 
-/// What two folders have in common, and how it differs.
+/// Common results of two folders, and their differences.
 #[derive(Default)]
 struct Comparison {
     /// Of every column that both have, in the order of the files.
     columns: Vec<Difference>,
-    /// What only one of them has, and numbers of rows that differ.
+    /// Results of one of them alone, and numbers of rows that differ.
     remarks: Vec<String>,
 }
 

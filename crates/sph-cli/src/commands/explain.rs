@@ -27,7 +27,7 @@ pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// What a scene is made of.
+/// Parts of a scene.
 pub fn output(opened: &Opened) -> Result<CommandOutput, Trouble> {
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,

@@ -25,7 +25,7 @@ pub fn is_mesh(argument: &str) -> bool {
     ending.is_some_and(|e| e.eq_ignore_ascii_case("stl"))
 }
 
-/// What a file of facets holds.
+/// Contents of a file of facets.
 pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
     let (facets, odd) = Facets::read(Path::new(file)).map_err(Trouble::usage)?;
     let topology = facets.topology();
@@ -126,7 +126,7 @@ impl Mesh {
         rows
     }
 
-    /// What to do about it.
+    /// The remedy.
     fn said(&self) -> Vec<String> {
         let mut said = Vec::new();
         if !self.topology.flipped.is_empty() {

@@ -11,7 +11,7 @@ use crate::commands::file_list;
 use crate::number;
 use crate::terminal::layout::{columns, remarks};
 
-/// What the run was, what it cost, how good it is, and where its files are.
+/// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {
     let mut text = headline(summary.status, &summary.scene);
     text.push_str(&columns(2, &cost(summary)));
@@ -28,7 +28,7 @@ pub fn text(summary: &Summary, out: &Path) -> String {
     text
 }
 
-/// How a run ended, and of which scene.
+/// End of a run, and its scene.
 pub fn headline(status: Status, scene: &str) -> String {
     let status = match status {
         Status::Done => "done",

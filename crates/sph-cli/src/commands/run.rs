@@ -144,7 +144,7 @@ fn ended(
     }
 }
 
-/// Where the run begins.
+/// Begin of the run.
 fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     let Some(other) = &arguments.from else {
         return Ok(match (arguments.resume, arguments.changed) {
@@ -173,7 +173,7 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     Ok(Start::From(file))
 }
 
-/// What is refused before the folder is touched.
+/// Refusals before the folder is touched.
 fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
     if arguments.resume && !out.join(CHECKPOINT).is_file() {
         return Err(Trouble::usage(format!(

@@ -203,7 +203,7 @@ fn text(results: &Results, out: &Path) -> String {
     text
 }
 
-/// What has been done, and how to go on.
+/// The finished part, and the way to go on.
 fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
     let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
     format!(

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use crate::terminal::console;
 
-/// What a command has found.
+/// Findings of a command.
 #[derive(Clone, Debug)]
 pub struct CommandOutput {
     /// For programs.

@@ -22,7 +22,7 @@ pub enum Trouble {
     Scene(Vec<Located>),
     /// The run failed; the summary it left, if it did.
     Failed {
-        /// What happened.
+        /// The error.
         error: String,
         /// The particle, and possible remedies, in lines.
         more: String,
@@ -30,7 +30,7 @@ pub enum Trouble {
         code: u8,
         /// Content of `summary.json`.
         summary: Option<Box<Json>>,
-        /// How to go on.
+        /// The way to go on.
         advice: Option<String>,
     },
     /// The run stopped with a checkpoint; all messages are written.

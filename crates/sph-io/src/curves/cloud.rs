@@ -66,7 +66,7 @@ impl<'a> Cloud<'a> {
         self.points
     }
 
-    /// How far they are apart, m.
+    /// Their distance, m.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }

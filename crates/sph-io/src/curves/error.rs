@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::IoError;
 
-/// Why nothing could be drawn.
+/// Errors of drawings.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DrawError {

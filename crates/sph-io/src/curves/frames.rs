@@ -64,7 +64,7 @@ impl Frames {
         &self.entries
     }
 
-    /// How far particles are apart at the start, m: the median distance to the nearest one.
+    /// Distance of particles at the start, m: the median distance to the nearest one.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }

@@ -10,7 +10,7 @@ pub struct Snapshot {
     pub time: f64,
     /// Walls in the plane, by their ends, m.
     pub walls: Vec<[[f64; 3]; 2]>,
-    /// How far particles were apart at the start, m.
+    /// Distance of particles at the start, m.
     pub spacing: f64,
 }
 
@@ -39,7 +39,7 @@ impl Snapshot {
         }
     }
 
-    /// Where the particles are, m.
+    /// Positions of the particles, m.
     pub fn points(&self) -> &[[f64; 3]] {
         &self.piece.points
     }

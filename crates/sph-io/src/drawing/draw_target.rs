@@ -7,7 +7,7 @@ use crate::drawing::colour::Colour;
 /// A point on the surface.
 pub(crate) type Spot = [f64; 2];
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pen {
     pub(crate) colour: Colour,
@@ -16,7 +16,7 @@ pub(crate) struct Pen {
     pub(crate) dashed: bool,
 }
 
-/// How an area is filled.
+/// Fill of an area.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fill {
     pub(crate) colour: Colour,
@@ -32,7 +32,7 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a text is set.
+/// Style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lettering {
     /// Font size in pixels.

@@ -7,11 +7,11 @@ pub struct Series {
     pub name: String,
     /// Abscissa and ordinate. A line is broken at points that are not finite.
     pub points: Vec<[f64; 2]>,
-    /// How the points are drawn.
+    /// Marks of the points.
     pub style: Style,
 }
 
-/// How a [`Series`] is drawn.
+/// Style of a [`Series`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Style {
     /// A line through the points.

@@ -13,7 +13,7 @@ const TURN: [f64; 2] = [0.906_307_787, 0.422_618_262];
 const TILT: [f64; 2] = [0.866_025_404, 0.5];
 /// Diameter of the spheres over that of the particles.
 const SWOLLEN: f64 = 1.5;
-/// How often depths are averaged.
+/// Number of times that depths are averaged.
 const PASSES: usize = 3;
 /// Direction to the light: to the right, upwards, away from the eye.
 const LIGHT: [f64; 3] = [-0.35, 0.75, -0.56];

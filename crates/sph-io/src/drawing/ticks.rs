@@ -1,6 +1,6 @@
 //! Round numbers along an axis, and how they are written.
 
-/// Where an axis is marked.
+/// Marks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ticks {
     /// Marked and labelled.

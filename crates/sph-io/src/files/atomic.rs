@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{IoError, Result};
 
-/// What must survive when the call returns.
+/// Durability of a write when the call returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Durability {
     /// The process may die: the content is with the operating system.

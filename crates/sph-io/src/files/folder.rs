@@ -24,7 +24,7 @@ pub fn readable(path: impl AsRef<Path>, most: u64) -> Result<()> {
     }
 }
 
-/// What a file holds, in a few bytes.
+/// Digest of a file, in a few bytes.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Checksum {
     /// Length, bytes.

@@ -151,7 +151,7 @@ impl SeriesWriter {
     }
 }
 
-/// How a header differs from the columns that are to be written under it.
+/// Difference of a header from the columns that are to be written under it.
 fn difference(header: &str, cells: &[String]) -> Option<String> {
     let before: Vec<&str> = header.split(',').collect();
     let new = cells.iter().find(|c| !before.contains(&c.as_str()));

@@ -36,7 +36,7 @@ impl Table {
         found.map(|c| c.values.as_slice())
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |c| c.values.len())
     }

@@ -65,7 +65,7 @@ pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> 
     begins.map(line).collect()
 }
 
-/// Why closed lines cannot be turned.
+/// Errors of turning closed lines.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Unsided {
     /// The line of a number is open.

@@ -79,7 +79,7 @@ impl<const D: usize> Region<D> {
     }
 }
 
-/// What a body subtracts, and what is beyond the surfaces that bound it.
+/// The parts that a body subtracts, and those beyond the surfaces that bound it.
 fn cuts<const D: usize>(body: &Body) -> Vec<Shape<D>> {
     let cut = |surface: &Option<LevelSurface>, above: bool| {
         surface.map(|surface| Shape::Side { surface, above })

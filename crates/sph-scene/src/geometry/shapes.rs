@@ -196,7 +196,7 @@ fn about<const D: usize>(from: &[f64; D], to: &[f64; D], x: &[f64; D]) -> (f64, 
     (along, distance(x, &foot), length)
 }
 
-/// How far a circle about an axis reaches along every coordinate.
+/// Extent of a circle about an axis along every coordinate.
 fn rim<const D: usize>(from: &[f64; D], to: &[f64; D], radius: f64) -> [f64; D] {
     let length = distance(from, to);
     std::array::from_fn(|k| radius * (1.0 - ((to[k] - from[k]) / length).powi(2)).max(0.0).sqrt())

@@ -63,7 +63,7 @@ impl fmt::Display for Refused {
 
 impl std::error::Error for Refused {}
 
-/// Why a scene cannot be had from a file.
+/// Errors of loading a scene from a file.
 #[derive(Debug, Error)]
 pub enum LoadError {
     /// The file cannot be read.

@@ -5,7 +5,7 @@ use sph_neighbours::{Rows, Surroundings, World};
 
 use crate::seepage::net::{Net, Phase};
 
-/// How particles give and take.
+/// Exchange between particles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exchange {
     /// χ.
@@ -17,7 +17,7 @@ pub(crate) struct Exchange {
 /// Share of its size by which a water particle must differ before it evens out.
 const EVEN: f64 = 0.005;
 
-/// What particles gain.
+/// Gains of particles.
 struct Gains<const D: usize> {
     mass: Vec<f64>,
     momentum: Vec<Vect<D>>,

@@ -6,7 +6,7 @@ use sph_neighbours::{
     Body, Cluster, Lane, LanePair, MOST, Owned, PairNumbers, Particles, dot, splat,
 };
 
-/// What a particle is to the problem.
+/// Role of a particle in the problem.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Part {
     /// No soil.
@@ -44,11 +44,11 @@ impl Part {
     }
 }
 
-/// What couples the pressures.
+/// Couplings of the pressures.
 pub(crate) struct Couplings<'a, const D: usize> {
     /// The rows that count.
     pub owned: &'a Owned,
-    /// What every particle is.
+    /// Role of every particle.
     pub parts: &'a [Part],
     /// Of every particle, m^d.
     pub volume: &'a [f64],

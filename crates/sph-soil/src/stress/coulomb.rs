@@ -147,7 +147,7 @@ impl<const D: usize> StepHook<D> for CoulombFriction {
     }
 }
 
-/// What a wall does to a particle.
+/// Action of a wall on a particle.
 struct Pull<const D: usize> {
     /// Change of the velocity, m/s.
     change: Vect<D>,
@@ -205,7 +205,7 @@ fn wall_forces<const D: usize>(
 /// Sums over the particles before an element.
 #[derive(Clone, Copy, Default)]
 struct ElementSums {
-    /// What they press on it, N.
+    /// Their forces on it, N.
     force: f64,
     /// Σ V_a|∇γ_as|.
     weight: f64,

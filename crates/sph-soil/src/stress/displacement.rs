@@ -124,7 +124,7 @@ impl<const D: usize> PairTerm<D> for DisplacementForce {
     }
 }
 
-/// What of a particle is elastic.
+/// The elastic part of a particle.
 #[derive(Clone, Copy)]
 struct Solid {
     /// 𝒢, Pa.

@@ -131,7 +131,7 @@ impl<const D: usize> Sum<D> {
     }
 }
 
-/// Where the components of a symmetric tensor stand.
+/// Places of the components of a symmetric tensor.
 pub(crate) const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 impl<const D: usize> BoundStressDivergence<'_, D> {

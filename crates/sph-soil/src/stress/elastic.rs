@@ -137,7 +137,7 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
     }
 }
 
-/// What a particle remembers since it was last liquid.
+/// Memory of a particle since it was last liquid.
 #[derive(Clone, Copy)]
 struct Memory<const D: usize> {
     /// τ, not cut.

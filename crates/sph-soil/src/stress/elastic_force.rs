@@ -9,7 +9,7 @@ use crate::stress::{Blend, LawInputs};
 pub trait ElasticForce<const D: usize>: Send {
     /// As a term of the sweep, for the laws of a scene.
     fn term(&self, law_inputs: &LawInputs) -> Box<dyn Interaction<D>>;
-    /// What is blended where the material yields.
+    /// The blended values where the material yields.
     fn blend(&self) -> Blend;
     /// Whether the stress is that of the end of the step: what the step adds is then solved for with the viscosity, and elastic
     /// waves do not bound it.

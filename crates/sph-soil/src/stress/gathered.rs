@@ -24,7 +24,7 @@ pub struct Gathered<const D: usize> {
 #[derive(Clone, Copy)]
 struct Slipping<const D: usize> {
     sums: [SMatrix<f64, D, D>; 2],
-    /// Where it faces.
+    /// Its normal.
     facing: Vect<D>,
 }
 

@@ -149,7 +149,7 @@ struct Solve<const D: usize> {
     scratch: Scratch,
 }
 
-/// What a solve fills anew, kept for its memory.
+/// Buffers of a solve, kept for their memory.
 #[derive(Default)]
 struct Scratch {
     parts: Vec<Part>,

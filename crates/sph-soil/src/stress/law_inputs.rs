@@ -16,7 +16,7 @@ pub struct LawInputs {
     pub laws: Rheologies,
     /// The pressure that makes friction.
     pub pressure: Field<Scalar>,
-    /// What is blended where a material yields.
+    /// The blended values where a material yields.
     pub blend: Blend,
 }
 

@@ -13,7 +13,7 @@ use crate::results::matrix;
 use crate::running::machine::Origin;
 use crate::running::record::Status;
 
-/// How the page looks, on paper too.
+/// Style of the page, on paper too.
 const STYLE: &str = "\
 body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem;color:#222}
 h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}
@@ -247,7 +247,7 @@ fn failures(results: &Results) -> String {
     }
 }
 
-/// Where the time goes, of the variants that nothing beats.
+/// Parts of the time, of the variants that nothing beats.
 fn stages(results: &Results) -> String {
     let heads = ["variant", "stage", "seconds", "share"].map(String::from);
     let mut rows = Vec::new();

@@ -11,7 +11,7 @@ use crate::reading::file;
 /// A scene value with the place of the study file that gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Set {
-    /// What is put on the scene.
+    /// Settings put on the scene.
     pub value: Override,
     /// Path in the study file.
     pub path: String,
@@ -84,7 +84,7 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
 /// One axis of a study file, with its path.
 ///
 /// # Errors
-/// What it lacks, with its place in the file.
+/// Its mistakes, with their places in the file.
 pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<SceneProblem>> {
     let problem = |key: &str, message: &str| vec![SceneProblem::new(format!("{at}{key}"), message)];
     let (name, choices) = match (&axis.key, &axis.values, &axis.entries) {

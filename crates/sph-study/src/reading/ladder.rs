@@ -102,7 +102,7 @@ struct Found {
     axes: [StudyAxis; 3],
 }
 
-/// What is wrong with the study as a whole.
+/// Mistakes of the study as a whole.
 fn whole(file: &StudyFile) -> Vec<SceneProblem> {
     let mut problems = Vec::new();
     let mut problem = |path: String, message: &str| problems.push(SceneProblem::new(path, message));

@@ -9,7 +9,7 @@ use sph_scene::{Diagnostic, Origin, Source};
 /// A mistake with the text it stands in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// What is wrong and where.
+    /// The mistake and its place.
     pub diagnostic: Diagnostic,
     /// The text that its span is in.
     pub text: Arc<str>,

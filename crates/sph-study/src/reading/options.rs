@@ -6,7 +6,7 @@ use crate::reading::variant::Variant;
 use crate::running::machine::Origin;
 use crate::running::record::Record;
 
-/// How a study is run.
+/// Options of a study.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Folder of all its files.
@@ -25,7 +25,7 @@ impl Options {
         self.out.join("variants").join(&variant.name)
     }
 
-    /// What is known of a variant from before.
+    /// Earlier results of a variant.
     pub fn known(&self, variant: &Variant) -> Option<Record> {
         let record = Record::load(&self.folder(variant));
         let forgotten = self.fresh && variant.wanted;

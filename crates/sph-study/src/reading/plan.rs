@@ -27,13 +27,13 @@ pub struct Study {
     pub scene: String,
     /// Names of the references that are judged, the first one by plots.
     pub errors: Vec<String>,
-    /// What is varied.
+    /// The axes.
     pub axes: Vec<StudyAxis>,
     /// Key over which the order of convergence is computed.
     pub refinement: Option<String>,
     /// Axes that are gone along until they break, instead of what is varied.
     pub ladders: Vec<Ladder>,
-    /// What was put on top of every variant, as `--set` has it.
+    /// Settings put on top of every variant, as of `--set`.
     pub set: Vec<String>,
     /// The variants, in the order in which they run.
     pub variants: Vec<Variant>,
@@ -132,7 +132,7 @@ impl Study {
     }
 }
 
-/// What a study is made from besides its file.
+/// Input of a study besides its file.
 struct Parts<'a> {
     name: String,
     find: &'a dyn Fn(&str) -> Result<SceneText, String>,
@@ -212,7 +212,7 @@ impl Parts<'_> {
     }
 }
 
-/// Why a study cannot be had.
+/// Errors of loading a study.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be read.

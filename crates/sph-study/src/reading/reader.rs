@@ -24,9 +24,9 @@ pub(crate) struct Reader<'a> {
     pub source: &'a Source,
     pub scene: &'a SceneText,
     pub axes: &'a [StudyAxis],
-    /// What every variant sets.
+    /// Settings of every variant.
     pub common: Vec<Set>,
-    /// What is put on top of every variant from outside.
+    /// Settings put on top of every variant from outside.
     pub set: &'a [Override],
     /// References that the scene must have, with their places in the study file.
     pub errors: Vec<(String, String)>,
@@ -129,7 +129,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What is put on the scene, in this order, with the place that gives it.
+    /// Settings put on the scene, in this order, with their places.
     fn overrides(&self, choices: &[usize]) -> (Vec<Override>, Vec<Option<String>>) {
         let mut all: Vec<(Override, Option<String>)> = Vec::new();
         if !self.file.keep_output {

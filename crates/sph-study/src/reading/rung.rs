@@ -7,7 +7,7 @@ use crate::reading::file::Bounds;
 pub struct Ladder {
     /// Name in tables and folders.
     pub name: String,
-    /// What is varied.
+    /// Title of the axis.
     pub title: String,
     /// Name of the scene.
     pub scene: String,

@@ -23,7 +23,7 @@ pub struct Variant {
     pub wanted: bool,
     /// The scene.
     pub subject: Arc<dyn Subject>,
-    /// What its result depends on.
+    /// Data on which its result depends.
     pub fingerprint: String,
     /// For every override of the scene the path in the study file that gives it, if it does.
     pub(crate) given_by: Vec<Option<String>>,

@@ -11,7 +11,7 @@ use crate::running::machine::Origin;
 /// The difference of two studies, variant by variant.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// What else differs: studies, machines, versions, threads.
+    /// Other differences: studies, machines, versions, threads.
     pub notes: Vec<String>,
     /// Variants that both have.
     pub variants: Vec<Change>,
@@ -28,7 +28,7 @@ pub struct Comparison {
 pub struct Change {
     /// Name.
     pub name: String,
-    /// How it ended.
+    /// The way it ended.
     pub status: [String; 2],
     /// Name of an error with its values and their ratio.
     pub errors: Vec<(String, Pair)>,

@@ -13,7 +13,7 @@ use crate::running::verdict::Colour;
 pub struct Frontier {
     /// Name of the axis.
     pub axis: String,
-    /// What is varied.
+    /// Title of the axis.
     pub title: String,
     /// Name of the combination; empty if the axis has none.
     pub combination: String,

@@ -13,7 +13,7 @@ use crate::results::frontier::Frontier;
 use crate::results::variant_result::VariantResult;
 use crate::running::record::Status;
 
-/// How the table of colours looks.
+/// Style of the table of colours.
 pub const STYLE: &str = "\
 td.green{background:#c9e8c5}td.yellow{background:#fbe9a6}td.red{background:#f3b3ab}\
 td.none{color:#aaa}table.frontier td{padding:.2rem .5rem;border:1px solid #fff}\
@@ -199,7 +199,7 @@ fn runs(results: &Results, lines: &[&Frontier]) -> String {
     grid(&heads, &rows, |k| classes[k].clone())
 }
 
-/// What a terminal shows: one row per axis and combination.
+/// The table for a terminal: one row per axis and combination.
 pub fn summary(results: &Results) -> Vec<Vec<String>> {
     let heads = [
         "axis",

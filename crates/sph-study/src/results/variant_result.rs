@@ -12,7 +12,7 @@ use crate::running::machine::Origin;
 use crate::running::record::{Error, Health, Record, Status};
 use crate::running::verdict::{Verdict, verdict};
 
-/// What came out of a variant.
+/// Results of a variant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct VariantResult {
     /// Name, which is that of its folder.
@@ -21,14 +21,14 @@ pub struct VariantResult {
     pub values: BTreeMap<String, String>,
     /// Value of the refinement's key.
     pub refinement: Option<f64>,
-    /// How it ended.
+    /// The way it ended.
     pub status: Status,
-    /// Why it did not end well.
+    /// The error, if it did not end well.
     pub reason: Option<String>,
     /// Green, yellow or red, of a run along an axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
-    /// How sound the run was.
+    /// Soundness of the run.
     #[serde(default)]
     pub health: Health,
     /// All errors against the scene's references.
@@ -51,7 +51,7 @@ pub struct VariantResult {
     pub dt_limiter: Option<String>,
     /// Share of the steps limited by each bound.
     pub dt_limiters: BTreeMap<String, f64>,
-    /// What implicit solves took.
+    /// Effort of implicit solves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
@@ -59,7 +59,7 @@ pub struct VariantResult {
     /// On what and by what it was run.
     #[serde(flatten)]
     pub origin: Origin,
-    /// What the result depends on.
+    /// Data on which the result depends.
     pub fingerprint: String,
 }
 

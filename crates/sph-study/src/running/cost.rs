@@ -45,7 +45,7 @@ impl Cost {
     }
 }
 
-/// What the implicit solves of a variant took.
+/// Effort of the implicit solves of a variant.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SolveCost {

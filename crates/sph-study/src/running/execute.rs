@@ -13,14 +13,14 @@ use crate::running::repeat;
 use crate::running::verdict::{Colour, verdict};
 use crate::running::watcher::Watcher;
 
-/// What running a study gave.
+/// Results of running a study.
 #[derive(Debug)]
 pub struct Outcome {
     /// One record per variant, in their order.
     pub records: Vec<Record>,
     /// Whether it was stopped before all variants had run.
     pub stopped: bool,
-    /// What kept it from going on, a full disk for instance.
+    /// The error that kept it from going on, a full disk for instance.
     pub error: Option<IoError>,
 }
 

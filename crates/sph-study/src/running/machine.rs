@@ -30,7 +30,7 @@ impl Machine {
     }
 }
 
-/// Where run times and last digits come from.
+/// Origin of run times and last digits.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Origin {
@@ -80,7 +80,7 @@ fn system() -> String {
     }
 }
 
-/// What a program prints, if it is there and content.
+/// Output of a program, if it is there and succeeds.
 fn said(command: &mut Command) -> Option<String> {
     let output = command
         .stdin(Stdio::null())

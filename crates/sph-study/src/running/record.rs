@@ -16,7 +16,7 @@ const FILE: &str = "record.json";
 /// Longest record, bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// How a variant ended.
+/// End of a variant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
@@ -53,11 +53,11 @@ impl Status {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Record {
-    /// How it ended.
+    /// The way it ended.
     pub status: Status,
-    /// What the result depends on.
+    /// Data on which the result depends.
     pub fingerprint: String,
-    /// Why it failed, or which limit it is over.
+    /// The error, or the exceeded limit.
     pub reason: Option<String>,
     /// Time limit in force, s.
     pub time_limit: Option<f64>,
@@ -79,9 +79,9 @@ pub struct Record {
     pub simulated_seconds: f64,
     /// Share of the steps limited by each bound.
     pub dt_limiters: BTreeMap<String, f64>,
-    /// How sound it was.
+    /// Its soundness.
     pub health: Health,
-    /// What implicit solves took in the last repetition.
+    /// Effort of implicit solves in the last repetition.
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
@@ -136,7 +136,7 @@ fn one() -> String {
     "1".into()
 }
 
-/// What a study reads of the summary of a run, whatever computed it.
+/// The part of a run's summary that a study reads, whatever computed it.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RunSummary {
@@ -168,7 +168,7 @@ struct DriftTold {
 }
 
 impl Record {
-    /// What a run gave, from its summary.
+    /// Results of a run, from its summary.
     pub fn from_summary(summary: Json) -> Self {
         let told: RunSummary = serde_json::from_value(summary).unwrap_or_default();
         let both = |[low, high]: [Option<f64>; 2]| Some([low?, high?]);

@@ -8,7 +8,7 @@ use sph_core::number;
 use crate::reading::file::Bounds;
 use crate::running::record::{Record, Status};
 
-/// How well a run went.
+/// Soundness of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Colour {
@@ -36,7 +36,7 @@ impl Colour {
 pub struct Verdict {
     /// The colour.
     pub colour: Colour,
-    /// What made it worse than green; empty if nothing did.
+    /// Reasons for less than green; empty if there are none.
     pub why: String,
 }
 

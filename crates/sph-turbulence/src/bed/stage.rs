@@ -71,7 +71,7 @@ fn distance_of(shares: &[f64], radius: f64, share: f64) -> f64 {
     }
 }
 
-/// What a particle sees of the bed.
+/// The bed as a particle sees it.
 struct Seen<const D: usize> {
     distance: f64,
     slip: Vect<D>,

@@ -20,7 +20,7 @@ impl Default for AlgebraicStress {
     }
 }
 
-/// What a velocity gradient makes of the stresses.
+/// Stresses from a velocity gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anisotropy {
     /// N.

@@ -41,14 +41,14 @@ pub(crate) struct Sources {
     pub bed: bool,
 }
 
-/// What a particle meets next to a wall with a wall function.
+/// Conditions of a particle next to a wall with a wall function.
 #[derive(Clone, Copy)]
 struct Near {
     friction_velocity: f64,
     distance: f64,
 }
 
-/// What a particle is strained by.
+/// Strain rates of a particle.
 #[derive(Clone, Copy)]
 struct Strained {
     rate: f64,

@@ -79,7 +79,7 @@ impl LogLaw {
         }
     }
 
-    /// What is wrong with its walls.
+    /// Mistakes of its walls.
     ///
     /// A friction of their own is that of phases that the law is not for, where there are such.
     fn check_walls<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), String> {

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a friction velocity cannot be solved for.
+/// Errors of a friction velocity that cannot be solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum WallLawError {
     /// A distance that is none.
@@ -20,7 +20,7 @@ pub enum WallLawError {
          {least} m was expected"
     )]
     WithinRoughness {
-        /// What was given, m.
+        /// The given value, m.
         distance: f64,
         /// Where the velocity of the fully rough law begins, m.
         least: f64,
@@ -30,9 +30,9 @@ pub enum WallLawError {
     Constant {
         /// Name of the constant.
         name: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
-        /// What is valid.
+        /// The valid range.
         expected: &'static str,
     },
 }

@@ -6,7 +6,7 @@ use sph_neighbours::{Contact, WallSet};
 /// Least distance from a wall over the spacing: no particle is let nearer.
 pub(crate) const LEAST_DISTANCE: f64 = 0.25;
 
-/// What a particle sees of the wall nearest to it.
+/// The nearest wall as a particle sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestWall {
     /// Distance from its element's plane, m, not less than a quarter of the spacing.

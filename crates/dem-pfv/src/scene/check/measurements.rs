@@ -8,7 +8,7 @@ use super::add;
 use crate::scene::names::planes;
 use crate::scene::tables::{Axis, Probe, Reference, Scene};
 
-/// What is wrong with a probe.
+/// Mistakes of a probe.
 pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProblem>) {
     let at = |key: &str| format!("probe.{name}.{key}");
     let wet = "needs a `[fluid]`";
@@ -73,7 +73,7 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
     }
 }
 
-/// What is wrong with a reference.
+/// Mistakes of a reference.
 pub fn reference(
     scene: &Scene,
     probes: &BTreeMap<String, Probe>,

@@ -6,7 +6,7 @@ use super::add;
 use crate::scene::names::{BOX, planes};
 use crate::scene::tables::Scene;
 
-/// What is wrong with the start.
+/// Mistakes of the start.
 pub fn start(scene: &Scene, found: &mut Vec<SceneProblem>) {
     ways(scene, found);
     numbers_and_sizes(scene, found);
@@ -136,7 +136,7 @@ fn room(scene: &Scene, found: &mut Vec<SceneProblem>) {
     }
 }
 
-/// What is wrong with the box.
+/// Mistakes of the box.
 pub fn boxed(scene: &Scene, found: &mut Vec<SceneProblem>) {
     let Some(given) = &scene.r#box else { return };
     for axis in 0..3 {

@@ -6,7 +6,7 @@ use super::add;
 use crate::scene::names::{BOX, periodic};
 use crate::scene::tables::{Scene, Wall};
 
-/// What is wrong with a wall.
+/// Mistakes of a wall.
 pub fn wall(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
     place(scene, name, wall, found);
     of_file(name, wall, found);

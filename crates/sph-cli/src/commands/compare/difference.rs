@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 use super::tables::{Column, Table};
 use crate::number;
 
-/// How a column differs.
+/// Difference of a column.
 pub struct Difference {
     file: String,
     column: String,
@@ -23,7 +23,7 @@ pub struct Difference {
     place: Place,
 }
 
-/// Where a difference is.
+/// Place of a difference.
 #[derive(Clone, Default)]
 struct Place {
     time: Option<f64>,

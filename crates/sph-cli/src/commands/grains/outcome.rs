@@ -9,7 +9,7 @@ use crate::commands::outcome::{headline, limited_by, row, wall_time};
 use crate::number;
 use crate::terminal::layout::{columns, remarks};
 
-/// What the run was, what it cost, how good it is, and where its files are.
+/// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {
     let mut text = headline(summary.status, &summary.scene);
     text.push_str(&columns(2, &cost(summary)));

@@ -19,7 +19,7 @@ pub struct Materials<const D: usize> {
     pub laws: Rheologies,
     /// The gradient of the velocity, where a stage needs it.
     pub gradient: Option<Arc<dyn VelocityGradient<D>>>,
-    /// What makes friction of viscosities.
+    /// The viscous operator, for friction.
     pub operator: Box<dyn ViscousOperator<D>>,
     /// What makes forces of elastic stresses, where a law has them.
     pub force: Option<Box<dyn ElasticForce<D>>>,
