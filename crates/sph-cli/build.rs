@@ -4,12 +4,11 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 fn main() {
-    let manifest = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets the manifest's folder");
-    let scenes = Path::new(&manifest).join("../../scenes");
+    let scenes = place("scenes", "scenes");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed={}", scenes.display());
     println!("cargo:rerun-if-changed={}", scenes.join("data").display());
-    let studies = Path::new(&manifest).join("../../studies");
+    let studies = place("studies", "studies");
     println!("cargo:rerun-if-changed={}", studies.display());
     let mut code = String::new();
     let tables = [
@@ -45,11 +44,30 @@ fn main() {
         }
         code.push_str("];\n");
     }
+    let gallery = place("docs/gallery.toml", "gallery.toml");
+    println!("cargo:rerun-if-changed={}", gallery.display());
+    writeln!(
+        code,
+        "pub(crate) const GALLERY: &str = include_str!({gallery:?});"
+    )
+    .expect("a string takes all");
     let out = std::env::var("OUT_DIR").expect("cargo sets the output folder");
     std::fs::write(Path::new(&out).join("shipped.rs"), code).expect("the output folder is ours");
-    let lock = Path::new(&manifest).join("../../Cargo.lock");
+    let lock = place("Cargo.lock", "Cargo.lock");
     println!("cargo:rerun-if-changed={}", lock.display());
     println!("cargo:rustc-env=SPH_BUILT_WITH={}", built_with(&lock));
+}
+
+/// A file or folder of the repository; in a published package, which has no repository around it, the package's own copy.
+/// The links that put the copies there are files of text where a system has no links: hence the order.
+fn place(in_repository: &str, in_package: &str) -> PathBuf {
+    let manifest = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets the manifest's folder");
+    let manifest = Path::new(&manifest);
+    let repository = manifest.join("../..");
+    match repository.join("crates/sph-cli/build.rs").exists() {
+        true => repository.join(in_repository),
+        false => manifest.join(in_package),
+    }
 }
 
 /// Compiler, optimisation, and the libraries that most of the time is spent in.

@@ -116,13 +116,12 @@ pub fn study(
     arguments: StudyArguments,
 ) -> PyResult<(String, String, Option<String>)> {
     let request = request(arguments.set, arguments.allow_path);
-    let options = StudyOptions {
-        out: arguments.out,
-        threads: arguments.threads,
-        only: arguments.only,
-        fresh: arguments.fresh,
-        quiet: arguments.quiet,
-    };
+    let mut options = StudyOptions::default();
+    options.out = arguments.out;
+    options.threads = arguments.threads;
+    options.only = arguments.only;
+    options.fresh = arguments.fresh;
+    options.quiet = arguments.quiet;
     let shared = Shared::default();
     let stop = shared.stop.clone();
     let done = watched(py, &shared, None, None, || {

@@ -22,6 +22,7 @@ pub struct Entry<L: ?Sized + 'static> {
 
 /// Laws that cannot be found by name, or built.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PluginError {
     /// No law of that name.
     #[error("there is no {kind} {name:?}; there are: {known}")]

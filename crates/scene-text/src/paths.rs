@@ -14,6 +14,7 @@ const ADVICE: &str =
 
 /// A file that a scene must not name.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum PathProblem {
     /// The path is absolute.
     #[error("`{0}` is an absolute path: name files relative to the scene's folder, {advice}", advice = ADVICE)]

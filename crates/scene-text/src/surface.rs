@@ -13,10 +13,8 @@ mod stl;
 mod topology;
 mod vector;
 mod weld;
-mod winding;
 
 pub use stl::{StlFile, parse, read};
 pub use topology::{Opening, Topology};
 pub use vector::{cross, dot, minus};
 pub use weld::{Facets, Welder};
-pub use winding::Winding;

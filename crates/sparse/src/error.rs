@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A system that has no factor, or no solution within the iterations allowed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SparseError {
     /// There is not enough memory for the factor.
     #[error("not enough memory to factorise {unknowns} unknowns; conjugate gradients need less")]

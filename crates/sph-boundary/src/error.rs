@@ -1,6 +1,7 @@
 //! Errors of walls, and of kernels at walls.
 
-use sph_core::number;
+#[cfg(feature = "plugins")]
+use sph_core::number::plain as told;
 
 use crate::geometry::wall_end::WallEnd;
 use crate::limits::{MOST_PAIRS, MOST_PERIODS};
@@ -289,7 +290,7 @@ pub enum BoundaryError {
     #[error(
         "wall `{wall}` is open: {edges} edge(s) without a neighbour surround an opening of \
          {} m around {centre}, and at {at} one of them is {} m from particle {particle}, within the \
-         kernel radius {} m: {}", number::plain(*.extent), number::plain(*.distance), number::plain(*.radius),
+         kernel radius {} m: {}", told(*.extent), told(*.distance), told(*.radius),
          remedy(.met)
     )]
     FreeEdgeInReach {
@@ -318,6 +319,11 @@ impl BoundaryError {
             false => Err(Self::NotPositive { name, value }),
         }
     }
+}
+
+#[cfg(not(feature = "plugins"))]
+fn told(x: f64) -> String {
+    x.to_string()
 }
 
 fn remedy(met: &Option<Box<str>>) -> String {
@@ -356,6 +362,7 @@ impl std::fmt::Display for Place {
 /// A remark that does not stop the run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
+#[non_exhaustive]
 pub enum WallWarning {
     /// An edge shorter than a quarter of the spacing: it becomes one short segment.
     #[error(
@@ -382,12 +389,4 @@ pub enum WallWarning {
         "{faces} faces of wall `{wall}` end on the back of another wall: they bound no fluid and are left out"
     )]
     Unseen { wall: String, faces: usize },
-}
-
-/// A failure of the wall stages.
-pub(crate) fn stage_error(reason: impl ToString) -> sph_core::StepError {
-    sph_core::StepError::Stage {
-        stage: "walls".into(),
-        reason: reason.to_string(),
-    }
 }

@@ -13,7 +13,9 @@
 //! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
 //! fulfil it. [`Mover`] is the contract of what moves a wall, whose [`RigidState`] is kept, rolled back and saved;
 //! [`RigidMotion`] moves one along [`Course`]s,
-//! [`Spring`] holds one against the fluid, and [`bodies`] float and sink.
+//! [`Spring`] holds one against the fluid, and [`bodies`] float and sink. All this is the feature
+//! `plugins`, which is on unless it is turned off; without it the table above is left, for programs that want γ of a
+//! mesh and nothing else.
 //!
 //! # In the plane
 //! ```
@@ -64,14 +66,23 @@
     test,
     allow(unused_imports, reason = "plugins are not registered in unit tests")
 )]
+// What treatments alone call.
+#![cfg_attr(
+    not(feature = "plugins"),
+    allow(dead_code, unused_imports, reason = "called by treatments")
+)]
 
+#[cfg(feature = "plugins")]
 pub mod bodies;
 mod error;
 mod geometry;
 mod integrals;
 mod limits;
+mod parallel;
 mod rigid;
+#[cfg(feature = "plugins")]
 mod scale;
+#[cfg(feature = "plugins")]
 mod treatment;
 
 pub use error::{BoundaryError, Place, WallWarning};
@@ -86,23 +97,27 @@ pub use geometry::polyline::Polyline;
 pub use geometry::shells::{Gammas, Shells};
 pub use geometry::surface::Surface;
 pub use geometry::wall_end::{FreeEnd, WallEnd};
-pub use geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh};
-pub use geometry::walls::{PlanarWalls, SpatialWalls, Walls};
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
 pub use integrals::sum::GammaSum;
 pub use rigid::bend::Bend;
-pub use rigid::load::{Load, MoverRefusal, MoverSetting, Touch};
 pub use rigid::motion::RigidMotion;
-pub use rigid::mover::{Mover, MoverEntry};
 pub use rigid::pose::Pose;
-pub use rigid::rigid_state::{Movement, RigidState};
-pub use rigid::spring::Spring;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
-pub use treatment::contract::{
-    ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
-    WallStates,
+
+#[cfg(feature = "plugins")]
+pub use crate::{
+    geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh},
+    geometry::walls::{PlanarWalls, SpatialWalls, Walls},
+    rigid::load::{Load, MoverRefusal, MoverSetting, Touch},
+    rigid::mover::{Mover, MoverEntry},
+    rigid::rigid_state::{Movement, RigidState},
+    rigid::spring::Spring,
+    treatment::contract::{
+        ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
+        WallStates,
+    },
+    treatment::dummy::DummyParticles,
+    treatment::symmetric::Symmetric,
+    treatment::usaw::Usaw,
 };
-pub use treatment::dummy::DummyParticles;
-pub use treatment::symmetric::Symmetric;
-pub use treatment::usaw::Usaw;

@@ -18,3 +18,11 @@ pub(crate) mod shepard;
 pub(crate) mod symmetric;
 pub(crate) mod touching;
 pub(crate) mod usaw;
+
+/// A failure of the wall stages.
+pub(crate) fn stage_error(reason: impl ToString) -> sph_core::StepError {
+    sph_core::StepError::Stage {
+        stage: "walls".into(),
+        reason: reason.to_string(),
+    }
+}

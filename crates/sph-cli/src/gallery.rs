@@ -5,10 +5,12 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
+use crate::shipped;
+
 /// The file as it was when the program was built.
 static GALLERY: LazyLock<Gallery> = LazyLock::new(|| {
-    let text = include_str!("../../../docs/gallery.toml");
-    toml::from_str(text).expect("docs/gallery.toml is read by every test of `sph scenes`")
+    toml::from_str(shipped::GALLERY)
+        .expect("docs/gallery.toml is read by every test of `sph scenes`")
 });
 
 /// Descriptions of all shipped scenes.

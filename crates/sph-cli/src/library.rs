@@ -139,6 +139,7 @@ pub fn study(
 
 /// Options of a study.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct StudyOptions {
     /// Folder of the results; `None` is `results/studies/NAME`.
     pub out: Option<PathBuf>,

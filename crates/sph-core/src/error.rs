@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// A column that is not what its reader takes it for.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum FieldError {
     /// No stage or term declared the field.
     #[error("field `{0}` is not allocated in this scene: no plugin declared it")]
@@ -19,6 +20,7 @@ pub enum FieldError {
 
 /// A set of stages that cannot be put in order.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PlanError {
     /// A field that no stage writes.
     #[error("field `{field}`, needed by {reader}, is written by no stage of this scene")]
@@ -45,6 +47,7 @@ pub enum PlanError {
 
 /// A plugin that cannot be found or built.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RegistryError {
     /// No plugin of that kind has that name.
     #[error(
@@ -90,6 +93,7 @@ pub enum RegistryError {
 
 /// A time step that went wrong, with the particle and the quantity.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum StepError {
     /// A column is not what its reader takes it for.
     #[error(transparent)]

@@ -9,6 +9,9 @@
 //! * [`StepLimit`]: a plugin's own largest stable time step, with its reason.
 //! * [`number`]: how numbers are written for people.
 //!
+//! Without the feature `plugins` there are only the parts that need no other crate: [`BoxTree`], [`Winding`],
+//! [`Symmetric`], [`course`], [`rectangular_duct`], [`Pool`] and [`Slots`].
+//!
 //! ```
 //! use sph_core::{Field, Role, Scalar, Store};
 //!
@@ -19,60 +22,88 @@
 //! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
 //! ```
 
+#[cfg(feature = "plugins")]
 mod axis;
 mod boxes;
 pub mod course;
 mod duct;
+#[cfg(feature = "plugins")]
 mod error;
+#[cfg(feature = "plugins")]
 mod evolve;
+#[cfg(feature = "plugins")]
 mod field;
+#[cfg(feature = "plugins")]
 pub mod fields;
+#[cfg(feature = "plugins")]
 mod insertion;
+#[cfg(feature = "plugins")]
 mod kinds;
+#[cfg(feature = "plugins")]
 mod limit;
+#[cfg(feature = "plugins")]
 mod parcel;
+#[cfg(feature = "plugins")]
 mod plan;
+#[cfg(feature = "plugins")]
 mod plugin_choice;
+#[cfg(feature = "plugins")]
 mod plugin_info;
 mod pool;
+#[cfg(feature = "plugins")]
 mod registry;
+#[cfg(feature = "plugins")]
 mod removal;
+#[cfg(feature = "plugins")]
 mod saved;
 mod slots;
+#[cfg(feature = "plugins")]
 mod stage;
+#[cfg(feature = "plugins")]
 mod store;
 mod symmetric;
+#[cfg(feature = "plugins")]
 mod turnover;
+#[cfg(feature = "plugins")]
 mod watch;
+mod winding;
 
-pub use axis::Axis;
 pub use boxes::{BoxTree, Corners, bounds};
 pub use duct::rectangular_duct;
-pub use error::{FieldError, PlanError, RegistryError, StepError};
-pub use evolve::{Evolved, Recall, System};
-pub use field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector};
-pub use kinds::{Place, PluginKind, Work, kind_of, kinds};
-pub use limit::StepLimit;
-pub use plan::{Plan, plan};
-pub use plugin_choice::PluginChoice;
-pub use plugin_info::PluginInfo;
 pub use pool::{Pool, PoolGuard};
-pub use registry::{
-    Contract, Makes, Parameter, Registry, node_of, parameters, plugins_of, schema_of, typed,
+pub use slots::Slots;
+pub use symmetric::Symmetric;
+pub use winding::Winding;
+
+#[cfg(feature = "plugins")]
+pub use crate::{
+    axis::Axis,
+    error::{FieldError, PlanError, RegistryError, StepError},
+    evolve::{Evolved, Recall, System},
+    field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector},
+    kinds::{Place, PluginKind, Work, kind_of, kinds},
+    limit::StepLimit,
+    plan::{Plan, plan},
+    plugin_choice::PluginChoice,
+    plugin_info::PluginInfo,
+    registry::{
+        Contract, Makes, Parameter, Registry, node_of, parameters, plugins_of, schema_of, typed,
+    },
+    saved::Saved,
+    stage::{Access, Declares, Stage},
+    store::{Plain, Role, Store},
+    turnover::{Inserted, Removed},
 };
-pub use saved::Saved;
+#[cfg(feature = "plugins")]
 pub use scene_text::{
     Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
     parse_unit, plausible, suggestion, unit_factor,
 };
-pub use slots::Slots;
+#[cfg(feature = "plugins")]
 pub use sph_derive::{parameters, plugin};
-pub use stage::{Access, Declares, Stage};
-pub use store::{Plain, Role, Store};
-pub use symmetric::Symmetric;
-pub use turnover::{Inserted, Removed};
 
 /// Crates that the registration macros name; use them through the macros only.
+#[cfg(feature = "plugins")]
 #[doc(hidden)]
 pub mod reexport {
     pub use inventory;
@@ -82,4 +113,5 @@ pub mod reexport {
 }
 
 /// A vector of D components, SI units of whatever it holds.
+#[cfg(feature = "plugins")]
 pub type Vect<const D: usize> = nalgebra::SVector<f64, D>;

@@ -2,8 +2,10 @@
 
 use std::ops::{Add, Mul, Sub};
 
+#[cfg(feature = "plugins")]
 use nalgebra::Matrix3;
 
+#[cfg(feature = "plugins")]
 use crate::Vect;
 
 /// A symmetric 3 × 3 tensor: xx, yy, zz, xy, yz, xz.
@@ -16,25 +18,26 @@ impl Symmetric {
     /// The zero tensor.
     pub const ZERO: Symmetric = Symmetric([0.0; 6]);
 
-    /// ½(A + Aᵀ).
+    /// ½(A + Aᵀ) of a matrix, given by its rows or its columns.
     #[inline]
-    pub fn part_of(a: &Matrix3<f64>) -> Self {
-        let mean = |i, j| 0.5 * (a[(i, j)] + a[(j, i)]);
+    pub fn part_of(a: impl Into<[[f64; 3]; 3]>) -> Self {
+        let a = a.into();
+        let mean = |i: usize, j: usize| 0.5 * (a[i][j] + a[j][i]);
         Symmetric([
-            a[(0, 0)],
-            a[(1, 1)],
-            a[(2, 2)],
+            a[0][0],
+            a[1][1],
+            a[2][2],
             mean(0, 1),
             mean(1, 2),
             mean(0, 2),
         ])
     }
 
-    /// As a full matrix.
+    /// Its rows, which are its columns as well.
     #[inline]
-    pub fn matrix(&self) -> Matrix3<f64> {
+    pub fn rows(&self) -> [[f64; 3]; 3] {
         let [xx, yy, zz, xy, yz, xz] = self.0;
-        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+        [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
     }
 
     /// A_xx + A_yy + A_zz.
@@ -58,12 +61,20 @@ impl Symmetric {
         let diagonal = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         diagonal + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
     }
+}
+
+#[cfg(feature = "plugins")]
+impl Symmetric {
+    /// As a full matrix.
+    #[inline]
+    pub fn matrix(&self) -> Matrix3<f64> {
+        self.rows().into()
+    }
 
     /// A·v in the plane, or in space.
     #[inline(always)]
     pub fn apply<const D: usize>(&self, v: &Vect<D>) -> Vect<D> {
-        let [xx, yy, zz, xy, yz, xz] = self.0;
-        let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        let rows = self.rows();
         Vect::from_fn(|i, _| (0..D).map(|j| rows[i][j] * v[j]).sum())
     }
 }
@@ -92,7 +103,7 @@ impl Mul<f64> for Symmetric {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "plugins"))]
 mod tests {
     use nalgebra::Vector3;
 
@@ -101,7 +112,7 @@ mod tests {
     #[test]
     fn operations_are_those_of_the_matrix() {
         let a = Matrix3::new(1.0, 2.0, -3.0, 0.5, -1.0, 4.0, 2.5, 0.25, 7.0);
-        let s = Symmetric::part_of(&a);
+        let s = Symmetric::part_of(a);
         let m = s.matrix();
         assert_eq!(m, 0.5 * (a + a.transpose()));
         assert_eq!(s.trace(), m.trace());

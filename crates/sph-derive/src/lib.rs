@@ -58,6 +58,27 @@ pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
     expanded(parse_macro_input!(item as DeriveInput), &root.0, None)
 }
 
+/// The type that [`macro@plugin`] makes, without scenes: what it derives of the standard library, and its `Default`.
+/// For crates whose plugins are a feature: the same attributes with the feature and without it.
+#[proc_macro_attribute]
+pub fn plain_plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    parse_macro_input!(arguments as registration::Registration);
+    plain(parse_macro_input!(item as DeriveInput), true)
+}
+
+/// The type that [`macro@parameters`] makes, without scenes.
+#[proc_macro_attribute]
+pub fn plain_parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    parse_macro_input!(arguments as table::Root);
+    plain(parse_macro_input!(item as DeriveInput), false)
+}
+
+fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
+    table::plain(item, is_plugin)
+        .unwrap_or_else(syn::Error::into_compile_error)
+        .into()
+}
+
 /// A pair term: its columns and constants, declared once in the struct that holds them while a sweep goes on.
 ///
 /// `#[pair_term(Term, "name in plans")]` on the bound struct implements `PairTerm` for `Term`. Every field has one word:

@@ -30,16 +30,19 @@ impl Parse for Root {
     }
 }
 
-/// The type with the additions of its attribute. A plugin that keeps more than its parameters is no value to copy or to
-/// print.
-///
-/// # Errors
-/// Unknown words; a union; fields without names.
-pub fn expand(
-    mut item: DeriveInput,
-    root: &TokenStream,
-    is_plugin: bool,
-) -> syn::Result<TokenStream> {
+/// A type whose words have been read, and what goes with it.
+struct Read {
+    item: DeriveInput,
+    derives: Vec<&'static str>,
+    /// Words for `serde`.
+    serde: Vec<TokenStream>,
+    defaults: Defaults,
+    /// `Default` of the type, if every field has one.
+    default: Option<TokenStream>,
+}
+
+/// A plugin that keeps more than its parameters is no value to copy or to print.
+fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
     let derived = words(&item.attrs, "derive");
     let said = words(&item.attrs, "serde");
     let plain = item.generics.params.is_empty() && is_plain(&item.data);
@@ -59,8 +62,29 @@ pub fn expand(
         derives.push("Copy");
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
-    let derives = derives.iter().map(|name| path_of(name, root));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
+    Ok(Read {
+        item,
+        derives,
+        serde,
+        defaults,
+        default,
+    })
+}
+
+/// The type with what its attribute says.
+///
+/// # Errors
+/// Unknown words; a union; fields without names.
+pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Result<TokenStream> {
+    let Read {
+        item,
+        derives,
+        serde,
+        defaults,
+        default,
+    } = read(item, is_plugin)?;
+    let derives = derives.iter().map(|name| path_of(name, root));
     let place = root.to_string().replace(' ', "");
     let [at_serde, at_schemars] = ["serde", "schemars"].map(|name| format!("{place}::{name}"));
     Ok(quote! {
@@ -73,15 +97,55 @@ pub fn expand(
     })
 }
 
+/// The type as it is without scenes: its words and those for `serde` and `schemars` are gone, and with them the traits
+/// that read it from a text and write it.
+///
+/// # Errors
+/// As [`expand`].
+pub fn plain(item: DeriveInput, is_plugin: bool) -> syn::Result<TokenStream> {
+    let Read {
+        mut item,
+        derives,
+        defaults,
+        default,
+        ..
+    } = read(item, is_plugin)?;
+    take(&mut item, &["serde", "schemars"]);
+    let texts = ["Deserialize", "JsonSchema", "Serialize"];
+    let derives = derives.iter().filter(|name| !texts.contains(name));
+    let derives = derives.map(|name| path_of(name, &TokenStream::new()));
+    // The values of single fields are called by the whole alone.
+    let defaults = default.is_some().then_some(defaults);
+    Ok(quote! {
+        #[derive(#(#derives),*)]
+        #item
+        #defaults
+        #default
+    })
+}
+
 /// Takes the words of parameters away.
 pub fn take_words(item: &mut DeriveInput) {
+    take(item, &["parameter"]);
+}
+
+/// Takes the attributes of these names away.
+fn take(item: &mut DeriveInput, names: &[&str]) {
+    let mut lists = vec![&mut item.attrs];
     let fields: Vec<&mut Fields> = match &mut item.data {
         Data::Struct(data) => vec![&mut data.fields],
-        Data::Enum(data) => data.variants.iter_mut().map(|v| &mut v.fields).collect(),
+        Data::Enum(data) => {
+            let variants = data.variants.iter_mut();
+            let (attributes, fields): (Vec<_>, _) =
+                variants.map(|v| (&mut v.attrs, &mut v.fields)).unzip();
+            lists.extend(attributes);
+            fields
+        }
         Data::Union(_) => Vec::new(),
     };
-    for field in fields.into_iter().flatten() {
-        field.attrs.retain(|a| !a.path().is_ident("parameter"));
+    lists.extend(fields.into_iter().flatten().map(|field| &mut field.attrs));
+    for list in lists {
+        list.retain(|a| !names.iter().any(|name| a.path().is_ident(name)));
     }
 }
 
@@ -249,6 +313,29 @@ mod tests {
             take_words(&mut item);
             assert!(expand(item, &quote!(::root), true).is_ok());
         }
+    }
+
+    #[test]
+    fn a_plain_type_has_its_default_and_nothing_of_texts() {
+        let item =
+            r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
+        let bare = |item: &str| {
+            let code = plain(syn::parse_str(item).expect("an item"), true).expect("words");
+            code.to_string().replace(' ', "")
+        };
+        let code = bare(item);
+        for gone in ["serde", "schema", "unit"] {
+            assert!(!code.contains(gone), "{gone}: {code}");
+        }
+        assert!(code.contains("default::DefaultforA") && code.contains("marker::Copy"));
+        let code = bare("struct A { #[parameter(default: 0.5)] a: f64, b: f64 }");
+        assert!(!code.contains("default_a"), "without a call: {code}");
+        let code = bare("enum A { #[default] #[serde(rename = \"b\")] B, C }");
+        assert!(code.contains("#[default]B"), "{code}");
+        assert!(
+            code.contains("cmp::Eq") && !code.contains("serde"),
+            "{code}"
+        );
     }
 
     #[test]

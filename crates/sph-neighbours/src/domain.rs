@@ -106,3 +106,67 @@ impl<const D: usize> Domain<D> {
         (0..D).all(|a| self.periodic[a] || (x[a] >= self.lower[a] && x[a] <= self.upper[a]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 2 m by 1 m, periodic along x.
+    fn channel() -> Domain<2> {
+        Domain {
+            lower: Vect::<2>::new(-0.5, 0.0),
+            upper: Vect::<2>::new(1.5, 1.0),
+            periodic: [true, false],
+        }
+    }
+
+    #[test]
+    fn an_image_is_half_a_period_away_at_most_and_whole_periods_off() {
+        let channel = channel();
+        for k in -40..=40 {
+            let d = Vect::<2>::new(0.0731 * f64::from(k), 0.9 * f64::from(k));
+            let near = channel.nearest(d);
+            let periods = (d[0] - near[0]) / 2.0;
+            assert!(near[0].abs() <= 1.0 && (periods - periods.round()).abs() < 1e-14);
+            assert_eq!(near[1], d[1], "not periodic");
+            // Separations within the box are one period off at most.
+            if d[0].abs() < 2.0 {
+                assert_eq!(channel.nearest_image(d), near, "{d}");
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_have_the_bits_of_numbers() {
+        let channel = channel();
+        for x in [-2.0, -1.0 - 1e-15, -1.0, -0.3, 0.0, 1.0, 1.0 + 1e-15, 1.9] {
+            let d = Vect::<2>::new(x, -x);
+            let lanes = channel.nearest_images::<f64>([x, -x]);
+            assert_eq!(Vect::from(lanes), channel.nearest_image(d), "{x}");
+        }
+    }
+
+    /// The upper face is the lower one, also for what rounding puts on it.
+    #[test]
+    fn a_place_is_wrapped_to_the_one_that_it_is() {
+        let channel = channel();
+        let at = |x: f64| channel.wrapped(Vect::<2>::new(x, 7.0));
+        for (x, wrapped) in [
+            (-0.5, -0.5),
+            (1.5, -0.5),
+            (1.25, 1.25),
+            (-0.75, 1.25),
+            (9.75, 1.75 - 2.0),
+            (-0.5 - 1e-16, -0.5),
+        ] {
+            assert_eq!(at(x), Vect::<2>::new(wrapped, 7.0), "{x}");
+        }
+        let unit = Domain {
+            periodic: [true],
+            ..Domain::open(Vect::<1>::new(0.0), Vect::<1>::new(1.0))
+        };
+        assert_eq!(unit.wrapped(Vect::<1>::new(-1e-20))[0], 0.0);
+        assert!(channel.contains(&Vect::<2>::new(99.0, 0.5)));
+        assert!(!channel.contains(&Vect::<2>::new(0.0, 1.1)));
+    }
+}

@@ -28,3 +28,37 @@ fn inverse<const D: usize>(m: &SMatrix<f64, D, D>) -> Option<(SMatrix<f64, D, D>
     let adjugate = SMatrix::from_fn(|i, j| cofactor(j, i) / determinant);
     (determinant > 0.0).then_some((adjugate, determinant))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix2, Matrix3};
+
+    use super::*;
+
+    #[test]
+    fn it_is_the_inverse() {
+        let plane = Matrix2::new(0.9, -0.2, 0.1, 0.7);
+        let space = Matrix3::new(0.9, 0.1, 0.0, 0.3, 0.6, -0.2, 0.0, -0.4, 0.7);
+        let found = trusted_inverse(&plane).expect("neighbours all around");
+        assert!((found * plane - Matrix2::identity()).norm() < 1e-15);
+        let found = trusted_inverse(&space).expect("neighbours all around");
+        assert!((found * space - Matrix3::identity()).norm() < 1e-14);
+    }
+
+    /// det over that of an even moment of the same trace is 4q/(1 + q)² for diag(1, q), and 27q/(2 + q)³ for diag(1, 1, q).
+    #[test]
+    fn neighbours_in_a_line_or_a_plane_are_not_trusted() {
+        for (q, trusted) in [(1.0, true), (0.0133, true), (0.0122, false), (0.0, false)] {
+            let found = trusted_inverse(&Matrix2::new(1.0, 0.0, 0.0, q));
+            assert_eq!(found.is_some(), trusted, "{q}");
+        }
+        for (q, trusted) in [(1.0, true), (0.0156, true), (0.0147, false), (0.0, false)] {
+            let found = trusted_inverse(&Matrix3::from_diagonal(&[1.0, 1.0, q].into()));
+            assert_eq!(found.is_some(), trusted, "{q}");
+        }
+        assert!(
+            trusted_inverse(&Matrix2::new(0.0, 1.0, 1.0, 0.0)).is_none(),
+            "inside out"
+        );
+    }
+}

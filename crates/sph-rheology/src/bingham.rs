@@ -1,8 +1,6 @@
 //! The Bingham fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Regularisation, Rheology, plugin};
 
 /// η = η_∞ + τ_y/γ̇ above the yield stress τ_y, rigid below it; regularised.
 ///
@@ -14,7 +12,8 @@ use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
 /// yield_stress = "25 Pa"
 /// regularisation.papanastasiou = { stress_growth = "10 s" }
 /// ```
-#[plugin(RheologyEntry, "bingham", "yield stress and constant plastic viscosity", source: "Ghaïtanellis 2017, Eq. 4.5")]
+#[plugin(crate::RheologyEntry, "bingham", "yield stress and constant plastic viscosity",
+    source: "Ghaïtanellis 2017, Eq. 4.5")]
 #[derive(Copy)]
 pub struct Bingham {
     /// Plastic viscosity η_∞.
@@ -59,6 +58,7 @@ impl Rheology for Bingham {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::RheologyEntry;
     use sph_core::Registry;
 
     /// Values of Krimi et al. 2018, Eq. 13, computed apart.

@@ -1,8 +1,6 @@
 //! The Carreau fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Rheology, plugin};
 
 /// η = η_∞ + (η_0 − η_∞) [1 + (λγ̇)^a]^((n−1)/a), between η_0 at rest and η_∞ at high strain rates.
 ///
@@ -15,7 +13,7 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// relaxation_time = "3.313 s"
 /// exponent = 0.3568
 /// ```
-#[plugin(RheologyEntry, "carreau", "plateau at rest, then a power of the strain rate, then another plateau",
+#[plugin(crate::RheologyEntry, "carreau", "plateau at rest, then a power of the strain rate, then another plateau",
     source: "Carreau 1972")]
 pub struct Carreau {
     /// Viscosity η_0 at rest.

@@ -1,8 +1,6 @@
 //! The Casson fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Rheology, plugin};
 
 /// √τ = √τ_y + √(η_∞ γ̇) above the yield stress τ_y, rigid below it; regularised:
 /// η = [√η_∞ + √(τ_y/γ̇) (1 − e^(−√(mγ̇)))]².
@@ -17,7 +15,7 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// yield_stress = "4 mPa"
 /// stress_growth = "100 s"
 /// ```
-#[plugin(RheologyEntry, "casson", "roots of stresses add up: yield and viscous", source: "Casson 1959")]
+#[plugin(crate::RheologyEntry, "casson", "roots of stresses add up: yield and viscous", source: "Casson 1959")]
 pub struct Casson {
     /// Viscosity η_∞ at high strain rates.
     #[parameter(unit: "Pa s", min: 0.0, source: "Casson 1959")]

@@ -1,6 +1,6 @@
 //! Yield cones of frictional material.
 
-use sph_core::parameters;
+use crate::parameters;
 
 /// The cone τ_y = M max(p, 0) + K that stands for a friction angle ψ and a cohesion c.
 ///

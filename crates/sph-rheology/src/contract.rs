@@ -1,7 +1,9 @@
 //! The trait of rheologies.
 
-use nalgebra::Matrix3;
-use sph_core::{Symmetric, contract};
+use sph_core::Symmetric;
+
+/// The gradient of a velocity u, 1/s: its rows, of which the element j of row i is ∂u_i/∂x_j.
+pub type Gradient = [[f64; 3]; 3];
 
 /// The inputs a law reads; only those are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,7 +79,7 @@ pub trait Rheology: Send + Sync + std::fmt::Debug {
 
 /// The elastic part of a law: a deviatoric stress that follows the motion and may yield.
 ///
-/// Stresses are positive in tension; (grad u)_ij = ∂u_i/∂x_j.
+/// Stresses are positive in tension.
 pub trait Elastic: Send + Sync {
     /// Shear modulus 𝒢, Pa; √(𝒢/ρ) bounds the step.
     fn shear_modulus(&self) -> f64;
@@ -85,7 +87,7 @@ pub trait Elastic: Send + Sync {
     fn advance(
         &self,
         inputs: &Inputs<'_>,
-        gradient: &[Matrix3<f64>],
+        gradient: &[Gradient],
         dt: f64,
         stress: &mut [Symmetric],
     );
@@ -110,7 +112,8 @@ pub trait Elastic: Send + Sync {
     }
 }
 
-contract!(
+#[cfg(feature = "plugins")]
+sph_core::contract!(
     /// A rheology that a scene may name.
     pub RheologyEntry, "rheology", InPhase, "the constitutive law of a phase", Rheology
 );

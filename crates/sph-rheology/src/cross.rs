@@ -1,8 +1,6 @@
 //! The Cross fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Rheology, plugin};
 
 /// η = η_∞ + (η_0 − η_∞)/(1 + (λγ̇)^m), between η_0 at rest and η_∞ at high strain rates.
 ///
@@ -15,7 +13,8 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// relaxation_time = "2 s"
 /// exponent = 0.8
 /// ```
-#[plugin(RheologyEntry, "cross", "from one viscosity at rest to another at high strain rates", source: "Cross 1965")]
+#[plugin(crate::RheologyEntry, "cross", "from one viscosity at rest to another at high strain rates",
+    source: "Cross 1965")]
 pub struct Cross {
     /// Viscosity η_0 at rest.
     #[parameter(unit: "Pa s", min: 0.0, source: "Cross 1965")]

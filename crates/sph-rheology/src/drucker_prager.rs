@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Matrix3;
-use sph_core::{Symmetric, plugin};
+use sph_core::Symmetric;
 
-use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding, jaumann};
+use crate::{Cone, Elastic, Gradient, Inputs, Needs, Rheology, Yielding, jaumann, plugin};
 
 /// τ = ζ τ_y/γ̇ · 2D + (1 − ζ)τˢ: an elastic solid at rest, a liquid of constant friction when it
 /// shears.
@@ -41,7 +40,7 @@ use crate::{Cone, Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding, jau
 /// grain_diameter = "3.9 mm"
 /// grain_density = 2700
 /// ```
-#[plugin(RheologyEntry, "drucker-prager", "elastic soil that yields to a liquid of constant friction",
+#[plugin(crate::RheologyEntry, "drucker-prager", "elastic soil that yields to a liquid of constant friction",
     source: "Ghaïtanellis 2017, Eq. 4.69–4.84")]
 #[derive(Copy)]
 pub struct DruckerPrager {
@@ -218,7 +217,7 @@ impl Elastic for DruckerPrager {
     fn advance(
         &self,
         inputs: &Inputs<'_>,
-        gradient: &[Matrix3<f64>],
+        gradient: &[Gradient],
         dt: f64,
         stress: &mut [Symmetric],
     ) {

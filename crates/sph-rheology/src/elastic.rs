@@ -1,9 +1,8 @@
 //! The elastic solid.
 
-use nalgebra::Matrix3;
-use sph_core::{Symmetric, plugin};
+use sph_core::Symmetric;
 
-use crate::{Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
+use crate::{Elastic, Gradient, Inputs, Needs, Rheology, jaumann, plugin};
 
 /// dτ/dt = 2𝒢D′ + ωτ − τω with 𝒢 = E/(2(1 + ν)): Hooke's law for the deviatoric stress, which turns
 /// with the material.
@@ -21,7 +20,7 @@ use crate::{Elastic, Inputs, Needs, Rheology, RheologyEntry, jaumann};
 /// young_modulus = "2 MPa"
 /// poisson_ratio = 0.4
 /// ```
-#[plugin(RheologyEntry, "elastic", "Hooke's law for the deviatoric stress, with the Jaumann rate",
+#[plugin(crate::RheologyEntry, "elastic", "Hooke's law for the deviatoric stress, with the Jaumann rate",
     source: "Ghaïtanellis 2017, Eq. 1.18–1.23, 4.69–4.73")]
 pub struct ElasticSolid {
     /// Young's modulus E.
@@ -60,7 +59,7 @@ impl Elastic for ElasticSolid {
     fn advance(
         &self,
         _inputs: &Inputs<'_>,
-        gradient: &[Matrix3<f64>],
+        gradient: &[Gradient],
         dt: f64,
         stress: &mut [Symmetric],
     ) {

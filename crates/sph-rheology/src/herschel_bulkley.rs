@@ -1,8 +1,6 @@
 //! The Herschel–Bulkley fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, PowerLaw, Regularisation, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, PowerLaw, Regularisation, Rheology, plugin};
 
 /// η = K γ̇^(n−1) + τ_y/γ̇ above the yield stress τ_y, rigid below it; regularised, and held between
 /// a smallest and a largest viscosity.
@@ -20,7 +18,7 @@ use crate::{Inputs, Needs, PowerLaw, Regularisation, Rheology, RheologyEntry};
 /// regularisation.papanastasiou = { stress_growth = "10 s" }
 /// largest_viscosity = "400 Pa s"
 /// ```
-#[plugin(RheologyEntry, "herschel-bulkley", "yield stress and a power of the strain rate, bounded",
+#[plugin(crate::RheologyEntry, "herschel-bulkley", "yield stress and a power of the strain rate, bounded",
     source: "Herschel & Bulkley 1926")]
 #[derive(Copy)]
 pub struct HerschelBulkley {

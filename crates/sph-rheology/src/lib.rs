@@ -4,6 +4,9 @@
 //! [`Elastic`] also advances a stress that it remembers. The crate has no kernels and no
 //! walls; an embedder hands it slices and gets slices back. Equations of state are in [`state`].
 //!
+//! With the feature `plugins`, which is on unless it is turned off, scenes can name the laws. Without it they are the
+//! same types, and all that comes along are the crates of derive macros.
+//!
 //! ```
 //! use sph_rheology::{Bingham, Inputs, Newtonian, Regularisation, Rheology};
 //!
@@ -44,7 +47,9 @@ pub use bingham::Bingham;
 pub use carreau::Carreau;
 pub use casson::Casson;
 pub use cone::Cone;
-pub use contract::{Elastic, Inputs, Needs, Rheology, RheologyEntry, Yielding};
+#[cfg(feature = "plugins")]
+pub use contract::RheologyEntry;
+pub use contract::{Elastic, Gradient, Inputs, Needs, Rheology, Yielding};
 pub use cross::Cross;
 pub use drucker_prager::DruckerPrager;
 pub use elastic::ElasticSolid;
@@ -54,3 +59,8 @@ pub use mu_i::{MuI, MuIRegularisation};
 pub use newtonian::Newtonian;
 pub use power_law::PowerLaw;
 pub use regularisation::Regularisation;
+
+#[cfg(feature = "plugins")]
+use sph_core::{parameters, plugin};
+#[cfg(not(feature = "plugins"))]
+use sph_derive::{plain_parameters as parameters, plain_plugin as plugin};

@@ -1,8 +1,6 @@
 //! The Mohr–Coulomb viscoplastic soil.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Regularisation, Rheology, plugin};
 
 /// A Bingham fluid whose yield stress is that of a soil: τ_y = max(p, 0) sin φ + c cos φ.
 ///
@@ -22,7 +20,7 @@ use crate::{Inputs, Needs, Regularisation, Rheology, RheologyEntry};
 /// friction_angle = "22 deg"
 /// regularisation.ratio = { ratio = 3000 }
 /// ```
-#[plugin(RheologyEntry, "mohr-coulomb", "viscoplastic soil with friction and cohesion",
+#[plugin(crate::RheologyEntry, "mohr-coulomb", "viscoplastic soil with friction and cohesion",
     source: "Krimi et al. 2018, Eq. 19–24")]
 #[derive(Copy)]
 pub struct MohrCoulomb {

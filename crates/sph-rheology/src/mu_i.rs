@@ -1,10 +1,7 @@
 //! The μ(I) rheology of dense granular flow.
 
-use serde::Serialize;
-use sph_core::{parameters, plugin};
-
 use crate::regularisation::saturation;
-use crate::{Inputs, Needs, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Rheology, parameters, plugin};
 
 /// η = μ(I) p/γ̇ with μ = μ_s + (μ_2 − μ_s) I/(I + I_0) and the inertial number I = γ̇ t_i.
 ///
@@ -30,7 +27,8 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// grain_density = 2500
 /// regularisation.minatti-paris = { yield_stress = "190 Pa", stress_growth = "1 s" }
 /// ```
-#[plugin(RheologyEntry, "mu-i", "dense granular flow, friction by the inertial number", source: "Jop et al. 2006")]
+#[plugin(crate::RheologyEntry, "mu-i", "dense granular flow, friction by the inertial number",
+    source: "Jop et al. 2006")]
 #[derive(Copy)]
 pub struct MuI {
     /// Friction coefficient μ_s of slow flow.
@@ -82,7 +80,8 @@ pub struct MuI {
 /// Sources: Chauchat & Médale 2014, in Ghaïtanellis 2017, Eq. 4.16–4.23; Minatti & Paris 2015,
 /// Eq. 45–55.
 #[parameters]
-#[derive(PartialEq, Serialize)]
+#[derive(PartialEq)]
+#[cfg_attr(feature = "plugins", derive(serde::Serialize))]
 pub enum MuIRegularisation {
     /// A strain rate is added in the denominator.
     ChauchatMedale {

@@ -1,8 +1,6 @@
 //! The Newtonian fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Rheology, plugin};
 
 /// τ = 2 η γ̇ with constant η.
 ///
@@ -12,7 +10,7 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// [phase.water.rheology.newtonian]
 /// viscosity = "1e-3 Pa s"
 /// ```
-#[plugin(RheologyEntry, "newtonian", "constant viscosity", source: "Ghaïtanellis 2017, Eq. 1.15–1.16")]
+#[plugin(crate::RheologyEntry, "newtonian", "constant viscosity", source: "Ghaïtanellis 2017, Eq. 1.15–1.16")]
 pub struct Newtonian {
     /// Dynamic viscosity η.
     #[parameter(unit: "Pa s", min: 0.0, source: "Ghaïtanellis 2017, Eq. 1.15")]
@@ -36,8 +34,9 @@ impl Rheology for Newtonian {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use sph_core::Registry;
+
+    use crate::RheologyEntry;
 
     #[test]
     fn the_registered_law_reads_units_and_refuses_negative_viscosity() {

@@ -1,8 +1,6 @@
 //! The power-law fluid.
 
-use sph_core::plugin;
-
-use crate::{Inputs, Needs, Rheology, RheologyEntry};
+use crate::{Inputs, Needs, Rheology, plugin};
 
 /// η = K γ̇^(n−1), held between a smallest and a largest viscosity.
 ///
@@ -17,7 +15,7 @@ use crate::{Inputs, Needs, Rheology, RheologyEntry};
 /// exponent = 0.6
 /// largest_viscosity = "50 Pa s"
 /// ```
-#[plugin(RheologyEntry, "power-law", "viscosity as a power of the strain rate, bounded", source: "Ostwald 1925")]
+#[plugin(crate::RheologyEntry, "power-law", "viscosity as a power of the strain rate, bounded", source: "Ostwald 1925")]
 pub struct PowerLaw {
     /// Consistency K.
     #[parameter(unit: "Pa s^n", min: 0.0, source: "Ostwald 1925")]

@@ -1,8 +1,6 @@
 //! Regularisations of a yield stress at rest.
 
-use serde::Serialize;
-use sph_core::parameters;
-
+use crate::parameters;
 /// The plastic part τ_y/γ̇ of the viscosity, made finite at γ̇ = 0.
 ///
 /// With μ the viscous part of the viscosity (Pa s), which is added to what this gives:
@@ -25,7 +23,8 @@ use sph_core::parameters;
 /// regularisation.papanastasiou = { stress_growth = "10 s" }
 /// ```
 #[parameters]
-#[derive(PartialEq, Serialize)]
+#[derive(PartialEq)]
+#[cfg_attr(feature = "plugins", derive(serde::Serialize))]
 pub enum Regularisation {
     /// The stress grows to the yield stress like 1 − e^(−mγ̇).
     Papanastasiou {

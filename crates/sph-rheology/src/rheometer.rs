@@ -3,7 +3,6 @@
 //! A simple shear u = γ̇ y e_x at one pressure, at any [`viscosities`] of steady flow and along the
 //! path of [`shear_stresses`] from rest.
 
-use nalgebra::Matrix3;
 use sph_core::Symmetric;
 
 use crate::{Inputs, Rheology};
@@ -46,8 +45,7 @@ pub fn shear_stresses(
     let Some(elastic) = law.elastic() else {
         return vec![viscous; strains.len()];
     };
-    let mut gradient = Matrix3::zeros();
-    gradient[(0, 1)] = strain_rate;
+    let gradient = [[0.0, strain_rate, 0.0], [0.0; 3], [0.0; 3]];
     let (mut stress, mut carried) = ([Symmetric::ZERO], [Symmetric::ZERO]);
     let mut before = 0.0;
     let stresses = strains.iter().map(|&strain| {

@@ -10,7 +10,9 @@ mod linear;
 mod tait;
 
 pub use compressible_grains::CompressibleGrains;
-pub use eos::{BoundState, EquationOfState, EquationOfStateEntry, Laws, Reference};
+#[cfg(feature = "plugins")]
+pub use eos::EquationOfStateEntry;
+pub use eos::{BoundState, EquationOfState, Laws, Reference};
 pub use lifted::{Lift, Lifted};
 pub use linear::Linear;
 pub use tait::Tait;

@@ -133,12 +133,7 @@ impl Model for Rod {
 
 /// Lets a rod of 50 cells cool for a second.
 pub(crate) fn cool(out: &Path, start: Start, observer: &mut Watch<'_>) -> Result<Summary, IoError> {
-    let options = RunOptions {
-        out: out.to_path_buf(),
-        start,
-        threads: None,
-        identity: Identity::of_text("rod"),
-    };
+    let options = RunOptions::new(out, Identity::of_text("rod")).start(start);
     let schedule = Schedule::every(0.1, 1.0);
     let mut rod = Rod::new(50);
     let summary = run(&mut rod, &options, &schedule, Outlay::default(), observer)?;

@@ -13,6 +13,7 @@ pub const SUMMARY: &str = "summary.json";
 
 /// Options of a run.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct RunOptions {
     /// Folder of all files of the run; it is created.
     pub out: PathBuf,
@@ -22,6 +23,32 @@ pub struct RunOptions {
     pub threads: Option<usize>,
     /// The scene with its overrides and files; a checkpoint belongs to one.
     pub identity: Identity,
+}
+
+impl RunOptions {
+    /// From the start of a scene, on all cores.
+    pub fn new(out: impl Into<PathBuf>, identity: Identity) -> Self {
+        RunOptions {
+            out: out.into(),
+            start: Start::Afresh,
+            threads: None,
+            identity,
+        }
+    }
+
+    /// With another start.
+    #[must_use]
+    pub fn start(mut self, start: Start) -> Self {
+        self.start = start;
+        self
+    }
+
+    /// On this many threads; `None` for all cores.
+    #[must_use]
+    pub fn threads(mut self, threads: impl Into<Option<usize>>) -> Self {
+        self.threads = threads.into();
+        self
+    }
 }
 
 /// Start of a run.

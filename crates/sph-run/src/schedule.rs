@@ -92,3 +92,53 @@ impl Schedule<'_> {
         books.checkpoints = over(time, self.checkpoints);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps of 0.03 s: rows and checkpoints are those of their intervals, fields at the very times.
+    #[test]
+    fn everything_is_due_as_often_as_its_interval_says() {
+        let schedule = Schedule::every(0.25, 1.0);
+        let mut books = RunCounters {
+            next_output: (schedule.next_output)(0.0),
+            ..RunCounters::default()
+        };
+        let (mut time, mut rows, mut outputs, mut checkpoints) = (0.0, 0, Vec::new(), 0);
+        loop {
+            let due = schedule.due(time, &books);
+            if due.row {
+                rows += 1;
+                schedule.row_written(time, &mut books);
+                assert!(!schedule.due(time, &books).row, "one row at a time");
+            }
+            if due.output {
+                outputs.push(time);
+                books.next_output = (schedule.next_output)(time);
+            }
+            if due.checkpoint {
+                checkpoints += 1;
+                schedule.checkpoint_due(time, &mut books);
+            }
+            if time >= 1.0 {
+                break;
+            }
+            time = f64::min(time + 0.03, schedule.target(&books));
+        }
+        assert_eq!(outputs, [0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(checkpoints, 4);
+        // One for each interval of 0.025 s in which a step ends, and the first.
+        assert!((33..=41).contains(&rows), "{rows} rows");
+    }
+
+    #[test]
+    fn the_next_multiple_is_later_and_not_beyond_the_end() {
+        assert_eq!(next_multiple(0.1, 1.0, 0.0), Some(0.1));
+        let next = next_multiple(0.1, 1.0, 3.0 * 0.1).expect("there is one");
+        assert!((next - 0.4).abs() < 1e-12, "{next}");
+        assert_eq!(next_multiple(0.3, 1.0, 0.95), Some(1.0));
+        assert_eq!(next_multiple(0.1, 1.0, 1.0), None);
+        assert_eq!(next_multiple(0.1, 1.0, -1.0), Some(0.0), "before the start");
+    }
+}

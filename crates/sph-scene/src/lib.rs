@@ -63,6 +63,7 @@ pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
+pub use geometry::sided::sense;
 pub use reading::files::DataFile;
 pub use reading::load::{LoadError, Loaded, Refused, load, load_allowing, parse, read};
 pub use reading::plugins::Plugins;

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Anything that keeps a scene from a flow that can be stepped.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum SolverError {
     /// The scene has a wrong name or an impossible value.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]

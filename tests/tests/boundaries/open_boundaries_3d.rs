@@ -59,12 +59,9 @@ vtk = false
 
 fn into(folder: &Path, text: &str, threads: usize, start: Start) -> Summary {
     let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions {
-        out: folder.to_path_buf(),
-        start,
-        threads: Some(threads),
-        identity: Identity::of_text(DUCT),
-    };
+    let options = RunOptions::new(folder, Identity::of_text(DUCT))
+        .start(start)
+        .threads(threads);
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
 

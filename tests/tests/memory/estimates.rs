@@ -5,7 +5,7 @@ use std::path::Path;
 use dhat::{HeapStats, Profiler};
 use sph_particles::run;
 use sph_particles::setup::{Memory, examine};
-use sph_run::{Identity, RunOptions, Start, Status};
+use sph_run::{Identity, RunOptions, Status};
 use sph_scene::{Override, load};
 
 /// The largest difference, of what is allocated: an estimate is to say whether a run fits, not to account for it.
@@ -20,12 +20,7 @@ fn told_and_taken(name: &str, overrides: &[&str]) -> (Memory, f64) {
     let told = examine(&loaded.scene).unwrap_or_else(|e| panic!("{name}: {e}"));
     let memory = told.memory;
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: Identity::of_text(name),
-    };
+    let options = RunOptions::new(folder.path(), Identity::of_text(name)).threads(1);
     drop(told);
     let profiler = Profiler::builder()
         .testing()

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use dhat::{HeapStats, Profiler};
 use sph_particles::run;
-use sph_run::{Command, Identity, Observer, Progress, RunOptions, Start};
+use sph_run::{Command, Identity, Observer, Progress, RunOptions};
 use sph_scene::{Override, load};
 use sph_turbulence as _;
 
@@ -65,12 +65,7 @@ fn steps(name: &str, overrides: &[&str]) -> (usize, [u64; 2], [u64; 2]) {
     let overrides: Vec<_> = overrides.collect();
     let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: Identity::of_text(name),
-    };
+    let options = RunOptions::new(folder.path(), Identity::of_text(name)).threads(1);
     let mut watch = Watch::default();
     run(&loaded.scene, &options, &mut watch).unwrap_or_else(|e| panic!("{name}: {e}"));
     drop(watch.profiler.take());

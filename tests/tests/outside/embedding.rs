@@ -1,16 +1,16 @@
 //! The examples give what they should, and are each a page.
 
 #[allow(dead_code, reason = "its main is for people")]
-#[path = "../../../examples/embedding/examples/drucker_prager_path.rs"]
+#[path = "../../../examples/embedding-bare/examples/drucker_prager_path.rs"]
 mod drucker_prager_path;
 #[allow(dead_code, reason = "its main is for people")]
-#[path = "../../../examples/embedding/examples/gamma_of_a_mesh.rs"]
+#[path = "../../../examples/embedding-bare/examples/gamma_of_a_mesh.rs"]
 mod gamma_of_a_mesh;
 #[allow(dead_code, reason = "its main is for people")]
 #[path = "../../../examples/embedding/examples/helmholtz_on_neighbours.rs"]
 mod helmholtz_on_neighbours;
 #[allow(dead_code, reason = "its main is for people")]
-#[path = "../../../examples/embedding/examples/kernel_on_slices.rs"]
+#[path = "../../../examples/embedding-bare/examples/kernel_on_slices.rs"]
 mod kernel_on_slices;
 #[allow(dead_code, reason = "its main is for people")]
 #[path = "../../../examples/embedding/examples/scene_in_memory.rs"]
@@ -23,12 +23,10 @@ const PAGE: usize = 60;
 
 #[test]
 fn every_example_is_a_page() {
-    let folder = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../examples/embedding/examples"
-    );
+    let folder = |name| format!("{}/../examples/{name}/examples", env!("CARGO_MANIFEST_DIR"));
+    let listed = |name| std::fs::read_dir(folder(name)).expect("a folder");
     let mut count = 0;
-    for entry in std::fs::read_dir(folder).expect("a folder") {
+    for entry in listed("embedding").chain(listed("embedding-bare")) {
         let path = entry.expect("an entry").path();
         let text = std::fs::read_to_string(&path).expect("a source");
         let lines = text.lines().count();

@@ -140,12 +140,9 @@ fields = ["warmth"]
 
 fn into(folder: &std::path::Path, text: &str, threads: usize, start: Start) -> Summary {
     let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions {
-        out: folder.to_path_buf(),
-        start,
-        threads: Some(threads),
-        identity: sph_run::Identity::of_text(SCENE),
-    };
+    let options = RunOptions::new(folder, sph_run::Identity::of_text(SCENE))
+        .start(start)
+        .threads(threads);
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
 

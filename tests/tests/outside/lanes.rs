@@ -5,7 +5,7 @@ use sph_core::{Access, StepError, plugin};
 use sph_kernels::lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
 use sph_particles::run;
-use sph_run::{RunOptions, Start};
+use sph_run::RunOptions;
 use sph_scene::{Override, parse};
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
 
@@ -61,12 +61,7 @@ fn end_of(scene: &str, steps: usize) -> FinalState {
     let most = Override::parse(&format!("run.max_steps={steps}")).expect("a number");
     let loaded = parse(scene, "scene.toml", &[most]).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(2),
-        identity: sph_run::Identity::of_text(scene),
-    };
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(scene)).threads(2);
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
     FinalState::read(folder.path())
 }

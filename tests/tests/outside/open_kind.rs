@@ -49,12 +49,9 @@ fn into(
         .map(|c| Override::parse(c).unwrap())
         .collect();
     let loaded = parse(SCENE, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions {
-        out: folder.to_path_buf(),
-        start,
-        threads: Some(threads),
-        identity: sph_run::Identity::of_text(SCENE),
-    };
+    let options = RunOptions::new(folder, sph_run::Identity::of_text(SCENE))
+        .start(start)
+        .threads(threads);
     run(&loaded.scene, &options, &mut ())
 }
 

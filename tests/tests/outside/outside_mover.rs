@@ -2,7 +2,7 @@
 
 use sph_boundary::RigidState;
 use sph_particles::run;
-use sph_run::{RunOptions, Start};
+use sph_run::RunOptions;
 use sph_scene::{Override, parse};
 use winch as _;
 
@@ -48,12 +48,7 @@ fn velocity(changes: &[&str]) -> f64 {
     let changes: Vec<_> = changes.collect();
     let loaded = parse(SCENE, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: sph_run::Identity::of_text(SCENE),
-    };
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(SCENE)).threads(1);
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
     let checkpoint = sph_io::Checkpoint::load(folder.path().join("checkpoint.sph"));
     let checkpoint = checkpoint.expect("a checkpoint");

@@ -178,7 +178,7 @@ impl<const D: usize> Contribution<D> for Remembering {
 
 use sph_particles::{RunError, Summary, run};
 use sph_rheology::{Rheology, rheometer};
-use sph_run::{RunOptions, Start};
+use sph_run::RunOptions;
 use sph_scene::parse;
 use sph_solver::SolverError;
 use sph_tests::{DAM_BREAK, FinalState, PERIODIC};
@@ -187,12 +187,7 @@ use syrup::PowellEyring;
 fn run_text(scene: &str) -> Result<(Summary, tempfile::TempDir), RunError> {
     let loaded = parse(scene, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(2),
-        identity: sph_run::Identity::of_text(scene),
-    };
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(scene)).threads(2);
     Ok((run(&loaded.scene, &options, &mut ())?, folder))
 }
 

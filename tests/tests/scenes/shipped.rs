@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use sph_io::{Table, read_table};
 use sph_particles::{Summary, run};
-use sph_run::{RunOptions, Start, Status};
+use sph_run::{RunOptions, Status};
 use sph_scene::{Override, load};
 use tempfile::TempDir;
 
@@ -66,12 +66,7 @@ pub fn finished(name: &str, overrides: &[&str]) -> Finished {
         .collect();
     let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: sph_run::Identity::of_text(name),
-    };
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(name)).threads(1);
     let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let finished = Finished { summary, folder };
     finished.is_sound(another_spacing);

@@ -31,7 +31,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
     ("sph-neighbours", &["sph-core", "sph-derive", "sph-kernels"]),
     (
         "sph-boundary",
-        &["sph-core", "sph-kernels", "sph-neighbours", "scene-text"],
+        &["sph-core", "sph-kernels", "sph-neighbours"],
     ),
     (
         "sph-open",
@@ -45,7 +45,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
             "sph-probes",
         ],
     ),
-    ("sph-rheology", &["sph-core", "sph-neighbours"]),
+    ("sph-rheology", &["sph-core", "sph-derive"]),
     (
         "sph-contribution",
         &[
@@ -205,7 +205,7 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                 ("artificial-viscosity" | "syrup" | "tracer" | "winch", _) => {
                     !SOLVERS.contains(&target.as_str())
                 }
-                ("embedding", _) => true,
+                ("embedding" | "embedding-bare", _) => true,
                 ("sph-solver", _) => !["sph-particles", "sph-study", "sph-cli", "sph-tests"]
                     .contains(&target.as_str()),
                 (_, Some(allowed)) => allowed.contains(&target.as_str()),
@@ -264,6 +264,41 @@ fn crates_that_can_be_used_alone_are_tested_alone() {
         let others = room.tests_use.iter().filter(|d| d.starts_with("sph-"));
         let others: Vec<_> = others.filter(|d| *d != "sph-core").collect();
         assert!(others.is_empty(), "the tests of {name} need {others:?}");
+    }
+}
+
+/// What a program takes along that embeds a crate without its plugins, and how many crates of others that may be.
+const EMBEDDED: [(&str, usize); 3] = [
+    ("sph-kernels", 0),
+    ("sph-rheology", 10),
+    ("sph-boundary", 25),
+];
+
+#[test]
+fn a_crate_without_its_plugins_brings_few_others_along() {
+    for (name, most) in EMBEDDED {
+        let output = Command::new(env!("CARGO"))
+            .args(["tree", "--offline", "--package", name])
+            .args([
+                "--no-default-features",
+                "--edges",
+                "normal",
+                "--prefix",
+                "none",
+            ])
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .expect("cargo tree");
+        let told = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success() && told.starts_with(name), "{told}");
+        // Those of the workspace have a path behind their version.
+        let others = told.lines().filter(|line| !line.contains(" (/"));
+        let others: BTreeSet<&str> = others.filter_map(|l| l.split(' ').next()).collect();
+        assert!(
+            others.len() <= most,
+            "{name} brings {}: {others:?}",
+            others.len()
+        );
     }
 }
 

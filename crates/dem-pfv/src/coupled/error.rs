@@ -8,6 +8,7 @@ use crate::triangulation::TriangulationError;
 
 /// Grains, fluids, conditions or steps with which nothing can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum CoupledError {
     /// The grains, their contacts or walls.
     #[error(transparent)]

@@ -7,6 +7,7 @@ use crate::PluginError;
 
 /// Spheres, walls or conditions through which no flow can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum FlowError {
     /// There are no walls.
     #[error("pore flow needs the six walls of a box; the triangulation has {walls} walls")]

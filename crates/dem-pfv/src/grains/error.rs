@@ -6,6 +6,7 @@ use crate::PluginError;
 
 /// Grains, walls, laws or steps with which nothing can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum GrainError {
     /// Nothing to move.
     #[error("there are no grains; at least one is needed")]

@@ -10,6 +10,7 @@ use crate::grains::GrainError;
 
 /// Errors that keep a scene from its end.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum DemError {
     /// Mistakes of the scene, by their keys.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]

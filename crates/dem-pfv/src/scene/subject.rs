@@ -77,10 +77,8 @@ impl Subject for Scene {
         let mut known = self.0.table.clone();
         let own = Value::String(options.identity.scene.clone());
         known.insert("study".into(), own);
-        let options = RunOptions {
-            identity: Identity::of_text(known.to_string()),
-            ..options.clone()
-        };
+        let mut options = options.clone();
+        options.identity = Identity::of_text(known.to_string());
         let resumed = options.start.goes_on();
         match run(&self.0, &options, observer) {
             Ok(summary) => Ok(Ended::done(summary.status, &summary)),

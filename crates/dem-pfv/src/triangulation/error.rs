@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Spheres or walls that have no regular triangulation.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum TriangulationError {
     /// A coordinate or a radius is infinite or not a number, or a radius is negative.
     #[error(

@@ -5,12 +5,9 @@ use std::path::Path;
 use crate::surface::stl::{StlFile, parse, read};
 use crate::surface::vector::{cross, dot, minus};
 use crate::surface::weld::{Facets, Welder};
-use crate::surface::winding::Winding;
 
 /// Corners of a file nearer to each other than this share of its extent are one: single precision has 6·10⁻⁸.
 const SAME_CORNER: f64 = 1e-6;
-/// Most facets at which the side of a surface is sought.
-const ASKED: usize = 256;
 
 impl Facets {
     /// The surface in an STL file with its corners welded, in the unit of the file, and the number, from 1, of the
@@ -87,27 +84,6 @@ impl Facets {
     /// Places of the corners of a triangle.
     pub fn corners(&self, triangle: &[u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|k| self.points[k as usize])
-    }
-
-    /// Which way the surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
-    ///
-    /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and
-    /// less of an open one, since its opening is seen from everywhere.
-    pub fn sense(&self) -> f64 {
-        let winding = Winding::new(self.triangles.iter().map(|t| self.corners(t)).collect());
-        let step = self.area() / ASKED.min(self.triangles.len()) as f64;
-        let (mut passed, mut asked, mut sum) = (0.0, 0.0, 0.0);
-        for (triangle, area) in self.triangles.iter().zip(self.areas()) {
-            passed += area;
-            if passed >= (asked + 0.5) * step {
-                let [a, b, c] = self.corners(triangle);
-                let times = (passed / step + 0.5).floor() - asked;
-                let centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
-                sum += times * winding.at(&centre);
-                asked += times;
-            }
-        }
-        sum / f64::max(asked, 1.0)
     }
 }
 

@@ -25,6 +25,7 @@ impl<const D: usize> PeriodicBox<D> {
     }
 
     /// The box of a flow.
+    #[cfg(feature = "plugins")]
     pub fn from_domain(domain: &sph_neighbours::Domain<D>) -> Self {
         Self {
             lower: domain.lower.into(),

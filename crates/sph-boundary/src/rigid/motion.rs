@@ -2,10 +2,15 @@
 
 use std::sync::Arc;
 
+#[cfg(feature = "plugins")]
 use sph_core::Vect;
-use sph_core::course::{Course, Rotation, Stage, Translation};
+#[cfg(feature = "plugins")]
+use sph_core::course::Stage;
+use sph_core::course::{Course, Rotation, Translation};
 
-use crate::{Bend, Movement, Pose, RigidState};
+use crate::{Bend, Pose};
+#[cfg(feature = "plugins")]
+use crate::{Movement, RigidState};
 
 /// Translations and a rotation between two times; at rest before and after.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,6 +111,20 @@ impl<const D: usize> RigidMotion<D> {
         pose
     }
 
+    /// From where a place of the wall was drawn to where it is in a pose.
+    pub(crate) fn map(&self, pose: &Pose<D>) -> impl Fn([f64; D]) -> [f64; D] + use<D> {
+        let (bend, rigid, moment) = (self.bend.clone(), pose.map(), pose.moment);
+        move |mut x| {
+            if let Some(bend) = &bend {
+                x[D - 1] += bend.at(x[0], moment).value;
+            }
+            rigid(x)
+        }
+    }
+}
+
+#[cfg(feature = "plugins")]
+impl<const D: usize> RigidMotion<D> {
     /// Place and movement of the wall at a time.
     pub fn state(&self, time: f64) -> RigidState<D> {
         let t = self.elapsed(time);
@@ -151,25 +170,16 @@ impl<const D: usize> RigidMotion<D> {
         let bend = self.bend.as_ref();
         bend.map_or(Stage::default(), |b| b.at(point[0], time))
     }
-
-    /// From where a place of the wall was drawn to where it is in a pose.
-    pub(crate) fn map(&self, pose: &Pose<D>) -> impl Fn([f64; D]) -> [f64; D] + use<D> {
-        let (bend, rigid, moment) = (self.bend.clone(), pose.map(), pose.moment);
-        move |mut x| {
-            if let Some(bend) = &bend {
-                x[D - 1] += bend.at(x[0], moment).value;
-            }
-            rigid(x)
-        }
-    }
 }
 
 fn unit_axis<const D: usize>(rotation: &Rotation<D>) -> [f64; 3] {
     match D {
         2 => [0.0, 0.0, 1.0],
-        _ => Vect::from(rotation.axis)
-            .try_normalize(0.0)
-            .map_or([0.0; 3], Into::into),
+        _ => {
+            let [x, y, z] = rotation.axis;
+            let length = (x * x + y * y + z * z).sqrt();
+            [x, y, z].map(|e| if length > 0.0 { e / length } else { 0.0 })
+        }
     }
 }
 

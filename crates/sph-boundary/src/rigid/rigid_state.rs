@@ -61,6 +61,7 @@ impl<const D: usize> RigidState<D> {
         if omega != [0.0; 3] || rate != [0.0; 3] {
             let arm =
                 Vect::from(point) - Vect::from(self.centre) - Vect::from(self.pose.translation);
+            let swept = |e, v: &Vect<D>| Vect::from(swept(e, (*v).into()));
             let velocity = swept(omega, &arm);
             movement.velocity += velocity;
             movement.acceleration += swept(rate, &arm) + swept(omega, &velocity);

@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{ContactBlock, Contacts, Slopes, WallSet, World};
 
-use crate::error::stage_error;
 use crate::geometry::shells::Gammas;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
+use crate::treatment::stage_error;
 use crate::{BoundaryError, WallSetup};
 
 /// Walls of elements as both treatments have them: mesh, integrals, contacts.

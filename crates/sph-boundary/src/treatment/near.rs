@@ -5,9 +5,9 @@ use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::NearElement;
-use crate::error::stage_error;
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
+use crate::treatment::stage_error;
 
 /// How far beyond the reach of the neighbour lists elements are looked for, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.

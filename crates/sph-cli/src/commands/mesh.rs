@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 use sph_core::number;
-use sph_scene::{Facets, Topology};
+use sph_scene::{Facets, Topology, sense};
 
 use crate::terminal::layout::{columns, remarks};
 use crate::terminal::output::CommandOutput;
@@ -12,7 +12,7 @@ use crate::terminal::trouble::Trouble;
 
 /// Openings that are shown.
 const SHOWN: usize = 10;
-/// A surface whose [sense](Facets::sense) is smaller has no inside.
+/// A surface whose [`sense`] is smaller has no inside.
 const NO_INSIDE: f64 = 0.02;
 /// Numbers of a larger extent than the first are hardly metres, of a smaller one than the second hardly millimetres.
 const UNITS: [f64; 2] = [20.0, 2.0];
@@ -54,11 +54,11 @@ pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
 /// Which way a surface faces once its facets are turned to face one way.
 fn facing(facets: &Facets, topology: &Topology) -> &'static str {
     let aligned = facets.clone().turned(&topology.flipped);
-    let sense = match topology.openings.is_empty() {
+    let found = match topology.openings.is_empty() {
         true => 0.5 * aligned.volume().signum(),
-        false => aligned.sense(),
+        false => sense(&aligned),
     };
-    match sense {
+    match found {
         s if s.abs() < NO_INSIDE => "has no inside",
         s if s > 0.0 => "outwards",
         _ => "inwards",

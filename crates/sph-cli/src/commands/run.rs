@@ -111,10 +111,8 @@ fn grains(
             "--from takes particles of another run; grains go on with --resume, and --changed if the scene has changed",
         ));
     }
-    let options = RunOptions {
-        identity: dem_pfv::scene::identity(loaded),
-        ..options(arguments, out)?
-    };
+    let mut options = options(arguments, out)?;
+    options.identity = dem_pfv::scene::identity(loaded);
     let result = dem_pfv::scene::run(loaded, &options, observer);
     let s = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
     let text = grains::outcome::text(&s, out);
@@ -122,12 +120,8 @@ fn grains(
 }
 
 fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> {
-    Ok(RunOptions {
-        out: out.to_path_buf(),
-        start: start(arguments, out)?,
-        threads: arguments.threads.map(usize::from),
-        identity: Identity::default(),
-    })
+    let options = RunOptions::new(out, Identity::default()).start(start(arguments, out)?);
+    Ok(options.threads(arguments.threads.map(usize::from)))
 }
 
 /// The end of a run whose summary is a text, with the time (s) and the step that it reached.

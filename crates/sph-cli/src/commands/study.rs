@@ -57,12 +57,9 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
     let study = read(arguments, name, &scenes)?;
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
-    let options = Options {
-        out: out.clone(),
-        threads: arguments.threads.map(usize::from),
-        fresh: arguments.fresh,
-        origin: Origin::new(env!("SPH_BUILT_WITH")),
-    };
+    let mut options = Options::new(&out, Origin::new(env!("SPH_BUILT_WITH")));
+    options.threads = arguments.threads.map(usize::from);
+    options.fresh = arguments.fresh;
     let watcher = Watcher::new(arguments.quiet, &study, &options, stop);
     assemble(&study, &watcher)?;
     let _lock = sph_io::FolderLock::take(&out)?;

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A system that was not solved. There is never a silent result.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// The residual is still too large.
     #[error(

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 /// Errors of a division by bisection.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum DecompositionError {
     /// No rank at all.
     #[error("there must be a rank at least")]

@@ -183,6 +183,7 @@ fn mean(costs: &[f64], communicator: &dyn Transport) -> Result<f64, TransportErr
 
 /// Errors of cuts.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CutError {
     /// The particles cannot be divided.
     #[error(transparent)]

@@ -8,6 +8,7 @@ use crate::decomposition::{CutError, DecompositionError, TransportError};
 
 /// Errors that keep a rank from its part.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum PartError {
     /// The particles cannot be divided.
     #[error(transparent)]

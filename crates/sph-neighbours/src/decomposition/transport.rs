@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// A message that did not get through.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TransportError {
     /// A rank has ended.
     #[error("rank {0} has ended")]

@@ -36,6 +36,7 @@ pub struct Failure {
 
 /// Anything that keeps a scene from its result.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The scene cannot be assembled, or a stage failed outside of a step.
     #[error(transparent)]

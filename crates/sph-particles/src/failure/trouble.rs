@@ -38,6 +38,10 @@ pub(crate) fn trouble(cause: &StepError, time: f64, step: u64) -> Trouble {
             reason: error.to_string(),
             ..bare
         },
+        other => Trouble {
+            reason: other.to_string(),
+            ..bare
+        },
     }
 }
 

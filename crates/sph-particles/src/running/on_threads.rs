@@ -23,10 +23,8 @@ pub fn run_on_threads(
     observer: &mut Watch<'_>,
 ) -> Result<Summary, RunError> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let options = &RunOptions {
-        threads: options.threads.or(Some((cores / ranks).max(1))),
-        ..options.clone()
-    };
+    let threads = options.threads.or(Some((cores / ranks).max(1)));
+    let options = &options.clone().threads(threads);
     std::thread::scope(|scope| {
         let mut communicator = Thread::communicator(ranks).into_iter();
         let first = communicator.next();

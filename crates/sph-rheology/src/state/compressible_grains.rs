@@ -1,8 +1,7 @@
 //! The equation of state of slightly compressible grains that dilate in shear.
 
-use sph_core::plugin;
-
-use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+use crate::plugin;
+use crate::state::{BoundState, EquationOfState, Reference};
 
 /// p = ρ₀c₀² u with the largest root of u (u + 1 − ρ/ρ₀)² = A (1 + u)², where
 /// A = (γ̇d/c₀)² Δφ²/φ_max³; at rest p = c₀² max(ρ − ρ₀, 0).
@@ -27,7 +26,8 @@ use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference}
 /// [phase.beads.equation-of-state.compressible-grains]
 /// grain_diameter = "5 mm"
 /// ```
-#[plugin(EquationOfStateEntry, "compressible-grains", "grains that dilate in shear, p from density and strain rate",
+#[plugin(crate::state::EquationOfStateEntry, "compressible-grains",
+    "grains that dilate in shear, p from density and strain rate",
     source: "Minatti & Paris 2015, Eq. 8, 9, 41–44")]
 pub struct CompressibleGrains {
     /// Grain diameter d without pressure.

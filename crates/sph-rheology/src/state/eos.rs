@@ -1,7 +1,5 @@
 //! Equations of state: pressure from density, and strain rate where it counts, on slices.
 
-use sph_core::contract;
-
 /// The state at which a phase has its reference density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
@@ -43,7 +41,8 @@ pub trait EquationOfState: Send + Sync {
     fn bind(&self, reference: Reference) -> Box<dyn BoundState>;
 }
 
-contract!(
+#[cfg(feature = "plugins")]
+sph_core::contract!(
     /// An equation of state that a phase may name.
     pub EquationOfStateEntry, "equation-of-state", InPhase, "pressure from density, per phase", EquationOfState,
     .by_default("tait")

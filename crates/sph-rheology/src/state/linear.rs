@@ -1,8 +1,7 @@
 //! The linear equation of state.
 
-use sph_core::plugin;
-
-use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+use crate::plugin;
+use crate::state::{BoundState, EquationOfState, Reference};
 
 /// p = c₀² (ρ − ρ₀) + P_bg, constant speed of sound.
 ///
@@ -11,7 +10,8 @@ use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference}
 /// ```toml
 /// [phase.water.equation-of-state.linear]
 /// ```
-#[plugin(EquationOfStateEntry, "linear", "p = c₀² (ρ − ρ₀)", source: "Ghaïtanellis 2017, Eq. 1.25 with ξ = 1")]
+#[plugin(crate::state::EquationOfStateEntry, "linear", "p = c₀² (ρ − ρ₀)",
+    source: "Ghaïtanellis 2017, Eq. 1.25 with ξ = 1")]
 pub struct Linear {
     /// Background pressure P_bg, the same in all phases.
     #[parameter(default, unit: "Pa", min: 0.0, source: "Ghaïtanellis 2017, §5.1.2")]

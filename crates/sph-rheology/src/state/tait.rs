@@ -1,8 +1,7 @@
 //! The Tait equation of state.
 
-use sph_core::plugin;
-
-use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference};
+use crate::plugin;
+use crate::state::{BoundState, EquationOfState, Reference};
 
 /// p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1] + P_bg, c = c₀ (ρ/ρ₀)^((ξ−1)/2).
 ///
@@ -16,7 +15,7 @@ use crate::state::{BoundState, EquationOfState, EquationOfStateEntry, Reference}
 /// [phase.water.equation-of-state.tait]
 /// exponent = 7
 /// ```
-#[plugin(EquationOfStateEntry, "tait", "stiff power law, p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1]",
+#[plugin(crate::state::EquationOfStateEntry, "tait", "stiff power law, p = ρ₀c₀²/ξ [(ρ/ρ₀)^ξ − 1]",
     source: "Ghaïtanellis 2017, Eq. 1.25")]
 pub struct Tait {
     /// Exponent ξ: 7 for water and soils, 1.4 for air.

@@ -1,10 +1,9 @@
 //! The elastic and the elastic–viscoplastic law along prescribed paths, against closed forms.
 
-use nalgebra::Matrix3;
 use sph_core::{Registry, Symmetric};
 use sph_rheology::jaumann::magnitude;
 use sph_rheology::{
-    Cone, DruckerPrager, Elastic, ElasticSolid, Inputs, Rheology, RheologyEntry, Yielding,
+    Cone, DruckerPrager, Elastic, ElasticSolid, Gradient, Inputs, Rheology, RheologyEntry, Yielding,
 };
 
 fn plastic() -> DruckerPrager {
@@ -25,10 +24,8 @@ fn plastic() -> DruckerPrager {
 const P: f64 = 1000.0;
 
 /// u_x = γ̇ y.
-fn shear(rate: f64) -> Matrix3<f64> {
-    let mut gradient = Matrix3::zeros();
-    gradient[(0, 1)] = rate;
-    gradient
+fn shear(rate: f64) -> Gradient {
+    [[0.0, rate, 0.0], [0.0; 3], [0.0; 3]]
 }
 
 /// One particle under one law.
@@ -45,8 +42,8 @@ impl<L: Rheology> LawSample<'_, L> {
         }
     }
 
-    fn advance(&mut self, gradient: &Matrix3<f64>, pressure: f64, dt: f64) {
-        let d = Symmetric::part_of(gradient).deviator();
+    fn advance(&mut self, gradient: &Gradient, pressure: f64, dt: f64) {
+        let d = Symmetric::part_of(*gradient).deviator();
         let rate = [2.0 * magnitude(&d)];
         let mut stress = [self.stress];
         let elastic = self.law.elastic().expect("elastic");
@@ -60,8 +57,8 @@ impl<L: Rheology> LawSample<'_, L> {
     }
 
     /// Total deviatoric stress 2ηD + carried.
-    fn total(&self, gradient: &Matrix3<f64>, pressure: f64) -> Symmetric {
-        let d = Symmetric::part_of(gradient).deviator();
+    fn total(&self, gradient: &Gradient, pressure: f64) -> Symmetric {
+        let d = Symmetric::part_of(*gradient).deviator();
         let rate = [2.0 * magnitude(&d)];
         let (mut eta, mut carried) = ([0.0], [Symmetric::ZERO]);
         let pressure = [pressure];
@@ -244,7 +241,7 @@ fn liquid_forgets_and_is_solid_again_below_nine_tenths() {
     let gained = law.shear_modulus() * 0.89 * knee * 1e-6;
     assert!((at(&mut soil, 0.89) / gained - 1.0).abs() < 1e-12);
     // Without pressure there is no strength.
-    soil.advance(&Matrix3::zeros(), -10.0, 1e-6);
+    soil.advance(&[[0.0; 3]; 3], -10.0, 1e-6);
     assert_eq!(soil.stress, Symmetric::ZERO);
 }
 
@@ -258,9 +255,9 @@ fn a_stressed_block_turns_with_its_stress() {
         viscosity: 0.0,
     };
     let first = Symmetric([100.0, -60.0, -40.0, 80.0, 0.0, 0.0]);
-    let gradient = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    let gradient = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]];
     let q = nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::z_axis(), 0.5).into_inner();
-    let exact = Symmetric::part_of(&(q * first.matrix() * q.transpose()));
+    let exact = Symmetric::part_of(q * first.matrix() * q.transpose());
     let mut turned = [first; 2];
     for _ in 0..50_000 {
         let (a, b) = turned.split_at_mut(1);
@@ -286,15 +283,14 @@ fn plane_compression_strains_the_deviator() {
         poisson_ratio: 0.3,
         viscosity: 3.0,
     };
-    let mut gradient = Matrix3::zeros();
-    gradient[(0, 0)] = -0.1;
+    let gradient = [[-0.1, 0.0, 0.0], [0.0; 3], [0.0; 3]];
     let mut block = fresh(&rubber);
     (0..100).for_each(|_| block.advance(&gradient, 0.0, 1e-4));
     let unit = 2.0 * rubber.shear_modulus() * 0.1 * 1e-2 / 3.0;
     let exact = Symmetric([-2.0 * unit, unit, unit, 0.0, 0.0, 0.0]);
     assert!(magnitude(&(block.stress - exact)) < 1e-12 * unit);
     let total = block.total(&gradient, 0.0);
-    let viscous = Symmetric::part_of(&gradient).deviator() * 6.0;
+    let viscous = Symmetric::part_of(gradient).deviator() * 6.0;
     assert!(magnitude(&(total - exact - viscous)) < 1e-12 * unit);
 }
 

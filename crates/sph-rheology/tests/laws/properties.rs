@@ -181,9 +181,9 @@ proptest! {
             damping,
         };
         let shape = Matrix3::from_row_slice(&tensor);
-        let unit = 2.0 * magnitude(&Symmetric::part_of(&shape).deviator());
-        let gradient = shape * (rate / unit.max(1e-3));
-        let strain_rate = [2.0 * magnitude(&Symmetric::part_of(&gradient).deviator())];
+        let unit = 2.0 * magnitude(&Symmetric::part_of(shape).deviator());
+        let gradient: [[f64; 3]; 3] = (shape * (rate / unit.max(1e-3))).into();
+        let strain_rate = [2.0 * magnitude(&Symmetric::part_of(gradient).deviator())];
         let eta = sound(&law, strain_rate[0], pressure);
         let yield_stress = law.yield_stress(pressure);
         let inputs = Inputs { strain_rate: &strain_rate, pressure: &[pressure] };

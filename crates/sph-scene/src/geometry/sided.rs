@@ -1,12 +1,12 @@
 //! Orientation of the facets of a file.
 
 use scene_text::surface::{Facets, Opening};
-use sph_core::{SceneProblem, number};
+use sph_core::{SceneProblem, Winding, number};
 
 use crate::geometry::vector::point;
 use crate::{FluidSide, Wall};
 
-/// Open surfaces of a smaller [sense](Facets::sense) than this have no inside: a flat plate has 0, a cube without a
+/// Open surfaces of a smaller [`sense`] than this have no inside: a flat plate has 0, a cube without a
 /// lid 0.4.
 const NO_INSIDE: f64 = 0.02;
 /// Number of openings in a message.
@@ -50,7 +50,7 @@ impl Wall {
                 Some((facets.volume() > 0.0) != (side == FluidSide::Outside))
             }
             side => {
-                let sense = facets.sense();
+                let sense = sense(&facets);
                 if sense.abs() < NO_INSIDE {
                     let why = format!(
                         "the surface has {}, and no inside: leave out `fluid` where the normals point into the \
@@ -67,6 +67,12 @@ impl Wall {
             _ => facets,
         })
     }
+}
+
+/// Which way a surface faces: [`Winding::sense`].
+pub fn sense(facets: &Facets) -> f64 {
+    let corners = facets.triangles.iter().map(|t| facets.corners(t));
+    Winding::sense(&corners.collect::<Vec<_>>())
 }
 
 /// The largest openings in words, in the unit of the file.

@@ -65,6 +65,7 @@ impl std::error::Error for Refused {}
 
 /// Errors of loading a scene from a file.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum LoadError {
     /// The file cannot be read.
     #[error("cannot read `{file}`: {reason}")]

@@ -104,7 +104,8 @@ fn the_fluid_is_on_the_side_that_is_asked_for() {
     ] {
         let folder = with(&binary(&given[1..]));
         let sided = facets(folder.path(), &format!("{PART}\nfluid = \"{side}\"")).unwrap();
-        assert!(sense * sided.sense() > 0.3, "{side}: {}", sided.sense());
+        let found = sph_scene::sense(&sided);
+        assert!(sense * found > 0.3, "{side}: {found}");
     }
     let told = refused(&binary(&cube[..2]), &format!("{PART}\nfluid = \"inside\""));
     assert!(

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::SMatrix;
+use nalgebra::{Matrix3, SMatrix};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
@@ -119,7 +119,8 @@ impl<const D: usize> PairTerm<D> for AdjointDivergence {
         Ok(BoundAdjoint {
             stress: both
                 .map(|(t, c)| {
-                    (t.matrix() * in_space(c).transpose())
+                    // Rows that are taken for columns are those of the transpose.
+                    (t.matrix() * Matrix3::from(in_space(c)))
                         .fixed_view::<D, D>(0, 0)
                         .into_owned()
                 })

@@ -84,7 +84,7 @@ impl<const D: usize> Stage<World<D>> for ImplicitElasticStress {
             let twice = 2.0 * elastic.shear_modulus() * dt;
             let both = stress[run.clone()].iter().zip(&gradient[run]);
             let trial = both.map(|(stress, gradient)| {
-                *stress + Symmetric::part_of(&in_space(gradient)).deviator() * twice
+                *stress + Symmetric::part_of(in_space(gradient)).deviator() * twice
             });
             let trial: Vec<Symmetric> = trial.collect();
             yielding(elastic, inputs, &trial)

@@ -1,10 +1,9 @@
 //! Motion of the remembered quantities of an elastic material.
 
-use nalgebra::Matrix3;
 use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Declares, Pool, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::World;
-use sph_rheology::{Elastic, Yielding, jaumann};
+use sph_rheology::{Elastic, Gradient, Yielding, jaumann};
 
 use crate::stress::strain_rate::in_space;
 use crate::stress::{GradientStage, LawInputs, StrainRate};
@@ -25,7 +24,7 @@ pub struct ElasticMotion<const D: usize> {
     /// Whether the force is made of displacements.
     pub displaced: bool,
     /// Gradients of a run of particles, kept for their memory.
-    pub gradients: Pool<Vec<Matrix3<f64>>>,
+    pub gradients: Pool<Vec<Gradient>>,
 }
 
 impl<const D: usize> ElasticMotion<D> {
@@ -158,17 +157,11 @@ impl<const D: usize> Memory<D> {
     }
 
     /// J takes what the stress gains besides 2𝒢D′Δt.
-    fn advance(
-        &mut self,
-        elastic: &dyn Elastic,
-        gradient: &Matrix3<f64>,
-        velocity: &Vect<D>,
-        dt: f64,
-    ) {
+    fn advance(&mut self, elastic: &dyn Elastic, gradient: &Gradient, velocity: &Vect<D>, dt: f64) {
         let modulus = elastic.shear_modulus();
         let before = self.stress;
         self.stress = jaumann::advanced(&before, gradient, modulus, dt);
-        let strained = Symmetric::part_of(gradient).deviator() * (2.0 * modulus * dt);
+        let strained = Symmetric::part_of(*gradient).deviator() * (2.0 * modulus * dt);
         self.turn = self.turn + (self.stress - before - strained);
         self.displacement += velocity * dt;
     }

@@ -42,3 +42,41 @@ impl<const D: usize> Kept<D> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use sph_core::{Field, Role, Scalar};
+
+    use super::*;
+
+    const SALT: Field<Scalar> = Field::new("salt", "1", "mass fraction");
+    const SALT_RATE: Field<Scalar> = Field::new("salt_rate", "1/s", "its rate");
+
+    /// Heun's mean, of each particle with itself, whatever its place was when the rates were kept.
+    #[test]
+    fn rates_are_the_mean_of_both_ends_of_a_step() {
+        let evolved = [Evolved {
+            value: SALT,
+            rate: SALT_RATE,
+        }];
+        let mut free = Store::<2>::new(3);
+        free.add(fields::ACCELERATION, Role::Derived);
+        free.add(SALT_RATE, Role::Derived);
+        let set = |free: &mut Store<2>, rates: [f64; 3]| {
+            *free.get_mut(SALT_RATE).expect("added") = rates.to_vec();
+            let vectors = rates.map(|r| Vect::<2>::new(r, -r));
+            *free.get_mut(fields::ACCELERATION).expect("added") = vectors.to_vec();
+        };
+        set(&mut free, [1.0, 2.0, 4.0]);
+        let mut kept = Kept::default();
+        kept.keep(&free, &evolved).expect("columns");
+        for (places, mean) in [(None, [3.0, 4.0, 6.0]), (Some([2, 0, 1]), [4.5, 3.5, 5.0])] {
+            set(&mut free, [5.0, 6.0, 8.0]);
+            let places = places.as_ref().map(|p: &[u32; 3]| &p[..]);
+            kept.average(&mut free, &evolved, places).expect("columns");
+            assert_eq!(free.get(SALT_RATE).expect("added"), mean);
+            let vectors = mean.map(|r| Vect::<2>::new(r, -r));
+            assert_eq!(free.get(fields::ACCELERATION).expect("added"), vectors);
+        }
+    }
+}

@@ -8,6 +8,7 @@ use crate::running::record::Record;
 
 /// Options of a study.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Options {
     /// Folder of all its files.
     pub out: PathBuf,
@@ -20,6 +21,16 @@ pub struct Options {
 }
 
 impl Options {
+    /// On all cores; what is finished stays.
+    pub fn new(out: impl Into<PathBuf>, origin: Origin) -> Self {
+        Options {
+            out: out.into(),
+            threads: None,
+            fresh: false,
+            origin,
+        }
+    }
+
     /// Folder of a variant.
     pub fn folder(&self, variant: &Variant) -> PathBuf {
         self.out.join("variants").join(&variant.name)

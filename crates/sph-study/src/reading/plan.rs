@@ -214,6 +214,7 @@ impl Parts<'_> {
 
 /// Errors of loading a study.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// The file cannot be read.
     #[error("cannot read `{0}`: {1}")]

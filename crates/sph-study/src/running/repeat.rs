@@ -95,15 +95,11 @@ impl Job<'_> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);
         let identity = format!("{} repetition {repetition}", self.variant.fingerprint);
-        let mut options = RunOptions {
-            out: folder.to_path_buf(),
-            start: match folder.join(CHECKPOINT).exists() {
-                true => Start::Resumed,
-                false => Start::Afresh,
-            },
-            threads: Some(self.threads),
-            identity: Identity::of_text(identity),
-        };
+        let mut options =
+            RunOptions::new(folder, Identity::of_text(identity)).threads(self.threads);
+        if folder.join(CHECKPOINT).exists() {
+            options.start = Start::Resumed;
+        }
         let limit = self.study.file.time_limit;
         let mut observer = Watching {
             job: self,

@@ -40,7 +40,7 @@ impl<const D: usize> Stage<World<D>> for ExtraStress {
             let (k, e) = (energy[i], dissipation[i]);
             *stress = match e > 0.0 {
                 true => {
-                    Symmetric::part_of(&model.anisotropy(&gradients[i], k / e).across)
+                    Symmetric::part_of(model.anisotropy(&gradients[i], k / e).across)
                         * (-density[i] * k)
                 }
                 false => Symmetric::ZERO,

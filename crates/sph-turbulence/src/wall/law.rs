@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Errors of a friction velocity that cannot be solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum WallLawError {
     /// A distance that is none.
     #[error("the distance from the wall is {0} m where a positive number was expected")]

@@ -74,17 +74,11 @@ fn stresses_leave_no_force_along_a_smooth_floor() {
     let stress = world.free.get_mut(fields::CARRIED_STRESS).unwrap();
     for (k, tau) in stress.iter_mut().enumerate() {
         let value = |j: usize| 100.0 * ((k * 7 + j * 3) as f64).sin();
-        *tau = Symmetric::part_of(&nalgebra::Matrix3::new(
-            value(0),
-            value(1),
-            0.0,
-            value(1),
-            -value(0),
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-        ));
+        *tau = Symmetric::part_of([
+            [value(0), value(1), 0.0],
+            [value(1), -value(0), 0.0],
+            [0.0; 3],
+        ]);
     }
     let terms = [StressDivergence::boxed()];
     let mut acceleration = vec![Vect::zeros(); world.free.len()];

@@ -2,7 +2,7 @@
 
 use sph_core::{Plain, Role, StepError, fields};
 use sph_particles::{Stepper, run};
-use sph_run::{Identity, RunOptions, Start};
+use sph_run::{Identity, RunOptions};
 use sph_scene::Scene;
 
 const SCENE: &str = include_str!("../../../../scenes/dam-break-koshizuka.toml");
@@ -23,12 +23,7 @@ fn scene() -> Scene {
 fn stepped_by_hand_a_dam_break_has_the_bits_of_a_run() {
     let scene = scene();
     let folder = sph_io::Scratch::new(".sph-stepper-").expect("a folder");
-    let options = RunOptions {
-        out: folder.path().join("run"),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: Identity::of_text("dam"),
-    };
+    let options = RunOptions::new(folder.path().join("run"), Identity::of_text("dam")).threads(1);
     let summary = run(&scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
     let mut stepper = Stepper::<2>::new(&scene).unwrap_or_else(|e| panic!("{e}"));
     for target in [0.02, 0.04, 0.05] {

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use sph_core::{Vect, fields};
 use sph_particles::run;
 use sph_particles::setup::Assembled;
-use sph_run::{RunOptions, Start};
+use sph_run::RunOptions;
 use sph_scene::load;
 
 use crate::invariants::{fly, given, shipped};
@@ -164,12 +164,7 @@ fn energy_rise(name: &str, overrides: &[&str]) -> f64 {
     let all: Vec<&str> = quiet.iter().chain(overrides).copied().collect();
     let loaded = load(&path, &given(&all)).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: sph_run::Identity::of_text(name),
-    };
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(name)).threads(1);
     let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
     summary.drift.energy_rise
 }

@@ -1,7 +1,7 @@
 //! A cliff of dry soil that must fall: what holds it, and what a run tells of it.
 
 use sph_particles::{RunError, Solves, Summary, run};
-use sph_run::{RunOptions, Start};
+use sph_run::RunOptions;
 use sph_scene::{Override, parse};
 
 /// 0.3 m wide, 0.8 m high, friction angle 30°, E = 1 GPa, grains of 10 mm, 0.2 s.
@@ -23,12 +23,7 @@ fn outcome(text: &str, overrides: &[&str]) -> Result<Summary, RunError> {
     let overrides: Vec<_> = overrides.collect();
     let loaded = parse(text, "scene.toml", &overrides).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().unwrap();
-    let options = RunOptions {
-        out: folder.path().to_path_buf(),
-        start: Start::Afresh,
-        threads: Some(1),
-        identity: sph_run::Identity::of_text(text),
-    };
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(text)).threads(1);
     run(&loaded.scene, &options, &mut ())
 }
 

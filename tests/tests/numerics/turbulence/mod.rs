@@ -96,12 +96,9 @@ fn into(
         .map(|c| Override::parse(c).expect("a change"));
     let changes: Vec<_> = changes.collect();
     let loaded = parse(text, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions {
-        out: folder.to_path_buf(),
-        start,
-        threads: Some(threads),
-        identity: sph_run::Identity::of_text(text),
-    };
+    let options = RunOptions::new(folder, sph_run::Identity::of_text(text))
+        .start(start)
+        .threads(threads);
     run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
 

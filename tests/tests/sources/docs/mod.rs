@@ -4,6 +4,7 @@ mod book;
 mod crates;
 mod dependencies;
 mod keys;
+mod published;
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Data that give the sides of a mesh.
 
-use scene_text::surface::Winding;
+use sph_core::Winding;
 
 use super::grid::Grid;
 use super::rays::Rays;

@@ -1,7 +1,5 @@
 //! From surfaces to the mesh.
 
-use rayon::prelude::*;
-
 use super::crossing::contacts;
 use super::drawn::{Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, neighbours, weld};
 use super::edges::{Cuts, Nodes, free_pieces};
@@ -14,6 +12,7 @@ use crate::error::{BoundaryError, WallWarning};
 use crate::geometry::mesh::{Element, Face, FaceEdge, Measured, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{double_area, norm};
+use crate::parallel::*;
 
 /// Elements with shorter sides than this part of the spacing are fine.
 const FINE: f64 = 0.25;

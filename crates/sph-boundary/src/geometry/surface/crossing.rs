@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
 use sph_core::BoxTree;
 
 use super::drawn::{Drawn, Surface};
@@ -11,6 +10,7 @@ use crate::error::BoundaryError;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::limits::MOST_PAIRS;
+use crate::parallel::*;
 
 /// Two triangles of different walls of one group that cover each other face to face: `other`,
 /// moved by `image`, lies on `triangle`.

@@ -1,10 +1,9 @@
 //! Surfaces as drawn, and their triangles with the corners welded.
 
-use rayon::prelude::*;
-
 use super::places::{HalfEdge, Places, Site, half_edges};
 use crate::error::BoundaryError;
 use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
+use crate::parallel::*;
 
 /// Area over longest edge squared below which a triangle has none.
 const NO_AREA: f64 = 1e-9;

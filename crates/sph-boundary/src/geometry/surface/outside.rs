@@ -1,6 +1,6 @@
 //! The fluid's side of surfaces.
 
-use scene_text::surface::Winding;
+use sph_core::Winding;
 
 use crate::geometry::mesh::{Mesh, Outside, SAME_DISTANCE, SAME_HEIGHT, Sides, angle};
 use crate::geometry::vector::{Point, add, bounds, norm, sub};

@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
-
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, dot, sub};
+use crate::parallel::*;
 
 /// Something numbered, moved by whole periods: a point of a wall as drawn, or a node of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::surface::vector::{cross, dot, minus};
-
 /// Clusters farther away than this many of their radii count as one facet.
 const FAR: f64 = 4.0;
 /// Triangles of a cluster that is not divided.
 const FEW: usize = 8;
+/// Triangles at which the side that a surface faces is asked for, at most.
+const ASKED: usize = 256;
 
 /// How often a surface winds around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one
 /// from behind its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an
@@ -106,6 +106,32 @@ impl Winding {
         }
         sum / (4.0 * PI)
     }
+
+    /// Which way a surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
+    ///
+    /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and
+    /// less of an open one, since its opening is seen from everywhere.
+    pub fn sense(triangles: &[[[f64; 3]; 3]]) -> f64 {
+        let winding = Winding::new(triangles.to_vec());
+        let area = |[a, b, c]: &[[f64; 3]; 3]| {
+            let normal = cross(&minus(b, a), &minus(c, a));
+            0.5 * dot(&normal, &normal).sqrt()
+        };
+        let all: f64 = triangles.iter().map(area).sum();
+        let step = all / ASKED.min(triangles.len()) as f64;
+        let (mut passed, mut asked, mut sum) = (0.0, 0.0, 0.0);
+        for triangle in triangles {
+            passed += area(triangle);
+            if passed >= (asked + 0.5) * step {
+                let [a, b, c] = triangle;
+                let times = (passed / step + 0.5).floor() - asked;
+                let centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
+                sum += times * winding.at(&centre);
+                asked += times;
+            }
+        }
+        sum / f64::max(asked, 1.0)
+    }
 }
 
 /// Solid angle of a triangle, positive seen against its normal; 0 in its plane. Van Oosterom & Strackee (1983).
@@ -118,6 +144,22 @@ fn solid_angle(triangle: &[[f64; 3]; 3], x: &[f64; 3]) -> f64 {
     }
     let below = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
     2.0 * volume.atan2(below)
+}
+
+fn minus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
-//! An elastic–viscoplastic soil sheared to and fro at constant pressure, with `sph-rheology` and `sph-core` alone.
+//! An elastic–viscoplastic soil sheared to and fro at constant pressure, with the laws of
+//! `sph-rheology` alone.
 
-use nalgebra::Matrix3;
 use sph_core::Symmetric;
 use sph_rheology::{Cone, DruckerPrager, Elastic, Inputs, Rheology};
 
@@ -12,8 +12,7 @@ pub fn cycle(law: &DruckerPrager, pressure: f64, steps: usize) -> Vec<[f64; 2]> 
     let (mut strain, mut stress, mut path) = (0.0, [Symmetric::ZERO], Vec::new());
     for k in 0..steps {
         let rate = if 3 * k < steps { rate } else { -rate };
-        let mut gradient = Matrix3::zeros();
-        gradient[(0, 1)] = rate; // u = (γ̇ y, 0, 0)
+        let gradient = [[0.0, rate, 0.0], [0.0; 3], [0.0; 3]]; // u = (γ̇ y, 0, 0)
         let inputs = Inputs {
             strain_rate: &[rate.abs()],
             pressure: &[pressure],
