@@ -11,7 +11,7 @@ use crate::SceneProblem;
 ///
 /// ```
 /// let range: scene_text::PictureRange = toml::Value::from(vec![0.0, 9000.0]).try_into()?;
-/// assert_eq!(range.of("pressure"), Some([0.0, 9000.0]));
+/// assert_eq!(range.ends("pressure"), Some([0.0, 9000.0]));
 /// assert!(range.falling("output.picture_range").is_empty());
 /// # Ok::<(), toml::de::Error>(())
 /// ```

@@ -344,14 +344,14 @@ fn a_disc_that_faces_out_of_a_pipe_is_named() {
         &field,
         "pipe-thick",
         other,
-        &["wall `outlet` meets it there", "face the other way"],
+        &["wall `outlet` meets it there", "faces the other way"],
     );
     let flipped = "--set wall.inlet.flip=true";
     refused(
         &field,
         "pipe-thick",
         flipped,
-        &["wall `inlet` meets it there", "face the other way"],
+        &["wall `inlet` meets it there", "faces the other way"],
     );
 }
 
