@@ -1,7 +1,7 @@
 //! Errors of walls, and of kernels at walls.
 
 #[cfg(feature = "plugins")]
-use sph_core::number::plain as told;
+use sph_core::number::plain;
 
 use crate::geometry::wall_end::WallEnd;
 use crate::limits::{MOST_PAIRS, MOST_PERIODS};
@@ -19,6 +19,25 @@ pub enum BoundaryError {
         "wall `{wall}` moves by {way:.3e} m in one step, and {most:.3e} m, half a spacing, is the most"
     )]
     Leap { wall: String, way: f64, most: f64 },
+    /// A bed that rises so far that the walls in it have no height left.
+    #[error(
+        "the bed `{wall}` has risen by {rise:.3} m, and walls that stand in it stretch over {height} m: give          `[wall.{wall}.erodible]` a larger `stretch`"
+    )]
+    Buried {
+        wall: String,
+        rise: f64,
+        height: f64,
+    },
+    /// A wall that should be a bed of grains and has no floor.
+    #[error("wall `{wall}` has no part that faces upwards, which a bed of grains needs")]
+    NoFloor { wall: String },
+    /// A bed of too many places.
+    #[error("the bed `{wall}` has {places} places, more than {most}: give it a larger `cell`")]
+    ManyPlaces {
+        wall: String,
+        places: f64,
+        most: usize,
+    },
     /// Fluid at a body that is too light for it.
     #[error(
         "fluid acts on the body `{wall}`, which has less than a fiftieth of its density: one particle of it would throw the \
@@ -290,7 +309,7 @@ pub enum BoundaryError {
     #[error(
         "wall `{wall}` is open: {edges} edge(s) without a neighbour surround an opening of \
          {} m around {centre}, and at {at} one of them is {} m from particle {particle}, within the \
-         kernel radius {} m: {}", told(*.extent), told(*.distance), told(*.radius),
+         kernel radius {} m: {}", plain(*.extent), plain(*.distance), plain(*.radius),
          remedy(.met)
     )]
     FreeEdgeInReach {
@@ -322,7 +341,7 @@ impl BoundaryError {
 }
 
 #[cfg(not(feature = "plugins"))]
-fn told(x: f64) -> String {
+fn plain(x: f64) -> String {
     x.to_string()
 }
 
@@ -357,36 +376,4 @@ impl std::fmt::Display for Place {
         let all: Vec<String> = self.0.iter().map(|x| rounded(x).to_string()).collect();
         write!(f, "({})", all.join(", "))
     }
-}
-
-/// A remark that does not stop the run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-#[non_exhaustive]
-pub enum WallWarning {
-    /// An edge shorter than a quarter of the spacing: it becomes one short segment.
-    #[error(
-        "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing {spacing} m"
-    )]
-    ShortEdge {
-        wall: String,
-        edge: usize,
-        length: f64,
-        spacing: f64,
-    },
-    /// A surface drawn with most of its triangles far smaller than the spacing: they stay so.
-    #[error(
-        "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing {spacing} m: draw it coarser"
-    )]
-    FineSurface {
-        wall: String,
-        fine: usize,
-        all: usize,
-        spacing: f64,
-    },
-    /// Faces that end on the back of another wall: no fluid is before them, and they are left out.
-    #[error(
-        "{faces} faces of wall `{wall}` end on the back of another wall: they bound no fluid and are left out"
-    )]
-    Unseen { wall: String, faces: usize },
 }

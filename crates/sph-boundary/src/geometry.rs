@@ -1,5 +1,7 @@
 //! Walls as lines and triangles: meshed, joined, moved, and what is near or inside them.
 
+#[cfg(feature = "plugins")]
+pub(crate) mod beds;
 pub(crate) mod cells;
 pub(crate) mod checks;
 #[cfg(feature = "plugins")]

@@ -84,8 +84,9 @@ mod rigid;
 mod scale;
 #[cfg(feature = "plugins")]
 mod treatment;
+mod warning;
 
-pub use error::{BoundaryError, Place, WallWarning};
+pub use error::{BoundaryError, Place};
 pub use geometry::drawing::Drawing;
 pub use geometry::mesh::{
     Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, Node, Opening,
@@ -101,9 +102,11 @@ pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentInte
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
 pub use integrals::sum::GammaSum;
 pub use rigid::bend::Bend;
+pub use rigid::erodible::Erodible;
 pub use rigid::motion::RigidMotion;
 pub use rigid::pose::Pose;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
+pub use warning::WallWarning;
 
 #[cfg(feature = "plugins")]
 pub use crate::{

@@ -1,6 +1,7 @@
 //! Motion of walls: courses over time, movers, and the state of a rigid wall.
 
 pub(crate) mod bend;
+pub(crate) mod erodible;
 #[cfg(feature = "plugins")]
 pub(crate) mod load;
 pub(crate) mod motion;

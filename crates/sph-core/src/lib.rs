@@ -24,6 +24,7 @@
 
 #[cfg(feature = "plugins")]
 mod axis;
+pub mod bed;
 mod boxes;
 pub mod course;
 mod duct;

@@ -52,21 +52,56 @@ impl<const D: usize> World<D> {
         let plus = |a: [i128; N], b: [i128; N]| std::array::from_fn(|k| a[k].wrapping_add(b[k]));
         let sum_of = |range: Range<usize>| range.filter_map(each).map(whole).fold([0; N], plus);
         let mut sums = joined(count, BATCH, [0; N], &sum_of, plus);
-        if let Some(communicator) = &self.communicator {
-            let limb = |sum: i128, k: usize| (sum as u128 >> (32 * k)) as u64 & 0xFFFF_FFFF;
-            let mut limbs: Vec<u64> = sums
-                .iter()
-                .flat_map(|sum| (0..LIMBS).map(|k| limb(*sum, k)))
-                .collect();
-            communicator.total(&mut limbs)?;
-            for (sum, limbs) in sums.iter_mut().zip(limbs.chunks(LIMBS)) {
-                let joined = |all: u128, (k, limb): (usize, &u64)| {
-                    all.wrapping_add(u128::from(*limb) << (32 * k))
-                };
-                *sum = limbs.iter().enumerate().fold(0, joined) as i128;
-            }
-        }
+        self.total(&mut sums)?;
         Ok(std::array::from_fn(|k| scaled(sums[k] as f64, -shifts[k])))
+    }
+
+    /// The sums of parts by the number of their place, below `count`; of several ranks each has some. They depend neither on the
+    /// order nor on the owners, as [`sums`](Self::sums).
+    ///
+    /// # Errors
+    /// As [`sums`](Self::sums).
+    pub fn sums_by_place(
+        &self,
+        parts: &[(usize, f64)],
+        count: usize,
+    ) -> Result<Vec<f64>, StepError> {
+        let mut largest = vec![0.0_f64; count];
+        for (place, part) in parts {
+            largest[*place] = largest[*place].max(part.abs());
+        }
+        self.largest(&mut largest)?;
+        let shifts: Vec<i32> = largest.iter().map(|m| BITS - exponent(*m)).collect();
+        let mut sums = vec![0_i128; count];
+        for (place, part) in parts {
+            let whole = scaled(*part, shifts[*place]).round_ties_even() as i128;
+            sums[*place] = sums[*place].wrapping_add(whole);
+        }
+        self.total(&mut sums)?;
+        let both = sums.iter().zip(shifts);
+        Ok(both
+            .map(|(sum, shift)| scaled(*sum as f64, -shift))
+            .collect())
+    }
+
+    /// Adds the whole numbers of all ranks.
+    fn total(&self, sums: &mut [i128]) -> Result<(), StepError> {
+        let Some(communicator) = &self.communicator else {
+            return Ok(());
+        };
+        let limb = |sum: i128, k: usize| (sum as u128 >> (32 * k)) as u64 & 0xFFFF_FFFF;
+        let mut limbs: Vec<u64> = sums
+            .iter()
+            .flat_map(|sum| (0..LIMBS).map(|k| limb(*sum, k)))
+            .collect();
+        communicator.total(&mut limbs)?;
+        for (sum, limbs) in sums.iter_mut().zip(limbs.chunks(LIMBS)) {
+            let joined = |all: u128, (k, limb): (usize, &u64)| {
+                all.wrapping_add(u128::from(*limb) << (32 * k))
+            };
+            *sum = limbs.iter().enumerate().fold(0, joined) as i128;
+        }
+        Ok(())
     }
 }
 

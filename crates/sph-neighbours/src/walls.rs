@@ -3,6 +3,7 @@
 //! Which points and elements there are, and what they carry, is the wall plugin's business.
 
 use sph_core::Vect;
+use sph_core::bed::Bed;
 
 use crate::{Contacts, Domain, FreeBody, Slopes, WallForce};
 
@@ -182,6 +183,8 @@ pub struct WallSet<const D: usize> {
     pub frames: Vec<Frame<D>>,
     /// The walls that forces move; empty where there is none.
     pub bodies: Vec<FreeBody<D>>,
+    /// The walls that grains make; empty where there is none.
+    pub beds: Vec<Bed>,
     /// Mass that has passed the open faces, face by face; empty where there is none.
     pub passed: Vec<Passed>,
     /// Actions of the lines of movers, wall by wall in the order of their scene; empty where there is none.
@@ -222,6 +225,7 @@ impl<const D: usize> WallSet<D> {
         }
         self.frames.clone_from(&other.frames);
         self.bodies.clone_from(&other.bodies);
+        self.beds.clone_from(&other.beds);
         self.passed.clone_from(&other.passed);
         self.pulls.clone_from(&other.pulls);
     }

@@ -1,5 +1,6 @@
 //! Conditions beyond the schema.
 
+mod beds;
 pub(crate) mod bounds;
 pub(crate) mod collected;
 pub(crate) mod corners;

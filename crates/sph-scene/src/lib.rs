@@ -74,6 +74,7 @@ pub use scene_text::{
 };
 pub use tables::body::{Body, Cutout, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
+pub use tables::erodible::Erodible;
 pub use tables::gravity::{GravityOverTime, GravitySine};
 pub use tables::motion::{
     AngularRamp, AngularSine, Levels, Motion, Ramp, Rotation, Sine, Translate,

@@ -8,9 +8,10 @@ use sph_core::BoxTree;
 
 pub(crate) use crossing::check_crossings;
 
-use crate::error::{BoundaryError, WallWarning};
+use crate::error::BoundaryError;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::{bounds, distance_to_segment, dot, sub, widened};
+use crate::warning::WallWarning;
 
 /// Edges shorter than this part of the spacing are remarked upon.
 const SHORT: f64 = 0.25;

@@ -2,11 +2,11 @@
 
 use sph_core::BoxTree;
 
-use crate::error::WallWarning;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::sets::Sets;
 use crate::geometry::vector::widened;
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
+use crate::warning::WallWarning;
 
 /// A line with the number of its wall.
 type Piece = (usize, Polyline);

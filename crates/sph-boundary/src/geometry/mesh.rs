@@ -24,7 +24,7 @@ pub use closest::{Closest, Feature};
 pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
 pub use grid::Grid;
 pub(crate) use inside::{Outside, SAME_DISTANCE, SAME_HEIGHT};
-pub(crate) use motion::Measured;
+pub(crate) use motion::{Measured, bed_of};
 pub use near_element::NearElement;
 pub(crate) use sides::Sides;
 pub use signed::SeenElement;

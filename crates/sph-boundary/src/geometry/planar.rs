@@ -1,9 +1,11 @@
 //! Walls in the plane: segments for the wall treatments.
 
 use sph_core::Vect;
+use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
+use crate::geometry::beds::laid;
 use crate::geometry::checks::check_points;
 use crate::geometry::junctions::bounding;
 use crate::geometry::layers::layers;
@@ -106,6 +108,7 @@ impl WallMesh<2> for Walls<2> {
         let mut mesh = Mesh::of_pieces((&lines, &wall_of), names, spacing, domain)?;
         mesh.warnings.extend(unseen);
         mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
+        mesh.beds = laid(&mesh, walls, domain)?;
         Ok(Walls::new(mesh, walls, reach))
     }
 
@@ -115,6 +118,10 @@ impl WallMesh<2> for Walls<2> {
 
     fn walls(&self) -> &Walls<2> {
         self
+    }
+
+    fn lay(&mut self, beds: &[Bed]) {
+        self.mesh.lay(beds);
     }
 
     fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {

@@ -1,9 +1,11 @@
 //! Walls in space: triangles for the wall treatments.
 
 use sph_core::Vect;
+use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
+use crate::geometry::beds::laid;
 use crate::geometry::faces::{Corner, Planes};
 use crate::geometry::shells::{Gammas, ShellSums};
 use crate::geometry::wall_mesh::{Hindrance, WallMesh};
@@ -40,7 +42,10 @@ impl WallMesh<3> for Walls<3> {
             }
         };
         let surfaces: Vec<Surface> = walls.iter().map(surface).collect::<Result<_, _>>()?;
-        let mesh = Mesh::<3>::build(&surfaces, &groups(walls), spacing, domain)?;
+        let mut mesh = Mesh::<3>::build(&surfaces, &groups(walls), spacing, domain)?;
+        mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
+        mesh.beds = laid(&mesh, walls, domain)?;
+        mesh.part_faces();
         let mut walls = Walls::new(mesh, walls, reach);
         walls.planes = Planes::new(&walls.mesh);
         Ok(walls)
@@ -56,6 +61,10 @@ impl WallMesh<3> for Walls<3> {
 
     fn meet_whole_faces(&mut self) {
         self.whole_faces = true;
+    }
+
+    fn lay(&mut self, beds: &[Bed]) {
+        self.mesh.lay(beds);
     }
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {

@@ -6,8 +6,10 @@
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
 //!   both sides of every edge;
 //! * `solid_angle`, `openings`: what a node stands for, and where the walls end;
+//! * `bed_faces`: faces that a bed lifts;
 //! * `outside`: which side is the fluid's.
 
+mod bed_faces;
 mod build;
 mod crossing;
 mod drawn;

@@ -1,6 +1,7 @@
 //! Geometry of the walls for a wall treatment, in either dimension.
 
 use sph_core::Vect;
+use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
@@ -89,6 +90,9 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
 
     /// Makes a face one contact, where that is cheaper.
     fn meet_whole_faces(&mut self) {}
+
+    /// Says what the beds are like that walls follow, from the next motion on.
+    fn lay(&mut self, beds: &[Bed]);
 
     /// Moves every wall to its pose.
     ///

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 #[cfg(feature = "plugins")]
 use sph_core::Vect;
+use sph_core::bed::Bed;
 #[cfg(feature = "plugins")]
 use sph_core::course::Stage;
 use sph_core::course::{Course, Rotation, Translation};
 
-use crate::{Bend, Pose};
+use crate::{Bend, Erodible, Pose};
 #[cfg(feature = "plugins")]
 use crate::{Movement, RigidState};
 
@@ -22,6 +23,8 @@ pub struct RigidMotion<const D: usize = 2> {
     /// Bending of the wall; it counts its time from 0. It leaves the wall where translations and rotation put it, so
     /// have one or the other.
     pub bend: Option<Arc<Bend>>,
+    /// The bed of grains whose levels the wall follows, instead of all else.
+    pub bed: Option<Arc<Erodible>>,
     /// Start, s; the courses count from here.
     pub start: f64,
     /// Stop, s.
@@ -34,6 +37,7 @@ impl<const D: usize> Default for RigidMotion<D> {
             translations: Vec::new(),
             rotation: None,
             bend: None,
+            bed: None,
             start: 0.0,
             stop: f64::INFINITY,
         }
@@ -57,7 +61,12 @@ impl<const D: usize> RigidMotion<D> {
         let shifts = |t: &Translation<D>| t.course.moves() && t.along != [0.0; D];
         self.translations.iter().any(shifts)
             || self.rotation.as_ref().is_some_and(|r| r.course.moves())
-            || self.bend.is_some()
+            || self.bends()
+    }
+
+    /// Whether the wall changes its shape.
+    pub fn bends(&self) -> bool {
+        self.bend.is_some() || self.bed.is_some()
     }
 
     /// The middle of the steepest interval of every table, s.
@@ -80,6 +89,7 @@ impl<const D: usize> RigidMotion<D> {
         self.translations.iter().all(sound)
             && self.rotation.iter().all(turns)
             && self.bend.iter().all(|b| D == 2 && b.is_sound())
+            && self.bed.iter().all(|bed| bed.is_sound())
             && self.start.is_finite()
             && !self.stop.is_nan()
     }
@@ -99,7 +109,7 @@ impl<const D: usize> RigidMotion<D> {
             ),
             None => Pose::default(),
         };
-        if self.bend.is_some() {
+        if self.bends() {
             pose.moment = time;
         }
         for shift in &self.translations {
@@ -111,12 +121,19 @@ impl<const D: usize> RigidMotion<D> {
         pose
     }
 
-    /// From where a place of the wall was drawn to where it is in a pose.
-    pub(crate) fn map(&self, pose: &Pose<D>) -> impl Fn([f64; D]) -> [f64; D] + use<D> {
+    /// From where a place of the wall was drawn to where it is in a pose, on its bed.
+    pub(crate) fn map<'a>(
+        &self,
+        pose: &Pose<D>,
+        bed: Option<&'a Bed>,
+    ) -> impl Fn([f64; D]) -> [f64; D] + use<'a, D> {
         let (bend, rigid, moment) = (self.bend.clone(), pose.map(), pose.moment);
         move |mut x| {
             if let Some(bend) = &bend {
                 x[D - 1] += bend.at(x[0], moment).value;
+            }
+            if let Some(bed) = bed {
+                x[D - 1] += bed.lift_of(&x);
             }
             rigid(x)
         }
@@ -227,6 +244,7 @@ mod tests {
                     course: Course::Steady { speed: 1.7 },
                 }),
                 bend: None,
+                bed: None,
                 start: 0.5,
                 stop: 2.0,
             },
@@ -244,6 +262,7 @@ mod tests {
                     course: sine,
                 }),
                 bend: None,
+                bed: None,
                 start: 0.1,
                 stop: f64::INFINITY,
             },

@@ -92,6 +92,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             self.place(&mut walls.points, &walls.frames);
             walls.pulls = self.outline.pulls();
             walls.bodies.clone_from(&self.outline.bodies);
+            walls.beds.clone_from(&self.outline.beds[0]);
         }
         Ok(())
     }
@@ -139,6 +140,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         set_up.place(&mut points, &frames);
         let names = set_up.outline.mesh.names().to_vec();
         let bodies = set_up.outline.bodies.clone();
+        let beds = set_up.outline.beds[0].clone();
         self.set_up = Some(set_up);
         Ok(WallSet {
             names,
@@ -149,6 +151,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
             slopes: Slopes::default(),
             frames,
             bodies,
+            beds,
             passed: Vec::new(),
             pulls,
             forces: Vec::new(),

@@ -90,6 +90,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         walls.frames = outline.frames();
         walls.pulls = outline.pulls();
         walls.bodies.clone_from(&outline.bodies);
+        walls.beds.clone_from(&outline.beds[0]);
         let points = &mut walls.points;
         for (v, node) in nodes.iter().enumerate() {
             let movement = outline.movement(node.wall, &node.position);
@@ -216,6 +217,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             slopes: Slopes::default(),
             frames: Vec::new(),
             bodies: Vec::new(),
+            beds: Vec::new(),
             passed: Vec::new(),
             pulls: Vec::new(),
             forces: Vec::new(),

@@ -1,6 +1,7 @@
 //! Outlines that move: by prescribed courses and by movers.
 
 use sph_core::Vect;
+use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
 use crate::geometry::wall_mesh::WallMesh;
@@ -10,6 +11,9 @@ use crate::{BoundaryError, Load, RigidState, WallSpec, WallStates};
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
+
+/// The most that a bed may rise, over the height within which walls in it stretch.
+const HIGHEST: f64 = 0.9;
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// The states at a time; those of walls with movers are taken from `others`.
@@ -52,6 +56,28 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
         }
         Ok(moved)
+    }
+
+    /// Takes beds with new rates, and lets their levels go on for `dt`.
+    ///
+    /// # Errors
+    /// A bed that rises to the top of the walls that stand in it.
+    pub fn grow(&mut self, beds: Vec<Bed>, dt: f64) -> Result<(), BoundaryError> {
+        for (bed, mut grown) in self.beds[0].iter_mut().zip(beds) {
+            let both = grown.lift.iter_mut().zip(&grown.rate);
+            both.for_each(|(lift, rate)| *lift += dt * rate);
+            let highest = grown.lift.iter().fold(0.0, |a: f64, b| a.max(*b));
+            if highest.is_nan() || highest >= HIGHEST * grown.fade {
+                let wall = self.specs[grown.walls[0] as usize].drawing.name();
+                return Err(BoundaryError::Buried {
+                    wall: wall.to_string(),
+                    rise: highest,
+                    height: grown.fade,
+                });
+            }
+            *bed = grown;
+        }
+        Ok(())
     }
 
     /// Refuses fluid at bodies that are too light for any.
@@ -154,11 +180,17 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Numbers of the walls with movers.
     pub fn numbers(&self) -> WallStates {
-        let of =
-            |states: &[RigidState<D>]| self.moved().flat_map(|k| states[k].numbers()).collect();
+        let of = |states: &[RigidState<D>]| -> Vec<f64> {
+            self.moved().flat_map(|k| states[k].numbers()).collect()
+        };
+        let [now, listed] = [(&self.states, &self.beds[0]), (&self.listed, &self.beds[1])];
+        let all = |(states, beds): (&Vec<RigidState<D>>, &Vec<Bed>)| {
+            let levels = beds.iter().flat_map(Bed::numbers);
+            of(states).into_iter().chain(levels).collect()
+        };
         WallStates {
-            now: of(&self.states),
-            listed: Some(of(&self.listed)),
+            now: all(now),
+            listed: Some(all(listed)),
         }
     }
 
@@ -166,7 +198,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool, BoundaryError> {
         let given = |numbers: &[f64]| {
             let mut states = self.states_at(time, &self.states);
-            let mut parts = numbers.chunks(RigidState::<D>::NUMBERS);
+            let own = self.moved().count() * RigidState::<D>::NUMBERS;
+            let (own, levels) = numbers.split_at(own.min(numbers.len()));
+            let mut parts = own.chunks(RigidState::<D>::NUMBERS);
             for k in self.moved() {
                 let wall = || self.specs[k].drawing.name().to_string();
                 let part = parts.next().and_then(RigidState::from_numbers);
@@ -174,20 +208,30 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 let pieces = (k..states.len()).take_while(|p| *p == k || is_piece(&self.specs, *p));
                 pieces.for_each(|p| states[p] = state);
             }
-            Ok::<_, BoundaryError>(states)
+            let mut beds = self.beds[0].clone();
+            let mut rest = levels;
+            for bed in &mut beds {
+                let wall = || self.specs[bed.walls[0] as usize].drawing.name().to_string();
+                let wall = wall();
+                rest = bed.put(rest).ok_or(BoundaryError::Motion { wall })?;
+            }
+            Ok::<_, BoundaryError>((states, beds))
         };
-        let states = given(&numbers.now)?;
-        if let Some(listed) = &numbers.listed {
-            self.listed = given(listed)?;
+        let (states, beds) = given(&numbers.now)?;
+        let listed = numbers.listed.as_ref().map(|n| given(n)).transpose()?;
+        if let Some((listed, beds)) = listed {
+            (self.listed, self.beds[1]) = (listed, beds);
             self.put_back = true;
         }
+        self.beds[0] = beds;
         self.put(states, time)
     }
 
     fn put(&mut self, states: Vec<RigidState<D>>, time: f64) -> Result<bool, BoundaryError> {
         let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
-        let moved = !self.states.iter().map(|s| &s.pose).eq(&poses);
+        let moved = !self.beds[0].is_empty() || !self.states.iter().map(|s| &s.pose).eq(&poses);
         if moved {
+            self.mesh.lay(&self.beds[0]);
             self.mesh.move_walls(&poses)?;
         }
         self.states = states;
@@ -222,6 +266,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     ) -> Result<R, BoundaryError> {
         if !std::mem::take(&mut self.put_back) {
             self.listed.clone_from(&self.states);
+            let [now, listed] = &mut self.beds;
+            listed.clone_from(now);
         }
         if !self.moves() {
             return Ok(ask(&self.mesh));
@@ -232,8 +278,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         if there == here {
             return Ok(ask(&self.mesh));
         }
+        self.mesh.lay(&self.beds[1]);
         self.mesh.move_walls(&there)?;
         let answer = ask(&self.mesh);
+        self.mesh.lay(&self.beds[0]);
         self.mesh.move_walls(&here)?;
         Ok(answer)
     }

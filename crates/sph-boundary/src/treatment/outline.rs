@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 
 use sph_core::Vect;
+use sph_core::bed::Bed;
 use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints};
 
 use crate::geometry::cover::Cover;
+use crate::geometry::mesh::bed_of;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
 use crate::treatment::groups::{groups, is_piece};
@@ -23,6 +25,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub states: Vec<RigidState<D>>,
     /// Those of walls with movers, at the last build of the lists.
     pub listed: Vec<RigidState<D>>,
+    /// The beds that walls follow: at present, and at the last build of the lists.
+    pub beds: [Vec<Bed>; 2],
     /// Whether `listed` are those of a build in an earlier process, not compared yet.
     pub put_back: bool,
     /// Walls with the same number move together.
@@ -63,11 +67,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let domain = PeriodicBox::from_domain(setup.domain);
         check_reach(setup.walls, &domain)?;
         let mesh = M::build(setup.walls, size, reach, &domain)?;
+        let laid = mesh.walls().mesh.beds.clone();
         let mut outline = Outline {
             mesh,
             support,
             states: setup.walls.iter().map(start).collect(),
             listed: Vec::new(),
+            beds: [laid.clone(), laid],
             put_back: false,
             groups: groups(setup.walls),
             gaps: BTreeMap::new(),
@@ -101,19 +107,25 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let moment = state.pose.moment;
         spec.motion
             .add_bending(&mut movement, (*point).into(), moment);
+        if let Some(bed) = bed_of(&self.beds[0], wall) {
+            movement.velocity[D - 1] += bed.rate_of(&(*point).into());
+        }
         movement.velocity += spec.surface_velocity;
         movement
     }
 
     /// From where a place of a wall was drawn to where it is.
-    pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<D, M>> {
-        let walls = self.specs.iter().zip(&self.states);
-        walls.map(|(spec, s)| spec.motion.map(&s.pose)).collect()
+    pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<'_, D, M>> {
+        let walls = self.specs.iter().zip(&self.states).enumerate();
+        let map = |(k, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {
+            spec.motion.map(&state.pose, bed_of(&self.beds[0], k))
+        };
+        walls.map(map).collect()
     }
 
     /// Whether any wall changes its shape.
     pub fn bends(&self) -> bool {
-        self.specs.iter().any(|s| s.motion.bend.is_some())
+        self.specs.iter().any(|s| s.motion.bends())
     }
 
     /// How far queries of the mesh may look, m.
@@ -344,9 +356,11 @@ macro_rules! shaped_by_outline {
             ) -> Result<(), BoundaryError> {
                 let forces = std::mem::take(&mut walls.forces);
                 let bodies = std::mem::take(&mut walls.bodies);
+                let beds = std::mem::take(&mut walls.beds);
                 let set_up = self.set_up.as_mut();
                 let moved = set_up.map_or(Ok(()), |s| {
                     s.moved(walls, |outline| {
+                        outline.grow(beds, dt)?;
                         outline.advance(&forces, &bodies, gravity, [time, dt])
                     })
                 });

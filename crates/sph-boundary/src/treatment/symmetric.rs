@@ -124,7 +124,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
         for spec in setup.walls {
             let reason = match spec {
                 WallSpec { open: true, .. } => "lets fluid pass, and a scale is for closed walls",
-                WallSpec { motion, .. } if motion.bend.is_some() => {
+                WallSpec { motion, .. } if motion.bends() => {
                     "bends, and a scale is for a constant shape"
                 }
                 _ => continue,

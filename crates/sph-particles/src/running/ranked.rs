@@ -52,6 +52,7 @@ pub(crate) fn columns_of_all<const D: usize>(
             points: set.points.clone(),
             elements: set.elements.clone(),
             scales: set.scales,
+            beds: set.beds.clone(),
             ..WallSet::default()
         };
         Box::new((walls, set))

@@ -1,10 +1,11 @@
 //! The scene's walls and bodies as geometry: files read, shapes drawn.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sph_boundary::{
-    Bend, BoundaryError, Course, Drawing, Polyline, RigidMotion, Surface, WallCondition, WallSpec,
-    thin_plate,
+    Bend, BoundaryError, Course, Drawing, Erodible, Polyline, RigidMotion, Surface, WallCondition,
+    WallSpec, thin_plate,
 };
 use sph_core::plausible::Quantity;
 use sph_core::{Vect, suggestion, unit_factor};
@@ -51,6 +52,7 @@ impl<const D: usize> Drawn<D> {
             regions: Vec::new(),
         };
         let mut pieces = 0;
+        let mut beds = BTreeMap::new();
         // Those of shapes are known before any is drawn.
         for (name, wall) in &scene.wall {
             pieces += wall.declared(scene.numerics.spacing);
@@ -58,7 +60,8 @@ impl<const D: usize> Drawn<D> {
         }
         for (name, wall) in &scene.wall {
             let place = format!("wall.{name}");
-            let motion = motion_of::<D>(wall, &place, scene.run.end)?;
+            let mut motion = motion_of::<D>(wall, &place, scene.run.end)?;
+            motion.bed = bed_of(scene, name, wall, &mut beds);
             let condition = match wall.condition {
                 sph_scene::SlipCondition::NoSlip => WallCondition::NoSlip,
                 sph_scene::SlipCondition::FreeSlip => WallCondition::FreeSlip,
@@ -181,6 +184,36 @@ fn going_on(mut rows: Vec<[f64; 2]>, end: f64) -> Vec<[f64; 2]> {
     rows
 }
 
+/// Spacings over which walls in a bed stretch, where the scene does not say it.
+const STRETCH: f64 = 10.0;
+
+/// The bed that a wall is or stands in, one for all of them.
+fn bed_of(
+    scene: &Scene,
+    name: &str,
+    wall: &sph_scene::Wall,
+    beds: &mut BTreeMap<String, Arc<Erodible>>,
+) -> Option<Arc<Erodible>> {
+    let bed = wall.stands_in.as_deref().unwrap_or(name);
+    let grains = scene.wall.get(bed)?.erodible.as_ref()?;
+    let spacing = scene.numerics.spacing;
+    let corner = |given: &Option<Vec<f64>>, none: f64| {
+        let at = |k: usize| given.as_ref().and_then(|list| list.get(k).copied());
+        [0, 1].map(|k| at(k).unwrap_or(none))
+    };
+    let erodible = beds.entry(bed.to_string()).or_insert_with(|| {
+        Arc::new(Erodible {
+            wall: bed.to_string(),
+            cell: grains.cell.unwrap_or(spacing),
+            from: corner(&grains.from, f64::NEG_INFINITY),
+            to: corner(&grains.to, f64::INFINITY),
+            rock: grains.rock.unwrap_or(f64::NEG_INFINITY),
+            fade: grains.stretch.unwrap_or(STRETCH * spacing),
+        })
+    });
+    Some(erodible.clone())
+}
+
 fn motion_of<const D: usize>(
     wall: &sph_scene::Wall,
     place: &str,
@@ -214,9 +247,9 @@ pub(crate) fn rigid_motion<const D: usize>(
     Ok(RigidMotion {
         translations: courses.translations,
         rotation: courses.rotation,
-        bend: None,
         start: courses.start,
         stop: courses.stop,
+        ..RigidMotion::default()
     })
 }
 

@@ -1,6 +1,7 @@
 //! Vectors, shapes, walls and periodic boxes.
 
 use crate::Scene;
+use crate::checks::beds;
 use crate::checks::bounds::within_bounds;
 use crate::checks::dimension::Dimension;
 use crate::checks::gravity;
@@ -20,6 +21,7 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     for (name, body) in &scene.body {
         body_geometry(scene, body, of, &format!("body.{name}"), found);
     }
+    beds::check(&scene.wall, of, found);
     outlets(scene, of, found);
     if found.0.len() == before {
         match scene.dimension {

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use sph_core::parameters;
 
-use crate::Motion;
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::given_keys::given;
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
+use crate::{Erodible, Motion};
 
 /// A solid wall with a name: exactly one geometry, how the fluid meets it and how it moves.
 ///
@@ -89,6 +89,10 @@ pub struct Wall {
     pub velocity: Option<Vec<f64>>,
     /// Rigid motion of the geometry, prescribed.
     pub motion: Option<Motion>,
+    /// The grains that the wall is made of; a flow carries none away if left out.
+    pub erodible: Option<Erodible>,
+    /// Name of the `erodible` wall that this one stands in: its foot follows the bed.
+    pub stands_in: Option<String>,
     /// What moves the geometry instead, with the force of the fluid on it, `[wall.NAME.mover.PLUGIN]`; none if left out.
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]

@@ -63,6 +63,7 @@ mod tests {
             translations: Vec::new(),
             rotation: None,
             bend: None,
+            bed: None,
             start: 0.0,
             stop: f64::INFINITY,
         },

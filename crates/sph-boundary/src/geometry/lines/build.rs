@@ -112,7 +112,7 @@ impl Measured for Mesh<2> {
     }
 
     fn follow(&mut self, _: &[bool]) {
-        if self.motions.iter().any(|motion| motion.bend.is_some()) {
+        if self.motions.iter().any(|motion| motion.bends()) {
             self.find_angles();
         }
         self.size_nodes();

@@ -2,14 +2,16 @@
 
 use std::sync::OnceLock;
 
+use sph_core::bed::Bed;
+
 use super::near_element::NearElement;
 use super::sides::Sides;
-use crate::error::WallWarning;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, sub};
 use crate::geometry::wall_end::FreeEnd;
 use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
+use crate::warning::WallWarning;
 
 /// A node of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,8 +143,10 @@ pub struct Mesh<const D: usize> {
     /// Normals of the faces before any motion.
     pub(crate) reference_normals: Vec<Point>,
     pub(crate) poses: Vec<Pose<D>>,
-    /// How each wall moves; only a bend matters.
+    /// How each wall moves; only changes of its shape matter.
     pub(crate) motions: Vec<RigidMotion<D>>,
+    /// The beds that walls follow, as they are.
+    pub(crate) beds: Vec<Bed>,
     /// Made at the first request, and again after a motion.
     pub(crate) sides: OnceLock<Sides<D>>,
 }
@@ -158,6 +162,7 @@ impl<const D: usize> Mesh<D> {
         Mesh {
             poses: vec![Pose::default(); walls.len()],
             motions: vec![RigidMotion::default(); walls.len()],
+            beds: Vec::new(),
             walls,
             groups: groups.to_vec(),
             spacing,

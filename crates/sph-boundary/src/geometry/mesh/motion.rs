@@ -2,9 +2,16 @@
 
 use std::collections::HashMap;
 
+use sph_core::bed::Bed;
+
 use super::elements::Mesh;
 use crate::error::BoundaryError;
 use crate::rigid::pose::Pose;
+
+/// The bed that a wall follows.
+pub(crate) fn bed_of(beds: &[Bed], wall: usize) -> Option<&Bed> {
+    beds.iter().find(|bed| bed.walls.contains(&(wall as u32)))
+}
 
 /// Measures of the elements of a mesh.
 pub trait Measured {
@@ -34,13 +41,15 @@ where
         if !moved.contains(&true) {
             return Ok(());
         }
-        let walls = self.motions.iter().zip(poses);
-        let maps: Vec<_> = walls.map(|(motion, pose)| motion.map(pose)).collect();
+        let walls = self.motions.iter().zip(poses).enumerate();
+        let maps = walls.map(|(k, (motion, pose))| motion.map(pose, bed_of(&self.beds, k)));
+        let maps: Vec<_> = maps.collect();
         for (node, reference) in self.nodes.iter_mut().zip(&self.reference) {
             if moved[node.wall] {
                 node.position = maps[node.wall](*reference);
             }
         }
+        drop(maps);
         for element in 0..self.elements.len() {
             if moved[self.elements[element].wall] {
                 self.measure(element);
@@ -49,6 +58,11 @@ where
         self.follow(&moved);
         self.sides = std::sync::OnceLock::new();
         Ok(())
+    }
+
+    /// Sets the beds that walls follow, from the next motion on.
+    pub fn lay(&mut self, beds: &[Bed]) {
+        beds.clone_into(&mut self.beds);
     }
 
     /// Present poses, one per wall.

@@ -8,11 +8,12 @@ use super::patches::{Patch, patches};
 use super::places::{Places, Site};
 use super::removal::remove_contacts;
 use super::wetted::{Touched, seen};
-use crate::error::{BoundaryError, WallWarning};
+use crate::error::BoundaryError;
 use crate::geometry::mesh::{Element, Face, FaceEdge, Measured, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{double_area, norm};
 use crate::parallel::*;
+use crate::warning::WallWarning;
 
 /// Elements with shorter sides than this part of the spacing are fine.
 const FINE: f64 = 0.25;
@@ -285,6 +286,11 @@ impl Measured for Mesh<3> {
                     true => pose.turned(*reference),
                     false => *reference,
                 };
+            }
+        }
+        for triangle in &self.elements {
+            if moved[triangle.wall] && self.motions[triangle.wall].bed.is_some() {
+                self.faces[triangle.face].normal = triangle.normal;
             }
         }
     }

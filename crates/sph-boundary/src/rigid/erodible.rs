@@ -1,0 +1,29 @@
+//! Walls that grains make, as a scene describes them.
+
+/// A wall whose surface is a bed of grains: what it takes to lay its [`Bed`](sph_core::bed::Bed). Walls that stand in the
+/// bed have the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Erodible {
+    /// Name of the wall whose surface is the bed.
+    pub wall: String,
+    /// Distance of the places at which the level is known, m.
+    pub cell: f64,
+    /// Where the bed begins along x and y, m; −∞ for as far as the wall goes.
+    pub from: [f64; 2],
+    /// Where it ends, m; ∞ for as far as the wall goes.
+    pub to: [f64; 2],
+    /// The level under which there are no grains, m; −∞ without.
+    pub rock: f64,
+    /// Height over the bed within which walls that stand in it stretch, m.
+    pub fade: f64,
+}
+
+impl Erodible {
+    /// Whether all its numbers are possible.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let ordered = (0..2).all(|k| self.from[k] < self.to[k]);
+        positive(self.cell) && positive(self.fade) && ordered && self.rock < f64::INFINITY
+    }
+}
