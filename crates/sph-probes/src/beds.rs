@@ -1,5 +1,6 @@
 //! Probes of beds under water.
 
+pub(crate) mod bed_levels;
 pub(crate) mod bed_lines;
 pub(crate) mod columns;
 pub(crate) mod eroded_mass;

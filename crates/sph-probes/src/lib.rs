@@ -26,6 +26,7 @@ mod sampling;
 mod solutions;
 mod surface;
 
+pub use beds::bed_levels::BedLevels;
 pub use beds::bed_lines::BedLines;
 pub use beds::eroded_mass::ErodedMass;
 pub use beds::pore_pressure::PorePressureProbe;

@@ -1,0 +1,151 @@
+//! The level of a wall that grains make.
+
+use sph_core::bed::Bed;
+use sph_core::{StepError, plugin, suggestion};
+use sph_neighbours::World;
+
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
+
+/// Levels of a bed, what the flow carries along it, and Shields numbers.
+///
+/// Columns: the lowest place of the bed, `.lowest` (m), with its `.lowest-x`, and the highest, `.highest`, with `.highest-x`; the change of its
+/// volume with pores, `.volume`; the mean Shields number, `.shields`; the mean flux of grains without pores along x,
+/// `.transport` (m²/s); the volume of grains that came in at the ends, `.fed`, and that slid, `.slid`. With every output of
+/// fields a row for each place goes to `curves/NAME_0003.csv`: x, y in three dimensions, level, rise since the start, Shields
+/// number and flux.
+///
+/// ```toml
+/// [probe.bed]
+/// kind = "bed-levels"
+/// wall = "bed"
+/// ```
+#[plugin(ProbeEntry [2, 3], "bed-levels", "levels, Shields numbers and transport of a wall that grains make",
+    source: "Exner 1925")]
+pub struct BedLevels {
+    /// Name of the `erodible` wall.
+    pub wall: String,
+    /// Only places from here on along x count.
+    #[parameter(unit: "m")]
+    pub from: Option<f64>,
+    /// Only places up to here along x count.
+    #[parameter(unit: "m")]
+    pub to: Option<f64>,
+}
+
+impl BedLevels {
+    fn bed<'a, const D: usize>(&self, world: &'a World<D>) -> Result<&'a Bed, StepError> {
+        let name = |bed: &Bed| world.walls.names[bed.walls[0] as usize].as_str();
+        let beds = &world.walls.beds;
+        beds.iter()
+            .find(|bed| name(bed) == self.wall)
+            .ok_or_else(|| StepError::Stage {
+                stage: "probe `bed-levels`".into(),
+                reason: format!(
+                    "no wall `{}` is `erodible`{}",
+                    self.wall,
+                    suggestion(&self.wall, beds.iter().map(name))
+                ),
+            })
+    }
+
+    /// The places that count.
+    fn places<'a>(&self, bed: &'a Bed) -> impl Iterator<Item = usize> + 'a {
+        let from = self.from.unwrap_or(f64::NEG_INFINITY);
+        let to = self.to.unwrap_or(f64::INFINITY);
+        let counts = move |k: &usize| {
+            let x = bed.grid.position(*k)[0];
+            !bed.covered[*k] && x >= from && x <= to
+        };
+        (0..bed.grid.len()).filter(counts)
+    }
+}
+
+impl<const D: usize> Probe<D> for BedLevels {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let volume = if D == 2 { "m²" } else { "m³" };
+        [
+            (".lowest", "m"),
+            (".lowest-x", "m"),
+            (".highest", "m"),
+            (".highest-x", "m"),
+            (".volume", volume),
+            (".shields", "1"),
+            (".transport", "m²/s"),
+            (".fed", volume),
+            (".slid", volume),
+        ]
+        .map(|(suffix, unit)| ProbeColumn::named(suffix, unit))
+        .into()
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let bed = self.bed(world)?;
+        let none = [f64::NAN; 2];
+        let best = |better: fn(f64, f64) -> bool| {
+            self.places(bed).fold(none, |[level, x], place| {
+                let here = bed.level(place);
+                match level.is_nan() || better(here, level) {
+                    true => [here, bed.grid.position(place)[0]],
+                    false => [level, x],
+                }
+            })
+        };
+        let (lowest, highest) = (best(|a, b| a < b), best(|a, b| a > b));
+        let area: f64 = self.places(bed).map(|k| bed.grid.area(k)).sum();
+        let total = |value: &dyn Fn(usize) -> f64| -> f64 {
+            self.places(bed).map(|k| bed.grid.area(k) * value(k)).sum()
+        };
+        Ok(vec![
+            lowest[0],
+            lowest[1],
+            highest[0],
+            highest[1],
+            total(&|k| bed.lift[k]),
+            total(&|k| bed.shields(k)) / area,
+            total(&|k| bed.transport[k][0]) / area,
+            bed.fed,
+            bed.slid,
+        ])
+    }
+}
+
+impl<const D: usize> Curves<D> for BedLevels {
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        let all: &[(&str, &'static str)] = match D {
+            2 => &[
+                ("x", "m"),
+                ("level", "m"),
+                ("rise", "m"),
+                ("shields", "1"),
+                ("transport", "m²/s"),
+            ],
+            _ => &[
+                ("x", "m"),
+                ("y", "m"),
+                ("level", "m"),
+                ("rise", "m"),
+                ("shields", "1"),
+                ("transport", "m²/s"),
+                ("transport-y", "m²/s"),
+            ],
+        };
+        let named = |(name, unit): &(&str, &'static str)| ProbeColumn::named(name, unit);
+        all.iter().map(named).collect()
+    }
+
+    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        let bed = self.bed(world)?;
+        let row = |k: usize| {
+            let at = bed.grid.position(k);
+            let mut row = at[..D - 1].to_vec();
+            row.extend([bed.level(k), bed.lift[k], bed.shields(k)]);
+            row.extend(&bed.transport[k][..D - 1]);
+            row
+        };
+        Ok(self.places(bed).map(row).collect())
+    }
+}

@@ -1,0 +1,21 @@
+//! Grains that a flow carries along its bed, and the bed that they leave.
+//!
+//! * [`Grains`]: Shields number, its critical value, settling velocity; [`critical_ratio`]: on a slope.
+//! * [`BedLoadLaw`]: a rate of transport; [`MeyerPeterMuller`], [`WongParker`], [`EngelundFredsoe`] and [`VanRijn`] are
+//!   plugins of the kind `bed-load`, and move the walls that are [beds](sph_core::bed::Bed).
+//! * [`balance`]: Exner's equation and slides, which keep the volume of the grains.
+
+mod balance;
+mod bed_shear;
+mod grains;
+mod laws;
+mod moving_bed;
+mod plugins;
+mod slope;
+
+pub use balance::{Balance, Packing, balance};
+pub use grains::Grains;
+pub use laws::BedLoadLaw;
+pub use moving_bed::{BedLoadEntry, MovingBed};
+pub use plugins::{EngelundFredsoe, MeyerPeterMuller, VanRijn, WongParker};
+pub use slope::critical_ratio;

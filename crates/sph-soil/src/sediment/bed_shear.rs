@@ -1,0 +1,64 @@
+//! The shear of the flow on a bed.
+
+use sph_core::bed::{Bed, horizontal};
+use sph_core::{StepError, fields};
+use sph_neighbours::World;
+
+/// Below this share of a full row of particles over a place, its shear fades.
+const WET: f64 = 0.25;
+
+/// Shear stress at the places of a bed, over the density of the water, m²/s²: the mean of u* u*_i, weighted with V |∇γ| and
+/// with the bilinear weights of the places around.
+///
+/// Σ V |∇γ| of a full row is half of the area: where there is less than an eighth, the bed falls dry and the shear with it.
+///
+/// # Errors
+/// If a column is missing, or a sum over all particles fails.
+pub(super) fn shear<const D: usize>(
+    world: &World<D>,
+    bed: &Bed,
+) -> Result<Vec<[f64; 2]>, StepError> {
+    let friction = world.free.get(fields::WALL_FRICTION)?;
+    let velocity = world.free.get(fields::VELOCITY)?;
+    let density = world.free.get(fields::DENSITY)?;
+    let volume = world.free.get(fields::VOLUME)?;
+    let (walls, owned) = (&world.walls, world.owned());
+    let elements = &walls.elements;
+    let own = |element: usize| elements.wall[element] == bed.walls[0];
+    let count = bed.grid.len();
+    let mut parts: Vec<(usize, f64)> = Vec::new();
+    for &particle in &walls.contacts.particles {
+        let i = particle as usize;
+        if !owned.has(i) || friction[i] == 0.0 {
+            continue;
+        }
+        for contact in walls.contacts.of_particle(i) {
+            let s = contact.element as usize;
+            if !own(s) {
+                continue;
+            }
+            let slip = velocity[i] - elements.velocity[s];
+            let normal = &elements.normal[s];
+            let along = slip - normal * slip.dot(normal);
+            let weight = volume[i] * contact.gradient.norm();
+            let stress = friction[i] / density[i];
+            let at = horizontal(&elements.centre[s].into());
+            for (place, share) in bed.grid.around(at) {
+                let part = weight * share;
+                parts.push((place, part));
+                parts.push((count + place, part * stress * along[0]));
+                if D == 3 {
+                    parts.push((2 * count + place, part * stress * along[1]));
+                }
+            }
+        }
+    }
+    let sums = world.sums_by_place(&parts, D * count)?;
+    let mean = |place: usize| {
+        let full = 0.5 * bed.grid.area(place);
+        let weight = sums[place].max(WET * full);
+        let along = |k: usize| sums.get(k * count + place).map_or(0.0, |sum| sum / weight);
+        [along(1), along(2)]
+    };
+    Ok((0..count).map(mean).collect())
+}

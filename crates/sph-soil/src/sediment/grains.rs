@@ -1,0 +1,99 @@
+//! Grains of one size in water.
+
+/// Grains of one size in a fluid, as laws of transport know them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grains {
+    /// Diameter d, m.
+    pub diameter: f64,
+    /// Their density over that of the fluid, s.
+    pub relative_density: f64,
+    /// Kinematic viscosity of the fluid ν, m²/s.
+    pub viscosity: f64,
+    /// Gravity g, m/s².
+    pub gravity: f64,
+}
+
+impl Grains {
+    /// (s − 1) g, m/s².
+    fn submerged_gravity(&self) -> f64 {
+        (self.relative_density - 1.0) * self.gravity
+    }
+
+    /// D* = d ((s − 1) g/ν²)^(1/3).
+    #[must_use]
+    pub fn dimensionless_diameter(&self) -> f64 {
+        self.diameter * (self.submerged_gravity() / self.viscosity.powi(2)).cbrt()
+    }
+
+    /// Shields number θ = u*²/((s − 1) g d) of a friction velocity squared, m²/s².
+    #[must_use]
+    pub fn shields(&self, friction_velocity_squared: f64) -> f64 {
+        friction_velocity_squared / (self.submerged_gravity() * self.diameter)
+    }
+
+    /// Shields number at which grains of a flat bed begin to move: 0.30/(1 + 1.2 D*) + 0.055 (1 − e^(−0.020 D*)).
+    ///
+    /// Source: Soulsby and Whitehouse 1997, Eq. 77 of Soulsby 1997.
+    #[must_use]
+    pub fn critical_shields(&self) -> f64 {
+        let d = self.dimensionless_diameter();
+        0.30 / (1.0 + 1.2 * d) + 0.055 * (1.0 - (-0.020 * d).exp())
+    }
+
+    /// Speed at which one grain settles in still fluid, m/s: ν/d (√(10.36² + 1.049 D*³) − 10.36).
+    ///
+    /// Source: Soulsby 1997, Eq. 102.
+    #[must_use]
+    pub fn settling_velocity(&self) -> f64 {
+        let cube = self.dimensionless_diameter().powi(3);
+        // Without cancellation for small grains.
+        let root = (10.36_f64.powi(2) + 1.049 * cube).sqrt();
+        self.viscosity / self.diameter * 1.049 * cube / (root + 10.36)
+    }
+
+    /// √((s − 1) g d³), m²/s: the volume of grains per width and time at q* = 1.
+    #[must_use]
+    pub fn unit_transport(&self) -> f64 {
+        (self.submerged_gravity() * self.diameter.powi(3)).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sand(diameter: f64) -> Grains {
+        Grains {
+            diameter,
+            relative_density: 2.65,
+            viscosity: 1.36e-6,
+            gravity: 9.81,
+        }
+    }
+
+    /// Example 6.1 and 8.1 of Soulsby 1997, water of 10 °C and 35 ‰ (ν = 1.36 mm²/s, s = 2.58): θ_c = 0.0419 of 0.5 mm with
+    /// D* = 10.1... and w_s of 0.2 mm = 0.0207 m/s are by the formulas themselves; limits below are by theory.
+    #[test]
+    fn limits_are_those_of_theory() {
+        // Small grains settle by Stokes's law, (s − 1) g d²/18ν: the formula has 1.049/(2·10.36) = 1/19.75.
+        let small = sand(1e-6);
+        let stokes = 1.65 * 9.81 * 1e-12 / 1.36e-6;
+        assert!((small.settling_velocity() / stokes - 1.0 / 19.75).abs() < 1e-4);
+        // Large ones with √(1.049 (s − 1) g d).
+        let large = sand(0.1);
+        let free = (1.049 * 1.65 * 9.81 * 0.1_f64).sqrt();
+        assert!((large.settling_velocity() / free - 1.0).abs() < 1e-2);
+        // Gravel moves at 0.055, and the threshold of fine grains is 0.30.
+        assert!((large.critical_shields() - 0.055).abs() < 1e-3);
+        assert!((small.critical_shields() - 0.30).abs() < 0.01);
+    }
+
+    /// θ of u* = 5 cm/s for sand of 0.5 mm: 0.0025/(1.65 · 9.81 · 0.0005).
+    #[test]
+    fn the_shields_number_is_shear_over_weight() {
+        let grains = sand(5e-4);
+        assert!((grains.shields(0.0025) - 0.308_896).abs() < 1e-5);
+        assert!((grains.unit_transport() - (1.65 * 9.81 * 1.25e-10_f64).sqrt()).abs() < 1e-18);
+        assert!((grains.dimensionless_diameter() - 10.304).abs() < 1e-2);
+    }
+}

@@ -1,0 +1,226 @@
+//! Beds that bed load moves.
+
+use sph_contribution::{
+    Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase, contribution_kind,
+};
+use sph_core::bed::Bed;
+use sph_core::{Access, StepError, Work, fields, parameters};
+use sph_neighbours::World;
+
+use super::balance::{Packing, balance};
+use super::bed_shear::shear;
+use super::grains::Grains;
+use super::laws::BedLoadLaw;
+use super::slope::critical_ratio;
+
+contribution_kind!(
+    /// A law of bed load that a scene may name.
+    pub BedLoadEntry, "bed-load", One, "how a flow carries grains along walls that are beds", .works(Work::Others)
+);
+
+const KIND: &str = "bed-load";
+
+/// α of Ikeda's deflection of grains on a slope across the flow.
+const DEFLECTION: f64 = 1.5;
+
+/// Grains of a bed, `[wall.NAME.erodible]`, and how the flow moves them.
+///
+/// Before every drift the shear of the wall function becomes a Shields number θ = u*²/((s − 1) g d) at the places of the bed,
+/// its critical value that of Soulsby on the slope there, the flux of grains that of the law, and the level changes by Exner's
+/// equation, (1 − n) ∂z/∂t = −∇·q. Across a slope the flux is turned downhill by 1.5 √(θ_c/θ) ∂z/∂n. What is steeper than the
+/// angle of repose slides within √(Δx/g). Grains are neither made nor lost: what passes the ends of a bed that is a part of its
+/// wall is counted.
+///
+/// Sources: Soulsby 1997 (threshold, slope); Exner 1925; Ikeda 1982 (slope across the flow), with the constant of van Rijn 1993.
+#[parameters]
+pub struct MovingBed {
+    /// Diameter d of the grains.
+    #[parameter(unit: "m", above: 0.0)]
+    pub grain_diameter: f64,
+    /// Their density.
+    #[parameter(default: 2650.0, unit: "kg/m³", above: 0.0, source: "quartz")]
+    pub grain_density: f64,
+    /// Porosity n of the bed.
+    #[parameter(default: 0.4, unit: "1", min: 0.0, below: 1.0, source: "Soulsby 1997")]
+    pub porosity: f64,
+    /// Angle of repose φ under water.
+    #[parameter(default: 32.0_f64.to_radians(), unit: "rad", above: 0.0, below: 1.57, source: "Soulsby 1997")]
+    pub repose_angle: f64,
+    /// Critical Shields number of a flat bed; Soulsby's for the grains if left out.
+    #[parameter(unit: "1", min: 0.0)]
+    pub critical_shields: Option<f64>,
+    /// Time over which the shear is averaged, with weights that fall exponentially; 0 for not at all.
+    #[parameter(default: 0.0, unit: "s", min: 0.0)]
+    pub averaging_time: f64,
+    /// Time at which the bed begins to move.
+    #[parameter(default: 0.0, unit: "s", min: 0.0)]
+    pub start: f64,
+}
+
+impl MovingBed {
+    /// Offers the hook that moves the beds by a law.
+    ///
+    /// # Errors
+    /// A scene without beds, without one viscous fluid, or grains that are lighter than it.
+    pub fn offer<const D: usize>(
+        &self,
+        law: impl BedLoadLaw + Send + 'static,
+        setting: &Setting<'_, D>,
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
+        let world = setting.world;
+        if world.walls.beds.is_empty() {
+            let why = "no wall of this scene is a bed: give one `[wall.NAME.erodible]`";
+            return refused("", why.into());
+        }
+        let gravity = world.gravity.norm();
+        if gravity == 0.0 {
+            return refused(
+                "",
+                "grains without weight have no threshold: give the scene `gravity`".into(),
+            );
+        }
+        let viscous = |nu: &Option<f64>| nu.is_some_and(|nu| nu > 0.0);
+        let mut fluids = (0..setting.phases.len()).filter(|k| viscous(&setting.viscosities[*k]));
+        let (Some(water), None) = (fluids.next(), fluids.next()) else {
+            let why = "grains are carried by one viscous fluid, and this scene has none or several";
+            return refused("", why.into());
+        };
+        let density = setting.laws[water].reference().density;
+        if self.grain_density <= density {
+            let why = format!(
+                "grains of {} kg/m³ float in a fluid of {density} kg/m³",
+                self.grain_density
+            );
+            return refused("grain_density", why);
+        }
+        let thickest = |bed: &Bed| bed.drawn.iter().fold(0.0, |a: f64, z| a.max(z - bed.rock));
+        for bed in &world.walls.beds {
+            if thickest(bed) < self.grain_diameter {
+                let name = &world.walls.names[bed.walls[0] as usize];
+                let why = format!(
+                    "the bed `{name}` is nowhere thicker than {:.3e} m, less than a grain: lower its `rock`",
+                    thickest(bed)
+                );
+                return refused("grain_diameter", why);
+            }
+        }
+        offer.goals.push(fields::WALL_FRICTION.any());
+        offer.hook(BedLoad {
+            grains: Grains {
+                diameter: self.grain_diameter,
+                relative_density: self.grain_density / density,
+                viscosity: setting.viscosities[water].unwrap_or_default(),
+                gravity,
+            },
+            bed: *self,
+            law: Box::new(law),
+        });
+        Ok(())
+    }
+}
+
+/// Moves the beds of a scene.
+struct BedLoad {
+    bed: MovingBed,
+    grains: Grains,
+    law: Box<dyn BedLoadLaw + Send>,
+}
+
+impl BedLoad {
+    /// Flux of grains at a place, m²/s.
+    fn flux(&self, bed: &Bed, place: usize) -> [f64; 2] {
+        let [x, y] = bed.shear[place];
+        let squared = x.hypot(y);
+        if squared == 0.0 || bed.covered[place] {
+            return [0.0; 2];
+        }
+        let along = [x / squared, y / squared];
+        let gradient = gradient(bed, place);
+        let flat = self.bed.critical_shields;
+        let flat = flat.unwrap_or_else(|| self.grains.critical_shields());
+        let critical = flat * critical_ratio(gradient, along, self.bed.repose_angle.tan());
+        let shields = self.grains.shields(squared);
+        let rate = self.law.rate(shields, critical, &self.grains) * self.grains.unit_transport();
+        let across = [-along[1], along[0]];
+        let rise = gradient[0] * across[0] + gradient[1] * across[1];
+        let turned = -DEFLECTION * (critical / shields).sqrt() * rise;
+        [0, 1].map(|k| rate * (along[k] + turned * across[k]))
+    }
+
+    /// Shear, flux and rates of a bed for a step of `dt` seconds.
+    fn step<const D: usize>(
+        &self,
+        world: &World<D>,
+        bed: &mut Bed,
+        dt: f64,
+    ) -> Result<(), StepError> {
+        bed.unit_shear = self.grains.shields(1.0).recip();
+        let share = match self.bed.averaging_time > dt {
+            true => dt / self.bed.averaging_time,
+            false => 1.0,
+        };
+        let now = shear(world, bed)?;
+        for (mean, now) in bed.shear.iter_mut().zip(now) {
+            *mean = [0, 1].map(|k| mean[k] + share * (now[k] - mean[k]));
+        }
+        bed.transport = (0..bed.grid.len())
+            .map(|place| self.flux(bed, place))
+            .collect();
+        if world.time < self.bed.start {
+            return Ok(());
+        }
+        let cell = bed.grid.cell[0];
+        let packing = Packing {
+            porosity: self.bed.porosity,
+            repose: self.bed.repose_angle.tan(),
+            slide_time: (cell / self.grains.gravity).sqrt(),
+        };
+        let step = balance(bed, &bed.transport, &packing, dt);
+        bed.rate = step.rate;
+        bed.fed += step.fed;
+        bed.slid += step.slid;
+        Ok(())
+    }
+}
+
+/// ∇z at a place, by the levels on both sides of it.
+fn gradient(bed: &Bed, place: usize) -> [f64; 2] {
+    let grid = &bed.grid;
+    [0, 1].map(|axis| {
+        let seen = |other: Option<usize>| other.filter(|p| *p != place && !bed.covered[*p]);
+        let (before, after) = (seen(grid.before(place, axis)), seen(grid.next(place, axis)));
+        let ways = f64::from(u8::from(before.is_some()) + u8::from(after.is_some()));
+        match ways > 0.0 {
+            true => {
+                let level = |other: Option<usize>| bed.level(other.unwrap_or(place));
+                (level(after) - level(before)) / (ways * grid.cell[axis])
+            }
+            false => 0.0,
+        }
+    })
+}
+
+impl<const D: usize> StepHook<D> for BedLoad {
+    fn name(&self) -> String {
+        KIND.into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::WALL_FRICTION)
+            .here(fields::VELOCITY)
+            .here(fields::DENSITY)
+            .here(fields::VOLUME)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeDrift]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let mut beds = std::mem::take(&mut moment.world.walls.beds);
+        let mut all = beds.iter_mut();
+        let done = all.try_for_each(|bed| self.step(moment.world, bed, moment.dt));
+        moment.world.walls.beds = beds;
+        done
+    }
+}
