@@ -4,6 +4,7 @@ mod implicit;
 mod invariants;
 mod phases;
 mod ranks;
+mod sediment;
 mod soils;
 mod threads;
 mod turbulence;
