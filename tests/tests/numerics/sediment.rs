@@ -203,7 +203,7 @@ fn beds_that_are_none_are_refused() {
     refused(
         "grain_diameter = \"1 mm\"",
         "grain_diameter = \"0 mm\"",
-        "grain_diameter",
+        "must be more than 0 m, found 0",
     );
     refused("gravity = [0.0, -9.81]", "", "grains without weight");
     refused(
@@ -230,16 +230,16 @@ fn beds_that_are_none_are_refused() {
     refused(
         "[walls.usaw]\nvertices = false",
         "[walls.symmetric]",
-        "wall",
+        "bends, and a scale is for a constant shape",
     );
     refused(
         "[wall-function.log-law]\nwalls = [\"bed\"]\nroughness = \"2.5 mm\"\n",
         "",
-        "wall_friction",
+        "field `wall_friction`",
     );
     refused(
         law,
         &format!("{law}repose_angle = \"95 deg\"\n"),
-        "repose_angle",
+        "must be less than 1.57 rad",
     );
 }
