@@ -66,7 +66,7 @@
     test,
     allow(unused_imports, reason = "plugins are not registered in unit tests")
 )]
-// What treatments alone call.
+// Code that treatments alone call.
 #![cfg_attr(
     not(feature = "plugins"),
     allow(dead_code, unused_imports, reason = "called by treatments")

@@ -14,7 +14,7 @@ use crate::{
 struct Compressible<const D: usize> {
     /// The formulation: density and its pressure.
     formulation: Box<dyn Formulation<D>>,
-    /// The pressure scheme; the equations of state if there is none.
+    /// The pressure scheme; without one the equations of state give the pressure.
     scheme: Option<Box<dyn PressureScheme<D>>>,
     /// Whether the scene names what free surfaces are.
     surfaces: bool,

@@ -15,7 +15,7 @@ pub struct WallForce<const D: usize> {
     pub pressure_force: Vect<D>,
     /// −Σ r_s × p_s S_s n_s over the wall's elements, N m.
     pub pressure_moment: [f64; 3],
-    /// Depth of the fluid before the wall, m; 0 where no mover [looks](crate::DepthGauge) or there is none.
+    /// Depth of the fluid before the wall, m; 0 without fluid or without a mover that [asks for it](crate::DepthGauge).
     pub depth: f64,
 }
 

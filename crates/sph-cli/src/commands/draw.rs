@@ -135,7 +135,7 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
     Ok(place)
 }
 
-/// What cannot be written is a failure, all else a mistake in the arguments.
+/// A file that cannot be written is a failure; other errors are mistakes in the arguments.
 pub fn trouble(error: DrawError) -> Trouble {
     match error {
         DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => error.into(),

@@ -37,7 +37,7 @@ pub fn located(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Located> {
     diagnostics.iter().map(with_text).collect()
 }
 
-/// The diagnostics for a person: the line, a mark under it, what was expected.
+/// The diagnostics as text: the line, a mark under it, the expected value.
 pub fn render(all: &[Located], colour: bool) -> String {
     let mut text = String::new();
     for located in all.iter().take(MOST) {

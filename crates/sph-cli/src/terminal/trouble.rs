@@ -35,7 +35,7 @@ pub enum Trouble {
     },
     /// The run stopped with a checkpoint; all messages are written.
     Interrupted,
-    /// What was compared differs; all messages are written.
+    /// Two compared results differ; all messages are written.
     Different,
 }
 

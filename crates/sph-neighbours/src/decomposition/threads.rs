@@ -16,7 +16,7 @@ pub struct Thread {
 }
 
 impl Thread {
-    /// So many connected ranks. A rank that is dropped has ended: a rank that waits for it gets an error.
+    /// A number of connected ranks. A dropped rank has ended; ranks that wait for it get an error.
     pub fn communicator(ranks: usize) -> Vec<Thread> {
         let mut communicator: Vec<Thread> = Vec::with_capacity(ranks);
         let mut rows: Vec<Vec<Sender<Vec<u8>>>> = Vec::with_capacity(ranks);

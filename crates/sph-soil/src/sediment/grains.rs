@@ -71,8 +71,7 @@ mod tests {
         }
     }
 
-    /// Example 6.1 and 8.1 of Soulsby 1997, water of 10 °C and 35 ‰ (ν = 1.36 mm²/s, s = 2.58): θ_c = 0.0419 of 0.5 mm with
-    /// D* = 10.1... and w_s of 0.2 mm = 0.0207 m/s are by the formulas themselves; limits below are by theory.
+    /// Small grains settle by Stokes's law, large ones by a constant drag; thresholds are 0.30 and 0.055.
     #[test]
     fn limits_are_those_of_theory() {
         // Small grains settle by Stokes's law, (s − 1) g d²/18ν: the formula has 1.049/(2·10.36) = 1/19.75.

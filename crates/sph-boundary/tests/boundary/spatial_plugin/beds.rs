@@ -100,7 +100,7 @@ fn a_sloping_bed_is_the_wall_drawn_so<B: Block<D>, const D: usize>() {
         let rate = lift(horizontal(&(*place).into()));
         assert!((velocity[D - 1] - rate).abs() < 1e-13);
     }
-    // What a checkpoint has puts another bed there, bit for bit.
+    // The numbers of a checkpoint put another bed there, bit for bit.
     let mut again = bed::<B, D>();
     let states = moved.wall.states();
     let walls = &mut again.world.walls;
