@@ -136,6 +136,10 @@ pub trait Solution<const D: usize>: Send + Sync {
     fn pressure(&self, _position: &Vect<D>, _time: f64) -> Option<f64> {
         None
     }
+    /// Any other scalar field, in its unit, if the solution has it.
+    fn scalar(&self, _field: &str, _position: &Vect<D>, _time: f64) -> Option<f64> {
+        None
+    }
     /// d ln(kinetic energy)/dt, 1/s, if it is constant.
     fn energy_rate(&self) -> Option<f64> {
         None

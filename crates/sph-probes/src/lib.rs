@@ -80,4 +80,5 @@ pub use solutions::rigid_rotation::RigidRotation;
 pub use solutions::rotating_square::RotatingSquare;
 pub use solutions::taylor_green::TaylorGreen;
 pub use solutions::taylor_green_3d::TaylorGreen3d;
+pub use solutions::terzaghi::Terzaghi;
 pub use surface::{SURFACE_DISTANCE, surface_distance};

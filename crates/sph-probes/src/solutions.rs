@@ -15,3 +15,4 @@ pub(crate) mod rigid_rotation;
 pub(crate) mod rotating_square;
 pub(crate) mod taylor_green;
 pub(crate) mod taylor_green_3d;
+pub(crate) mod terzaghi;

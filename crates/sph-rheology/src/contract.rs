@@ -71,6 +71,10 @@ pub trait Rheology: Send + Sync + std::fmt::Debug {
     fn elastic(&self) -> Option<&dyn Elastic> {
         None
     }
+    /// Friction coefficient ∂τ_y/∂p' of slow flow, for a law that has one.
+    fn slow_friction(&self) -> Option<f64> {
+        None
+    }
     /// Diameter of the grains, m, for a law that depends on it: remarks on the spacing need it.
     fn grain_diameter(&self) -> Option<f64> {
         None

@@ -178,6 +178,9 @@ fn cut(stress: Symmetric, yield_stress: f64) -> Symmetric {
 }
 
 impl Rheology for DruckerPrager {
+    fn slow_friction(&self) -> Option<f64> {
+        Some(self.bound().slope).filter(|slope| *slope > 0.0)
+    }
     fn grain_diameter(&self) -> Option<f64> {
         Some(self.grain_diameter)
     }

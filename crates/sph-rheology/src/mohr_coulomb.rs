@@ -51,6 +51,9 @@ impl MohrCoulomb {
 }
 
 impl Rheology for MohrCoulomb {
+    fn slow_friction(&self) -> Option<f64> {
+        Some(self.friction_angle.sin()).filter(|slope| *slope > 0.0)
+    }
     fn needs(&self) -> Needs {
         Needs {
             strain_rate: self.strong(),

@@ -161,6 +161,9 @@ impl MuI {
 }
 
 impl Rheology for MuI {
+    fn slow_friction(&self) -> Option<f64> {
+        Some(self.static_friction)
+    }
     fn grain_diameter(&self) -> Option<f64> {
         Some(self.grain_diameter)
     }

@@ -11,4 +11,6 @@ mod pore_water;
 
 pub use contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY, SeepageEntry};
 pub use darcy_forchheimer::DarcyForchheimer;
+pub(crate) use exchange::{Exchange, Gains};
+pub(crate) use net::Phase;
 pub use pore_resistance::PoreResistance;

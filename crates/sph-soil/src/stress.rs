@@ -36,7 +36,7 @@ mod laplace;
 mod law_inputs;
 mod pore_pressure;
 mod renormalised;
-mod soil_surface;
+pub(crate) mod soil_surface;
 mod strain_rate;
 mod strain_rate_term;
 mod symmetric_difference;

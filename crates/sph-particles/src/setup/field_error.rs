@@ -44,7 +44,11 @@ impl Compared {
                     let p = solution.pressure(x, world.time);
                     exact.push(p.ok_or("the solution has no pressure")?);
                 }
-                _ => return Err(format!("no solution gives the field `{field}`")),
+                _ => {
+                    let value = solution.scalar(field, x, world.time);
+                    let none = || format!("the solution does not give the field `{field}`");
+                    exact.push(value.ok_or_else(none)?);
+                }
             }
         }
         Ok(Compared {

@@ -139,6 +139,7 @@ impl<const D: usize> Contribution<D> for DarcyForchheimer {
             exchange: Exchange {
                 evening: self.evening,
                 limit: self.size_limit,
+                remedy: "raise `evening` or `size_limit` of [seepage], or take a finer spacing",
             },
         };
         offer.hook(Seeps {

@@ -12,23 +12,49 @@ pub(crate) struct Exchange {
     pub evening: f64,
     /// Share of its size that a water particle may give or take.
     pub limit: f64,
+    /// Remedies for runs in which one gives or takes more.
+    pub remedy: &'static str,
 }
 
 /// Share of its size by which a water particle must differ before it evens out.
 const EVEN: f64 = 0.005;
 
 /// Gains of particles.
-struct Gains<const D: usize> {
-    mass: Vec<f64>,
-    momentum: Vec<Vect<D>>,
+pub(crate) struct Gains<const D: usize> {
+    /// kg.
+    pub mass: Vec<f64>,
+    /// kg m/s.
+    pub momentum: Vec<Vect<D>>,
 }
 
 impl<const D: usize> Gains<D> {
-    fn none(particles: usize) -> Self {
+    /// None, of so many particles.
+    pub fn none(particles: usize) -> Self {
         Gains {
             mass: vec![0.0; particles],
             momentum: vec![Vect::zeros(); particles],
         }
+    }
+
+    /// m' = m + gain and u' = (m u + gain)/m'. The density follows the mass, ρ' = ρ m'/m, and K with it.
+    pub fn apply(&self, world: &mut World<D>) -> Result<(), StepError> {
+        let free = &mut world.free;
+        let mut mass = free.take(fields::MASS)?;
+        let mut velocity = free.take(fields::VELOCITY)?;
+        let mut offset = free.take(fields::DENSITY_CONSTANT)?;
+        for i in 0..mass.len() {
+            let gain = self.mass[i];
+            if gain == 0.0 {
+                continue;
+            }
+            let ratio = (mass[i] + gain) / mass[i];
+            velocity[i] = (velocity[i] * mass[i] + self.momentum[i]) / (mass[i] + gain);
+            mass[i] += gain;
+            offset[i] *= ratio;
+        }
+        free.put(fields::MASS, mass)?;
+        free.put(fields::VELOCITY, velocity)?;
+        Ok(free.put(fields::DENSITY_CONSTANT, offset)?)
     }
 }
 
@@ -52,7 +78,7 @@ impl Exchange {
                 gains.momentum[i] -= velocity[giver] * given;
             }
         }
-        apply(world, &gains)?;
+        gains.apply(world)?;
         self.guard(world, phase)
     }
 
@@ -98,55 +124,43 @@ impl Exchange {
                 gains.momentum[b] += momentum;
             }
         }
-        apply(world, &gains)
+        gains.apply(world)
     }
 
-    /// Refuses water particles that have given or taken too much.
-    fn guard<const D: usize>(&self, world: &World<D>, phase: &Phase) -> Result<(), StepError> {
+    /// The water particle whose size differs most from that at the start, with its size over that.
+    pub fn most_uneven<const D: usize>(
+        world: &World<D>,
+        phase: &Phase,
+    ) -> Result<Option<(usize, f64)>, StepError> {
         let number = world.free.get(fields::PHASE)?;
         let mass = world.free.get(fields::MASS)?;
         let whole = phase.density * world.spacing.powi(D as i32);
-        let size = |i: usize| mass[i] / whole;
-        // Not `> limit`: a size that is not a number must be seen.
-        let fair = |i: usize| (size(i) - 1.0).abs() <= self.limit;
-        let mut all = 0..mass.len();
-        // What copies of others' particles have, their owners know.
+        // Sizes of copies are known to the owners.
         let owned = world.owned();
-        let Some(i) = all.find(|&i| number[i] == phase.water && owned.has(i) && !fair(i)) else {
+        let water = (0..mass.len()).filter(|&i| number[i] == phase.water && owned.has(i));
+        let sizes = water.map(|i| (i, mass[i] / whole));
+        // A size that is not a number is the largest.
+        Ok(sizes.max_by(|(_, a), (_, b)| (a - 1.0).abs().total_cmp(&(b - 1.0).abs())))
+    }
+
+    /// Refuses water particles that have given or taken too much.
+    pub fn guard<const D: usize>(&self, world: &World<D>, phase: &Phase) -> Result<(), StepError> {
+        let Some((i, size)) = Self::most_uneven(world, phase)? else {
             return Ok(());
         };
+        if (size - 1.0).abs() <= self.limit {
+            return Ok(());
+        }
         let position = world.free.get(fields::POSITION)?[i];
         Err(StepError::Bad {
             quantity: "size",
             particle: world.free.get(fields::IDENTITY)?[i],
             position: position.iter().copied().collect(),
-            value: size(i),
+            value: size,
             reason: format!(
-                "as seepage has given or taken more than {} of its water: raise \
-                 `evening` or `size_limit` of [seepage], or take a finer spacing",
-                self.limit
+                "as the soil beside it has given or taken more than {} of its water: {}",
+                self.limit, self.remedy
             ),
         })
     }
-}
-
-/// m' = m + gain and u' = (m u + gain)/m'. The density follows the mass, ρ' = ρ m'/m, and K with it.
-fn apply<const D: usize>(world: &mut World<D>, gains: &Gains<D>) -> Result<(), StepError> {
-    let free = &mut world.free;
-    let mut mass = free.take(fields::MASS)?;
-    let mut velocity = free.take(fields::VELOCITY)?;
-    let mut offset = free.take(fields::DENSITY_CONSTANT)?;
-    for i in 0..mass.len() {
-        let gain = gains.mass[i];
-        if gain == 0.0 {
-            continue;
-        }
-        let ratio = (mass[i] + gain) / mass[i];
-        velocity[i] = (velocity[i] * mass[i] + gains.momentum[i]) / (mass[i] + gain);
-        mass[i] += gain;
-        offset[i] *= ratio;
-    }
-    free.put(fields::MASS, mass)?;
-    free.put(fields::VELOCITY, velocity)?;
-    Ok(free.put(fields::DENSITY_CONSTANT, offset)?)
 }

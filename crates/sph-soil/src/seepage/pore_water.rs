@@ -1,7 +1,7 @@
 //! The flow through the pores of a soil: its pressure, its flux, and what it carries across the surface.
 
 use nalgebra::SMatrix;
-use sph_contribution::{StepHook, StepMoment, StepPhase};
+use sph_contribution::{Report, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_multiphase::linear::{
     ConjugateGradient, Entries, LinearSolver, Matrix, ParticleMatrix, Pattern, Values,
@@ -78,7 +78,28 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
         self.earlier.extend_from_slice(velocity);
         Ok(())
     }
+    /// Warns where sizes beside the soil differ so much that the flux is too small.
+    fn report(&self, world: &World<D>) -> Report {
+        let uneven = Exchange::most_uneven(world, &self.water.phase)
+            .ok()
+            .flatten();
+        let uneven = uneven.filter(|(_, size)| (size - 1.0).abs() > UNEVEN);
+        let warning = uneven.map(|(_, size)| {
+            format!(
+                "seepage: a water particle beside the soil has {size:.2} of its size, and the flux is too small where \
+                 sizes differ by more than {UNEVEN} (31 % with 0.07): the grains are too coarse for this spacing; take \
+                 a finer one, or finer grains"
+            )
+        });
+        Report {
+            warnings: warning.into_iter().collect(),
+            ..Report::default()
+        }
+    }
 }
+
+/// Differences in size up to which fluxes are right within 7 %.
+const UNEVEN: f64 = 0.04;
 
 impl PoreWater {
     /// `earlier` is the velocity before the kick.

@@ -1,13 +1,17 @@
 //! The effective pressure as a harmonic function of place.
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields, parameters, plugin};
+use sph_core::{
+    Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, fields, parameters,
+    plugin,
+};
 use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
     Preconditioner, Report,
 };
 use sph_neighbours::{Space, World, walk_in_lanes};
 
+use crate::pores::DRAINED_PRESSURE;
 use crate::stress::PorePressure;
 use crate::stress::bed_system::{ClusterCoefficients, Couplings, Part, start};
 use crate::stress::effective_pressure::{EffectivePressureEntry, Soils};
@@ -90,6 +94,7 @@ impl Laplace {
     fn on<const D: usize>(&self, soils: Soils) -> Solve<D> {
         let buoyant = |density: f64| (density - self.pore_density).max(0.0);
         Solve {
+            target: fields::EFFECTIVE_PRESSURE,
             buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
             surface_depth: self.surface_depth,
             least_depth: 0.5 * self.grain_diameter.unwrap_or(0.0),
@@ -118,9 +123,6 @@ impl<const D: usize> Contribution<D> for Laplace {
             let why = "no law of this scene reads a pressure: take this table out";
             return Err(Refusal::at_key("effective-pressure", "", why));
         }
-        let both = setting.soils.iter().zip(setting.laws.iter());
-        let soils = both.map(|(soil, law)| soil.then(|| law.reference().density));
-        offer.stage(self.on(soils.collect()));
         offer.stage(PorePressure);
         offer.saturated = self.pore_density > 0.0;
         let why = "the pressure between the grains could not be solved for: raise \
@@ -129,10 +131,27 @@ impl<const D: usize> Contribution<D> for Laplace {
         offer.remedies_of_failures.push(remedy);
         Ok(())
     }
+    fn offer_to_readers(
+        &mut self,
+        setting: &Setting<'_, D>,
+        read: &[AnyField],
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        let both = setting.soils.iter().zip(setting.laws.iter());
+        let soils = both.map(|(soil, law)| soil.then(|| law.reference().density));
+        let mut solve = self.on(soils.collect());
+        if read.contains(&DRAINED_PRESSURE.any()) {
+            solve.target = DRAINED_PRESSURE;
+        }
+        offer.stage(solve);
+        Ok(())
+    }
 }
 
 /// The stage of [`Laplace`].
 struct Solve<const D: usize> {
+    /// The column of the pressure: another than p' where pores are not at rest.
+    target: Field<Scalar>,
     /// Δρ of every phase, kg/m³; `None` where it is no soil.
     buoyant: Vec<Option<f64>>,
     /// β.
@@ -167,7 +186,7 @@ impl<const D: usize> Declares for Solve<D> {
             .both(fields::POSITION)
             .both(fields::VOLUME)
             // A solve starts from the last one.
-            .remembers(fields::EFFECTIVE_PRESSURE);
+            .remembers(self.target);
         match self.buoyant.len() {
             1 => access,
             _ => access.both(fields::PHASE),
@@ -236,7 +255,7 @@ impl<const D: usize> Solve<D> {
         )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
-        let mut pressure = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        let mut pressure = world.free.take(self.target)?;
         x.clear();
         x.extend(
             pressure
@@ -251,7 +270,7 @@ impl<const D: usize> Solve<D> {
             .iter_mut()
             .zip(&*x)
             .for_each(|(p, x)| *p = x[0].max(0.0));
-        world.free.put(fields::EFFECTIVE_PRESSURE, pressure)?;
+        world.free.put(self.target, pressure)?;
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }

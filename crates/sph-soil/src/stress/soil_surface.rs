@@ -44,6 +44,26 @@ impl<const D: usize, S: Fn(usize) -> bool + Sync> PairSum<D> for Grains<'_, S> {
 }
 
 impl<S: Fn(usize) -> bool> Grains<'_, S> {
+    /// Normal −Σ V ∇w of the soil, 1/m, out of what is missing around a particle; walls count as filled.
+    pub fn outward<const D: usize>(
+        &self,
+        world: &World<D>,
+        normal: [f64; D],
+        rows: &Neighbourhood<'_, D>,
+    ) -> Vect<D> {
+        let mut normal = Vect::from(normal);
+        let points = &world.walls.points;
+        // What is behind a wall counts as filled: the sum over a full neighbourhood is ∇γ.
+        for (k, &v) in rows.wall.index.iter().enumerate() {
+            let weight = points.share[v as usize] * points.volume[v as usize];
+            normal -= rows.wall.separation[k] * (weight * rows.wall.factor[k]);
+        }
+        for contact in rows.contacts {
+            normal += contact.gradient;
+        }
+        normal
+    }
+
     /// Whether no grain and no wall is in the cone around the outward normal of a particle with these walls. One without
     /// grains around is at the surface.
     ///
@@ -58,16 +78,7 @@ impl<S: Fn(usize) -> bool> Grains<'_, S> {
         if grains <= 0.0 {
             return true;
         }
-        let mut normal = Vect::from(normal);
-        let points = &world.walls.points;
-        // What is behind a wall counts as filled: the sum over a full neighbourhood is ∇γ.
-        for (k, &v) in rows.wall.index.iter().enumerate() {
-            let weight = points.share[v as usize] * points.volume[v as usize];
-            normal -= rows.wall.separation[k] * (weight * rows.wall.factor[k]);
-        }
-        for contact in rows.contacts {
-            normal += contact.gradient;
-        }
+        let normal = self.outward(world, normal, rows);
         let size = normal.norm();
         if size * world.kernel.smoothing_length() < EVEN {
             return false;

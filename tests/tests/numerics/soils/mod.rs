@@ -8,6 +8,7 @@ mod falling_cliff;
 mod gradients;
 mod implicit_elasticity;
 mod odd_beds;
+mod pores;
 mod seepage;
 mod stepping;
 

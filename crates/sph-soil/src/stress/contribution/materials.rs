@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use sph_contribution::Plugins;
-use sph_core::{AnyField, fields};
+use sph_core::{AnyField, Field, Scalar, fields};
 use sph_multiphase::linear::ImplicitViscosityEntry;
 use sph_multiphase::viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 
+use crate::dilatancy::DilatancyEntry;
+use crate::pores::FRICTION_PRESSURE;
 use crate::stress::{
     Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, VelocityGradient,
     VelocityGradientEntry,
@@ -28,7 +30,9 @@ pub struct Materials<const D: usize> {
     /// Share of the friction that is of the end of the step, where it is solved for.
     pub implicit_share: Option<f64>,
     /// Whether the pressure between grains is another than that of the equation of state.
-    pub grain_pressure: bool,
+    pub effective: bool,
+    /// Whether dilation adds to the friction of the laws.
+    pub dilatant: bool,
 }
 
 impl<const D: usize> Materials<D> {
@@ -42,7 +46,14 @@ impl<const D: usize> Materials<D> {
             .shown
             .iter()
             .any(|name| of_gradients.contains(&&**name));
-        let strained = eddies || elastic || shown || laws.iter().any(|law| law.needs().strain_rate);
+        let dilates = plugins
+            .names("dilatancy")
+            .then(|| plugins.one::<D, DilatancyEntry>());
+        let strained = eddies
+            || elastic
+            || dilates.is_some()
+            || shown
+            || laws.iter().any(|law| law.needs().strain_rate);
         let gradient = strained.then(|| plugins.one::<D, VelocityGradientEntry>());
         let force = elastic.then(|| plugins.one::<D, ElasticForceEntry>());
         let scheme = plugins.one::<D, ImplicitViscosityEntry>();
@@ -53,8 +64,17 @@ impl<const D: usize> Materials<D> {
             force: force.flatten(),
             eddies,
             implicit_share: scheme.map(|scheme| scheme.implicit_share()),
-            grain_pressure: plugins.names("effective-pressure"),
+            effective: plugins.names("effective-pressure"),
+            dilatant: dilates.flatten().is_some_and(|law| law.adds_friction()),
         })
+    }
+
+    /// The pressure between grains.
+    pub(crate) fn grain_pressure(&self) -> Field<Scalar> {
+        match self.effective {
+            true => fields::EFFECTIVE_PRESSURE,
+            false => fields::PRESSURE,
+        }
     }
 
     /// The inputs of the laws.
@@ -62,9 +82,9 @@ impl<const D: usize> Materials<D> {
         let blend = self.force.as_ref().map(|force| force.blend());
         LawInputs {
             laws: self.laws.clone(),
-            pressure: match self.grain_pressure {
-                true => fields::EFFECTIVE_PRESSURE,
-                false => fields::PRESSURE,
+            pressure: match self.dilatant {
+                true => FRICTION_PRESSURE,
+                false => self.grain_pressure(),
             },
             blend: blend.unwrap_or(Blend::Stresses),
         }

@@ -24,7 +24,7 @@ impl<const D: usize> Contribution<D> for WallFriction<D> {
         }
         let slips = |l: &dyn Rheology| l.elastic().is_none() && l.uniform_viscosity().is_some();
         let rubs = self.0.laws.iter().map(|l| !slips(&**l)).collect();
-        let pressure = self.0.law_inputs().pressure;
+        let pressure = self.0.grain_pressure();
         offer.hook(CoulombFriction::new(rubs, pressure));
         Ok(())
     }

@@ -1,0 +1,294 @@
+//! The pores of a soil in a scene.
+
+use std::sync::Arc;
+
+use sph_contribution::{
+    Birth, Contribution, FromPlugins, Offer, OwnColumn, Plugins, Refusal, Setting, contributes,
+};
+use sph_core::{fields, suggestion};
+use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
+use sph_rheology::{Rheology, RheologyEntry};
+
+use super::contract::{
+    EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PorePressureEntry,
+    PoreSettings, Supply,
+};
+use super::effective::{DilatantFriction, GrainPressure};
+use super::pore_flow::{PoreFlow, Scratch, SoilPhase};
+use super::surface_distance::SurfaceDistance;
+use super::swelling::Swelling;
+use crate::dilatancy::{Dilatancy, DilatancyEntry};
+use crate::seepage::{Exchange, Phase};
+
+const KIND: &str = "pore-pressure";
+
+/// The pores of one soil, with its law of dilatancy.
+struct Pores {
+    settings: PoreSettings,
+    law: Option<Arc<dyn Dilatancy>>,
+    rheologies: Vec<Box<dyn Rheology>>,
+    /// Whether the scene has an effective pressure.
+    effective: bool,
+    /// Whether it has a seepage of its own.
+    seeps: bool,
+}
+
+contributes!("pore-pressure", PoresOf);
+
+/// [`Pores`] in D dimensions.
+struct PoresOf<const D: usize>(Pores);
+
+impl<const D: usize> FromPlugins<D> for PoresOf<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        if !plugins.names(KIND) {
+            return None;
+        }
+        let law = plugins
+            .names("dilatancy")
+            .then(|| plugins.one::<D, DilatancyEntry>());
+        Some(PoresOf(Pores {
+            settings: plugins.one::<D, PorePressureEntry>()?.settings(),
+            law: law.flatten().map(Arc::from),
+            rheologies: plugins.of_phases::<D, RheologyEntry>(),
+            effective: plugins.names("effective-pressure"),
+            seeps: plugins.names("seepage"),
+        }))
+    }
+}
+
+impl<const D: usize> Contribution<D> for PoresOf<D> {
+    fn columns(&self) -> Vec<OwnColumn<D>> {
+        let PoreSettings {
+            soil,
+            porosity,
+            bodies,
+            skeleton,
+            ..
+        } = self.0.settings.clone();
+        let borne = skeleton.filter(|s| !s.consolidated);
+        let load = borne.map_or(0.0, |s| s.load);
+        let name = soil.clone();
+        let packing = move |birth: &Birth<'_, D>| match birth.phase == name {
+            true => 1.0 - bodies.get(birth.body).copied().unwrap_or(porosity),
+            false => 0.0,
+        };
+        let excess = move |birth: &Birth<'_, D>| match birth.phase == soil {
+            true => load,
+            false => 0.0,
+        };
+        vec![
+            OwnColumn::scalar(PACKING, packing.clone()),
+            OwnColumn::scalar(GRAIN_VOLUME, move |birth| {
+                packing(birth) * birth.mass / birth.density
+            }),
+            OwnColumn::scalar(EXCESS_PORE_PRESSURE, excess),
+            OwnColumn::scalar(EARLIER_DRAINED_PRESSURE, |_| -1.0),
+        ]
+    }
+
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        let pores = &self.0;
+        let settings = &pores.settings;
+        let soil = pores.soil(setting)?;
+        let only = setting.phases.len() == 1;
+        let phase = SoilPhase((!only).then_some(soil as u32));
+        let reference = setting.laws[soil].reference();
+        let load = settings.skeleton.as_ref().map_or(0.0, |s| s.load);
+        offer.stage(GrainPressure { soil: phase, load });
+        if let Some(friction) = pores.friction(soil, phase)? {
+            offer.stage(friction);
+        }
+        let given = settings.skeleton.as_ref().and_then(|s| s.modulus);
+        offer.hook(PoreFlow {
+            soil: phase,
+            law: pores.law.clone(),
+            skeleton: settings.skeleton.clone(),
+            supply: pores.supply(setting)?,
+            solver: ConjugateGradient {
+                preconditioner: Preconditioner::IncompleteDiagonal,
+                tolerance: settings.skeleton.as_ref().map_or(0.1, |s| s.tolerance),
+                iterations: settings.skeleton.as_ref().map_or(1, |s| s.iterations),
+                ..ConjugateGradient::default()
+            },
+            contacts: given.unwrap_or(STIFF * reference.density * reference.sound_speed.powi(2)),
+            swelling: pores.swelling(setting, soil)?,
+            density: setting.density.value,
+            distance: SurfaceDistance::new::<D>(&*setting.world.kernel),
+            scratch: Scratch::default(),
+        });
+        let why = "the pressure in the pores could not be solved for: raise `pore-pressure.darcy.iterations`, or \
+                   loosen its `tolerance`";
+        offer
+            .remedies_of_failures
+            .push(("pore pressure", why.into()));
+        Ok(())
+    }
+}
+
+impl Pores {
+    /// Number of the phase with the pores.
+    fn soil<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<usize, Refusal> {
+        let settings = &self.settings;
+        if !self.effective {
+            let why = "the pressure in the pores is one beside that of the grains: add [effective-pressure.laplace]";
+            return Err(Refusal::at_key(KIND, "", why));
+        }
+        if self.seeps {
+            let why = "the pores seep by this table already: take [seepage] out";
+            return Err(Refusal::at_key(KIND, "", why));
+        }
+        if let Some(skeleton) = &settings.skeleton
+            && skeleton.permeability.at(1.0 - settings.porosity) <= 0.0
+        {
+            let why = "the permeability follows from the diameter of the grains: give `grain_diameter` or \
+                       `permeability`, or take [pore-pressure.drained]";
+            return Err(Refusal::at_key(KIND, "", why));
+        }
+        let soil = number(setting, "soil", &settings.soil)?;
+        if !setting.soils[soil] {
+            let why = format!(
+                "the law of `{}` reads no pressure: name a phase that is a soil",
+                settings.soil
+            );
+            return Err(Refusal::at_key(KIND, "soil", why));
+        }
+        let mut named = settings.bodies.keys();
+        if let Some(name) = named.find(|name| !setting.bodies.contains(name)) {
+            let near = suggestion(name, setting.bodies.iter().map(String::as_str));
+            let why = format!("there is no body called `{name}`{near}");
+            return Err(Refusal::at_key(KIND, format!("bodies.{name}"), why));
+        }
+        let Some(law) = &self.law else {
+            return Ok(soil);
+        };
+        let all = settings
+            .bodies
+            .iter()
+            .map(|(name, n)| (format!("bodies.{name}"), *n));
+        let mut all = [("porosity".to_string(), settings.porosity)]
+            .into_iter()
+            .chain(all);
+        let dense = |n: f64| 1.0 - n >= law.densest();
+        match all.find(|(_, n)| dense(*n)) {
+            None => Ok(soil),
+            Some((key, n)) => {
+                let why = format!(
+                    "a packing of 1 − {n} is beyond the densest of the law, {}: take a larger porosity, or raise \
+                     `densest_packing`",
+                    law.densest()
+                );
+                Err(Refusal::at_key(KIND, key, why))
+            }
+        }
+    }
+
+    /// The friction that dilation adds to that of the rheology.
+    fn friction(&self, soil: usize, phase: SoilPhase) -> Result<Option<DilatantFriction>, Refusal> {
+        let Some(law) = self.law.as_ref().filter(|law| law.adds_friction()) else {
+            return Ok(None);
+        };
+        let rheology = self.rheologies.get(soil);
+        let Some(friction) = rheology.and_then(|r| r.slow_friction()) else {
+            let why = "it adds to the friction of the rheology, and that of the soil has no coefficient: take a \
+                       rheology of grains, or [dilatancy.plastic-pressure]";
+            return Err(Refusal::at_key("dilatancy", "", why));
+        };
+        Ok(Some(DilatantFriction {
+            soil: phase,
+            law: law.clone(),
+            friction,
+        }))
+    }
+
+    /// The wall that feeds the pores.
+    fn supply<const D: usize>(
+        &self,
+        setting: &Setting<'_, D>,
+    ) -> Result<Option<(u32, Supply)>, Refusal> {
+        let supply = self
+            .settings
+            .skeleton
+            .as_ref()
+            .and_then(|s| s.supply.clone());
+        let Some(supply) = supply else {
+            return Ok(None);
+        };
+        let walls = &setting.world.walls;
+        if walls.elements.centre.is_empty() {
+            let why = "the fluid comes through elements of a wall: take [walls.usaw]";
+            return Err(Refusal::at_key(KIND, "supply", why));
+        }
+        let found = walls.names.iter().position(|name| *name == supply.wall);
+        let found = found.ok_or_else(|| {
+            let near = suggestion(&supply.wall, walls.names.iter().map(String::as_str));
+            let why = format!("there is no wall called `{}`{near}", supply.wall);
+            Refusal::at_key(KIND, "supply.wall", why)
+        })?;
+        Ok(Some((found as u32, supply)))
+    }
+
+    fn swelling<const D: usize>(
+        &self,
+        setting: &Setting<'_, D>,
+        soil: usize,
+    ) -> Result<Option<Swelling>, Refusal> {
+        let settings = &self.settings;
+        if !settings.swelling {
+            return Ok(None);
+        }
+        if setting.density.value != fields::DENSITY_CONSTANT {
+            let why = "particles grow and shrink, which is known with densities that are sums over positions: take \
+                       [formulation.hu-adams], or `swelling = false`";
+            return Err(Refusal::at_key(KIND, "swelling", why));
+        }
+        let fluid = match &settings.water {
+            None => None,
+            Some(name) => {
+                let water = number(setting, "water", name)?;
+                if water == soil {
+                    let why = format!("`{name}` is the soil: name the phase in its pores");
+                    return Err(Refusal::at_key(KIND, "water", why));
+                }
+                let reference = setting.laws[water].reference();
+                Some(Phase {
+                    soil: soil as u32,
+                    water: water as u32,
+                    density: reference.density,
+                    sound_speed: reference.sound_speed,
+                })
+            }
+        };
+        let of_fluid = fluid.map_or(WATER, |phase| phase.density);
+        Ok(Some(Swelling {
+            density: settings.fluid_density.unwrap_or(of_fluid),
+            fluid,
+            exchange: EXCHANGE,
+        }))
+    }
+}
+
+/// Stiffness of the contacts over ρ₀c²: soils whose sound is ten times faster than √(gH) are compressed by 10⁻³.
+const STIFF: f64 = 10.0;
+
+/// kg/m³.
+const WATER: f64 = 1000.0;
+
+/// Particles of the fluid even out as those beside a soil that seeps do.
+const EXCHANGE: Exchange = Exchange {
+    evening: 0.15,
+    limit: 0.5,
+    remedy: "take a finer spacing, or leave `pore-pressure.darcy.water` out",
+};
+
+fn number<const D: usize>(
+    setting: &Setting<'_, D>,
+    key: &'static str,
+    name: &str,
+) -> Result<usize, Refusal> {
+    let found = setting.phases.iter().position(|n| n == name);
+    found.ok_or_else(|| {
+        let near = suggestion(name, setting.phases.iter().map(String::as_str));
+        let why = format!("there is no phase called `{name}`{near}");
+        Refusal::at_key(KIND, key, why)
+    })
+}

@@ -1,0 +1,90 @@
+//! The effective pressure of a soil whose pores are not at rest.
+
+use sph_core::{Access, Declares, Stage, StepError, fields};
+use sph_neighbours::World;
+
+use super::contract::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING};
+use super::pore_flow::SoilPhase;
+use crate::dilatancy::{Dilatancy, GrainState};
+
+/// p' = max(p'_d + q − p_e, 0) with the load q, Pa.
+pub(crate) struct GrainPressure {
+    pub soil: SoilPhase,
+    /// q, Pa.
+    pub load: f64,
+}
+
+impl Declares for GrainPressure {
+    fn name(&self) -> String {
+        "pressure between grains".into()
+    }
+    fn access(&self) -> Access {
+        self.soil
+            .access()
+            .here(DRAINED_PRESSURE)
+            .here(EXCESS_PORE_PRESSURE)
+            .writes(fields::EFFECTIVE_PRESSURE)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for GrainPressure {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut effective = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        let drained = world.free.get(DRAINED_PRESSURE)?;
+        let excess = world.free.get(EXCESS_PORE_PRESSURE)?;
+        let soil = self.soil.mask(world)?;
+        for (i, p) in effective.iter_mut().enumerate() {
+            *p = match soil.has(i) {
+                true => (drained[i] + self.load - excess[i]).max(0.0),
+                false => drained[i],
+            };
+        }
+        Ok(world.free.put(fields::EFFECTIVE_PRESSURE, effective)?)
+    }
+}
+
+/// p' (1 + tan ψ/μ): the pressure at which a friction of μ is one of μ + tan ψ.
+pub(crate) struct DilatantFriction {
+    pub soil: SoilPhase,
+    pub law: std::sync::Arc<dyn Dilatancy>,
+    /// μ of slow flow.
+    pub friction: f64,
+}
+
+impl Declares for DilatantFriction {
+    fn name(&self) -> String {
+        "friction of dilation".into()
+    }
+    fn access(&self) -> Access {
+        self.soil
+            .access()
+            .here(fields::EFFECTIVE_PRESSURE)
+            .here(fields::STRAIN_RATE)
+            .here(PACKING)
+            .writes(FRICTION_PRESSURE)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for DilatantFriction {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut out = world.free.take(FRICTION_PRESSURE)?;
+        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
+        let strain_rate = world.free.get(fields::STRAIN_RATE)?;
+        let packing = world.free.get(PACKING)?;
+        let soil = self.soil.mask(world)?;
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = effective[i];
+            if !soil.has(i) {
+                continue;
+            }
+            let state = GrainState {
+                packing: packing[i],
+                strain_rate: strain_rate[i],
+                pressure: effective[i],
+            };
+            let angle = self.law.friction(&state);
+            *out *= (1.0 + angle / self.friction).max(0.0);
+        }
+        Ok(world.free.put(FRICTION_PRESSURE, out)?)
+    }
+}

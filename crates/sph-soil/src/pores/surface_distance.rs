@@ -1,0 +1,94 @@
+//! Distance of a particle to a plane surface, from the part of its kernel beyond.
+
+use sph_kernels::Sampler;
+
+/// Distances d by the integral I(d) = ∫ w dA of the kernel over the plane, which is |Σ V ∇w| over the soil before it.
+#[derive(Debug)]
+pub(crate) struct SurfaceDistance {
+    /// I, 1/m, at distances from 0 to the support radius; falling.
+    integrals: Vec<f64>,
+    /// m.
+    radius: f64,
+}
+
+/// Places of the table.
+const PLACES: usize = 256;
+/// Points of an integral.
+const POINTS: usize = 256;
+/// Share of the support radius below which no particle is from its surface.
+const LEAST: f64 = 0.05;
+
+impl SurfaceDistance {
+    /// Of a kernel in D dimensions.
+    pub fn new<const D: usize>(kernel: &dyn Sampler) -> Self {
+        let radius = kernel.support_radius();
+        let integral = |d: f64| {
+            let end = (radius * radius - d * d).max(0.0).sqrt();
+            let step = end / POINTS as f64;
+            let at = |k: usize| {
+                let across = (k as f64 + 0.5) * step;
+                let ring = match D {
+                    2 => 2.0,
+                    _ => std::f64::consts::TAU * across,
+                };
+                ring * kernel.at(across.hypot(d)).0
+            };
+            (0..POINTS).map(at).sum::<f64>() * step
+        };
+        let place = |k: usize| radius * k as f64 / (PLACES - 1) as f64;
+        SurfaceDistance {
+            integrals: (0..PLACES).map(|k| integral(place(k))).collect(),
+            radius,
+        }
+    }
+
+    /// d, m, of an integral, 1/m.
+    pub fn at(&self, integral: f64) -> f64 {
+        let k = self.integrals.partition_point(|i| *i > integral);
+        let place = match k {
+            0 => 0.0,
+            PLACES => (PLACES - 1) as f64,
+            _ => {
+                let (above, below) = (self.integrals[k - 1], self.integrals[k]);
+                (k - 1) as f64 + (above - integral) / (above - below)
+            }
+        };
+        self.radius * (place / (PLACES - 1) as f64).max(LEAST)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sph_kernels::{Kernel, wendland_c2};
+
+    /// Rows of a lattice below a plane, half a spacing and more away.
+    #[test]
+    fn rows_of_a_lattice_find_their_distance() {
+        let spacing = 0.01;
+        let kernel = wendland_c2().sampler(2, 2.0 * spacing);
+        let table = SurfaceDistance::new::<2>(&*kernel);
+        for row in 0..3 {
+            let distance = (f64::from(row) + 0.5) * spacing;
+            // The half plane beyond, particle by particle.
+            let mut missing = 0.0;
+            for above in 0..6 {
+                for across in -6..=6 {
+                    let (x, y) = (
+                        f64::from(across) * spacing,
+                        distance + (f64::from(above) + 0.5) * spacing,
+                    );
+                    let r = f64::hypot(x, y);
+                    if r < kernel.support_radius() {
+                        missing += spacing * spacing * -kernel.at(r).1 * y;
+                    }
+                }
+            }
+            let found = table.at(missing);
+            assert!(
+                (found - distance).abs() < 0.06 * spacing,
+                "row {row}: {found}"
+            );
+        }
+    }
+}

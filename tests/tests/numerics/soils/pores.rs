@@ -1,0 +1,167 @@
+//! Pores of soils: the balance of grains and fluid, consolidation, undrained shear, the same bits, refusals.
+
+use sph_particles::setup::assemble;
+use sph_scene::parse;
+use sph_tests::{Bench, FinalState};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// A dense bed under water that is sheared by the water's start.
+const BED: &str = r#"
+title = "Water over a dense bed"
+dimension = 2
+[run]
+end = 0.02
+[numerics]
+spacing = 0.005
+smoothing_ratio = 2.0
+gravity = [0.0, -9.81]
+driving = [3.0, 0.0]
+periodic = { x = [0.0, 0.06] }
+[viscous-operator.monaghan-gingold]
+within = "arithmetic"
+[implicit-viscosity.backward-euler]
+[effective-pressure.laplace]
+pore_density = 1000.0
+[pore-pressure.darcy]
+soil = "sand"
+water = "water"
+porosity = 0.38
+grain_diameter = "1 mm"
+[dilatancy.roux-radjai]
+critical_packing = 0.58
+slope = 4.0
+[walls.usaw]
+[wall.floor]
+polyline = [[0.0, 0.0], [0.06, 0.0]]
+condition = "no-slip"
+[phase.sand]
+density = 2000.0
+speed_of_sound = 15.0
+[phase.sand.rheology.mu-i]
+static_friction = 0.4
+limiting_friction = 0.8
+reference_inertial_number = 0.1
+grain_diameter = "1 mm"
+grain_density = 2650.0
+regularisation.chauchat-medale = { strain_rate = 0.1 }
+[phase.water]
+density = 1000.0
+speed_of_sound = 15.0
+rheology.newtonian = { viscosity = "1 mPa s" }
+[body.bed]
+phase = "sand"
+box = [[0.0, 0.0], [0.06, 0.05]]
+pressure = "hydrostatic"
+[body.water]
+phase = "water"
+box = [[0.0, 0.05], [0.06, 0.08]]
+pressure = "hydrostatic"
+[output]
+every = 0.02
+vtk = false
+"#;
+
+fn sum(column: &[f64]) -> f64 {
+    column.iter().sum()
+}
+
+/// A column of the checkpoint in a folder.
+fn column(bench: &Bench, folder: &str, name: &str) -> Vec<f64> {
+    let state = FinalState::read(&bench.path(folder));
+    state.columns[name]
+        .iter()
+        .map(|bits| f64::from_bits(*bits))
+        .collect()
+}
+
+/// What the soil takes up is what the water gives, and its packing is that of its mass.
+#[test]
+fn grains_and_water_are_neither_made_nor_lost() {
+    let bench = Bench::with(PROGRAM, BED);
+    bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
+    bench.done("run scene.toml --quiet --out out");
+    let [m0, m1] = ["none", "out"].map(|folder| column(&bench, folder, "mass"));
+    assert!((sum(&m1) / sum(&m0) - 1.0).abs() < 1e-14, "mass was made");
+    let packing = column(&bench, "out", "packing");
+    let [first, grains] = ["none", "out"].map(|folder| column(&bench, folder, "grain_volume"));
+    assert!((sum(&grains) / sum(&first) - 1.0).abs() < 1e-15);
+    let mut grown = 0.0_f64;
+    for (k, &g) in grains.iter().enumerate() {
+        if g == 0.0 {
+            continue;
+        }
+        // m = m₀ + ρ_w G (1/φ − 1/φ₀), of a particle that began with the mass of its lattice cell.
+        let start = 2000.0 * 0.005 * 0.005;
+        let law = start + 1000.0 * g * (1.0 / packing[k] - 1.0 / 0.62);
+        assert!((m1[k] / law - 1.0).abs() < 1e-12, "{} {law}", m1[k]);
+        grown = grown.max((packing[k] - 0.62).abs());
+    }
+    assert!(grown > 1e-5, "nothing dilated: {grown:e}");
+}
+
+#[test]
+fn pores_have_the_same_bits_on_threads_and_after_an_interruption() {
+    let bench = Bench::with(PROGRAM, BED);
+    bench.done("run scene.toml --quiet --out one --threads 1");
+    bench.done("run scene.toml --quiet --out two --threads 2");
+    let one = FinalState::read(&bench.path("one"));
+    one.assert_same(&FinalState::read(&bench.path("two")), "threads");
+    let parts = "run scene.toml --quiet --out parts";
+    bench.call(&format!("{parts} --set run.max_steps=7"));
+    bench.done(&format!("{parts} --resume --changed"));
+    one.assert_same(&FinalState::read(&bench.path("parts")), "parts");
+}
+
+/// Assembly refuses the scene with these words.
+fn refused(from: &str, to: &str, words: &str) {
+    assert!(BED.contains(from), "the scene lost `{from}`");
+    let text = BED.replacen(from, to, 1);
+    let told = match parse(&text, "scene.toml", &[]) {
+        Err(error) => error.to_string(),
+        Ok(loaded) => match assemble::<2>(&loaded.scene) {
+            Err(error) => error.to_string(),
+            Ok(_) => panic!("accepted: {to}"),
+        },
+    };
+    assert!(told.contains(words), "no `{words}` in\n{told}");
+}
+
+#[test]
+fn pores_that_are_none_are_refused() {
+    refused("porosity = 0.38", "porosity = 1.2", "must be less than 1");
+    refused("porosity = 0.38", "porosity = 0.0", "must be more than 0");
+    refused(
+        "porosity = 0.38",
+        "porosity = 0.2",
+        "beyond the densest of the law, 0.74",
+    );
+    refused(
+        "porosity = 0.38",
+        "porosity = 0.38\nbodies = { bett = 0.4 }",
+        "no body called `bett`, did you mean `bed`",
+    );
+    refused(
+        "grain_diameter = \"1 mm\"\n[dilatancy",
+        "[dilatancy",
+        "give `grain_diameter` or `permeability`",
+    );
+    refused("soil = \"sand\"", "soil = \"sant\"", "did you mean `sand`");
+    refused("soil = \"sand\"", "soil = \"water\"", "reads no pressure");
+    refused("water = \"water\"", "water = \"sand\"", "is the soil");
+    refused(
+        "[effective-pressure.laplace]\npore_density = 1000.0\n",
+        "",
+        "add [effective-pressure.laplace]",
+    );
+    refused(
+        "[pore-pressure.darcy]\nsoil = \"sand\"\nwater = \"water\"\nporosity = 0.38\ngrain_diameter = \"1 mm\"\n",
+        "",
+        "add [pore-pressure.darcy]",
+    );
+    refused(
+        "[walls.usaw]",
+        "[formulation.colagrossi-landrini]\n[walls.usaw]",
+        "take [formulation.hu-adams]",
+    );
+}
