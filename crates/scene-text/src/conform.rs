@@ -49,7 +49,7 @@ impl<'s> Walk<'s> {
         self.problems.push(SceneProblem::new(path, message));
     }
 
-    /// Whether as many problems are known as are reported.
+    /// True if no further problem is reported.
     fn full(&self) -> bool {
         self.problems.len() >= MOST_PROBLEMS
     }

@@ -83,7 +83,7 @@ fn leaves(named: &str) -> Result<(), PathProblem> {
     Ok(())
 }
 
-/// Where a path leads; of a file that is not there, where it would be.
+/// Target of a path without links; of a missing file, the path that it would have.
 fn real(path: &Path) -> Option<PathBuf> {
     let there = path.canonicalize().ok();
     there.or_else(|| Some(real_folder(path.parent()?)?.join(path.file_name()?)))

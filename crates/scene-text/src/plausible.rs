@@ -21,7 +21,7 @@ pub struct Quantity {
     pub high: (f64, &'static str),
     /// Larger ones are refused.
     pub most: f64,
-    /// Why others are refused.
+    /// Reason to refuse other numbers.
     pub refusal: &'static str,
 }
 
@@ -230,7 +230,7 @@ impl Quantity {
         name.and_then(named).or_else(|| measured(unit?))
     }
 
-    /// Why no run can be right with a number of the quantity of a name, if none can.
+    /// Reason that no run can be right with a number of the quantity of a name, if there is one.
     pub fn refused(name: &str, x: f64) -> Option<String> {
         match Self::find(Some(name), None)?.judge(x) {
             Verdict::Impossible(why) => Some(why),

@@ -354,7 +354,7 @@ fn remedy(met: &Option<Box<str>>) -> String {
     }
 }
 
-/// Where something is, m.
+/// A position, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place(pub Box<[f64]>);
 

@@ -198,7 +198,7 @@ Examples:
 }
 
 impl Command {
-    /// Whether results and errors go to stdout as JSON.
+    /// True if results and errors go to stdout as JSON.
     pub fn json(&self) -> bool {
         match self {
             Command::Run(a) => a.json,

@@ -61,7 +61,7 @@ fn terminated(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether SIGHUP is not ignored, as `nohup` has it. Where that is not known, it keeps its effect.
+/// True if SIGHUP is known to have an effect: `nohup` ignores it.
 #[cfg(unix)]
 fn told_of_hang_up() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -147,8 +147,8 @@ pub struct StudyOptions {
     pub threads: Option<u16>,
     /// Patterns of the names of the variants that are wanted; none for all.
     pub only: Vec<String>,
-    /// Whether finished variants run again.
+    /// True if finished variants run again.
     pub fresh: bool,
-    /// Whether it is silent.
+    /// True if it is silent.
     pub quiet: bool,
 }

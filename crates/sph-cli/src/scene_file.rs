@@ -62,7 +62,7 @@ pub struct Opened {
     pub scene: AnyScene,
     /// Name without folder and extension.
     pub stem: String,
-    /// What messages call it: its file, or its name if it is compiled in.
+    /// Name in messages: its file, or its name if it is compiled in.
     pub shown: String,
     /// Kept until the scene is done with.
     _unpacked: Option<Scratch>,
@@ -176,7 +176,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
     }
 }
 
-/// What computes the scene of a text in a study; the name is for messages.
+/// Method that computes the scene of a text in a study; the name is for messages.
 #[must_use]
 pub fn method(text: &str, name: &str) -> &'static dyn Method {
     let table = Source::new(text, name, &[]).table();

@@ -49,7 +49,7 @@ impl Plugins {
         }
     }
 
-    /// Whether the scene names a plugin of a kind.
+    /// True if the scene names a plugin of a kind.
     pub fn names(&self, kind: &str) -> bool {
         self.choices.iter().any(|choice| choice.kind == kind)
     }

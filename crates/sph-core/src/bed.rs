@@ -12,7 +12,7 @@ pub struct LevelGrid {
     pub cell: [f64; 2],
     /// Number of places along x and y.
     pub count: [usize; 2],
-    /// Whether the place after the last one is the first, a period on.
+    /// Axes along which the place after the last one is the first, a period on.
     pub periodic: [bool; 2],
 }
 
@@ -23,7 +23,7 @@ impl LevelGrid {
         self.count[0] * self.count[1]
     }
 
-    /// Whether there is no place.
+    /// True if there is no place.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -111,7 +111,7 @@ impl LevelGrid {
         ]
     }
 
-    /// Whether a position, m, is between places, or at the first or the last ones.
+    /// True if a position, m, is between places, or at the first or the last ones.
     #[must_use]
     pub fn has(&self, at: [f64; 2]) -> bool {
         (0..2).filter(|k| self.count[*k] > 1).all(|k| {
@@ -136,7 +136,7 @@ impl LevelGrid {
 pub struct Bed {
     /// Numbers of the walls that follow it; the bed's own one is the first.
     pub walls: Vec<u32>,
-    /// Where its levels are known.
+    /// Grid of the known levels.
     pub grid: LevelGrid,
     /// Levels z₀ at the start, m.
     pub drawn: Vec<f64>,
@@ -211,7 +211,7 @@ impl Bed {
         self.grid.mean(&self.lift, at) * self.share(height)
     }
 
-    /// Whether a point of the walls that was drawn somewhere follows the bed.
+    /// True if a point of the walls that was drawn somewhere follows the bed.
     #[must_use]
     pub fn moves<const D: usize>(&self, drawn: &[f64; D]) -> bool {
         let at = horizontal(drawn);

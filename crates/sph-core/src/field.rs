@@ -58,7 +58,7 @@ impl<const D: usize> Column<D> {
         each_column!(self, items => items.len())
     }
 
-    /// Whether there is no entry.
+    /// True if there is no entry.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -115,7 +115,7 @@ impl<const D: usize> Store<D> {
         self.len = len;
     }
 
-    /// Whether there is no particle.
+    /// True if there is no particle.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -139,7 +139,7 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    /// Whether a column of that name is allocated.
+    /// True if a column of that name is allocated.
     pub fn has(&self, name: &str) -> bool {
         self.entries.iter().any(|e| e.name == name)
     }

@@ -9,10 +9,10 @@ const FEW: usize = 8;
 /// Triangles at which the side that a surface faces is asked for, at most.
 const ASKED: usize = 256;
 
-/// How often a surface winds around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one
-/// from behind its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an
-/// open or torn one it is less, and varies. Jacobson, Kavan & Sorkine-Hornung (2013); distant clusters as dipoles,
-/// Barill et al. (2018).
+/// Winding number of a surface around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one
+/// from behind its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an open
+/// or torn one it is less, and varies. Jacobson, Kavan & Sorkine-Hornung (2013); distant clusters as dipoles, Barill et
+/// al. (2018).
 #[derive(Clone, Debug)]
 pub struct Winding {
     triangles: Vec<[[f64; 3]; 3]>,
@@ -107,7 +107,7 @@ impl Winding {
         sum / (4.0 * PI)
     }
 
-    /// Which way a surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
+    /// Side that a surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
     ///
     /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and
     /// less of an open one, since its opening is seen from everywhere.

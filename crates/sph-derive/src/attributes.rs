@@ -3,7 +3,7 @@
 use proc_macro2::TokenTree;
 use syn::{Attribute, Field};
 
-/// Whether a field is no parameter but what a plugin keeps.
+/// True if a field is no parameter but state of a plugin.
 pub fn is_skipped(field: &Field) -> bool {
     words(&field.attrs, "serde")
         .iter()

@@ -94,7 +94,7 @@ fn unknown(word: &Ident) -> Error {
     )
 }
 
-/// What follows a colon, up to the next comma.
+/// Tokens after a colon, up to the next comma.
 pub fn value(word: &Ident, input: ParseStream<'_>) -> syn::Result<TokenStream> {
     let missing = |at| Error::new(at, format!("expected a value: `{word}: …`"));
     input.parse::<Token![:]>().map_err(|e| missing(e.span()))?;

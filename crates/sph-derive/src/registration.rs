@@ -31,7 +31,7 @@ impl Parse for Form {
     }
 }
 
-/// What a plugin is registered as.
+/// Arguments of a plugin's registration.
 pub struct Registration {
     entry: Path,
     /// Nothing for a kind without a dimension of its own.

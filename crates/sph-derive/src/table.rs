@@ -227,7 +227,7 @@ fn of_choice(
     Ok(())
 }
 
-/// Whether values are nothing but numbers.
+/// True if values are nothing but numbers.
 fn is_plain(data: &Data) -> bool {
     let plain = |fields: &Fields| fields.iter().all(|field| is_number(&field.ty));
     match data {

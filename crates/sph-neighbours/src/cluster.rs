@@ -21,13 +21,13 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) inverse_renormalisation: [f64; MOST],
     /// Square of the support radius, m².
     pub(crate) limit: f64,
-    /// Where walls scale the kernel.
+    /// Scaling of the kernel by walls.
     pub(crate) scaling: Option<&'a Scaling<'a, D>>,
-    /// Whether some of its pairs are scaled.
+    /// True if some of its pairs are scaled.
     pub(crate) scaled: bool,
-    /// Whether any member sees a wall.
+    /// True if a wall is within reach of any member.
     pub(crate) beside: bool,
-    /// Whether images across periodic faces may be nearer.
+    /// True if images across periodic faces may be nearer.
     pub(crate) wraps: bool,
     pub(crate) buffers: &'a mut Buffers<D>,
 }
@@ -50,7 +50,7 @@ pub(crate) struct Buffers<const D: usize> {
     free: [Scratch<D>; MOST],
     /// Sums of the members.
     pub sums: crate::particles::Rows,
-    /// Whether `free` is of the cluster at hand.
+    /// True if `free` is of the cluster at hand.
     rows: bool,
 }
 

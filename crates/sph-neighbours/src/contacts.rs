@@ -141,7 +141,7 @@ impl<'a, const D: usize> ContactRow<'a, D> {
             .sum()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
@@ -255,7 +255,7 @@ impl<const D: usize> Contacts<D> {
             .flat_map(|&p| self.of_particle(p as usize))
     }
 
-    /// Whether no particle has any.
+    /// True if no particle has any.
     pub fn is_empty(&self) -> bool {
         self.particles.is_empty()
     }

@@ -52,7 +52,7 @@ pub(crate) struct Group {
     pub count: u32,
     /// The end of its columns.
     pub to: u32,
-    /// Whether images across periodic faces may be nearer.
+    /// True if images across periodic faces may be nearer.
     pub wraps: bool,
 }
 

@@ -30,7 +30,7 @@ impl<const D: usize> Domain<D> {
         self.upper[axis] - self.lower[axis]
     }
 
-    /// Whether any axis is periodic.
+    /// True if any axis is periodic.
     pub fn any_periodic(&self) -> bool {
         self.periodic.iter().any(|p| *p)
     }
@@ -92,7 +92,7 @@ impl<const D: usize> Domain<D> {
         x
     }
 
-    /// Whether an image across a periodic face may be nearer than `reach`.
+    /// True if an image across a periodic face may be nearer than `reach`.
     #[inline(always)]
     pub fn near_periodic_face(&self, x: &Vect<D>, reach: f64) -> bool {
         (0..D).any(|axis| {
@@ -101,7 +101,7 @@ impl<const D: usize> Domain<D> {
         })
     }
 
-    /// Whether the position is inside along the axes that are not periodic.
+    /// True if the position is inside along the axes that are not periodic.
     pub fn contains(&self, x: &Vect<D>) -> bool {
         (0..D).all(|a| self.periodic[a] || (x[a] >= self.lower[a] && x[a] <= self.upper[a]))
     }

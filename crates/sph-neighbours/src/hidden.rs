@@ -21,7 +21,7 @@ impl Blocked {
         &self.pairs
     }
 
-    /// Whether all see each other.
+    /// True if all see each other.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.pairs.is_empty()
@@ -35,7 +35,7 @@ impl Blocked {
             .map(|[_, j]| *j)
     }
 
-    /// Whether an index does not see another.
+    /// True if an index does not see another.
     #[inline(always)]
     pub fn has(&self, index: usize, other: u32) -> bool {
         !self.is_empty() && self.pairs.binary_search(&[index as u32, other]).is_ok()

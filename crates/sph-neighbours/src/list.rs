@@ -129,7 +129,7 @@ impl NeighbourList {
         self.len
     }
 
-    /// Whether there is no target.
+    /// True if there is no target.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

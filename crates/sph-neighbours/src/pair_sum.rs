@@ -10,9 +10,9 @@ use crate::particles::{Particles, Rows, make_room};
 ///
 /// A pair beyond the support, where F = 0 and w = 0, has to add exactly zero.
 pub trait PairSum<const D: usize>: Sync {
-    /// Whether pairs carry kernel values.
+    /// True if pairs carry kernel values.
     const VALUES: bool = false;
-    /// Whether walls that scale the kernel do so in this sum: w is s_a s_b w there, γ is 1, and no elements are seen.
+    /// True if walls that scale the kernel do so in this sum: w is s_a s_b w there, γ is 1, and no elements are seen.
     const SCALED: bool = false;
     /// Own values of `L::N` particles.
     type Own<L: Lane>: Copy;

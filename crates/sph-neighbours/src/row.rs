@@ -44,7 +44,7 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub contacts: ContactRow<'a, D>,
     /// 1/γ, 1 away from walls.
     pub inverse_renormalisation: f64,
-    /// Where walls scale the kernel.
+    /// Scaling of the kernel by walls.
     pub scaling: Option<&'a Scaling<'a, D>>,
 }
 

@@ -35,7 +35,7 @@ impl<'a, const D: usize> Scaling<'a, D> {
         })
     }
 
-    /// Whether some of the pairs of a cluster are scaled.
+    /// True if some of the pairs of a cluster are scaled.
     pub(crate) fn acts(&self, members: Members<'_>) -> bool {
         let mut candidates = members.candidates.iter();
         candidates.any(|j| self.scale[*j as usize] != 1.0)

@@ -96,7 +96,7 @@ impl<const D: usize> World<D> {
         found.ok_or(FieldError::Missing(rate.name))
     }
 
-    /// Whether the walls scale the kernel.
+    /// True if the walls scale the kernel.
     pub fn scales(&self) -> bool {
         self.walls.scales
     }
@@ -114,7 +114,7 @@ impl<const D: usize> World<D> {
         self.kernel.support_radius() * (1.0 + self.skin)
     }
 
-    /// Whether a particle moved so far that the lists may miss a pair.
+    /// True if a particle moved so far that the lists may miss a pair.
     ///
     /// # Errors
     /// If there is no position column.

@@ -7,7 +7,7 @@ use crate::Inside;
 /// The fluid in front of an element.
 pub(crate) struct AdjacentFluid<const D: usize> {
     pub inside: Inside<D>,
-    /// How far before it that mean stands, m.
+    /// Distance of that mean before the face, m.
     pub reach: f64,
     pub row: Vect<D>,
     pub mix: Vec<f64>,

@@ -54,7 +54,8 @@ impl<const D: usize> Faces<D> {
         [aim, faster * self.alone(k)]
     }
 
-    /// How far water before an element goes as if it were alone: 1 from a [share](BESIDE) of dry elements around it on.
+    /// Degree to which water before an element moves as if it were alone: 1 from a [share](BESIDE) of dry elements
+    /// around it on.
     fn alone(&self, k: usize) -> f64 {
         let around = self.smooth[k].iter();
         let [dry, whole] = around.fold([0.0, 0.0], |[dry, whole], (j, w)| {

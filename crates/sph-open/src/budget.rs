@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use crate::faces::Faces;
 
-/// How long a port keeps an error of its mass, over the time in which a row passes.
+/// Time over which a port keeps an error of its mass, over the time in which a row passes.
 ///
 /// The flux of the law and that of the particles differ by the smoothing of the mean before the face; the difference is
 /// let go instead of gathering at the port.
@@ -83,7 +83,7 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Whether no fluid is before any of some elements.
+    /// True if no fluid is before any of some elements.
     fn is_dry(&self, mut own: Range<usize>) -> bool {
         own.all(|k| !self.inside[k].wet)
     }

@@ -13,8 +13,8 @@ pub struct Place<const D: usize> {
     pub normal: Vect<D>,
     /// Length or area, m^(d−1).
     pub measure: f64,
-    /// How far along the face its centre is, 0 to 1: in two dimensions from the first corner of the drawing, in three along the
-    /// first axis in a [rectangle](Self::rectangle).
+    /// Coordinate of its centre along the face, 0 to 1: in two dimensions from the first corner of the drawing, in
+    /// three along the first axis in a [rectangle](Self::rectangle).
     pub along: f64,
     /// The same along the second axis in a rectangle; ½ elsewhere.
     pub across: f64,
@@ -26,7 +26,7 @@ pub struct Place<const D: usize> {
 /// The fluid in front of an element, as a mean over its support.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inside<const D: usize> {
-    /// Whether there is enough fluid for a mean.
+    /// True if there is enough fluid for a mean.
     pub wet: bool,
     /// Pressure at the element, over that of the reference density, Pa.
     pub pressure: f64,
@@ -67,9 +67,9 @@ pub struct Outside<const D: usize> {
     pub velocity: Vect<D>,
     /// Pressure, over that of the reference density, Pa; of no account where the velocity is imposed.
     pub pressure: f64,
-    /// Whether the velocity is imposed, and the pressure follows from the characteristic that leaves the fluid:
+    /// True if the velocity is imposed, and the pressure follows from the characteristic that leaves the fluid:
     /// p = p_i + ρc (u − u_i), with the mean of u over the support for u. If not, fluid passes with its own velocity,
-    /// changed by what `velocity` differs from that inside.
+    /// changed by the difference of `velocity` from that inside.
     pub imposed: bool,
     /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Fluid that goes
     /// out passes no more than what has fluid before it, unless the share is 1.
@@ -170,10 +170,10 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     fn entering(&self) -> Entering {
         Entering::default()
     }
-    /// Whether fluid can leave by it where more comes in elsewhere.
+    /// True if fluid can leave by it where more comes in elsewhere.
     fn lets_out(&self) -> bool;
-    /// Whether rows that pass are kept even by slow pressures, as those that stay are. It makes a barrier of some per cent of the
-    /// pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
+    /// True if rows that pass are kept even by slow pressures, as those that stay are. This makes a barrier of some per
+    /// cent of the pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
     fn keeps_rows_even(&self) -> bool {
         false
     }

@@ -19,7 +19,7 @@ const COURSE: usize = 4096;
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {
     faces: SharedFaces<D>,
-    /// Whether the formulation sums densities.
+    /// True if the formulation sums densities.
     summed: bool,
 }
 
@@ -122,7 +122,7 @@ impl<const D: usize> OpenBoundaries<D> {
         all.map(|f| (f.name.clone(), f.law.entering())).collect()
     }
 
-    /// Whether fluid can leave by any of them.
+    /// True if fluid can leave by any of them.
     pub fn let_out(&self) -> bool {
         lock(&self.faces).faces.iter().any(|f| f.law.lets_out())
     }

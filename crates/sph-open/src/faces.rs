@@ -13,12 +13,12 @@ use crate::memory::Memory;
 use crate::row::near;
 use crate::{Inside, OpenBoundary, Outside, Place};
 
-/// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
-/// pass meanwhile wait for each other.
+/// Largest delay of insertion and removal, as a share of a row: lists are built anew where particles come or go, and
+/// the rows that pass meanwhile wait for each other.
 pub(crate) const LATE: f64 = 0.2;
 
-/// Where a row is so far away that it is the last one: from here on a port does not stand in for the next. Ours: with ½ the
-/// level before an outlet is higher by up to 3 %.
+/// Distance of a row from which it is the last one: from here on a port does not stand in for the next. Ours: with ½
+/// the level before an outlet is higher by up to 3 %.
 const LAST: f64 = 0.75;
 
 /// The share θ of a particle with which a port takes part in sums, from what the row before it lacks.
@@ -105,7 +105,7 @@ pub(crate) struct Faces<const D: usize> {
     pub before: Vec<f64>,
     /// The means before the elements, to be filled again.
     pub looked: Vec<AdjacentFluid<D>>,
-    /// Whether particles come and go at the end of this step.
+    /// True if particles come and go at the end of this step.
     pub due: bool,
 }
 
@@ -293,7 +293,7 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Whether a place behind a face is that of a particle that waits to leave.
+    /// True if a place behind a face is that of a particle that waits to leave.
     pub fn waits(&self, place: &Vect<D>) -> bool {
         self.places.iter().any(|face| {
             let apart = place - face.centre;

@@ -90,7 +90,7 @@ impl<const D: usize> Memory<D> {
         }
     }
 
-    /// How many numbers there are.
+    /// Number of values.
     pub fn count(&self) -> usize {
         let of_faces = PER_TOTAL * self.totals.len() + PER_FACE * self.volumes.len();
         self.mass.len() + (2 * (D + 1) + 2) * self.mean.len() + of_faces + 1

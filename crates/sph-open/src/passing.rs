@@ -13,7 +13,7 @@ const NAME: &str = "open boundaries";
 #[derive(Clone)]
 pub(crate) struct Passing<const D: usize> {
     pub faces: SharedFaces<D>,
-    /// Whether densities are sums, which change with particles that come and go.
+    /// True if densities are sums, which change with particles that come and go.
     pub summed: bool,
     pub phases: Vec<String>,
 }

@@ -5,7 +5,7 @@ use sph_core::{parameters, rectangular_duct};
 use crate::course::{between, check_table};
 use crate::{OpenRefusal, OpenSetting, Place};
 
-/// How a velocity is shared out along a face, as factors of it.
+/// Distribution of a velocity along a face, as factors of it.
 ///
 /// In two dimensions s goes from 0 to 1 from the first corner of the drawing. In three the face is a plane rectangle with its
 /// sides along axes of space: s goes from 0 to 1 along the first of them, x before y before z, and t along the second.

@@ -61,7 +61,7 @@ pub trait Curves<const D: usize> {
     /// # Errors
     /// If a column of the flow is missing.
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError>;
-    /// Which of these columns is drawn, `pictures/NAME_0003.png`, as a map over the first two.
+    /// Column that is drawn, `pictures/NAME_0003.png`, as a map over the first two.
     fn drawn_column(&self) -> Option<usize> {
         None
     }

@@ -39,12 +39,12 @@ const OF_GRADIENTS: [&str; 5] = [
     "shear_stress",
 ];
 
-/// Whether a field of that name needs the gradient of the velocity.
+/// True if a field of that name needs the gradient of the velocity.
 pub fn needs_gradient(name: &str) -> bool {
     OF_GRADIENTS.contains(&name)
 }
 
-/// What is made from what.
+/// Derived quantities and their formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Derived {
     Speed,

@@ -63,7 +63,7 @@ fn images<const D: usize>(world: &World<D>, x: Vect<D>) -> Vec<Vect<D>> {
     all
 }
 
-/// Whether each particle is at a free surface.
+/// Marks of particles at a free surface.
 fn at_surface<const D: usize>(world: &World<D>) -> Result<Vec<bool>, StepError> {
     let outward = outward(world)?;
     let reach = CONE * world.spacing;

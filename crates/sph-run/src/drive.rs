@@ -163,7 +163,7 @@ impl Driver<'_> {
         Ok(written.unwrap_or(Ok(()))?)
     }
 
-    /// How the run ended; a file that cannot be written is no end of it.
+    /// Outcome of the run; a file that cannot be written does not end it.
     fn go<M: Model>(
         &mut self,
         model: &mut M,

@@ -14,10 +14,10 @@ pub const BAD_STATE_NEAR: &str = "bad_state_near.png";
 /// Folders of numbered files.
 const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
 
-/// Which files a run's fields go to; by default those for ParaView.
+/// Files of a run's fields; by default those for ParaView.
 #[derive(Clone, Debug)]
 pub struct Outlay {
-    /// Whether files for ParaView are written.
+    /// True if files for ParaView are written.
     pub vtk: bool,
     /// Names of what has pictures, of which films are made.
     pub pictures: Vec<String>,
@@ -105,7 +105,7 @@ impl Frames {
         list.write_among(&frame, ranks).map(|_| ())
     }
 
-    /// Whether there are files for ParaView.
+    /// True if there are files for ParaView.
     pub fn lists(&self) -> bool {
         self.list.is_some()
     }

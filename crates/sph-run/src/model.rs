@@ -105,9 +105,9 @@ pub struct ModelTime {
 /// A question to all processes of a run.
 #[derive(Debug)]
 pub enum Poll<E> {
-    /// Whether what was due has been written.
+    /// Outcome of writing the files that were due.
     Written(Result<(), E>),
-    /// Whether this one stops.
+    /// True to stop.
     Stop(bool),
 }
 

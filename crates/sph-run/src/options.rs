@@ -66,7 +66,7 @@ pub enum Start {
 }
 
 impl Start {
-    /// Whether the run's own files are gone on with.
+    /// True if the run's own files are gone on with.
     pub fn goes_on(&self) -> bool {
         matches!(self, Start::Resumed | Start::Changed)
     }

@@ -10,13 +10,13 @@ pub struct Schedule<'a> {
     pub rows: f64,
     /// The first output of fields after a time, s.
     pub next_output: Box<dyn Fn(f64) -> Option<f64> + Sync + 'a>,
-    /// Whether steps end where fields are due.
+    /// True if steps end where fields are due.
     pub hits_outputs: bool,
     /// Simulated time between checkpoints, s.
     pub checkpoints: f64,
     /// Largest number of steps.
     pub max_steps: Option<u64>,
-    /// How a run with that many steps has ended.
+    /// Outcome of a run with that many steps.
     pub capped: Status,
     /// Wall-clock time after which the run stops with a checkpoint, s.
     pub max_wall: Option<f64>,

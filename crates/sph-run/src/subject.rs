@@ -82,7 +82,7 @@ impl Ended {
     }
 }
 
-/// Whether a file is no checkpoint that can be read.
+/// True if a file is no checkpoint that can be read.
 pub fn unusable(error: &IoError) -> bool {
     use IoError::{Checkpoint, Malformed, Read, TooShort};
     matches!(

@@ -24,7 +24,7 @@ pub enum CoupledError {
         "there are {meshes} meshes of triangles; fluid would flow through them, use plane walls"
     )]
     Meshes {
-        /// How many.
+        /// Number of meshes.
         meshes: usize,
     },
     /// The flow has no periodic rooms.

@@ -29,7 +29,7 @@ impl Recorded {
         at(row) + share * (at(next) - at(row))
     }
 
-    /// What is wrong with it.
+    /// The fault of the record, if there is one.
     #[must_use]
     pub fn problem(&self) -> Option<&'static str> {
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());

@@ -26,7 +26,7 @@ pub struct CoupledSystem {
     pub(crate) law: Box<dyn Conductance>,
     pub(crate) pores: Pores,
     pub(crate) clock: Clock,
-    /// Whether contacts were found where the grains are now.
+    /// True if contacts were found where the grains are now.
     pub(crate) evaluated: bool,
     /// Flux into the pores through every wall at the last step, m³/s, if it is measured; none before the first.
     pub(crate) inflows: Option<Vec<f64>>,

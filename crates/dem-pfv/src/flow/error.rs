@@ -107,7 +107,7 @@ pub enum FlowError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What it may be.
+        /// The valid range.
         valid: &'static str,
     },
 }

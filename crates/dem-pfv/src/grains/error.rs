@@ -167,7 +167,7 @@ pub enum GrainError {
     NoLaw {
         /// Wall, mesh, or grains.
         what: &'static str,
-        /// Which one.
+        /// Number of the item, as the setup counts.
         number: usize,
         /// The law that it names.
         law: usize,
@@ -233,7 +233,7 @@ pub enum GrainError {
         "{what} did not end within {steps} steps: unbalanced force ratio {unbalanced}, mean stress {stress} Pa"
     )]
     NotReached {
-        /// Which.
+        /// Kind of the item.
         what: &'static str,
         /// Steps made.
         steps: u64,

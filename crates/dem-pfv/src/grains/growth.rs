@@ -2,7 +2,7 @@
 
 use crate::grains::{GrainError, GrainSystem, Unrest};
 
-/// Where growth ends.
+/// End of the growth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// At an isotropic stress, Pa, positive in compression.
@@ -19,7 +19,7 @@ pub enum Target {
 /// the method is named by Catalano 2012, ch. 2, without equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// Where it ends.
+    /// End of the growth.
     pub target: Target,
     /// Largest factor before the target was reached for the first time.
     pub fast: f64,

@@ -128,7 +128,7 @@ pub struct Stiffness {
 /// One call answers many contacts, so that laws cost no virtual call per contact. The answer to a
 /// contact must depend on nothing but that contact: batches differ from one number of threads to another.
 pub trait ContactLaw: Debug + Send + Sync {
-    /// Whether the parameters make sense.
+    /// Checks the parameters.
     ///
     /// # Errors
     /// [`GrainError::BadLaw`] with the parameter and its value.

@@ -17,7 +17,7 @@ pub struct Grain {
     pub radius: f64,
     /// Density ρ_s, kg/m³.
     pub density: f64,
-    /// Whether it keeps its velocity whatever acts on it.
+    /// True if it keeps its velocity whatever acts on it.
     pub held: bool,
 }
 

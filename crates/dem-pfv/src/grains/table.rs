@@ -18,7 +18,7 @@ pub(crate) struct Slot {
     pub first: u32,
     /// A grain, or a triangle, or nothing at a wall.
     pub second: u32,
-    /// Whether they touch.
+    /// True if they touch.
     pub active: bool,
     pub overlap: f64,
     pub normal: Vector,
@@ -60,7 +60,7 @@ pub(crate) struct Table {
     /// Slots of each grain, twice their number plus the side.
     #[serde(skip)]
     entries: Vec<u32>,
-    /// Where everything was when the table was made.
+    /// Positions and shapes at the time the table was made.
     #[serde(skip)]
     then: PreviousState,
 }
@@ -115,7 +115,7 @@ impl Table {
         kept
     }
 
-    /// Whether something may have come near that is not in the table.
+    /// True if something may have come near that is not in the table.
     pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
         let (then, grains) = (&self.then, bodies.grains);
         if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {

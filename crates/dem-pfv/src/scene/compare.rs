@@ -171,7 +171,7 @@ fn scaled(
     Ok(relative(found, wanted, against, rows.len().min(1)))
 }
 
-/// How well values of one probe over those of another lie on a straight line.
+/// Fit of a straight line to values of one probe over those of another.
 fn line(along: &[(f64, f64)], values: &[(f64, f64)], probe: &str) -> Compared {
     let pairs: Vec<_> = along
         .iter()

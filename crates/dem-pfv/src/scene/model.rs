@@ -19,7 +19,7 @@ pub enum Model {
     Wet(Box<CoupledSystem>),
 }
 
-/// What must be kept of it.
+/// State of a run in a checkpoint.
 #[derive(Debug, Deserialize, Serialize)]
 pub enum Saved {
     /// Dry.
@@ -56,7 +56,7 @@ impl Load {
         p.stress + p.ramp * time + swing
     }
 
-    /// Whether it changes at all.
+    /// True if it changes at all.
     pub fn varies(&self) -> bool {
         self.piston.ramp != 0.0 || self.piston.amplitude != 0.0
     }
@@ -110,7 +110,7 @@ impl Model {
     /// One step of a share `safety` of the largest stable one, but not beyond `end` (s).
     ///
     /// # Errors
-    /// What went wrong, with the grain, the wall or the cell.
+    /// The failure, with the grain, the wall or the cell.
     pub fn advance(&mut self, safety: f64, end: f64) -> Result<Made, Box<Failure>> {
         let made = self.try_advance(safety, end);
         made.map_err(|error| Box::new(self.failure(error)))

@@ -15,7 +15,7 @@ pub struct Summary {
     pub schema_version: u32,
     /// Title.
     pub scene: String,
-    /// What is computed: always "grains".
+    /// Method of computation: always "grains".
     pub method: &'static str,
     /// The way it ended.
     pub status: Status,
@@ -62,7 +62,7 @@ pub struct Summary {
 pub struct PluginInForce {
     /// Kind: "contact-law" or "conductance".
     pub kind: String,
-    /// Whose it is: "grains", "box", "wall top".
+    /// Owner of the plugin: "grains", "box", "wall top".
     pub of: String,
     /// Name.
     pub name: String,

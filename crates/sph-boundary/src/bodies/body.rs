@@ -227,7 +227,7 @@ impl RigidBody {
     }
 }
 
-/// Whether fluid is drawn within a support of the wall: two boxes around both meet.
+/// True if fluid is drawn within a support of the wall: two boxes around both meet.
 fn beside_fluid<const D: usize>(setting: &MoverSetting<'_, D>) -> bool {
     let places: Vec<_> = setting.pieces().flat_map(corners).collect();
     let reach = 3.0 * setting.smoothing_length;

@@ -24,11 +24,11 @@ pub(crate) struct Catenary {
     pub axial: f64,
     /// Length L without tension, m.
     pub length: f64,
-    /// Whether there is a bed at the height of the anchor.
+    /// True if there is a bed at the height of the anchor.
     pub bed: bool,
 }
 
-/// How a line hangs.
+/// Shape and tension of a hanging line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hang {
     /// Horizontal tension H, N.
@@ -66,7 +66,7 @@ impl Catenary {
         }
     }
 
-    /// How it hangs with its end x beside and z above the anchor, m; below the bed counts as on it.
+    /// Shape of the line with its end x beside and z above the anchor, m; below the bed counts as on it.
     pub fn hang(&self, x: f64, z: f64) -> Hang {
         let z = if self.bed { z.max(0.0) } else { z };
         if let Some(slack) = self.slack(x, z) {
@@ -132,7 +132,7 @@ impl Catenary {
         })
     }
 
-    /// Where the search begins (Jonkman 2007, Eq. 2-39 and 2-40).
+    /// Start of the search (Jonkman 2007, Eq. 2-39 and 2-40).
     fn guess(&self, [x, z]: [f64; 2]) -> [f64; 2] {
         let (w, length) = (self.weight, self.length);
         let lambda = if x * x + z * z >= length * length {

@@ -107,7 +107,7 @@ pub(crate) struct ImposedMotion {
 }
 
 impl Prescribed {
-    /// Whether a step from a time is its own.
+    /// True if a step from a time is one of its own.
     pub(crate) fn holds(&self, time: f64) -> bool {
         self.from <= time && time < self.to
     }

@@ -9,7 +9,7 @@ use crate::{NearElement, SeenElement};
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
 
-/// How far around a node elements are looked for, over the spacing: those within 2 spacings, and those that may come
+/// Radius of the search for elements around a node, over the spacing: those within 2 spacings, and those that may come
 /// there until the next search.
 const FAR: f64 = 2.8;
 
@@ -68,8 +68,8 @@ impl<const D: usize> Cover<D> {
         self.near.par_iter().map(share).collect()
     }
 
-    /// Whether a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may each
-    /// come nearer by 0.4.
+    /// True if a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may
+    /// each come nearer by 0.4.
     fn outdated(&self, nodes: &[(Vect<D>, usize)], spacing: f64) -> bool {
         if self.searched_at.len() != nodes.len() {
             return true;

@@ -102,8 +102,8 @@ impl Walls<3> {
     }
 }
 
-/// Where a row that begins with what is alike goes on with others. Steps of a fixed size are foreseen by the processor, those
-/// of a bisection are not.
+/// Index of the first entry of a row that is unlike the entries before it. Steps of a fixed size are foreseen by the
+/// processor, those of a bisection are not.
 #[inline(always)]
 fn first_other<T>(row: &[T], same: impl Fn(&T) -> bool) -> usize {
     const STEP: usize = 16;

@@ -15,7 +15,7 @@ type Piece = (usize, Polyline);
 struct End {
     piece: usize,
     place: [f64; 2],
-    /// Whether the line begins there: the fluid is then on the side of rising angles.
+    /// True if the line begins there: the fluid is then on the side of rising angles.
     begins: bool,
     /// Of the line, from the end on, rad.
     angle: f64,

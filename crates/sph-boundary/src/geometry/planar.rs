@@ -20,7 +20,7 @@ use crate::{
 };
 
 impl Walls<2> {
-    /// Where a segment keeps a particle off.
+    /// Plane at which a segment keeps a particle off.
     fn hindrance(
         &self,
         (x, behind): (&Vect<2>, &[(u32, u32)]),

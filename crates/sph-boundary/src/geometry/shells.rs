@@ -53,12 +53,12 @@ impl Shells {
         }
     }
 
-    /// Whether there is any.
+    /// True if there is any.
     pub fn any(&self) -> bool {
         !self.of.is_empty()
     }
 
-    /// Whether an element is at a free end.
+    /// True if an element is at a free end.
     pub fn is_rim(&self, element: usize) -> bool {
         self.rim.get(element).is_some_and(|rim| *rim)
     }

@@ -121,14 +121,14 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         found: &mut Gammas,
     );
 
-    /// Whether the way `by` from a point leads through an element.
+    /// True if the way `by` from a point leads through an element.
     fn is_crossed(&self, near: NearElement<D>, point: &Vect<D>, by: &Vect<D>) -> bool;
 
     /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
     /// is none. No element is nearer.
     fn clearance(&self, point: &Vect<D>, near: &[NearElement<D>]) -> f64;
 
-    /// Where the walls keep a particle off that is behind some shells, among the places nearer than `reach` metres.
+    /// Planes at which the walls keep off a particle behind some shells, among the places nearer than `reach` metres.
     fn hindrances(
         &self,
         of: (&Vect<D>, &[(u32, u32)]),
@@ -137,11 +137,10 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         hindrances: &mut Vec<Hindrance<D>>,
     );
 
-    /// Whether a point is on the fluid's side of all walls.
+    /// True if a point is on the fluid's side of all walls.
     fn contains(&self, point: &Vect<D>) -> bool;
 
-    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
-    /// walls.
+    /// Winding number of walls with free ends around a point, positive where they face it; none of closed walls.
     fn enclosed(&self, point: &Vect<D>) -> Option<f64>;
 
     /// Refuses points within a radius of the free end of an open wall.

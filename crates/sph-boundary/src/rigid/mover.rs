@@ -16,13 +16,13 @@ pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     fn prepare(&mut self, _setting: &MoverSetting<'_, D>) -> Result<(), MoverRefusal> {
         Ok(())
     }
-    /// How the wall meets others; none if nothing stops it. Its place among walls that touch is then in [`Load`].
+    /// Contact law of the wall; none if nothing stops it. Its place among walls that touch is then in [`Load`].
     fn touch(&self) -> Option<Touch> {
         None
     }
     /// The state at time 0.
     fn start(&self) -> RigidState<D>;
-    /// Whether it needs the force of the fluid on the wall; the force is then measured before every kick.
+    /// True if it needs the force of the fluid on the wall; the force is then measured before every kick.
     fn needs_forces(&self) -> bool {
         true
     }

@@ -35,7 +35,7 @@ const MOST_NODES: usize = 20_000_000;
 pub(crate) struct ScaleMap<const D: usize> {
     grid: Grid<D>,
     coefficients: Vec<f64>,
-    /// Whether a cell, by its first node, has anything.
+    /// Marks of cells, by their first node, with anything.
     known: Vec<bool>,
     /// The curved wall that is nearest to every node; empty if there is one.
     nearest: Vec<u32>,
@@ -70,9 +70,9 @@ struct Lump<const D: usize> {
 struct Cells<const D: usize> {
     /// ln s of the flat faces.
     flat: Vec<f64>,
-    /// Whether the cell around a node is all fluid.
+    /// Marks of cells, by the node they surround, that are all fluid.
     whole: Vec<bool>,
-    /// Where the lumps of the cell around a node begin, and the end.
+    /// First lump of the cell around each node, and the end.
     first_lump: Vec<u32>,
     lumps: Vec<Lump<D>>,
     /// ln s of the flat faces at the lumps.

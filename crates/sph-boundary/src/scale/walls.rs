@@ -32,7 +32,7 @@ struct Group<const D: usize, M> {
     wall: u32,
     /// Numbers of its walls.
     walls: Vec<u32>,
-    /// Where it was drawn.
+    /// The mesh as drawn.
     mesh: M,
     faces: Vec<FlatFace<D>>,
     map: Option<ScaleMap<D>>,

@@ -16,11 +16,11 @@ const GAP: f64 = 1.0;
 /// The same of walls that are drawn as near, or nearer.
 const LEAST_GAP: f64 = 0.5;
 
-/// How deep a place may be behind a surface to be pushed out of it, over the spacing.
+/// Greatest depth behind a surface from which a place is pushed out of it, over the spacing.
 pub(crate) const DEPTH: f64 = 1.0;
 
-/// How near surfaces are looked at, over the spacing: those that meet within a step, in which no wall goes farther than
-/// half a spacing.
+/// Range of the search for surfaces, over the spacing: those that meet within a step, in which no wall goes farther
+/// than half a spacing.
 const REACH: f64 = GAP + 1.0;
 
 /// A piece of a surface near another one.
@@ -35,7 +35,7 @@ pub(crate) struct Near<const D: usize> {
     pub away: Vect<D>,
     /// Distance of the surfaces, m; negative where one is behind the other.
     pub height: f64,
-    /// Whether the first wall is beside a corner or an edge, so that the direction changes as it goes on.
+    /// True if the first wall is beside a corner or an edge, so that the direction changes as it goes on.
     pub round: bool,
     /// Area that the place stands for, m^(D−1).
     pub area: f64,
@@ -60,7 +60,7 @@ fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Where a body is.
+/// Bounds of a body.
 struct Extent<const D: usize> {
     low: Vect<D>,
     high: Vect<D>,
@@ -85,7 +85,7 @@ impl<const D: usize> Extent<D> {
         (self.low + self.high) * 0.5
     }
 
-    /// Whether a ball may reach into it.
+    /// True if a ball may reach into it.
     fn sees(&self, x: &Vect<D>, radius: f64, domain: &Domain<D>) -> bool {
         let apart = domain.nearest(x - self.centre());
         let half = (self.high - self.low) * 0.5;
@@ -111,7 +111,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         drawn.copied().unwrap_or(GAP * self.spacing)
     }
 
-    /// How each wall meets others.
+    /// Contact law of each wall.
     pub(crate) fn touches(&self) -> Vec<Option<Touch>> {
         let touch = |spec: &WallSpec<D>| spec.mover.as_ref().and_then(|m| m.touch());
         self.specs.iter().map(touch).collect()

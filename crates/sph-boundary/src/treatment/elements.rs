@@ -120,7 +120,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         }
     }
 
-    /// Whether the contacts were found for these very positions of particles and walls.
+    /// True if the contacts were found for these very positions of particles and walls.
     fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
         let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
         let (version, moves, known) = &self.found_for;

@@ -10,7 +10,7 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 
-/// Where a particle will be at the end of a drift, seen from the wall near it.
+/// Position of a particle at the end of a drift, seen from the wall near it.
 struct DriftEnd<const D: usize> {
     /// Place in the near lists.
     place: u32,

@@ -152,7 +152,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
     }
 
-    /// Whether the mover of a wall needs forces.
+    /// True if the mover of a wall needs forces.
     pub fn needs_forces(&self, wall: usize) -> bool {
         let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
         mover.is_some_and(|mover| mover.needs_forces())
@@ -167,7 +167,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.moved().filter_map(look).collect()
     }
 
-    /// Whether any mover needs forces.
+    /// True if any mover needs forces.
     pub fn any_needs_forces(&self) -> bool {
         (0..self.specs.len()).any(|wall| self.needs_forces(wall))
     }

@@ -9,7 +9,7 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
 
-/// How far beyond the reach of the neighbour lists elements are looked for, over the support: a row stands until particle
+/// Range of the search for elements beyond that of the neighbour lists, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.
 ///
 /// Longer rows cost every γ, which has to leave out what is beyond the support; shorter ones are looked for more often.
@@ -36,10 +36,10 @@ pub(crate) struct NearLists<const D: usize> {
     pub behind: Vec<(u32, u32)>,
     /// Of every particle.
     rows: Vec<Row<D>>,
-    /// Whose rows these are.
+    /// Identities of the particles of the rows.
     identities: Vec<u32>,
     elements: Vec<NearElement<D>>,
-    /// How far walls have moved at most, m: the sum over all builds.
+    /// Largest travel of a wall, m: the sum over all builds.
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
@@ -63,7 +63,7 @@ struct Found<const D: usize> {
     elements: Vec<NearElement<D>>,
 }
 
-/// Where a particle's elements are, and where it was when they were found.
+/// Elements of a particle, and its position when they were found.
 #[derive(Clone, Copy, Debug)]
 struct Row<const D: usize> {
     place: Vect<D>,
@@ -84,7 +84,7 @@ impl<const D: usize> Row<D> {
         }
     }
 
-    /// Whether particle and walls may have come nearer by more than `skin` since it was found.
+    /// True if particle and walls may have come nearer by more than `skin` since it was found.
     fn is_stale(&self, place: &Vect<D>, travelled: f64, skin: f64) -> bool {
         let moved = (place - self.place).norm() + (travelled - self.travelled);
         moved.is_nan() || moved > skin

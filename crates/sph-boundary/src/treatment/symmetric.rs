@@ -56,7 +56,7 @@ struct Scales<const D: usize, M> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Symmetric<D, M> {
-    /// Whether any wall moves, so that s changes at a fixed place.
+    /// True if any wall moves, so that s changes at a fixed place.
     fn moves(&self) -> bool {
         self.set_up.as_ref().is_some_and(|s| s.outline.moves())
     }

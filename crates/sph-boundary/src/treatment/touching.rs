@@ -17,7 +17,7 @@ const SHARE: f64 = 0.5;
 const PARTS: f64 = 10.0;
 /// Most parts of a step.
 const MOST_PARTS: f64 = 20_000.0;
-/// How deep the weight of all bodies together presses a face into the gap, over the spacing.
+/// Depth to which the weight of all bodies together presses a face into the gap, over the spacing.
 const SINKS: f64 = 0.025;
 /// Share of the stiffness of the stiffest body that all contacts have, for what it may do to a light one in its way: it
 /// stops a fortieth of the speed that the body's own contacts stop.

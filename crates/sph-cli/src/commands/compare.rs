@@ -36,7 +36,7 @@ pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
     }
 }
 
-/// What differs between the results of two runs, and whether nothing does.
+/// Differences between the results of two runs; true if there is none.
 pub fn output(first: &Path, second: &Path) -> Result<(CommandOutput, bool), Trouble> {
     let found = compared(first, second)?;
     let same = found.remarks.is_empty() && found.columns.iter().all(|c| c.same);

@@ -45,7 +45,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
 pub struct Studied {
     /// Its results.
     pub told: CommandOutput,
-    /// What is kept and how to go on, if it stopped before its end.
+    /// Kept results and the command to go on, if it stopped before its end.
     pub going_on: Option<String>,
 }
 

@@ -45,7 +45,7 @@ impl MpiRank {
     }
 }
 
-/// What is sent of a message, piece by piece.
+/// Pieces of a message, in the order of sending.
 fn pieces(message: &[u8]) -> impl Iterator<Item = &[u8]> {
     let whole = message.len().is_multiple_of(PIECE);
     let last: Option<&[u8]> = whole.then_some(&[]);

@@ -31,10 +31,10 @@ fn note(written: std::io::Result<()>) {
     }
 }
 
-/// Whether output on stdout is incomplete.
+/// True if output on stdout is incomplete.
 static UNWRITTEN: AtomicBool = AtomicBool::new(false);
 
-/// Whether stdout took all output.
+/// True if stdout took all output.
 pub fn complete() -> bool {
     !UNWRITTEN.load(Ordering::Relaxed)
 }
@@ -55,7 +55,7 @@ pub fn json(value: &serde_json::Value) {
     out(&escaped(&format!("{value:#}")));
 }
 
-/// Whether stderr is read by a person.
+/// True if stderr is read by a person.
 pub fn terminal() -> bool {
     std::io::stderr().is_terminal()
 }

@@ -27,6 +27,6 @@ impl CommandOutput {
 pub struct Ended {
     /// Its summary.
     pub told: CommandOutput,
-    /// Whether it stopped before its end: at which time, s, and step.
+    /// Time, s, and step of a stop before the end; none if it ran to the end.
     pub interrupted: Option<(f64, u64)>,
 }

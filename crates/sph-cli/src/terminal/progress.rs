@@ -33,7 +33,7 @@ pub struct Watcher {
     /// Said once the scene is known to be good.
     start: Option<String>,
     stop: Arc<AtomicBool>,
-    /// What is counted: "particle", "grain".
+    /// Noun of the counted things: "particle", "grain".
     noun: &'static str,
     every: Duration,
     told: Instant,

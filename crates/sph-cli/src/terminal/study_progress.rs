@@ -134,7 +134,7 @@ impl Watcher {
         watcher
     }
 
-    /// Whether a variant has to run.
+    /// True if a variant has to run.
     pub fn has_to_run(&self, k: usize) -> bool {
         self.open.get(k).copied().unwrap_or(false)
     }

@@ -79,7 +79,7 @@ pub struct Failing {
     error: String,
     more: String,
     code: u8,
-    /// Whether a step failed.
+    /// True if a step failed.
     pub ran: bool,
     /// First remedy where a file could not be written.
     pub remedy: Option<&'static str>,
@@ -225,7 +225,7 @@ impl Trouble {
     }
 }
 
-/// Whether a checkpoint could not be read; one that could not be *written* leaves the one before.
+/// True if a checkpoint could not be read; one that could not be *written* leaves the one before.
 fn is_unreadable_checkpoint(error: &IoError) -> bool {
     let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
     read && error.path().extension().is_some_and(|e| e == "sph")

@@ -40,7 +40,7 @@ impl Checkpoint {
     /// Reads a checkpoint that is in memory.
     ///
     /// # Errors
-    /// Which check it failed.
+    /// The check that failed.
     pub fn from_bytes(bytes: &[u8]) -> std::result::Result<Self, Fault> {
         let found = bytes.len() as u64;
         let read = Source::new(bytes, found).checkpoint();
@@ -55,7 +55,7 @@ impl Checkpoint {
     }
 }
 
-/// Why a checkpoint could not be read: the disk, or what is on it.
+/// Reason that a checkpoint could not be read: the disk, or its contents.
 enum Trouble {
     Read(io::Error),
     Fault(Fault),
@@ -198,7 +198,7 @@ impl<R: Read> Source<R> {
     }
 }
 
-/// Whether the columns take up exactly `room` bytes and are well formed.
+/// True if the columns take up exactly `room` bytes and are well formed.
 fn fits(columns: &[Shape], room: u64) -> std::result::Result<(), Fault> {
     let count = columns.len();
     if count > COLUMNS {

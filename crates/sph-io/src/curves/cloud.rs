@@ -71,7 +71,7 @@ impl<'a> Cloud<'a> {
         self.spacing
     }
 
-    /// Whether they lie in a plane of constant z.
+    /// True if they lie in a plane of constant z.
     pub fn planar(&self) -> bool {
         self.planar
     }

@@ -170,7 +170,7 @@ impl Drawn {
         self.cells.entry(self.cell(x)).or_default().push(x);
     }
 
-    /// Whether a point is nearer than `reach`, which is at most a side of a cell.
+    /// True if a point is nearer than `reach`, which is at most a side of a cell.
     fn near(&self, x: [f64; 3], reach: f64) -> bool {
         let middle = self.cell(x);
         let around = (0..27).map(|k| [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1]);

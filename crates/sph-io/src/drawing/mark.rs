@@ -27,13 +27,13 @@ impl<'a> Mark<'a> {
         }
     }
 
-    /// Whether it is drawn below the others.
+    /// True if it is drawn below the others.
     pub(crate) fn is_behind(&self) -> bool {
         let style = &self.series.style;
         matches!(style, Style::Band(_) | Style::Background | Style::Highlight)
     }
 
-    /// Whether it has a place in the legend.
+    /// True if it has a place in the legend.
     pub(crate) fn is_named(&self) -> bool {
         !self.series.name.is_empty() && self.series.style != Style::Background
     }

@@ -21,7 +21,7 @@ use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
 use crate::error::{IoError, Result};
 
-/// Which plane is drawn.
+/// Plane of the drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
     /// x to the right, y upwards: 2D.
@@ -74,10 +74,10 @@ pub struct Picture<'a> {
     pub labels: &'a [([f64; 3], String)],
     /// Names where the values are 0, 1, …: they stand beside their colours in place of the colour bar.
     pub classes: &'a [String],
-    /// Which plane is drawn.
+    /// Plane of the drawing.
     pub view: View,
-    /// What is shown, as `[[left, right], [bottom, top]]` in metres; if absent,
-    /// the walls and the particles that are not far outside them.
+    /// Section of the plane, as `[[left, right], [bottom, top]]` in metres; if absent, the walls and the particles that
+    /// are not far outside them.
     pub window: Option<[[f64; 2]; 2]>,
     /// A place in metres that is ringed, if any.
     pub ring: Option<[f64; 3]>,
@@ -171,7 +171,7 @@ impl<'a> Picture<'a> {
         Ok(canvas)
     }
 
-    /// What does not fit together, in words.
+    /// The contradiction between parts, in words.
     fn check(&self) -> std::result::Result<(), String> {
         let (points, values) = (self.points.len(), self.values.len());
         if points != values {
@@ -371,7 +371,7 @@ impl<'a> Picture<'a> {
         widened(lo, hi)
     }
 
-    /// Whether values lie below and above the range.
+    /// True for values below, and above, the range.
     fn beyond(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
         let any = |outside: &dyn Fn(f64) -> bool| self.values.iter().any(|&v| outside(v));
         [any(&|v| v < lo), any(&|v| v > hi)]

@@ -136,7 +136,7 @@ impl Relief {
         }
     }
 
-    /// How bright the surface at a pixel is, from its slope; ridges before something far stay as they are.
+    /// Brightness of the surface at a pixel, from its slope; ridges before something far stay as they are.
     fn brightness(&self, [i, j]: [usize; 2], diameter: f64) -> f64 {
         let depth = |i: usize, j: usize| self.depth[j * self.width + i];
         let here = depth(i, j);

@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 
-/// Whether a terminal executes a character instead of showing it; line ends and tabs are left alone.
+/// True if a terminal executes a character instead of showing it; line ends and tabs are left alone.
 fn obeyed(c: char) -> bool {
     let mark = matches!(c,
         // Marks, embeddings, overrides and isolates of direction (Unicode Standard Annex 9).

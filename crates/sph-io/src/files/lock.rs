@@ -121,7 +121,7 @@ impl FolderLock {
         self.before.as_ref()
     }
 
-    /// Whether others are locked out: some file systems have no locks.
+    /// True if others are locked out: some file systems have no locks.
     pub fn holds(&self) -> bool {
         self.file.is_some()
     }
@@ -160,7 +160,7 @@ fn opened(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Whether the open file is still the one of that name.
+/// True if the open file is still the one of that name.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -55,7 +55,7 @@ impl Scratch {
         })
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -94,7 +94,7 @@ fn sweep(place: &Path, prefix: &str, own: &Path) {
     }
 }
 
-/// Whether a folder belongs to the user to whom our own does.
+/// True if a folder belongs to the user to whom our own does.
 #[cfg(unix)]
 fn is_ours(path: &Path, own: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

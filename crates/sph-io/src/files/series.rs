@@ -19,7 +19,7 @@ pub struct SeriesWriter {
     position: u64,
 }
 
-/// Whether a pipe is there, which would wait for a reader, or a link, which may lead to files of other users.
+/// True if the path is a pipe, which would wait for a reader, or a link, which may lead to files of other users.
 fn leads_elsewhere(path: &Path) -> bool {
     let kind = std::fs::symlink_metadata(path).map(|known| known.file_type());
     kind.is_ok_and(|kind| {

@@ -23,7 +23,7 @@ pub struct Table {
 pub struct TableColumn {
     /// Name without the unit.
     pub name: String,
-    /// What stood in brackets; empty if nothing did.
+    /// Text in brackets; empty if there was none.
     pub unit: String,
     /// One value per row.
     pub values: Vec<f64>,

@@ -168,8 +168,7 @@ impl PvdSeries {
         listed.map(|()| written)
     }
 
-    /// How many output times are listed; give it to [`open_at`](Self::open_at)
-    /// to continue from here.
+    /// Number of listed output times; give it to [`open_at`](Self::open_at) to continue from here.
     pub fn frames(&self) -> usize {
         distinct_times(&self.entries).len()
     }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::lanes::{Lane, Lanes};
 
-/// How many numbers stand side by side.
+/// Number of lanes, which are computed side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Width {
     /// 2: what every processor has.
@@ -46,9 +46,9 @@ pub fn width() -> Width {
     allowed.min(processor())
 }
 
-/// What is to be run with lanes of some width.
+/// Work to be run with lanes of some width.
 pub trait Body {
-    /// What it returns.
+    /// Result of the work.
     type Output;
     /// Runs it; `#[inline(always)]`, as is all that it calls.
     fn call<L: Lane>(self) -> Self::Output;

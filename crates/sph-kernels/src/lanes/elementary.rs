@@ -11,7 +11,7 @@ const FLAT: f64 = 7.0 / 16.0;
 const STEEP: f64 = 11.0 / 16.0;
 /// atan(1/2), and what its rounding leaves out.
 const ATAN_HALF: [f64; 2] = [4.636_476_090_008_061e-1, 2.269_877_745_296_169e-17];
-/// What the rounding of π/4 leaves out.
+/// Rounding error of π/4.
 const QUARTER_LOW: f64 = 3.061_616_997_868_383e-17;
 /// atan(t) = t − t³ Σ c_n t²ⁿ for |t| ≤ 7/16: Remez, error 2⁻⁵⁹ (fdlibm 5.3, s_atan.c).
 const ATAN: [f64; 11] = [

@@ -33,7 +33,7 @@ pub struct Rayleigh {
     /// Rate Γ.
     #[parameter(unit: "1/s", min: 0.0)]
     pub rate: f64,
-    /// Where; everywhere if left out.
+    /// Zones of the damping; everywhere if left out.
     #[parameter(default)]
     pub zones: Vec<Zone>,
     /// Velocity U that is left, by component; rest if left out.

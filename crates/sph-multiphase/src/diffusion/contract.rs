@@ -29,8 +29,8 @@ pub struct Smoothing<const D: usize> {
     /// Accelerations of which the term takes the mean, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if
     /// it does.
     pub accelerated: Option<Accelerated>,
-    /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
-    /// step.
+    /// True if it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end
+    /// of the step.
     pub of_pressures: bool,
 }
 

@@ -222,7 +222,7 @@ impl<const D: usize> Held<D> {
 /// Least length of the mean of the unit normals nearby; below it there is no single normal.
 const AGREE: f64 = 0.7;
 
-/// How particles near free surfaces are held; `None` where no support is less full than `surface`.
+/// Normals of particles held near free surfaces; `None` where no support is less full than `surface`.
 pub(crate) fn held_normals<const D: usize>(
     world: &World<D>,
     all: &[Evenness<D>],

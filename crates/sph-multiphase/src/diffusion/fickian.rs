@@ -70,12 +70,11 @@ pub struct Fickian {
     /// Quantities that a shifted particle takes up where it goes.
     #[parameter(default: Transport::All, source: "Sun et al. 2019")]
     pub transport: Transport,
-    /// How fast the density that is taken up comes back to that of the arrangement, over the rate at which
-    /// this is rearranged.
+    /// Rate at which the transported density returns to that of the arrangement, over the rate of rearrangement.
     #[parameter(default: 0.5, unit: "1", min: 0.0, max: 10.0,
         source: "ours; 0.1 to 1 in channels and cavities at c = 10 to 40 U")]
     pub relaxation: f64,
-    /// Whether shifts keep along walls at rest, too, as they do where a wall moves: for curved walls.
+    /// True if shifts keep along walls at rest, too, as they do where a wall moves: for curved walls.
     #[parameter(default, source: "ours")]
     pub along_walls: bool,
 }
@@ -215,8 +214,8 @@ fn along<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<
     }
 }
 
-/// How fast the component along a wall's normal dies towards it: it is multiplied with exp(−h |∇γ|/0.05), of which 3 % are
-/// left a smoothing length before a flat wall and three quarters at one and a half.
+/// Decay of the component along a wall's normal towards the wall: it is multiplied with exp(−h |∇γ|/0.05), of which 3 %
+/// are left a smoothing length before a flat wall and three quarters at one and a half.
 const TOWARDS_WALLS: f64 = 0.05;
 
 /// Leaves out what leads towards walls or away from them.

@@ -15,7 +15,7 @@ use crate::linear::{Entry, Pattern, Values};
 /// It is kept from step to step for its memory: to ask for tens of megabytes anew in every step costs a tenth of it.
 #[derive(Clone, Debug)]
 pub struct Assembly<E, const C: usize> {
-    /// Where entries are; a matrix may share it.
+    /// Pattern of the entries; a matrix may share it.
     pub pattern: Arc<Pattern>,
     /// Their values.
     pub values: Values<E>,

@@ -60,7 +60,7 @@ fn patience<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
     (D == 2 && rows <= DIRECT_ROWS).then_some(most)
 }
 
-/// Whether the diagonal alone preconditions.
+/// True if the diagonal alone preconditions.
 fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
     operator
         .stiffness()

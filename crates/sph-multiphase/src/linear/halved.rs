@@ -69,7 +69,7 @@ struct Parts<'a, E> {
 
 /// Some rows that follow each other.
 struct Part<E> {
-    /// Where the entries of each row begin: those left of the diagonal within the part, and those outside of it.
+    /// Start of the entries of each row: those left of the diagonal within the part, and those outside of it.
     starts: Vec<[u32; 2]>,
     /// Columns within the part, counted from its first row.
     inside: Vec<u16>,

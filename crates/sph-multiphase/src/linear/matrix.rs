@@ -39,7 +39,7 @@ impl Pattern {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Whether there is no row.
+    /// True if there is no row.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -116,7 +116,7 @@ impl<const D: usize> Default for Entries<D> {
 /// A symmetric matrix; both triangles are stored.
 #[derive(Clone, Debug, Default)]
 pub struct Matrix<const D: usize> {
-    /// Where entries are.
+    /// Pattern of the entries.
     pub pattern: Arc<Pattern>,
     /// Their values.
     pub entries: Entries<D>,

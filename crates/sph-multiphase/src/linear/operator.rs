@@ -33,12 +33,12 @@ pub trait Operator<const D: usize>: Sync {
         self.total(inner(&x[..rows], &y[..rows]))
     }
 
-    /// Whether it holds for every part of a divided system; all must call it.
+    /// True if it holds for every part of a divided system; all must call it.
     fn all(&self, holds: bool) -> bool {
         holds
     }
 
-    /// Whether all rows and what couples them are here.
+    /// True if all rows and their couplings are here.
     fn is_whole(&self) -> bool {
         self.columns() == self.rows()
     }

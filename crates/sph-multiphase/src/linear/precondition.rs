@@ -43,7 +43,7 @@ pub(crate) struct Factors<const D: usize> {
 }
 
 impl Preconditioner {
-    /// Whether it is made of the entries of a matrix, and not of its diagonal alone.
+    /// True if it is made of the entries of a matrix, and not of its diagonal alone.
     pub fn factorises(self) -> bool {
         matches!(
             self,

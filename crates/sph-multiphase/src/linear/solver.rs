@@ -45,7 +45,7 @@ pub trait LinearSolver<const D: usize>: Send {
         self.solve(operator, right, x)
     }
 
-    /// Whether it needs the entries of an operator in any case, and not for products and the diagonal alone.
+    /// True if it needs the entries of an operator in any case, and not for products and the diagonal alone.
     fn needs_entries(&self, _operator: &dyn Operator<D>) -> bool {
         true
     }

@@ -34,7 +34,8 @@ pub(crate) struct Part {
     pub compliance: f64,
     /// Compliance times the pressure of the equation of state, less Δt γ V D{u}, m^d.
     pub source: f64,
-    /// Whether a free surface is within reach: what the support lacks besides walls is at the pressure `outside`.
+    /// True if a free surface is within reach: the missing part of the support, besides walls, is at the pressure
+    /// `outside`.
     pub open: bool,
     /// Pa.
     pub outside: f64,
@@ -51,7 +52,7 @@ pub(crate) struct ClusterCoefficients {
 }
 
 impl<const D: usize> Couplings<'_, D> {
-    /// Whether the row of a particle is not with another owner.
+    /// True if the row of a particle is not with another owner.
     pub fn is_own(&self, i: usize) -> bool {
         self.owned.has(i)
     }

@@ -55,8 +55,8 @@ pub struct ConeTest {
     /// ε: share of ρ₀ that the constant may have where no surface is near.
     #[parameter(default: 0.01, unit: "1", min: 0.0, max: 1.0, source: "ours: a third of the 3 % that are borne")]
     pub tolerance: f64,
-    /// Whether particles at a surface have no pressure over that of the reference density: the condition p = 0 of a free
-    /// surface, half a row too deep.
+    /// True if particles at a surface have no pressure over that of the reference density: the condition p = 0 of a
+    /// free surface, half a row too deep.
     #[parameter(default)]
     pub no_pressure: bool,
 }
@@ -78,7 +78,7 @@ impl<const D: usize> Contribution<D> for ConeTest {
     }
 }
 
-/// Whether densities are K and a sum.
+/// True if densities are K and a sum.
 fn are_sums<const D: usize>(setting: &Setting<'_, D>) -> bool {
     setting.density.value.name == fields::DENSITY_CONSTANT.name
 }

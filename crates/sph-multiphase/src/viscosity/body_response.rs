@@ -139,7 +139,7 @@ impl<const D: usize> BodyResponse<D> {
         }))
     }
 
-    /// How the body's velocity changes, but for what the friction of the end of the step does.
+    /// Change of the body's velocity without the friction at the end of the step.
     fn freely(&self, dt: f64) -> Vector6<f64> {
         let pull = |r: &Vector6<f64>| r * (dt * r.dot(&self.before));
         self.ahead - self.roots.iter().map(pull).sum::<Vector6<f64>>()

@@ -26,9 +26,9 @@ const VECTORS: usize = 8;
 pub struct Lagged<const D: usize> {
     /// Stages of the viscosity of the present velocity; empty where it does not depend on it.
     pub stages: Stages<D>,
-    /// Whether an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
+    /// True if an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
     pub stiffens: bool,
-    /// Whether a soil may be held by the solve beyond its strength.
+    /// True if a soil may be held by the solve beyond its strength.
     pub may_hold: bool,
 }
 

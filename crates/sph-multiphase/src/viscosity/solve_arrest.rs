@@ -76,7 +76,7 @@ impl SolveArrest {
         })
     }
 
-    /// Why a run that has come to its end has no result, if too much was held.
+    /// Reason that a finished run has no result, if too much was held.
     pub(crate) fn verdict(&self) -> Option<StepError> {
         let told = self.warning()?;
         Some(StepError::Stage {

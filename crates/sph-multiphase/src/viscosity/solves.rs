@@ -10,7 +10,7 @@ use crate::viscosity::SolveArrest;
 /// Effort of the implicit solves of a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Solves {
-    /// How many systems were solved by each method.
+    /// Systems solved, by method.
     pub by_method: BTreeMap<String, u64>,
     /// Mean number of iterations of all, those before a factorisation included.
     pub mean_iterations: f64,
@@ -24,7 +24,7 @@ pub struct Solves {
     /// Most bytes of a matrix and of what the solver held for it.
     #[serde(default)]
     pub most_bytes: usize,
-    /// How often the viscosity followed the velocity, where it depends on it.
+    /// Updates of the viscosity by the velocity, where it depends on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer: Option<OuterSolves>,
     /// Weight of a soil that solves bore beyond its strength, with stresses of the end of the step.

@@ -12,7 +12,7 @@ pub struct ViscousLimit {
     pub coefficient: f64,
     /// Largest η/ρ₀ that the laws allow, m²/s; may be infinite.
     pub largest: f64,
-    /// Whether all viscosities are constant, so that it is the one of every state.
+    /// True if all viscosities are constant, so that it is the one of every state.
     pub constant: bool,
 }
 

@@ -5,8 +5,8 @@ use sph_core::StepError;
 use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
-    /// Whether a rank says yes, if none has failed. Every message between ranks is preceded by this, so that a rank
-    /// that fails anywhere in a step reaches the others, which wait here.
+    /// True if a rank answers yes; an error if one has failed. Every message between ranks is preceded by this, so that
+    /// a rank that fails anywhere in a step reaches the others, which wait here.
     ///
     /// # Errors
     /// If a rank has failed, on all ranks alike; messages that fail.

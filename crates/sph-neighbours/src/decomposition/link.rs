@@ -28,9 +28,9 @@ pub(crate) struct Link {
     pub partners: RwLock<Partners>,
     /// Number of times that a stage goes from particles to their neighbours.
     pub rings: usize,
-    /// Whether all ranks have got the failure at hand.
+    /// True once all ranks have got the failure at hand.
     told: AtomicBool,
-    /// Whether messages failed where no error could be returned.
+    /// True if messages failed where no error could be returned.
     lost: AtomicBool,
     pub messages: AtomicU64,
     pub bytes: AtomicU64,
@@ -78,14 +78,14 @@ impl Link {
         }
     }
 
-    /// Whether a rank says yes, if none has failed.
+    /// True if a rank answers yes; an error if one has failed.
     pub fn any(&self, failed: bool, yes: bool) -> Result<bool, PartError> {
         let mut said = [f64::from(u8::from(yes))];
         self.agree(failed, &mut said)?;
         Ok(said[0] > 0.0)
     }
 
-    /// Whether all is well at the end of something in which ranks may have failed, with or without a message.
+    /// Confirms the success of all ranks at the end of a work in which some may have failed, with or without a message.
     pub fn confirm(&self, failed: bool) -> Result<(), PartError> {
         if failed && self.told.swap(false, Ordering::Relaxed) {
             return Err(PartError::Elsewhere);

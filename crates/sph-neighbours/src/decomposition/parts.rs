@@ -104,7 +104,7 @@ impl<const D: usize> Parts<D> {
         &self.link.transport
     }
 
-    /// Whether this rank writes what all found.
+    /// True if this rank writes the common results.
     pub fn is_first(&self) -> bool {
         self.link.transport.rank() == 0
     }
@@ -174,7 +174,7 @@ impl<const D: usize> Parts<D> {
         self.link.update_ghosts_during(world, wanted, work)
     }
 
-    /// Whether each of so many particles is sent to another rank.
+    /// Marks of particles that are sent to another rank, out of so many.
     pub fn sent(&self, particles: usize) -> Vec<bool> {
         let mut sent = vec![false; particles];
         for (_, slots) in &self.link.partners().sends {

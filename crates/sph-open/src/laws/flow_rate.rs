@@ -23,7 +23,7 @@ use crate::{
 pub struct FlowRate {
     /// Volume into the fluid per time: m³/s, in two dimensions m²/s.
     pub rate: f64,
-    /// How the velocity is shared out along the face.
+    /// Distribution of the velocity along the face.
     #[parameter(default)]
     pub profile: Profile,
     /// Times, s, and factors of the rate, straight between them; it must cover the run.

@@ -30,7 +30,7 @@ pub struct VelocityInlet {
     /// Velocity into the fluid, m/s; a `profile` and `over_time` are factors of it.
     #[parameter(unit: "m/s")]
     pub velocity: f64,
-    /// How it is shared out along the face.
+    /// Distribution of the velocity along the face.
     #[parameter(default)]
     pub profile: Profile,
     /// Times, s, and factors of the velocity, straight between them; it must cover the run.

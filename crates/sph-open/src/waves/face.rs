@@ -61,7 +61,7 @@ impl<const D: usize> Face<D> {
         })
     }
 
-    /// Where it looks.
+    /// The depth gauge of the face.
     pub fn gauge(&self, now: &RigidState<D>) -> DepthGauge<D> {
         let [way, _] = self.movement(now);
         let (place, lean) = match self.arm {

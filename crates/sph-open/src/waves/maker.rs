@@ -64,7 +64,7 @@ pub struct WaveMaker<const D: usize> {
     /// Time in which the motion rises; two periods if left out.
     #[parameter(unit: "s", min: 0.0)]
     ramp: Option<f64>,
-    /// Whether waves that come back leave through the paddle.
+    /// True if waves that come back leave through the paddle.
     #[parameter(default)]
     absorb: bool,
     #[serde(skip)]
@@ -140,7 +140,7 @@ impl<const D: usize> WaveMaker<D> {
         }
     }
 
-    /// Whether the motion has the correction of second order.
+    /// True if the motion has the correction of second order.
     fn second_order(&self, paddle: Paddle, depth: f64, first: &Component) -> Settled<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
         match self.order {

@@ -24,7 +24,7 @@ pub(crate) struct Orbits {
     pub gravity: f64,
     pub current: f64,
     pub waves: Vec<Component>,
-    /// Whether the only wave is of second order.
+    /// True if the only wave is of second order.
     pub second: bool,
 }
 

@@ -59,7 +59,7 @@ pub struct WaveFace {
     /// Time in which the waves rise; two periods if left out.
     #[parameter(unit: "s", min: 0.0)]
     ramp: Option<f64>,
-    /// Whether the face yields; if left out, where a current goes out, or nothing comes in.
+    /// True if the face yields; if left out, so where a current goes out, or nothing comes in.
     yields: Option<bool>,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
     #[parameter(default)]
@@ -93,7 +93,7 @@ fn refuse<T>(key: &str, why: impl Into<String>) -> Result<T, OpenRefusal> {
 }
 
 impl WaveFace {
-    /// Whether the waves are of second order.
+    /// True if the waves are of second order.
     fn second_order(&self, orbits: &Orbits) -> Result<bool, OpenRefusal> {
         let fits = matches!(self.waves, Some(Waves::Regular(_)));
         match self.order {

@@ -18,7 +18,7 @@ pub struct Findings {
     pub retries: u32,
     /// The step that failed last, s.
     pub dt: f64,
-    /// Whose bound it came from.
+    /// Name of the limit that bound the step.
     pub limiter: String,
     /// The particle at fault, or the one with the largest acceleration where none is named.
     pub particle: Option<Suspect>,
@@ -37,7 +37,7 @@ pub struct Findings {
 pub struct Suspect {
     /// Its number.
     pub number: u32,
-    /// Whether the failed step named it.
+    /// True if the failed step named it.
     pub named: bool,
     /// Its phase.
     pub phase: String,

@@ -75,7 +75,7 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
     }
 }
 
-/// Whether an acceleration is beyond what drives flows.
+/// True if an acceleration exceeds those that drive flows.
 fn large(scene: &Scene, acceleration: f64) -> bool {
     let size = |a: &Option<Vec<f64>>| a.iter().flatten().map(|x| x * x).sum::<f64>().sqrt();
     let driven = size(&scene.numerics.gravity) + size(&scene.numerics.driving);

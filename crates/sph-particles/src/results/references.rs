@@ -123,7 +123,7 @@ fn against_field<const D: usize>(
     Ok(entry)
 }
 
-/// Whether a time counts.
+/// True if a time counts.
 fn counts(reference: &Reference, t: f64) -> bool {
     let inside = reference.window.is_none_or(|[a, b]| t >= a && t <= b);
     inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)

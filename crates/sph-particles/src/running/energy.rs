@@ -29,7 +29,7 @@ const OWN: [&str; 9] = [
 /// The energies of a flow so far, J.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EnergyWatch {
-    /// Whether anything else than its own weight may give the flow energy, or hold some that its sums leave out.
+    /// True if anything else than its own weight may give the flow energy, or hold some that its sums leave out.
     driven: bool,
     /// Sum and potential energy in the first row, largest kinetic, least potential energy, largest rise of the sum.
     so_far: Option<[f64; 5]>,

@@ -211,7 +211,7 @@ struct About<'a, const D: usize> {
     shown: &'a [String],
 }
 
-/// Whether a wall moves or slides.
+/// True if a wall moves or slides.
 pub fn moves(wall: &sph_scene::Wall) -> bool {
     wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
 }

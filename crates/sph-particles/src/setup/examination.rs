@@ -21,7 +21,7 @@ pub struct FieldUse {
     pub name: String,
     /// SI unit.
     pub unit: String,
-    /// Whether it carries history.
+    /// True if it carries history.
     pub state: bool,
     /// Bytes per particle.
     pub bytes: usize,
@@ -36,7 +36,7 @@ pub struct FieldUse {
 pub struct StageUse {
     /// Name.
     pub name: String,
-    /// Whether it walks over neighbours.
+    /// True if it walks over neighbours.
     pub sweep: bool,
     /// Columns read at the particle.
     pub reads_here: Vec<String>,

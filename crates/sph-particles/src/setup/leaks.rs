@@ -267,7 +267,7 @@ impl<const D: usize> Rim<D> {
     }
 }
 
-/// Whether a place is in the box around a skin.
+/// True if a place is in the box around a skin.
 fn within<const D: usize>(skin: &Skin<D>, x: &Vect<D>) -> bool {
     (0..D).all(|k| skin.low[k] <= x[k] && x[k] <= skin.high[k])
 }

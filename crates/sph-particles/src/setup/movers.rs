@@ -60,7 +60,7 @@ pub(crate) fn prepare<const D: usize>(
     Ok(())
 }
 
-/// Whether the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
+/// True if the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
 pub(crate) fn carried(scene: &Scene) -> bool {
     let mut walls = scene.wall.values();
     match scene.wall.is_empty() {

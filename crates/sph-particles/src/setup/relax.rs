@@ -45,7 +45,7 @@ pub fn relax<const D: usize>(
     relax_positions(world, walls, &surface, most, tolerance).map(Some)
 }
 
-/// Whether air is within a support: a place of the fluid's side that belongs to no body.
+/// True if air is within a support: a place of the fluid's side that belongs to no body.
 ///
 /// Places are tried along the directions of a lattice of side 5, half a support and a whole one away.
 fn near_surface<const D: usize>(

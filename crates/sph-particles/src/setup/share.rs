@@ -41,7 +41,7 @@ pub fn refuse_the_indivisible<const D: usize>(
     }
 }
 
-/// Whether all ranks are ready, which all must call.
+/// Confirms that all ranks are ready, which all must call.
 pub fn all_ready<T, E: From<StepError>>(
     ranks: &dyn Transport,
     ready: Result<T, E>,

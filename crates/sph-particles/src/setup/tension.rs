@@ -82,7 +82,7 @@ pub(crate) fn lift<const D: usize>(
     ))
 }
 
-/// Whether every place a spacing beside a particle has another particle, or is behind a wall.
+/// True if every place a spacing beside a particle has another particle, or is behind a wall.
 fn is_full<const D: usize>(room: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
     let reach = (1.0 + NEAR) * room.spacing;
     let grid = CellGrid::new(positions, reach, &room.domain);

@@ -45,7 +45,7 @@ pub struct ScourMap {
     number: Option<u32>,
 }
 
-/// How the part that counts is divided, m.
+/// Cells of the counted part, m.
 struct Grid {
     corner: [f64; 2],
     width: [f64; 2],

@@ -26,7 +26,7 @@ pub enum EnergyWork {
     Walls,
     /// Driving, interfaces, elastic and other forces.
     Others,
-    /// What the length of the step makes, and whatever is not listed.
+    /// Error of the step's length, and terms without a column.
     Remainder,
 }
 

@@ -5,7 +5,7 @@ use sph_core::{Axis, parameters, plugin};
 use crate::ProbeEntry;
 use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce};
 
-/// Which of the two ends of a phase along an axis.
+/// One of the two ends of a phase along an axis.
 #[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {

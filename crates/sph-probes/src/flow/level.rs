@@ -29,8 +29,8 @@ pub struct Level {
     pub follows: Option<String>,
     /// Name of the phase whose top is measured; the free surface of all of them if left out.
     pub phase: Option<String>,
-    /// Whether dry parts of the line below that place are taken off, as a wire does whose wet length is measured: a drop in the air
-    /// then counts with its own height.
+    /// True if dry parts of the line below that place are taken off, as a wire does whose wet length is measured: a
+    /// drop in the air then counts with its own height.
     #[parameter(default)]
     pub wetted: bool,
     #[serde(skip)]
@@ -117,7 +117,7 @@ fn length_where(holds: impl Fn(f64) -> bool, from: f64, to: f64, step: f64) -> f
     middles.filter(|z| holds(*z)).count() as f64 * each
 }
 
-/// Whether the highest particle within a spacing of the line is within reach of a wall, and not the floor below
+/// True if the highest particle within a spacing of the line is within reach of a wall, and not the floor below
 /// `floor`.
 fn beside_a_wall<const D: usize>(
     world: &World<D>,

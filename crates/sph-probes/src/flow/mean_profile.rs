@@ -33,13 +33,13 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 pub struct MeanProfile {
     /// The axis that layers are cut across.
     pub axis: Component,
-    /// Where the first layer begins.
+    /// Start of the first layer.
     #[parameter(unit: "m")]
     pub from: f64,
-    /// Where the last layer ends.
+    /// End of the last layer.
     #[parameter(unit: "m")]
     pub to: f64,
-    /// How many there are.
+    /// Number of layers.
     #[parameter(min: 1, max: 10000)]
     pub layers: usize,
     /// The time from which rows of the series count.
@@ -49,7 +49,7 @@ pub struct MeanProfile {
     pub within: Option<[Vec<f64>; 2]>,
     /// A scalar field in the place of the velocity.
     pub field: Option<String>,
-    /// Which component of the velocity is compared.
+    /// Component of the velocity that is compared.
     #[parameter(default: Component::X)]
     pub component: Component,
     /// CSV file of the reference, relative to the scene's folder: distance from `from` in m, value in SI.

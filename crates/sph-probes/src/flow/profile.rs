@@ -40,12 +40,12 @@ pub enum Component {
 #[plugin(ProbeEntry [2, 3], "profile", "a component of the velocity along a line, beside a reference",
     source: "moving least squares of first order")]
 pub struct Profile {
-    /// Which component of the velocity.
+    /// Component of the velocity.
     pub component: Component,
-    /// Where the line starts.
+    /// Start of the line.
     #[parameter(unit: "m")]
     pub from: Vec<f64>,
-    /// Where it ends.
+    /// End of the line.
     #[parameter(unit: "m")]
     pub to: Vec<f64>,
     /// CSV file of the reference, relative to the scene's folder: distance from the start in m, velocity in m/s.

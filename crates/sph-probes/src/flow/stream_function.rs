@@ -36,7 +36,7 @@ pub struct StreamFunction {
     /// Spacing of the grid; half of that of the particles if left out.
     #[parameter(unit: "m", above: 0.0)]
     pub grid: Option<f64>,
-    /// How often the mean is corrected.
+    /// Number of corrections of the mean.
     #[parameter(default, max: 4)]
     pub corrections: u32,
 }

@@ -1,6 +1,6 @@
 //! Reductions of many values to a number.
 
-/// How values become a number. NaN where there is none, but for sums, counts and shares of something.
+/// Reduction of values to a number. NaN where there is none, but for sums, counts and shares of something.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reduce {
     /// The least.

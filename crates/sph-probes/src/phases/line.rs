@@ -8,7 +8,7 @@ use crate::beds::columns::{Columns, End};
 use crate::phases::phase::{self, Counted};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// Which line of a body of soil.
+/// Line of a body of soil.
 #[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum LineOf {
@@ -48,7 +48,7 @@ pub enum LineOf {
 #[plugin(ProbeEntry [2], "line", "free surface, failure line or limit of motion of a phase against a drawn line",
     source: "highest particles; Ghaïtanellis 2017, §5.3.2, Eq. 5.21")]
 pub struct Line {
-    /// Which line: `surface`, `failure` or `limit`.
+    /// The line: `surface`, `failure` or `limit`.
     #[parameter(default)]
     pub of: LineOf,
     /// CSV file of the reference, relative to the scene's folder: x and y in m.

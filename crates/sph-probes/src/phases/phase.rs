@@ -48,7 +48,7 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Whether particle `k` counts.
+    /// True if particle `k` counts.
     pub fn has(&self, k: usize) -> bool {
         match self {
             Counted::All => true,

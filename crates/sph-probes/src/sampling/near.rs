@@ -108,7 +108,7 @@ impl Near {
         j * self.cells[0] + i
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.images.is_empty()
     }

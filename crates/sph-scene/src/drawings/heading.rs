@@ -31,7 +31,7 @@ pub(crate) struct Chosen {
     pub at: [usize; 2],
     /// Factor from the numbers of each to SI.
     pub factors: [f64; 2],
-    /// Whether there are no others.
+    /// True if there are no others.
     pub only: bool,
 }
 

@@ -53,7 +53,7 @@ struct Pen {
     at: Point,
     start: Point,
     handle: Handle,
-    /// Whether a line has been begun.
+    /// True if a line has been begun.
     down: bool,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::geometry::periodic_place::{Placed, ROUNDING};
 
-/// Where the lattice of a body starts, counted from the lower corner of the box around it.
+/// Origin of the lattice of a body, counted from the lower corner of the box around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Offset {
     /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if

@@ -13,7 +13,7 @@ use crate::{FluidSide, Polygon};
 pub struct Line {
     /// Corners in the order of travel, m.
     pub points: Vec<[f64; 2]>,
-    /// Whether an edge leads from the last corner back to the first.
+    /// True if an edge leads from the last corner back to the first.
     pub closed: bool,
 }
 

@@ -38,7 +38,7 @@ impl Polygon {
         0.5 * self.edges().map(cross).sum::<f64>()
     }
 
-    /// Whether a point is inside, by the parity of crossings.
+    /// True if a point is inside, by the parity of crossings.
     pub fn contains(&self, x: [f64; 2]) -> bool {
         self.edges().filter(|(a, b)| crosses_ray(x, *a, *b)).count() % 2 == 1
     }
@@ -65,7 +65,7 @@ impl Polygon {
     }
 }
 
-/// Whether the ray from a point to the right passes an edge.
+/// True if the ray from a point to the right passes an edge.
 pub(crate) fn crosses_ray(x: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
     (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
 }

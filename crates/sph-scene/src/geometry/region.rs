@@ -6,9 +6,9 @@ use crate::{LevelSurface, Shape};
 /// A shape less other shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region<const D: usize> {
-    /// What is filled.
+    /// The filled region.
     pub base: Shape<D>,
-    /// What is cut out of it.
+    /// Regions cut out of it.
     pub cuts: Vec<Shape<D>>,
 }
 

@@ -33,7 +33,7 @@ pub enum Shape<const D: usize> {
     Side {
         /// The surface.
         surface: LevelSurface,
-        /// Whether it is what is above it.
+        /// True if it describes the half space above.
         above: bool,
     },
     /// All that is above a wave.

@@ -126,8 +126,8 @@ impl Wall {
         Ok(facets)
     }
 
-    /// How many corners or facets the shape of the wall will have, where that is not in the length of the
-    /// scene itself; none of a file, which has its own error.
+    /// Number of corners or facets of the wall's shape, where it is not in the length of the scene itself; none of a
+    /// file, which has its own error.
     pub fn declared(&self, spacing: f64) -> usize {
         let spacing = spacing / self.factor();
         let sides = |given: Option<usize>, radius: f64| {
@@ -288,7 +288,7 @@ impl Wedge {
     }
 }
 
-/// Whether the name of a file ends in `.ending`, in letters of any size.
+/// True if the name of a file ends in `.ending`, in letters of any size.
 pub(crate) fn has_ending(file: &str, ending: &str) -> bool {
     let found = file.rsplit_once('.').map(|(_, found)| found);
     found.is_some_and(|found| found.eq_ignore_ascii_case(ending))

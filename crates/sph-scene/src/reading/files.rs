@@ -13,7 +13,7 @@ pub struct DataFile {
     pub key: String,
     /// The file as the scene names it.
     pub named: String,
-    /// Where it is, if the scene may name it.
+    /// Path of the file, if the scene may name it.
     pub path: Result<PathBuf, PathProblem>,
 }
 

@@ -38,7 +38,7 @@ pub struct Body {
     /// Point, m, in that one of several regions between the walls which `fill` fills; all of them if left out.
     #[parameter(unit: "m")]
     pub seed: Option<Vec<f64>>,
-    /// Whether only what is on the fluid's side of all walls is filled.
+    /// True if only the fluid's side of all walls is filled.
     #[parameter(default)]
     pub clip: bool,
     /// Shapes that are cut out.
@@ -89,7 +89,7 @@ pub struct Cutout {
     pub extrusion: Option<Extrusion>,
 }
 
-/// What a body without a shape fills.
+/// Filling of a body without a shape.
 #[parameters]
 pub enum Filling {
     /// Every place that the walls enclose.
@@ -207,7 +207,7 @@ with_shape!(Cutout, ellipse);
 with_shape!(Wall);
 
 impl Body {
-    /// Whether walls decide what is filled: `clip` or `fill`.
+    /// True if walls decide what is filled: `clip` or `fill`.
     pub fn needs_walls(&self) -> bool {
         self.clip || self.fill.is_some()
     }

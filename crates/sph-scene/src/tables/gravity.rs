@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use sph_core::parameters;
 
-/// What is added to `gravity` over time, m/s²; exactly one of `sine`, `table` and `file`.
+/// Acceleration that is added to `gravity` over time, m/s²; exactly one of `sine`, `table` and `file`.
 ///
 /// In the frame of a tank that moves it is the acceleration of the tank with the other sign.
 #[parameters]

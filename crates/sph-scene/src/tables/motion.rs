@@ -46,7 +46,7 @@ pub struct Levels {
     /// A table with a column `time` (s) and one of levels (m) for each place, relative to the scene's folder: `series.csv` of a
     /// run, for example.
     pub file: String,
-    /// Where the levels were taken, ascending along x, m.
+    /// Places of the levels, ascending along x, m.
     #[parameter(unit: "m", min_items: 1)]
     pub places: Vec<f64>,
     /// The columns of these places.

@@ -20,12 +20,12 @@ pub struct Outlet {
     pub beyond: Option<f64>,
     /// Axis across which the plane stands; x if left out.
     pub axis: Option<Axis>,
-    /// Which side of the plane is beyond it, `forward` or `backward`; larger coordinates if left out.
+    /// Side of the plane that is beyond it, `forward` or `backward`; larger coordinates if left out.
     pub direction: Option<Heading>,
 }
 
 impl Outlet {
-    /// Whether a place is in the outlet.
+    /// True if a place is in the outlet.
     pub fn contains<const D: usize>(&self, x: &[f64; D]) -> bool {
         if let Some([lo, hi]) = &self.bounds {
             let within = |k: usize| lo.get(k) <= Some(&x[k]) && Some(&x[k]) <= hi.get(k);

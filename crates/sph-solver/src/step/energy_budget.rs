@@ -59,7 +59,7 @@ fn of_hooks(kind: &str) -> Account {
 /// Counts the work of all terms on every particle, step by step.
 pub struct EnergyBudget<const D: usize> {
     diffused: Diffused,
-    /// Whether densities are sums over positions, which shifts change.
+    /// True if densities are sums over positions, which shifts change.
     summed: bool,
     /// −D lnρ/Dt by motion.
     dilatation: [Box<dyn Interaction<D>>; 1],
@@ -68,7 +68,7 @@ pub struct EnergyBudget<const D: usize> {
     terms: Vec<(String, Option<Account>)>,
     /// The accounts of the classes of terms.
     classes: Vec<Account>,
-    /// Whose work every hook does, in their order.
+    /// Account of the work of every hook, in their order.
     hooks: Vec<Account>,
     /// The number of the hook that kicks, if there is one.
     kicker: Option<usize>,

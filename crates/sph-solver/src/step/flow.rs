@@ -51,7 +51,7 @@ pub struct Flow<const D: usize> {
     pub inner_bounds: Vec<String>,
     /// Work within a step.
     pub hooks: Hooks<D>,
-    /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
+    /// True if hooks before a drift read density, volume, pressure and γ of the present positions.
     pub(crate) fresh_state: bool,
     /// Forces on walls by hooks in the last kick, in the order of the walls; empty if there are none.
     pub(crate) on_walls: Vec<WallForce<D>>,
@@ -63,9 +63,9 @@ pub struct Flow<const D: usize> {
     pub(crate) outside: Vec<OutsideForce<D>>,
     /// Declarations of all of these.
     pub(crate) columns: Columns,
-    /// Whether particles moved since the last evaluation.
+    /// True if particles moved since the last evaluation.
     pub moved: bool,
-    /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
+    /// True if the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
     /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
@@ -127,7 +127,7 @@ impl<const D: usize> Flow<D> {
         };
     }
 
-    /// Whether nothing has been looked for near particles yet.
+    /// True if nothing has been looked for near particles yet.
     pub fn is_blank(&self) -> bool {
         self.world.lists.reference.is_empty()
     }

@@ -46,7 +46,7 @@ impl<const D: usize> Flow<D> {
         self.load_walls_more(&force_requests)
     }
 
-    /// Whether the mover of each wall needs forces; empty if none does.
+    /// Marks of walls whose mover needs forces; empty if none does.
     fn force_requests(&self) -> Vec<bool> {
         let Some(walls) = &self.walls else {
             return Vec::new();

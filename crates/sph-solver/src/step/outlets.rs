@@ -74,7 +74,7 @@ impl Outlets {
         &self.labels[..self.named]
     }
 
-    /// Whether there is no outlet.
+    /// True if there is no outlet.
     pub fn is_empty(&self) -> bool {
         self.labels.is_empty()
     }

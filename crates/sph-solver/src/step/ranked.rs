@@ -95,7 +95,7 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Whether any rank has a reason; every rank must call it.
+    /// True if any rank has a reason; every rank must call it.
     pub fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
         match &mut self.parts {
             None => Ok(own),

@@ -95,7 +95,7 @@ pub struct InteractionSweep<const D: usize> {
     terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The column that density diffusion changes, if there is any.
     diffused: Option<Diffused>,
-    /// Whether walls exist.
+    /// True if walls exist.
     walls: bool,
     declared: Vec<Access>,
     /// Buffer of rates that terms sum besides.

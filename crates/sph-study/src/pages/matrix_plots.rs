@@ -24,7 +24,7 @@ pub fn axes(results: &Results) -> Vec<(String, Plot)> {
     plots
 }
 
-/// What a run is drawn by: the first error of its axis, or its largest deviation of the density.
+/// Ordinate of a run: the first error of its axis, or its largest deviation of the density.
 fn ordinate(frontier: &Frontier, variant: &VariantResult) -> Option<f64> {
     match frontier.errors.first() {
         Some(error) => variant.error(error),

@@ -14,7 +14,7 @@ pub struct Options {
     pub out: PathBuf,
     /// Threads; `None` for all cores.
     pub threads: Option<usize>,
-    /// Whether finished variants are run again.
+    /// True if finished variants are run again.
     pub fresh: bool,
     /// On what and by what variants are run, for the records.
     pub origin: Origin,

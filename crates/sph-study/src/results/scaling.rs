@@ -181,7 +181,7 @@ fn reigns(among: &str, all: &[Competitor]) -> Vec<FastestRange> {
     found.into_iter().map(|(_, reign)| reign).collect()
 }
 
-/// Where two power laws through their costs at two sizes meet; halfway where one has none.
+/// Size at which two power laws through their costs at two sizes meet; halfway where one has none.
 fn takeover(sizes: [f64; 2], costs: impl Fn(f64) -> Option<[f64; 2]>) -> f64 {
     let [low, high] = sizes.map(f64::ln);
     let lead = |n: f64| costs(n).map(|[a, b]| (a / b).ln());

@@ -16,7 +16,7 @@ pub struct Scaling {
     pub between: Option<String>,
 }
 
-/// What costs time.
+/// Unit of the cost of a run.
 #[parameters]
 pub enum Cost {
     /// A step, everything included.

@@ -244,7 +244,7 @@ impl Record {
         self.health.clone_from(&run.health);
     }
 
-    /// Whether nothing is left to do for a variant of this fingerprint.
+    /// True if nothing is left to do for a variant of this fingerprint.
     pub fn settles(&self, fingerprint: &str, repetitions: usize, limit: Option<f64>) -> bool {
         let same = self.fingerprint == fingerprint;
         same && match self.status {

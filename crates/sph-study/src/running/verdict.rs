@@ -40,7 +40,7 @@ pub struct Verdict {
     pub why: String,
 }
 
-/// What every run can be judged by, besides the scene's references, with what it means.
+/// Quantities of every run for a verdict, besides the scene's references, each with its meaning.
 pub const QUANTITIES: [(&str, &str); 7] = [
     (
         "energy-rise",

@@ -59,7 +59,7 @@ pub struct KLength {
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
     pub bed: Option<RoughBed>,
-    /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    /// True if production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
     #[parameter(default)]
     pub damped_at_surfaces: bool,
 }
@@ -192,9 +192,9 @@ struct Sources {
     length: Length,
     /// ν of every phase, m²/s; none of those that it does not act on.
     viscosities: Vec<Option<f64>>,
-    /// Whether production is damped at surfaces.
+    /// True if production is damped at surfaces.
     damped: bool,
-    /// Whether there is a bed that is a rough wall.
+    /// True if there is a bed that is a rough wall.
     bed: bool,
 }
 

@@ -4,7 +4,7 @@ use sph_core::parameters;
 
 use super::realisable::RealisableModel;
 
-/// Which equations k and ε follow.
+/// Equations of k and ε.
 #[parameters]
 pub enum Variant {
     /// Launder and Spalding 1974, with the production of Guimet and Laurence 2002: [`KEpsilonModel`].

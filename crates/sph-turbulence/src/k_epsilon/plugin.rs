@@ -56,10 +56,10 @@ pub struct KEpsilon {
     /// κ of the wall values.
     #[parameter(default: 0.41, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.22")]
     pub karman: f64,
-    /// Which equations.
+    /// Equations of k and ε.
     #[parameter(default)]
     pub variant: Variant,
-    /// What k and ε are next to walls with a wall function.
+    /// Values of k and ε next to walls with a wall function.
     #[parameter(default,
         source: "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; the flux of ε is ours")]
     pub at_wall: AtWall,
@@ -69,7 +69,7 @@ pub struct KEpsilon {
     /// The bed of another phase as a rough wall.
     #[parameter(default)]
     pub bed: Option<RoughBed>,
-    /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    /// True if production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
     #[parameter(default)]
     pub damped_at_surfaces: bool,
     /// Depth H of a channel at whose surface ε = k^{3/2}/(0.18 H), in the particles whose support the surface cuts by a quarter

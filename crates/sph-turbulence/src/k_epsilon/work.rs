@@ -11,7 +11,7 @@ use super::realisable::RealisableModel;
 use crate::closures::phases::Kinematic;
 use crate::columns::{DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS};
 
-/// What k and ε are within a spacing of walls with a wall function.
+/// Values of k and ε within a spacing of walls with a wall function.
 #[parameters]
 pub enum AtWall {
     /// Both those of the logarithm: k = u*²/√C_μ, ε = u*³/(κz).
@@ -33,11 +33,11 @@ pub(crate) struct Sources {
     pub karman: f64,
     /// ν of every phase, m²/s; none of those that it does not act on.
     pub viscosities: Vec<Option<f64>>,
-    /// Whether production is damped at surfaces.
+    /// True if production is damped at surfaces.
     pub damped: bool,
     /// Depth of a channel at whose surface ε is a value, m.
     pub surface_depth: Option<f64>,
-    /// Whether there is a bed that is a rough wall.
+    /// True if there is a bed that is a rough wall.
     pub bed: bool,
 }
 
@@ -63,7 +63,7 @@ struct Strained {
 const AT_SURFACE: f64 = 0.5;
 
 impl Sources {
-    /// Whether the share of the support that is filled matters.
+    /// True if the share of the support that is filled matters.
     fn sees_surfaces(&self) -> bool {
         self.damped || self.surface_depth.is_some()
     }

@@ -23,7 +23,7 @@ pub enum WallLawError {
     WithinRoughness {
         /// The given value, m.
         distance: f64,
-        /// Where the velocity of the fully rough law begins, m.
+        /// Least height of the velocity of the fully rough law, m.
         least: f64,
     },
     /// Constants that are none.

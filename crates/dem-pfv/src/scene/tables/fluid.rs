@@ -16,7 +16,7 @@ pub struct Fluid {
     /// Bulk modulus K_f, Pa; a fluid that does not give way if left out.
     #[parameter(unit: "Pa", above: 0.0)]
     pub bulk_modulus: Option<f64>,
-    /// Whether it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
+    /// True if it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
     #[parameter(default)]
     pub shear: bool,
     /// Lubrication of the gaps between neighbours; none if left out.

@@ -143,7 +143,7 @@ pub struct Mesh<const D: usize> {
     /// Normals of the faces before any motion.
     pub(crate) reference_normals: Vec<Point>,
     pub(crate) poses: Vec<Pose<D>>,
-    /// How each wall moves; only changes of its shape matter.
+    /// Motion of each wall; only changes of its shape matter.
     pub(crate) motions: Vec<RigidMotion<D>>,
     /// The beds that walls follow, as they are.
     pub(crate) beds: Vec<Bed>,

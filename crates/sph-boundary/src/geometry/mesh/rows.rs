@@ -82,7 +82,7 @@ impl<const D: usize> Candidates<D> {
     }
 }
 
-/// How many points from the first on lie in a box of at most this diagonal, m.
+/// Number of points from the first on that lie in a box of at most this diagonal, m.
 fn together<const D: usize>(points: &[[f64; D]], diagonal: f64) -> usize {
     let (mut lower, mut upper) = (points[0], points[0]);
     let apart = |point: &[f64; D]| {

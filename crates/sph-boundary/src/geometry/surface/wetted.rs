@@ -9,7 +9,7 @@ use crate::geometry::sets::Sets;
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 
-/// Where walls touched face to face.
+/// Contacts of walls face to face.
 #[derive(Default)]
 pub(super) struct Touched {
     /// Edges of the pieces that touched, as they were.

@@ -129,7 +129,7 @@ impl Renormalisation3d {
     }
 }
 
-/// How a triangle is weighed.
+/// Quadrature rule of a triangle.
 pub(super) enum Rule {
     /// By six points.
     Six,
@@ -139,7 +139,7 @@ pub(super) enum Rule {
     Exact,
 }
 
-/// Whether [`Rule::Six`] holds for all lanes: squared distances of the centres and areas, m², and 1/h².
+/// True if [`Rule::Six`] holds for all lanes: squared distances of the centres and areas, m², and 1/h².
 #[inline(always)]
 pub(super) fn is_far<L: Lane>(centre: L, area: L, per_h2: f64) -> bool {
     let near = centre.any_less(L::splat(SIX.distance) * area);

@@ -104,8 +104,7 @@ struct Squares<'a> {
 }
 
 impl Body for Squares<'_> {
-    /// How many lanes were filled, the last ones over and over with the last triangle, and whether six points are enough
-    /// for all.
+    /// Number of lanes filled, the last ones repeatedly with the last triangle; true if six points are enough for all.
     type Output = (usize, bool);
 
     #[inline(always)]

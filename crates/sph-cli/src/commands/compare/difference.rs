@@ -12,7 +12,7 @@ pub struct Difference {
     file: String,
     column: String,
     unit: String,
-    /// Whether all its bits are the same.
+    /// True if all its bits are the same.
     pub same: bool,
     /// The largest |a − b|; infinite where one of them is no number.
     largest: f64,
@@ -154,7 +154,7 @@ fn difference(
 }
 
 impl Difference {
-    /// Whether it is of the same column of the same file.
+    /// True if it is of the same column of the same file.
     pub fn is_of(&self, other: &Difference) -> bool {
         self.file == other.file && self.column == other.column
     }

@@ -86,7 +86,7 @@ fn specimen(plugin: &PluginInfo, table: &Table, label: String) -> Result<LawSamp
     Ok(LawSample { label, law })
 }
 
-/// Which law an override is for, and the override within its own table.
+/// Law that an override is for, and the override within its own table.
 fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override), Trouble> {
     if plugins.len() == 1 {
         return Ok((0, set.clone()));
@@ -122,7 +122,7 @@ fn example(plugin: &PluginInfo) -> Table {
     table.cloned().unwrap_or_default()
 }
 
-/// How a value of `--vary` stands in a legend: `{a = {b = 1}}` as `a b = 1`.
+/// Form of a value of `--vary` in a legend: `{a = {b = 1}}` as `a b = 1`.
 fn plainly(value: &Value) -> String {
     let entry = |(key, value): (&String, &Value)| match value {
         Value::Table(inner) => format!("{key} {}", table(inner)),

@@ -143,7 +143,7 @@ mod tests {
 
     use super::*;
 
-    /// Why a value does not fit a node of a schema, if it does not.
+    /// Reason that a value does not fit a node of a schema, if it does not.
     fn misfit(value: &Json, node: &Json, root: &Json) -> Option<String> {
         let target = node["$ref"].as_str().and_then(|r| r.strip_prefix('#'));
         if let Some(target) = target.and_then(|t| root.pointer(t)) {

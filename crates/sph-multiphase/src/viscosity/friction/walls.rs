@@ -15,7 +15,7 @@ const LEAST_DISTANCE: f64 = 0.5;
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// Whether fluid passes an element.
+    /// True if fluid passes an element.
     #[inline(always)]
     pub(super) fn is_open(&self, element: u32) -> bool {
         !self.open.is_empty() && self.open.contains(&self.elements.wall[element as usize])
