@@ -29,11 +29,11 @@ pub struct Plugins {
     phases: Vec<Vec<PluginChoice>>,
     /// Names of the columns that outputs show and probes measure.
     pub shown: Vec<String>,
-    found: RefCell<Found>,
+    found: RefCell<PluginReport>,
 }
 
 #[derive(Default)]
-struct Found {
+struct PluginReport {
     problems: Vec<SceneProblem>,
     in_force: Vec<PluginInForce>,
 }
@@ -100,7 +100,7 @@ impl Plugins {
                 Some(made)
             }
             Err(error) => {
-                let new = choice.blame(&error).into_iter();
+                let new = choice.scene_problems(&error).into_iter();
                 let new: Vec<_> = new.filter(|p| !found.problems.contains(p)).collect();
                 found.problems.extend(new);
                 None
@@ -114,7 +114,7 @@ impl Plugins {
     /// Everything that was wrong with names and parameters; if nothing was, tables of plugins that the scene has no use
     /// for.
     pub fn in_force(self) -> Result<Vec<PluginInForce>, Vec<SceneProblem>> {
-        let Found {
+        let PluginReport {
             mut problems,
             mut in_force,
         } = self.found.into_inner();

@@ -31,12 +31,12 @@ pub struct Store<const D: usize> {
     /// Particles born.
     pub(crate) born: Inserted,
     pub(crate) watch: Watch,
-    pub(crate) spare: Spare<D>,
+    pub(crate) spare: SortBuffers<D>,
 }
 
 /// A column of each kind to sort into: allocated when particles of such a column are first sorted.
 #[derive(Default)]
-pub(crate) struct Spare<const D: usize> {
+pub(crate) struct SortBuffers<const D: usize> {
     scalar: Vec<f64>,
     vector: Vec<Vect<D>>,
     index: Vec<u32>,
@@ -62,7 +62,7 @@ impl<const D: usize> Store<D> {
             taken: Vec::new(),
             born: Inserted::default(),
             watch: Watch::default(),
-            spare: Spare::default(),
+            spare: SortBuffers::default(),
         }
     }
 

@@ -39,7 +39,7 @@ pub struct Parameter {
 
 impl Parameter {
     /// Those of the attribute `parameter`, which is taken out of the list; none without it.
-    pub fn taken(attributes: &mut Vec<Attribute>) -> syn::Result<Self> {
+    pub fn take_from(attributes: &mut Vec<Attribute>) -> syn::Result<Self> {
         let Some(place) = attributes
             .iter()
             .position(|a| a.path().is_ident("parameter"))

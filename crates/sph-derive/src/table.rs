@@ -31,7 +31,7 @@ impl Parse for Root {
 }
 
 /// A type whose words have been read, and what goes with it.
-struct Read {
+struct AnnotatedType {
     item: DeriveInput,
     derives: Vec<&'static str>,
     /// Words for `serde`.
@@ -42,7 +42,7 @@ struct Read {
 }
 
 /// A plugin that keeps more than its parameters is no value to copy or to print.
-fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
+fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
     let derived = words(&item.attrs, "derive");
     let said = words(&item.attrs, "serde");
     let plain = item.generics.params.is_empty() && is_plain(&item.data);
@@ -63,7 +63,7 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
-    Ok(Read {
+    Ok(AnnotatedType {
         item,
         derives,
         serde,
@@ -77,7 +77,7 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
 /// # Errors
 /// Unknown words; a union; fields without names.
 pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Result<TokenStream> {
-    let Read {
+    let AnnotatedType {
         item,
         derives,
         serde,
@@ -103,7 +103,7 @@ pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Re
 /// # Errors
 /// As [`expand`].
 pub fn plain(item: DeriveInput, is_plugin: bool) -> syn::Result<TokenStream> {
-    let Read {
+    let AnnotatedType {
         mut item,
         derives,
         defaults,

@@ -67,7 +67,7 @@ pub use files::series::SeriesWriter;
 pub use files::summary::write_json;
 pub use files::table::{Table, TableColumn, read_columns, read_table};
 pub use paraview::frame::{Cells, FieldData, FieldValues, Frame, Location, Piece};
-pub use paraview::pvd::{Listed, PvdSeries, list_pvd};
+pub use paraview::pvd::{PvdSeries, SeriesEntry, list_pvd};
 pub use paraview::pvtu::{read_piece, write_share};
 pub use paraview::vtu::write_vtu;
 pub use paraview::vtu_read::read_vtu;

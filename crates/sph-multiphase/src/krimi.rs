@@ -4,7 +4,7 @@ use sph_core::{StepError, parameters, plugin};
 use sph_neighbours::{Interaction, World};
 
 use crate::colagrossi_landrini::{compressed_density, integrated_density};
-use crate::divergence::{DensityWeighted, Divergence, TheirVolume};
+use crate::divergence::{DensityWeighted, Divergence, NeighbourVolume};
 use crate::gradient::{BetweenParticles, PressureGradient};
 use crate::volume::VolumeStage;
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
@@ -62,7 +62,7 @@ impl<const D: usize> Formulation<D> for Krimi {
     }
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         match self.divergence {
-            Continuity::Literal => Divergence::boxed(TheirVolume),
+            Continuity::Literal => Divergence::boxed(NeighbourVolume),
             Continuity::Consistent => Divergence::boxed(DensityWeighted),
         }
     }

@@ -55,7 +55,7 @@ pub use contract::{
 };
 pub use dilatation::Dilatation;
 pub use dispersed_fraction::DISPERSED_FRACTION;
-pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
+pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, NeighbourVolume, OwnVolume};
 pub use gradient::{
     BetweenParticles, PairPressure, PairState, PressureGradient, SquaredVolumes, SumOfPressures,
 };

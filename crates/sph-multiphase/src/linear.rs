@@ -56,7 +56,7 @@ pub use jacobi::Jacobi;
 pub use krylov::Tolerance;
 pub use low_rank::LowRank;
 pub use matrix::{Diagonal, Entries, Matrix, Pattern, Values};
-pub use memory::{Keeps, Memories, Memory};
+pub use memory::{Memories, Memory, MemoryOwner};
 pub use operator::Operator;
 pub use particle_matrix::ParticleMatrix;
 pub use precondition::Preconditioner;

@@ -10,7 +10,7 @@ use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::scaling::Scaling;
 use crate::separation::{Distances, grow};
-use crate::{Blocked, ContactRow, Contacts, Domain, Neighbourhood, Row, Scratch};
+use crate::{ContactRow, Contacts, Domain, HiddenPairs, Neighbourhood, Row, Scratch};
 
 /// A few particles that follow each other, with distances and kernel gradients for all possible neighbours.
 pub struct Cluster<'a, const D: usize> {
@@ -78,7 +78,7 @@ impl<const D: usize> Buffers<D> {
         members: Members<'_>,
         positions: &[Vect<D>],
         domain: Option<&Domain<D>>,
-        hidden: &Blocked,
+        hidden: &HiddenPairs,
         kernel: &K,
     ) {
         dispatch_at(

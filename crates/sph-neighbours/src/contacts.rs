@@ -224,13 +224,13 @@ pub struct Contacts<const D: usize> {
     /// Particles that have contacts, ascending.
     pub particles: Vec<u32>,
     /// For every free particle where its contacts are.
-    places: Vec<Place>,
+    places: Vec<ContactRange>,
     blocks: Vec<ContactBlock<D>>,
 }
 
 /// Planes of a block; none where a particle sees no wall.
 #[derive(Clone, Copy, Debug, Default)]
-struct Place {
+struct ContactRange {
     block: u32,
     from: u32,
     to: u32,
@@ -263,14 +263,14 @@ impl<const D: usize> Contacts<D> {
     /// Bytes that all contacts need; buffers may hold more.
     pub fn bytes(&self) -> usize {
         let blocks = self.blocks.iter().map(ContactBlock::bytes).sum::<usize>();
-        blocks + size_of::<Place>() * self.places.len() + 4 * self.particles.len()
+        blocks + size_of::<ContactRange>() * self.places.len() + 4 * self.particles.len()
     }
 
     /// Clears the contacts, so that `particles` free ones have none, and hands out the blocks for new ones.
     pub fn take_blocks(&mut self, particles: usize) -> Vec<ContactBlock<D>> {
         self.particles.clear();
         self.places.clear();
-        self.places.resize(particles, Place::default());
+        self.places.resize(particles, ContactRange::default());
         std::mem::take(&mut self.blocks)
     }
 
@@ -285,7 +285,7 @@ impl<const D: usize> Contacts<D> {
             return;
         }
         self.particles.push(particle);
-        self.places[particle as usize] = Place {
+        self.places[particle as usize] = ContactRange {
             block: block as u32,
             from: planes.start,
             to: planes.end,

@@ -30,13 +30,13 @@ impl Kinds {
 /// A quarter to a half of the memory of a matrix of blocks, which they replace where only products are needed.
 #[derive(Clone, Debug, Default)]
 pub struct Couplings {
-    pub(crate) blocks: Vec<Kept>,
+    pub(crate) blocks: Vec<BlockCouplings>,
     pub(crate) kinds: Kinds,
 }
 
 /// Those of the particles of a block.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Kept {
+pub(crate) struct BlockCouplings {
     pub groups: Vec<Group>,
     pub columns: Vec<u32>,
     pub numbers: Vec<f64>,
@@ -59,7 +59,7 @@ pub(crate) struct Group {
 impl Couplings {
     /// Bytes held for them.
     pub fn bytes(&self) -> usize {
-        let of = |kept: &Kept| {
+        let of = |kept: &BlockCouplings| {
             size_of_val(&kept.groups[..])
                 + size_of_val(&kept.columns[..])
                 + size_of_val(&kept.numbers[..])

@@ -28,7 +28,7 @@ mod transport;
 
 pub use bisect::{DecompositionError, bisect};
 pub use cuts::{CutError, Cuts};
-pub use error::{Divided, PartError};
+pub use error::{PartError, RankParticles};
 pub use exchange::{Exchange, exchanges};
 pub use halo::Halo;
 pub use owner::OWNER;

@@ -48,16 +48,16 @@ pub(crate) fn sum_cluster<const D: usize, S: PairSum<D>>(
     rows: &mut Rows,
 ) {
     make_room(rows, S::Sum::<f64>::NUMBERS);
-    dispatch_at(cluster.width, OfCluster { sum, cluster, rows });
+    dispatch_at(cluster.width, ClusterPairSum { sum, cluster, rows });
 }
 
-struct OfCluster<'a, 'c, const D: usize, S> {
+struct ClusterPairSum<'a, 'c, const D: usize, S> {
     sum: &'a S,
     cluster: &'a Cluster<'c, D>,
     rows: &'a mut Rows,
 }
 
-impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
+impl<const D: usize, S: PairSum<D>> Body for ClusterPairSum<'_, '_, D, S> {
     type Output = ();
 
     #[inline(always)]
@@ -69,7 +69,7 @@ impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
     }
 }
 
-impl<const D: usize, S: PairSum<D>> OfCluster<'_, '_, D, S> {
+impl<const D: usize, S: PairSum<D>> ClusterPairSum<'_, '_, D, S> {
     #[inline(always)]
     fn add_up<L: Lane, const SCALED: bool>(self) {
         let members = self.cluster.members;

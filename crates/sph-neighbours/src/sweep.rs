@@ -97,7 +97,7 @@ pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
         world.free.unwatch(|| term.name())?;
         match before {
             None => with_all(world, others, rest, Some(bound), with),
-            Some(before) => with_all(world, others, rest, Some(&Both(before, bound)), with),
+            Some(before) => with_all(world, others, rest, Some(&TermChain(before, bound)), with),
         }
     });
     match looked_up {
@@ -115,9 +115,9 @@ impl<const D: usize> RowTerm<D> for NoTerms {
 }
 
 /// A term after those before it.
-struct Both<'a, const D: usize>(&'a dyn RowTerm<D>, &'a dyn RowTerm<D>);
+struct TermChain<'a, const D: usize>(&'a dyn RowTerm<D>, &'a dyn RowTerm<D>);
 
-impl<const D: usize> RowTerm<D> for Both<'_, D> {
+impl<const D: usize> RowTerm<D> for TermChain<'_, D> {
     fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         self.0.row(neighbourhood, rates);
         self.1.row(neighbourhood, rates);

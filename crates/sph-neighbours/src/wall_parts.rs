@@ -85,7 +85,7 @@ pub fn wall_parts<const D: usize>(
 
 /// The walls before the members of a cluster, one by one.
 struct SeparateWalls<const D: usize> {
-    near: Vec<Near>,
+    near: Vec<WallMember>,
     /// Of members that see several walls.
     pieces: Vec<Piece<D>>,
     /// Accelerations of every member by all terms, with all walls, and without any and with γ = 1.
@@ -95,7 +95,7 @@ struct SeparateWalls<const D: usize> {
 }
 
 /// A member of a cluster that sees walls.
-struct Near {
+struct WallMember {
     member: usize,
     particle: usize,
     /// The only wall that it sees.
@@ -175,7 +175,7 @@ impl<const D: usize> SeparateWalls<D> {
                     None
                 }
             };
-            self.near.push(Near {
+            self.near.push(WallMember {
                 member,
                 particle,
                 only,

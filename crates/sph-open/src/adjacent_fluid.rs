@@ -2,11 +2,11 @@
 
 use sph_core::Vect;
 
-use crate::Inside;
+use crate::FluidMean;
 
 /// The fluid in front of an element.
 pub(crate) struct AdjacentFluid<const D: usize> {
-    pub inside: Inside<D>,
+    pub inside: FluidMean<D>,
     /// Distance of that mean before the face, m.
     pub reach: f64,
     pub row: Vect<D>,

@@ -40,7 +40,7 @@ impl<const D: usize> Faces<D> {
             self.outside[k].velocity = self.places[k].normal * normal;
             self.outside[k].share = None;
             // A jet has no rows: a port beside it would stand in for fluid that is not there.
-            self.lacking[k] *= 1.0 - self.alone(k);
+            self.lacking[k] *= 1.0 - self.isolation(k);
         }
     }
 
@@ -51,12 +51,12 @@ impl<const D: usize> Faces<D> {
         let along = |u: &Vect<D>| u.dot(&self.places[k].normal);
         let aim = along(&self.outside[k].velocity);
         let faster = (aim - along(&self.inside[k].velocity)).max(0.0);
-        [aim, faster * self.alone(k)]
+        [aim, faster * self.isolation(k)]
     }
 
     /// Degree to which water before an element moves as if it were alone: 1 from a [share](BESIDE) of dry elements
     /// around it on.
-    fn alone(&self, k: usize) -> f64 {
+    fn isolation(&self, k: usize) -> f64 {
         let around = self.smooth[k].iter();
         let [dry, whole] = around.fold([0.0, 0.0], |[dry, whole], (j, w)| {
             [dry + w * (1.0 - self.inside[*j as usize].filled), whole + w]

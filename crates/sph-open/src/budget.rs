@@ -120,7 +120,7 @@ impl<const D: usize> Faces<D> {
             }
             let asked = self.asked.get(f).is_some_and(Option::is_some);
             if let Some(volumes) = self.memory.volumes.get(f).filter(|_| asked) {
-                let [asked, passed] = volumes.both();
+                let [asked, passed] = volumes.volumes();
                 let volumes = json!({ "asked_volume": asked, "passed_volume": passed });
                 all.insert(face.name.clone(), volumes);
             }
@@ -150,7 +150,7 @@ impl<const D: usize> Faces<D> {
                 "`{name}` is dry, {first}: nothing passes where no fluid is before a face"
             ));
         }
-        let [asked, passed] = volumes.both();
+        let [asked, passed] = volumes.volumes();
         let more = passed / asked - 1.0;
         if more.is_nan() || more.abs() <= BORNE {
             return None;

@@ -6,7 +6,7 @@ use sph_core::{Vect, contract};
 
 /// An element of an open face.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<const D: usize> {
+pub struct FaceElement<const D: usize> {
     /// Centre, m.
     pub centre: Vect<D>,
     /// Unit normal into the fluid.
@@ -25,7 +25,7 @@ pub struct Place<const D: usize> {
 
 /// The fluid in front of an element, as a mean over its support.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inside<const D: usize> {
+pub struct FluidMean<const D: usize> {
     /// True if there is enough fluid for a mean.
     pub wet: bool,
     /// Pressure at the element, over that of the reference density, Pa.
@@ -44,10 +44,10 @@ pub struct Inside<const D: usize> {
     pub mean_pressure: f64,
 }
 
-impl<const D: usize> Inside<D> {
+impl<const D: usize> FluidMean<D> {
     /// The mean where there is no fluid.
     pub(crate) fn nothing() -> Self {
-        Inside {
+        FluidMean {
             wet: false,
             pressure: 0.0,
             filled: 0.0,
@@ -62,7 +62,7 @@ impl<const D: usize> Inside<D> {
 
 /// Values of the face for the fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outside<const D: usize> {
+pub struct FaceValues<const D: usize> {
     /// Velocity with which fluid passes, m/s.
     pub velocity: Vect<D>,
     /// Pressure, over that of the reference density, Pa; of no account where the velocity is imposed.
@@ -76,10 +76,10 @@ pub struct Outside<const D: usize> {
     pub share: Option<f64>,
 }
 
-impl<const D: usize> Outside<D> {
+impl<const D: usize> FaceValues<D> {
     /// Values where there is no fluid: nothing passes.
     pub fn dry() -> Self {
-        Outside {
+        FaceValues {
             velocity: Vect::zeros(),
             pressure: 0.0,
             imposed: true,
@@ -152,7 +152,7 @@ pub struct Entering {
     pub values: BTreeMap<String, f64>,
 }
 
-/// The law of an open face. It has no memory: what it needs of the past is in [`Inside::mean`].
+/// The law of an open face. It has no memory: what it needs of the past is in [`FluidMean::mean`].
 pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Checks its table against the scene.
     ///
@@ -163,7 +163,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     ///
     /// # Errors
     /// The key that does not fit.
-    fn fit(&self, _places: &[Place<D>]) -> Result<(), OpenRefusal> {
+    fn fit(&self, _places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         Ok(())
     }
     /// The fluid that comes in.
@@ -179,7 +179,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     }
     /// Volume into the fluid per time that it requests at the reference density, m³/s, whatever is in front of the
     /// face; none where the velocity follows. The velocities of such a law are those at the reference density, too.
-    fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
+    fn asked(&self, _places: &[FaceElement<D>], _time: f64) -> Option<f64> {
         None
     }
     /// Time of the [means](Inside::mean) of velocity and pressure, s, if it does.
@@ -189,10 +189,10 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Velocity and pressure of every element, in their order.
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>>;
+    ) -> Vec<FaceValues<D>>;
 }
 
 contract!(

@@ -9,7 +9,7 @@ use sph_rheology::state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
 use crate::memory::Memory;
-use crate::passing::Passing;
+use crate::passing::FacePassing;
 use crate::walls::OpenWalls;
 use crate::{Entering, OpenBoundary, OpenRefusal};
 
@@ -98,7 +98,7 @@ impl<const D: usize> OpenBoundaries<D> {
     pub fn in_front(&self, distance: f64) -> Vec<(String, Vect<D>)> {
         let faces = lock(&self.faces);
         let all = faces.places.iter().zip(&faces.face_of);
-        let place = |(place, face): (&crate::Place<D>, &usize)| {
+        let place = |(place, face): (&crate::FaceElement<D>, &usize)| {
             let x = place.centre + place.normal * distance;
             (faces.faces[*face].name.clone(), x)
         };
@@ -170,7 +170,7 @@ impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
                 "open faces let mass through once per step: take `[integrator.symplectic-euler]`",
             ));
         }
-        let passing = Passing {
+        let passing = FacePassing {
             faces: self.faces.clone(),
             summed: self.summed,
             phases: setting.phases.to_vec(),

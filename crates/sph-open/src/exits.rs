@@ -244,7 +244,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Particles that ports have the mass for, where it is time.
-    pub fn ripe(&mut self) -> Vec<Newborn<D>> {
+    pub fn due_particles(&mut self) -> Vec<Newborn<D>> {
         if !self.due {
             return Vec::new();
         }

@@ -11,7 +11,7 @@ use crate::adjacent_fluid::AdjacentFluid;
 use crate::cells::cells;
 use crate::memory::Memory;
 use crate::row::near;
-use crate::{Inside, OpenBoundary, Outside, Place};
+use crate::{FaceElement, FaceValues, FluidMean, OpenBoundary};
 
 /// Largest delay of insertion and removal, as a share of a row: lists are built anew where particles come or go, and
 /// the rows that pass meanwhile wait for each other.
@@ -70,15 +70,15 @@ pub(crate) struct Faces<const D: usize> {
     pub elements: Vec<Vec<u32>>,
     /// The number in `elements` of an element of the walls, or [`CLOSED`].
     pub open: Vec<u32>,
-    pub places: Vec<Place<D>>,
+    pub places: Vec<FaceElement<D>>,
     pub face_of: Vec<usize>,
     /// For every element those of its face near it, with their share in a mean over the support of what is the same along the
     /// normal.
     pub smooth: Vec<Vec<(u32, f64)>>,
-    pub inside: Vec<Inside<D>>,
+    pub inside: Vec<FluidMean<D>>,
     /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
     pub present: Vec<Vect<D>>,
-    pub outside: Vec<Outside<D>>,
+    pub outside: Vec<FaceValues<D>>,
     /// Volume per time that the law of every face [requests](OpenBoundary::asked), m³/s.
     pub asked: Vec<Option<f64>>,
     /// Velocity of the row of particles in front of every element, m/s.
@@ -139,22 +139,22 @@ impl<const D: usize> Faces<D> {
         }
         walls.elements.open = self.open.iter().map(|k| *k != CLOSED).collect();
         self.smooth = (0..self.places.len())
-            .map(|k| self.around(k, kernel))
+            .map(|k| self.mean_weights(k, kernel))
             .collect();
         self.full = (0..self.places.len())
             .map(|k| self.when_full(k, kernel))
             .collect();
         self.stands = (0..self.places.len())
-            .map(|k| self.stand(k, kernel))
+            .map(|k| self.standing_volume(k, kernel))
             .collect();
         self.at_port = (0..self.places.len())
             .map(|k| self.at_port(k, kernel))
             .collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
-        self.inside = vec![Inside::nothing(); ports];
+        self.inside = vec![FluidMean::nothing(); ports];
         self.present = vec![Vect::zeros(); ports];
-        self.outside = vec![Outside::dry(); ports];
+        self.outside = vec![FaceValues::dry(); ports];
         self.asked = vec![None; self.faces.len()];
         self.rows = vec![Vect::zeros(); ports];
         self.lacks = vec![0.0; ports];
@@ -168,7 +168,7 @@ impl<const D: usize> Faces<D> {
 
     /// Weights of the mean of a velocity that is given on the face, as the fluid's own is taken: over rows of particles in front
     /// of it.
-    fn around(&self, k: usize, kernel: &dyn Sampler) -> Vec<(u32, f64)> {
+    fn mean_weights(&self, k: usize, kernel: &dyn Sampler) -> Vec<(u32, f64)> {
         let own = self.faces[self.face_of[k]].elements.clone();
         let all = own.map(|j| (j as u32, self.rows_before(k, j, kernel)));
         all.filter(|(_, w)| *w > 0.0).collect()
@@ -199,7 +199,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Volume that [stands](crate::row::stands) before an element where its face is full, m^d.
-    fn stand(&self, k: usize, kernel: &dyn Sampler) -> f64 {
+    fn standing_volume(&self, k: usize, kernel: &dyn Sampler) -> f64 {
         let own = self.faces[self.face_of[k]].elements.clone();
         let one = |j: usize| {
             let apart = (self.places[k].centre - self.places[j].centre).norm_squared();

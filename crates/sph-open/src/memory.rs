@@ -45,7 +45,7 @@ pub(crate) struct Volumes {
 
 impl Volumes {
     /// The requested and the passed volume, m³.
-    pub fn both(&self) -> [f64; 2] {
+    pub fn volumes(&self) -> [f64; 2] {
         [self.asked, self.passed].map(|sum| sum.value())
     }
 }

@@ -111,7 +111,7 @@ pub trait Probe<const D: usize>: Send {
     ///
     /// # Errors
     /// If they are not what the probe compares with: what is wrong with them.
-    fn learn(&mut self, _rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, _rows: Vec<[f64; 2]>) -> Result<(), String> {
         Ok(())
     }
     /// Their values now; NaN where there is nothing to measure.

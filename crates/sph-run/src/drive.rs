@@ -10,7 +10,7 @@ use crate::lock;
 use crate::model::{Model, ModelTime, Poll, RunCounters, Status};
 use crate::observer::{Command, Progress, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
-use crate::schedule::{Due, Schedule};
+use crate::schedule::{DueOutputs, Schedule};
 
 /// Runs a model; it is at its start, or goes on from the checkpoint of its folder.
 ///
@@ -120,17 +120,17 @@ impl Opened {
             schedule,
             started,
         };
-        match driver.go(model, observer)? {
+        match driver.drive_to_end(model, observer)? {
             Ok(status) => {
                 let film = driver.opened.files.as_ref().map(|f| f.frames.film());
                 let film = film.unwrap_or(Ok(())).map_err(M::Error::from);
                 model.agree(Poll::Written(film))?;
-                let summary = model.conclude(Ok(status), driver.books(), observer)?;
+                let summary = model.conclude(Ok(status), driver.counters(), observer)?;
                 driver.write_summary::<M>(summary.as_ref())?;
                 Ok(summary)
             }
             Err(mut error) => {
-                let summary = model.conclude(Err(&mut error), driver.books(), observer);
+                let summary = model.conclude(Err(&mut error), driver.counters(), observer);
                 let told = summary.and_then(|summary| driver.write_summary::<M>(summary.as_ref()));
                 // The failure itself matters more than what could not be written about it.
                 if let Err(problem) = told {
@@ -152,7 +152,7 @@ struct Driver<'a> {
 
 impl Driver<'_> {
     /// The books as they are now.
-    fn books(&mut self) -> &RunCounters {
+    fn counters(&mut self) -> &RunCounters {
         let books = &mut self.opened.books;
         books.wall_seconds = self.before + self.started.elapsed().as_secs_f64();
         books
@@ -164,7 +164,7 @@ impl Driver<'_> {
     }
 
     /// Outcome of the run; a file that cannot be written does not end it.
-    fn go<M: Model>(
+    fn drive_to_end<M: Model>(
         &mut self,
         model: &mut M,
         observer: &mut Watch<'_>,
@@ -232,14 +232,14 @@ impl Driver<'_> {
             particles: now.size,
         });
         let most = self.schedule.max_wall;
-        let late = most.is_some_and(|most| self.books().wall_seconds > most);
+        let late = most.is_some_and(|most| self.counters().wall_seconds > most);
         command == Command::Stop || late
     }
 
     fn write<M: Model>(
         &mut self,
         model: &mut M,
-        due: Due,
+        due: DueOutputs,
         observer: &mut Watch<'_>,
     ) -> Result<(), M::Error> {
         let time = self.opened.books.time;
@@ -271,6 +271,6 @@ impl Driver<'_> {
 
     fn save<M: Model>(&mut self, model: &mut M) -> Result<(), M::Error> {
         let checkpoint = self.opened.folder.join(CHECKPOINT);
-        model.save(self.books(), &checkpoint)
+        model.save(self.counters(), &checkpoint)
     }
 }

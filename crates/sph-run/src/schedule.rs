@@ -24,7 +24,7 @@ pub struct Schedule<'a> {
 
 /// Outputs that are due.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Due {
+pub(crate) struct DueOutputs {
     /// A row of the series.
     pub row: bool,
     /// Fields.
@@ -33,7 +33,7 @@ pub(crate) struct Due {
     pub checkpoint: bool,
 }
 
-impl Due {
+impl DueOutputs {
     pub fn any(self) -> bool {
         self.row || self.output || self.checkpoint
     }
@@ -68,9 +68,9 @@ impl Schedule<'_> {
     }
 
     /// Outputs that are due at a time, s.
-    pub(crate) fn due(&self, time: f64, books: &RunCounters) -> Due {
+    pub(crate) fn due(&self, time: f64, books: &RunCounters) -> DueOutputs {
         let written = books.last_row == Some(time);
-        Due {
+        DueOutputs {
             row: !written && (time >= books.rows as f64 * self.rows || time >= self.end),
             output: books.next_output.is_some_and(|t| time >= t),
             checkpoint: over(time, self.checkpoints) > books.checkpoints || time >= self.end,

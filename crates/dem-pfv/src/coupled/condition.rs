@@ -157,7 +157,7 @@ impl WallBoundary {
     }
 
     /// Puts what is given at a time (s) into the conditions of the flow.
-    fn give(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
+    fn apply_at(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
         match &self.condition {
             FlowCondition::Closed => {}
             FlowCondition::Pressure(p) => boundary.pressure(pores, wall, |_| Some(*p)),
@@ -185,7 +185,7 @@ impl WallBoundary {
 pub(crate) fn boundary(sides: &[WallBoundary], pores: &PoreGeometry, time: f64) -> Boundary {
     let mut boundary = Boundary::closed(pores);
     for (wall, side) in sides.iter().enumerate() {
-        side.give(&mut boundary, pores, wall, time);
+        side.apply_at(&mut boundary, pores, wall, time);
     }
     boundary
 }

@@ -154,7 +154,7 @@ fn sphere(radius: f64) -> f64 {
 }
 
 /// Volume of a sphere on the lower side of a plane, m³; `up` is the plane's distance from the centre.
-fn below(radius: f64, up: f64) -> f64 {
+fn cap_volume(radius: f64, up: f64) -> f64 {
     let h = (up + radius).clamp(0.0, 2.0 * radius);
     PI * h * h * (radius - h / 3.0)
 }
@@ -166,7 +166,7 @@ fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64
     let all = grains.grains();
     let parts = all.positions().iter().zip(all.radii());
     let solid: f64 = parts
-        .map(|(x, r)| below(*r, to - x[axis]) - below(*r, from - x[axis]))
+        .map(|(x, r)| cap_volume(*r, to - x[axis]) - cap_volume(*r, from - x[axis]))
         .sum();
     Some(1.0 - solid / (area * (to - from)))
 }

@@ -30,7 +30,7 @@ pub enum Saved {
 
 /// A step that was made.
 #[derive(Clone, Copy, Debug)]
-pub struct Made {
+pub struct StepOutcome {
     /// Its length, s.
     pub step: f64,
     /// Its limiter.
@@ -111,12 +111,12 @@ impl Model {
     ///
     /// # Errors
     /// The failure, with the grain, the wall or the cell.
-    pub fn advance(&mut self, safety: f64, end: f64) -> Result<Made, Box<Failure>> {
+    pub fn advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, Box<Failure>> {
         let made = self.try_advance(safety, end);
         made.map_err(|error| Box::new(self.failure(error)))
     }
 
-    fn try_advance(&mut self, safety: f64, end: f64) -> Result<Made, CoupledError> {
+    fn try_advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, CoupledError> {
         let left = (end - self.grains().time()).max(0.0);
         // The last step is shortened, but not to nothing.
         let cut = |step: f64| {
@@ -137,7 +137,7 @@ impl Model {
                 } else {
                     "contacts"
                 };
-                Ok(Made { step, limiter })
+                Ok(StepOutcome { step, limiter })
             }
             Self::Wet(system) => {
                 let limit = system.step_limit()?;
@@ -151,7 +151,7 @@ impl Model {
                 } else {
                     "drag"
                 };
-                Ok(Made { step, limiter })
+                Ok(StepOutcome { step, limiter })
             }
         }
     }

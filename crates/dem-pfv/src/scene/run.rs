@@ -11,7 +11,7 @@ use sph_run::{
 
 use crate::coupled::CoupledError;
 use crate::scene::assemble::{Assembled, assemble, loads};
-use crate::scene::checkpoint::{self, Kept, Progress};
+use crate::scene::checkpoint::{self, CheckpointState, Progress};
 use crate::scene::columns::{headings, row};
 use crate::scene::compare;
 use crate::scene::culprits;
@@ -263,7 +263,7 @@ impl sph_run::Model for Running<'_> {
         progress.wall_seconds = books.wall_seconds;
         let progress = progress.clone();
         let parts = self.parts()?;
-        let kept = Kept {
+        let kept = CheckpointState {
             model: parts.model.save(),
             origin: parts.origin.clone(),
             progress,

@@ -112,7 +112,7 @@ impl<const D: usize> ScaleMap<D> {
         let curved = elements.filter(|(_, curved)| **curved);
         let walls: BTreeSet<u32> = curved.map(|(e, _)| e.wall as u32).collect();
         let walls: Vec<u32> = walls.into_iter().collect();
-        let mut cells = Cells::around((&grid, [low, high]), of, walls.len() > 1);
+        let mut cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
         for sweep in 0..=SWEEPS {
             let sums = cells.sums(&grid, of.kernel, &correction);
@@ -188,7 +188,7 @@ struct NodeKind<const D: usize> {
 
 impl<const D: usize> Cells<D> {
     /// Of a grid around the box of the curved elements.
-    fn around<M: WallMesh<D>>(
+    fn from_elements<M: WallMesh<D>>(
         (grid, [low, high]): (&Grid<D>, [Vect<D>; 2]),
         of: &Mapping<'_, D, M>,
         several: bool,

@@ -24,7 +24,7 @@ pub(crate) const DEPTH: f64 = 1.0;
 const REACH: f64 = GAP + 1.0;
 
 /// A piece of a surface near another one.
-pub(crate) struct Near<const D: usize> {
+pub(crate) struct SurfacePair<const D: usize> {
     /// The groups of walls that are pushed along `away`, and against it.
     pub pair: [usize; 2],
     /// The walls themselves.
@@ -41,7 +41,7 @@ pub(crate) struct Near<const D: usize> {
     pub area: f64,
 }
 
-impl<const D: usize> Near<D> {
+impl<const D: usize> SurfacePair<D> {
     /// The first wall goes a way, m, against the second: along the plane of an element or past a corner.
     pub fn go(&mut self, way: &Vect<D>) {
         if !self.round {
@@ -67,7 +67,7 @@ struct Extent<const D: usize> {
 }
 
 impl<const D: usize> Extent<D> {
-    fn around(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
+    fn bounds_of(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
         let none = Extent {
             low: Vect::repeat(f64::INFINITY),
             high: Vect::repeat(f64::NEG_INFINITY),
@@ -118,7 +118,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// All pieces of surfaces of which one moves freely and that may meet within a step.
-    pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<Near<D>> {
+    pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<SurfacePair<D>> {
         let nodes: Vec<MeshPoint<D>> = self.mesh.points().collect();
         let elements: Vec<MeshElement<D>> = self.mesh.elements().collect();
         let reach = REACH * self.spacing;
@@ -126,7 +126,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let free = (0..touches.len()).filter(|k| touches[*k].is_some() && self.groups[*k] == *k);
         for body in free {
             let own = nodes.iter().filter(|n| self.groups[n.wall] == body);
-            let extent = Extent::around(own.map(|n| n.position), reach);
+            let extent = Extent::bounds_of(own.map(|n| n.position), reach);
             let seen = |e: &&MeshElement<D>| {
                 let corners = e.corners.map(|c| nodes[c as usize].position);
                 let size = corners.map(|c| (c - e.centre).norm()).into_iter();
@@ -156,7 +156,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         node: &MeshPoint<D>,
         elements: &[&MeshElement<D>],
         nodes: &[MeshPoint<D>],
-        found: &mut Vec<Near<D>>,
+        found: &mut Vec<SurfacePair<D>>,
     ) {
         let mut nearest = BTreeMap::<usize, (f64, Vect<D>, &MeshElement<D>)>::new();
         let to = |c: u32| nodes[c as usize].position - node.position;
@@ -187,7 +187,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 true => there / -distance,
                 false => element.normal,
             };
-            found.push(Near {
+            found.push(SurfacePair {
                 pair: [self.groups[node.wall], group],
                 walls: [node.wall, element.wall],
                 place: node.position + there * 0.5,

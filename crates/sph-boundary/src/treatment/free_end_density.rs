@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_neighbours::{Blocked, ContactBlock, World};
+use sph_neighbours::{ContactBlock, HiddenPairs, World};
 
 use crate::SeenElement;
 use crate::geometry::shells::Gammas;
@@ -29,7 +29,7 @@ impl<const D: usize> NearLists<D> {
     ///
     /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and no particle near a free end
     /// or behind a wall nothing is asked.
-    pub fn unveil<M: WallMesh<D>>(
+    pub fn update_constants<M: WallMesh<D>>(
         &self,
         outline: &Outline<D, M>,
         integrals: &M::Integrals,
@@ -134,7 +134,7 @@ impl<const D: usize> NearLists<D> {
 }
 
 /// Calls `of` with all pairs that are in one of the two only: 1 if they lose sight of each other, −1 if they come into sight.
-fn each_change(now: &Blocked, there: &Blocked, mut of: impl FnMut(usize, usize, f64)) {
+fn each_change(now: &HiddenPairs, there: &HiddenPairs, mut of: impl FnMut(usize, usize, f64)) {
     for (some, others, sign) in [(now, there, -1.0), (there, now, 1.0)] {
         for &[i, j] in some.pairs() {
             if !others.has(i as usize, j) {

@@ -49,7 +49,7 @@ impl<const D: usize> NearLists<D> {
             least: least * world.spacing,
             dt,
         };
-        let mut changed: Vec<(usize, Corrected<D>)> = self
+        let mut changed: Vec<(usize, StoppedVelocity<D>)> = self
             .particles
             .par_iter()
             .enumerate()
@@ -89,7 +89,7 @@ impl<const D: usize> NearLists<D> {
 fn give_way<const D: usize>(
     body: &FreeBody<D>,
     world: &World<D>,
-    changed: &mut [(usize, Corrected<D>)],
+    changed: &mut [(usize, StoppedVelocity<D>)],
 ) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
@@ -138,7 +138,7 @@ fn give_way<const D: usize>(
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,
-    changed: &[(usize, Corrected<D>)],
+    changed: &[(usize, StoppedVelocity<D>)],
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let (mass, position) = (
@@ -172,7 +172,7 @@ fn blows<const D: usize, M: WallMesh<D>>(
 
 /// The velocity of a particle that walls have stopped, and what each of them did to it, m/s, with the whole periods
 /// to the wall.
-struct Corrected<const D: usize> {
+struct StoppedVelocity<const D: usize> {
     velocity: Vect<D>,
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
@@ -193,7 +193,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         here: (&Vect<D>, &[(u32, u32)]),
         u: Vect<D>,
         row: &[NearElement<D>],
-    ) -> Option<Corrected<D>> {
+    ) -> Option<StoppedVelocity<D>> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();
         mesh.hindrances(here, row, 4.0 * self.spacing, &mut hindrances);
@@ -202,7 +202,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
             return None;
         }
         let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
-        let mut new = Corrected {
+        let mut new = StoppedVelocity {
             velocity: u,
             pushes: Vec::new(),
         };

@@ -43,7 +43,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let load = |k: usize| self.load(k, forces, gravity);
         let mut loads: Vec<_> = (0..self.specs.len()).map(load).collect();
         self.check_dry(&loads)?;
-        let mut states = self.met(&mut loads, gravity, [time, dt])?;
+        let mut states = self.free_states(&mut loads, gravity, [time, dt])?;
         self.compare(&mut states, bodies, dt);
         let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
         let moved = self.put(states, time + dt)?;

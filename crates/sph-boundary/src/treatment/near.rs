@@ -52,12 +52,12 @@ pub(crate) struct NearLists<const D: usize> {
 struct Scratch<const D: usize> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
-    found: Vec<Found<D>>,
+    found: Vec<TaskResults<D>>,
 }
 
 /// Results of one task.
 #[derive(Debug, Default)]
-struct Found<const D: usize> {
+struct TaskResults<const D: usize> {
     places: Vec<Vect<D>>,
     counts: Vec<u32>,
     elements: Vec<NearElement<D>>,
@@ -180,10 +180,10 @@ impl<const D: usize> NearLists<D> {
         let batches = room.stale.par_chunks(BATCH);
         let tasks = batches.len();
         room.found
-            .resize_with(tasks.max(room.found.len()), Found::default);
+            .resize_with(tasks.max(room.found.len()), TaskResults::default);
         let found = &mut room.found[..tasks];
         batches.zip(&mut *found).for_each(|(batch, found)| {
-            let Found {
+            let TaskResults {
                 places,
                 counts,
                 elements,

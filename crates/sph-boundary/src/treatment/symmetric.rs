@@ -86,7 +86,7 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
             let positions = world.free.get(fields::POSITION)?;
             for part in slopes.clone() {
                 let particle = part.particle as usize;
-                let place = beside(world, outline, &positions[particle], part.wall);
+                let place = nearest_image(world, outline, &positions[particle], part.wall);
                 let state = &outline.states[part.wall as usize];
                 rate[particle] -= part.slope.dot(&state.movement(place.into()).velocity);
             }
@@ -99,7 +99,7 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
 }
 
 /// The image of a place that is beside a wall, m.
-fn beside<const D: usize, M: WallMesh<D>>(
+fn nearest_image<const D: usize, M: WallMesh<D>>(
     world: &World<D>,
     outline: &Outline<D, M>,
     x: &Vect<D>,

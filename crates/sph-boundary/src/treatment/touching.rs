@@ -6,7 +6,7 @@ use sph_core::Vect;
 use sph_neighbours::{WallForce, cross};
 
 use crate::geometry::wall_mesh::WallMesh;
-use crate::treatment::contact::{DEPTH, Near};
+use crate::treatment::contact::{DEPTH, SurfacePair};
 use crate::treatment::contact_law::Law;
 use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, RigidState, Touch};
@@ -25,7 +25,7 @@ const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
 /// All that touches within a step.
 pub(crate) struct Touching<const D: usize> {
-    near: Vec<Near<D>>,
+    near: Vec<SurfacePair<D>>,
     /// Of the pairs, and the number of that of each piece.
     laws: Vec<Law>,
     law_of: Vec<usize>,
@@ -102,7 +102,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let least = (weight / (SINKS * self.spacing)).max(OF_STIFFEST * stiffest);
         let mut pairs = BTreeMap::<[usize; 2], usize>::new();
         let (mut laws, mut gaps) = (Vec::new(), Vec::new());
-        let number = |n: &Near<D>| {
+        let number = |n: &SurfacePair<D>| {
             let [a, b] = n.pair;
             *pairs.entry([a.min(b), a.max(b)]).or_insert_with(|| {
                 gaps.push(self.gap(n.pair));
@@ -132,8 +132,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Velocities of the first of each pair against the second, m/s.
-    fn closing(&self, states: &[RigidState<D>], near: &[Near<D>]) -> Vec<Vect<D>> {
-        let one = |n: &Near<D>| {
+    fn closing(&self, states: &[RigidState<D>], near: &[SurfacePair<D>]) -> Vec<Vect<D>> {
+        let one = |n: &SurfacePair<D>| {
             let of = |k: usize, x: Vect<D>| self.movement_in(&states[k], k, &x).velocity;
             of(n.walls[0], n.place) - of(n.walls[1], n.place - n.image)
         };
@@ -144,7 +144,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     ///
     /// # Errors
     /// A wall whose state is no number; walls that go through each other.
-    pub(crate) fn met(
+    pub(crate) fn free_states(
         &self,
         loads: &mut [Load<D>],
         gravity: Vect<D>,

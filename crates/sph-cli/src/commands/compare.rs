@@ -109,7 +109,7 @@ impl Comparison {
         let mut common = 0;
         let mut remarks: Vec<(String, f64, usize)> = Vec::new();
         for one in &listed {
-            let same = |l: &&sph_io::Listed| l.time == one.time && l.name == one.name;
+            let same = |l: &&sph_io::SeriesEntry| l.time == one.time && l.name == one.name;
             let Some(twin) = other.iter().find(same) else {
                 continue;
             };

@@ -8,7 +8,7 @@ use sph_solver::PluginInForce;
 use crate::arguments::ExplainArguments;
 use crate::commands::check::memory;
 use crate::commands::grains;
-use crate::scene_file::{AnyScene, Opened, open};
+use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::layout::{columns, columns_and_below, paragraph, parameters};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
@@ -28,7 +28,7 @@ pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
 }
 
 /// Parts of a scene.
-pub fn output(opened: &Opened) -> Result<CommandOutput, Trouble> {
+pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
         AnyScene::Grains(loaded) => return grains::explain::output(loaded),
@@ -42,7 +42,7 @@ pub fn output(opened: &Opened) -> Result<CommandOutput, Trouble> {
 }
 
 /// Adds what several machines would have and send.
-fn split(opened: &Opened, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
+fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         return Err(Trouble::usage(
             "--ranks splits scenes of particles, and this is one of grains",

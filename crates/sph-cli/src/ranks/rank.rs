@@ -99,7 +99,7 @@ impl Transport for MpiRank {
         Ok(())
     }
 
-    fn trade(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
+    fn all_to_all(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
         let mut all = vec![0; numbers.len()];
         world().all_to_all_into(numbers, &mut all[..]);
         Ok(all)

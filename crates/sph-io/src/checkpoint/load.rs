@@ -29,8 +29,8 @@ impl Checkpoint {
         let input = BufReader::with_capacity(CHUNK, file);
         let read = Source::new(input, length).checkpoint();
         read.map_err(|trouble| match trouble {
-            Trouble::Read(source) => IoError::read(path, source),
-            Trouble::Fault(fault) => IoError::Checkpoint {
+            ReadFault::Read(source) => IoError::read(path, source),
+            ReadFault::Fault(fault) => IoError::Checkpoint {
                 path: path.to_path_buf(),
                 fault,
             },
@@ -45,9 +45,9 @@ impl Checkpoint {
         let found = bytes.len() as u64;
         let read = Source::new(bytes, found).checkpoint();
         read.map_err(|trouble| match trouble {
-            Trouble::Fault(fault) => fault,
+            ReadFault::Fault(fault) => fault,
             // Sizes are checked first, so that there is always enough to read.
-            Trouble::Read(_) => Fault::Length {
+            ReadFault::Read(_) => Fault::Length {
                 expected: PREFIX + SUFFIX,
                 found,
             },
@@ -56,18 +56,18 @@ impl Checkpoint {
 }
 
 /// Reason that a checkpoint could not be read: the disk, or its contents.
-enum Trouble {
+enum ReadFault {
     Read(io::Error),
     Fault(Fault),
 }
 
-impl From<io::Error> for Trouble {
+impl From<io::Error> for ReadFault {
     fn from(error: io::Error) -> Self {
         Self::Read(error)
     }
 }
 
-impl From<Fault> for Trouble {
+impl From<Fault> for ReadFault {
     fn from(fault: Fault) -> Self {
         Self::Fault(fault)
     }
@@ -90,7 +90,7 @@ impl<R: Read> Source<R> {
         }
     }
 
-    fn checkpoint(mut self) -> std::result::Result<Checkpoint, Trouble> {
+    fn checkpoint(mut self) -> std::result::Result<Checkpoint, ReadFault> {
         let header = self.header()?;
         let mut columns = Vec::with_capacity(header.columns.len());
         for shape in header.columns {
@@ -108,7 +108,7 @@ impl<R: Read> Source<R> {
     }
 
     /// Everything before the columns; on return their sizes are known to fit.
-    fn header(&mut self) -> std::result::Result<Header<Value>, Trouble> {
+    fn header(&mut self) -> std::result::Result<Header<Value>, ReadFault> {
         let found = self.length;
         let least = PREFIX + SUFFIX;
         if found < MAGIC.len() as u64 || self.take()? != MAGIC {
@@ -150,7 +150,7 @@ impl<R: Read> Source<R> {
         Ok(header)
     }
 
-    fn column(&mut self, shape: Shape) -> std::result::Result<Column, Trouble> {
+    fn column(&mut self, shape: Shape) -> std::result::Result<Column, ReadFault> {
         let bytes = shape.bytes().unwrap_or(0);
         let data = match shape.kind {
             Kind::F64 => ColumnData::F64(self.numbers(bytes, f64::from_le_bytes)?),

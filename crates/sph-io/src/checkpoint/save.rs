@@ -33,7 +33,7 @@ impl Checkpoint {
     }
 
     fn fill(&self, file: &mut AtomicFile, header: &[u8], total: u64) -> io::Result<()> {
-        let mut out = Summed {
+        let mut out = ChecksumWriter {
             out: file,
             sum: crc32fast::Hasher::new(),
         };
@@ -86,12 +86,12 @@ impl Column {
 }
 
 /// Passes bytes on and keeps their checksum.
-struct Summed<'a> {
+struct ChecksumWriter<'a> {
     out: &'a mut AtomicFile,
     sum: crc32fast::Hasher,
 }
 
-impl Summed<'_> {
+impl ChecksumWriter<'_> {
     fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.sum.update(bytes);
         self.out.write_all(bytes)

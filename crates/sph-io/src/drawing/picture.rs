@@ -131,7 +131,7 @@ impl<'a> Picture<'a> {
         let width = self.width.clamp(*SIDES.start(), *SIDES.end());
         // At 1200 pixels letters of 20; never too small to read.
         let size = (f64::from(width) / 60.0).max(9.0);
-        let beyond = self.beyond(range);
+        let beyond = self.has_outliers(range);
         let bar = ColourBar::new(range, self.colours, self.label, beyond, size);
         let classes = ClassBar::new(self.classes, size);
         let room = match self.classes {
@@ -372,7 +372,7 @@ impl<'a> Picture<'a> {
     }
 
     /// True for values below, and above, the range.
-    fn beyond(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
+    fn has_outliers(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
         let any = |outside: &dyn Fn(f64) -> bool| self.values.iter().any(|&v| outside(v));
         [any(&|v| v < lo), any(&|v| v > hi)]
     }
@@ -381,7 +381,7 @@ impl<'a> Picture<'a> {
         match self.view {
             View::Plane => [x, y],
             View::Front => [x, z],
-            View::Above => relief::seen([x, y, z]).0,
+            View::Above => relief::project([x, y, z]).0,
         }
     }
 }

@@ -21,7 +21,7 @@ const LIGHT: [f64; 3] = [-0.35, 0.75, -0.56];
 const DARK: f64 = 0.45;
 
 /// Place on the screen, and distance from it, m.
-pub(crate) fn seen([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
+pub(crate) fn project([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
     let ([ct, st], [ce, se]) = (TURN, TILT);
     let away = -st * x + ct * y;
     ([ct * x + st * y, se * away + ce * z], ce * away - se * z)
@@ -166,7 +166,7 @@ pub(crate) fn draw_compass(on: &mut Canvas, axes: &Axes) {
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let middle = Lettering::new(0.9 * size, Anchor::Middle);
     for (name, unit) in ["x", "y", "z"].into_iter().zip(units) {
-        let [right, up] = seen(unit).0;
+        let [right, up] = project(unit).0;
         let at = |r: f64| [origin[0] + r * size * right, origin[1] - r * size * up];
         on.line(&[origin, at(2.2)], pen);
         let [x, y] = at(2.9);

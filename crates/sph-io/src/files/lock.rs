@@ -32,7 +32,7 @@ pub struct Holder {
 
 impl Holder {
     /// This process, now.
-    fn this() -> Self {
+    fn this_process() -> Self {
         let mut since = String::new();
         // A clock that is beyond the years of the format leaves it empty.
         let now = humantime::format_rfc3339_seconds(SystemTime::now());
@@ -186,7 +186,7 @@ fn holder(file: &mut File) -> Option<Holder> {
 fn sign(file: &mut File) -> io::Result<()> {
     file.set_len(0)?;
     file.rewind()?;
-    serde_json::to_writer(&mut *file, &Holder::this())?;
+    serde_json::to_writer(&mut *file, &Holder::this_process())?;
     file.flush()
 }
 

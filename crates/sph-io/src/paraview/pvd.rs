@@ -27,7 +27,7 @@ pub struct PvdSeries {
 
 /// A file of a series that has been written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Listed {
+pub struct SeriesEntry {
     /// Simulated time, s.
     pub time: f64,
     /// Name of the piece: `fluid`, `walls`.
@@ -40,13 +40,13 @@ pub struct Listed {
 ///
 /// # Errors
 /// If it cannot be read, is not one of [`PvdSeries`], or names a file outside its folder.
-pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<Listed>> {
+pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<SeriesEntry>> {
     let series = PvdSeries {
         path: path.as_ref().to_path_buf(),
         entries: Vec::new(),
     };
     let listed = |entry: Entry| {
-        Ok(Listed {
+        Ok(SeriesEntry {
             time: entry.time,
             name: entry.name,
             path: beside(&series.path, &entry.file)?,

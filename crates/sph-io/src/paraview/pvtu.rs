@@ -140,12 +140,12 @@ fn joined(mut all: Piece<'static>, more: Piece<'static>) -> Option<Piece<'static
     }
     all.points.to_mut().extend_from_slice(&more.points);
     let fields = std::mem::take(&mut all.fields).into_iter();
-    let fields = fields.zip(more.fields).map(both);
+    let fields = fields.zip(more.fields).map(same_fields);
     all.fields = fields.collect::<Option<_>>()?;
     Some(all)
 }
 
-fn both((a, b): (FieldData<'static>, FieldData<'static>)) -> Option<FieldData<'static>> {
+fn same_fields((a, b): (FieldData<'static>, FieldData<'static>)) -> Option<FieldData<'static>> {
     if a.name != b.name || a.components != b.components || a.location != b.location {
         return None;
     }

@@ -104,7 +104,7 @@ mod tests {
     use crate::lanes::{Body, Lanes, Width, dispatch_at};
 
     /// Units in the last place between two numbers.
-    fn apart(a: f64, b: f64) -> f64 {
+    fn ulps_between(a: f64, b: f64) -> f64 {
         let unit = f64::EPSILON * b.abs().max(f64::MIN_POSITIVE);
         (a - b).abs() / unit
     }
@@ -116,7 +116,7 @@ mod tests {
             let direction = f64::from(k) * 3.2e-5 - 3.1999;
             let size = 10f64.powi(k % 40 - 20);
             let (y, x) = (size * direction.sin(), size * direction.cos());
-            worst = worst.max(apart(atan2(y, x), y.atan2(x)));
+            worst = worst.max(ulps_between(atan2(y, x), y.atan2(x)));
         }
         assert!(worst <= 2.0, "{worst} units in the last place");
         for (y, x) in [
@@ -137,15 +137,15 @@ mod tests {
         let mut worst: f64 = 0.0;
         for k in 0..200_000 {
             let x = 1.000_37f64.powi(k - 100_000) * (1.0 + 1e-7 * f64::from(k % 1000));
-            worst = worst.max(apart(ln(x), x.ln()));
+            worst = worst.max(ulps_between(ln(x), x.ln()));
         }
         assert!(worst <= 1.0, "{worst} units in the last place");
         assert_eq!(ln(1.0), 0.0);
     }
 
-    struct Both<'a>(&'a [f64], &'a mut [f64]);
+    struct Elementwise<'a>(&'a [f64], &'a mut [f64]);
 
-    impl Body for Both<'_> {
+    impl Body for Elementwise<'_> {
         type Output = ();
         #[inline(always)]
         fn call<L: Lane>(self) {
@@ -162,7 +162,7 @@ mod tests {
         let alone: Vec<f64> = x.iter().map(|&x| ln(x) + atan2(x - 3.0, 1.5 - x)).collect();
         for width in [Width::Two, Width::Four, Width::Eight] {
             let mut together = vec![0.0; x.len()];
-            dispatch_at(width, Both(&x, &mut together));
+            dispatch_at(width, Elementwise(&x, &mut together));
             assert_eq!(together, alone, "{width:?}");
         }
         assert_eq!(<Lanes<2> as Lane>::N, 2);

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::diffusion::ShiftingEntry;
-use crate::diffusion::evenness::{Evenness, Held, evenness, held_normals};
+use crate::diffusion::evenness::{Evenness, ShiftLimit, evenness, held_normals};
 use crate::diffusion::shift_transport::ShiftTransport;
 use crate::diffusion::shifted_sum::ShiftedSum;
 
@@ -180,10 +180,10 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
                 let phase = phase.map_or(0, |p| p[i] as usize);
                 let fastest = fastest[phase];
                 let diffusivity = (strength * h * sound[phase]).min(STABLE * h * h / world.dt);
-                *s = along(even, -diffusivity * even.push, limit * fastest);
+                *s = along_interface(even, -diffusivity * even.push, limit * fastest);
                 if let Some(normals) = &normals {
                     *s = normals[i].held(*s);
-                    if !matches!(normals[i], Held::No) {
+                    if !matches!(normals[i], ShiftLimit::No) {
                         *empty = 0.0;
                     }
                 }
@@ -202,7 +202,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
 }
 
 /// The shift along the interface between phases, not longer than `most`.
-fn along<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<D> {
+fn along_interface<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<D> {
     let tangential = match even.interface {
         Some(normal) => shift - normal * normal.dot(&shift),
         None => shift,

@@ -155,7 +155,7 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
     ) -> Result<(), StepError> {
         let walk = ClusterWalk::new(world)?;
         self.fill_blocks([walk.blocks(), walk.particles()], |block, rows| {
-            walk.each(block, |members| cluster(members, rows));
+            walk.for_each_cluster(block, |members| cluster(members, rows));
         });
         Ok(())
     }

@@ -4,8 +4,8 @@ use sph_core::{Vect, plugin};
 
 use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
 use crate::linear::{
-    Cholesky, Diagonal, Keeps, LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner,
-    Report, SolveError, Tolerance,
+    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, Memories, MemoryOwner, Operator,
+    Preconditioner, Report, SolveError, Tolerance,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -54,7 +54,7 @@ const BLOCK_PATIENCE: usize = 25;
 const DIRECT_ROWS: usize = 200_000;
 
 /// Iterations in whose time a factorisation is done; `None` where it is not tried.
-fn patience<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
+fn iteration_limit<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
     let root = (rows as f64).sqrt().ceil() as usize;
     let most = if mixed { 2 * root } else { root };
     (D == 2 && rows <= DIRECT_ROWS).then_some(most)
@@ -69,7 +69,7 @@ fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
 
 impl<const D: usize> LinearSolver<D> for Automatic
 where
-    Memories: Keeps<D>,
+    Memories: MemoryOwner<D>,
 {
     fn solve(
         &mut self,
@@ -111,7 +111,7 @@ where
         };
         // Factors are of whole matrices.
         let whole = operator.is_whole();
-        let patience = patience::<D>(operator.rows(), mixed).filter(|_| whole);
+        let patience = iteration_limit::<D>(operator.rows(), mixed).filter(|_| whole);
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {
             let last = k + 1 == stages.len();

@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
 use crate::linear::vector::add;
 use crate::linear::{
@@ -48,7 +48,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             iterations: self.iterations,
         };
         let (mut history, mut factors) = (Vec::new(), Factors::default());
-        let mut watch = Watch::new(METHOD, tolerance, operator, right, &mut history)?;
+        let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let mut r = Vec::new();
         operator.residual(right, x, &mut r);
         if let Some(residual) = watch.reached(operator.norm(&r))? {

@@ -2,12 +2,12 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::memory::Vectors;
 use crate::linear::vector::{add, scale_and_add};
 use crate::linear::{
-    Keeps, LinearSolver, LinearSolverEntry, Memories, Memory, Operator, Preconditioner, Report,
-    SolveError,
+    LinearSolver, LinearSolverEntry, Memories, Memory, MemoryOwner, Operator, Preconditioner,
+    Report, SolveError,
 };
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
@@ -46,7 +46,7 @@ const PREPARE: usize = 3;
 
 impl<const D: usize> LinearSolver<D> for ConjugateGradient
 where
-    Memories: Keeps<D>,
+    Memories: MemoryOwner<D>,
 {
     fn solve(
         &mut self,
@@ -93,7 +93,7 @@ pub(crate) fn iterate<const D: usize>(
         factors,
         halves,
     } = memory;
-    let mut watch = Watch::new(METHOD, tolerance, operator, right, history)?;
+    let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, history)?;
     let Vectors {
         r,
         z,

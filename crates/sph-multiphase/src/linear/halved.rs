@@ -89,7 +89,7 @@ impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
     {
         let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
         let count = pattern.len().div_ceil(rows);
-        parts.resize_with(count, Part::nothing);
+        parts.resize_with(count, Part::empty);
         parts.par_iter_mut().enumerate().for_each(|(k, part)| {
             let own = k * rows..((k + 1) * rows).min(pattern.len());
             part.refill(pattern, &values.others, own);
@@ -114,7 +114,7 @@ impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
 }
 
 impl<E: Copy> Part<E> {
-    fn nothing() -> Self {
+    fn empty() -> Self {
         Part {
             starts: Vec::new(),
             inside: Vec::new(),

@@ -99,7 +99,7 @@ impl<const D: usize> dyn Operator<D> + '_ {
     ///
     /// # Errors
     /// If it is not written down, or some of it is with the owners of copies.
-    pub(crate) fn whole(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
+    pub(crate) fn whole_matrix(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
         let whole = self.assembled().filter(|_| self.is_whole());
         whole.ok_or_else(|| SolveError::NotWhole {
             method: method.into(),

@@ -73,7 +73,7 @@ impl<const D: usize> Couplings<'_, D> {
         let mut scratch = scratch_pool.acquire();
         let scratch = &mut *scratch;
         cluster.numbers(self, &mut scratch.numbers);
-        let (couplings, sources) = cluster.dispatch(SideBySide {
+        let (couplings, sources) = cluster.dispatch(ClusterSums {
             candidates: cluster.candidates(),
             scratch,
         });
@@ -140,12 +140,12 @@ impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
 }
 
 /// Sums of the rows of a cluster.
-struct SideBySide<'a> {
+struct ClusterSums<'a> {
     candidates: &'a [u32],
     scratch: &'a mut ClusterCoefficients,
 }
 
-impl Body for SideBySide<'_> {
+impl Body for ClusterSums<'_> {
     /// Σc and sources.
     type Output = ([f64; MOST], [f64; MOST]);
 

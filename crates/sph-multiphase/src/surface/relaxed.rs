@@ -103,7 +103,7 @@ struct Scratch {
 }
 
 /// A particle as the relaxation sees it.
-struct Seen {
+struct RelaxedParticle {
     place: f64,
     constant: f64,
     density: f64,
@@ -112,7 +112,7 @@ struct Seen {
 
 impl Relaxation {
     /// Change of K of a particle in a step of which a share `part` of the difference goes.
-    fn change(&self, seen: &Seen, reference: f64, part: f64) -> f64 {
+    fn change(&self, seen: &RelaxedParticle, reference: f64, part: f64) -> f64 {
         let slack = self.plugin.tolerance * reference;
         let place = |p: Place| seen.place == p.number();
         if place(Place::Alone) {
@@ -156,7 +156,7 @@ impl Relaxation {
             if inside && contacts.any(|c| open.get(c.element as usize) == Some(&true)) {
                 return 0.0;
             }
-            let seen = Seen {
+            let seen = RelaxedParticle {
                 place: surface[i],
                 constant: *constant,
                 density: density[i],
@@ -230,8 +230,8 @@ mod tests {
         }
     }
 
-    fn seen(place: Place, constant: f64, density: f64) -> Seen {
-        Seen {
+    fn sample(place: Place, constant: f64, density: f64) -> RelaxedParticle {
+        RelaxedParticle {
             place: place.number(),
             constant,
             density,
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_full_support_loses_what_it_has_beyond_the_tolerance() {
-        let of = |k: f64| relaxation().change(&seen(Place::Inside, k, 1000.0), 1000.0, 1.0);
+        let of = |k: f64| relaxation().change(&sample(Place::Inside, k, 1000.0), 1000.0, 1.0);
         assert_eq!([of(9.0), of(-9.0)], [0.0, 0.0]);
         assert!((of(430.0) + 420.0).abs() < 1e-9 && (of(-130.0) - 120.0).abs() < 1e-9);
     }
@@ -250,19 +250,19 @@ mod tests {
     fn surfaces_have_no_pressure_where_that_is_asked_for() {
         let mut relaxation = relaxation();
         relaxation.plugin.no_pressure = true;
-        let of = |rho| relaxation.change(&seen(Place::At, 0.0, rho), 1000.0, 0.5);
+        let of = |rho| relaxation.change(&sample(Place::At, 0.0, rho), 1000.0, 0.5);
         assert_eq!([of(1030.0), of(960.0)], [-15.0, 20.0]);
     }
 
     #[test]
     fn within_reach_of_a_surface_nothing_changes() {
-        let change = relaxation().change(&seen(Place::Near, 400.0, 900.0), 1000.0, 1.0);
+        let change = relaxation().change(&sample(Place::Near, 400.0, 900.0), 1000.0, 1.0);
         assert_eq!(change, 0.0);
     }
 
     #[test]
     fn surfaces_are_not_under_tension_and_lone_particles_have_no_pressure() {
-        let of = |place, rho| relaxation().change(&seen(place, 0.0, rho), 1000.0, 0.5);
+        let of = |place, rho| relaxation().change(&sample(place, 0.0, rho), 1000.0, 0.5);
         assert!((of(Place::At, 590.0) - 200.0).abs() < 1e-9);
         assert_eq!(of(Place::At, 1100.0), 0.0);
         assert_eq!(of(Place::Alone, 140.0), 860.0);

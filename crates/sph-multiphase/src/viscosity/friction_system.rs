@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Space, Weak, World};
+use sph_neighbours::{Cluster, CouplingRows, CouplingWriter, Couplings, MOST, Space, Weak, World};
 
 use crate::linear::Block;
 use crate::viscosity::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
@@ -182,7 +182,7 @@ impl<const D: usize> Part<'_, D> {
     fn add<E: FrictionEntry<D>>(
         &self,
         cluster: &mut Cluster<'_, D>,
-        keeper: &mut Keeper<'_>,
+        keeper: &mut CouplingWriter<'_>,
         (own, whole, right): CouplingRows<'_, E, E, Vect<D>>,
     ) {
         self.coupling.strengths(cluster, keeper.numbers);

@@ -23,7 +23,7 @@ const INNER: f64 = 0.1;
 const VECTORS: usize = 8;
 
 /// Updates of the viscosity with the velocity within a step.
-pub struct Lagged<const D: usize> {
+pub struct PicardUpdates<const D: usize> {
     /// Stages of the viscosity of the present velocity; empty where it does not depend on it.
     pub stages: Stages<D>,
     /// True if an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
@@ -37,7 +37,7 @@ pub struct ImplicitViscosity<const D: usize> {
     coupling: Box<dyn Coupling<D>>,
     scheme: Box<dyn TimeScheme>,
     solver: Box<dyn LinearSolver<D>>,
-    lagged: Lagged<D>,
+    lagged: PicardUpdates<D>,
     solves: Solves,
     /// The system of the last solve, for its memory.
     system: FrictionSystem<D>,
@@ -60,7 +60,7 @@ impl<const D: usize> ImplicitViscosity<D> {
     pub fn new(
         coupling: Box<dyn Coupling<D>>,
         (scheme, solver): (Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>),
-        lagged: Lagged<D>,
+        lagged: PicardUpdates<D>,
     ) -> Self {
         ImplicitViscosity {
             coupling,

@@ -32,8 +32,8 @@ impl<const D: usize> Parts<D> {
 
     /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
     /// has that has one.
-    pub fn confess(&mut self, cause: StepError) -> StepError {
-        self.link.confess(cause)
+    pub fn share_failure(&mut self, cause: StepError) -> StepError {
+        self.link.share_failure(cause)
     }
 
     /// The least of every value over all ranks.

@@ -97,7 +97,7 @@ impl Link {
 
     /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
     /// has that has one.
-    pub fn confess(&self, cause: StepError) -> StepError {
+    pub fn share_failure(&self, cause: StepError) -> StepError {
         if !self.told.swap(false, Ordering::Relaxed) {
             // They answer with the failure itself.
             let _ = self.any(true, false);

@@ -12,7 +12,7 @@ use sph_core::{AnyField, Role, Store, Vect, fields};
 use crate::decomposition::ghosts::{Needs, RankBox};
 use crate::decomposition::link::{Link, Partner, Partners};
 use crate::decomposition::owner::OWNER;
-use crate::decomposition::{Cuts, DecompositionError, Divided, PartError, Thread, Transport};
+use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
 use crate::{Extent, World};
 
 /// Rebuilt lists until the parts are looked at again.
@@ -82,7 +82,7 @@ impl<const D: usize> Parts<D> {
         let places: Vec<Vect<D>> = kept.iter().map(|k| reference[*k as usize]).collect();
         let own: Vec<bool> = kept.iter().map(|k| owners[*k as usize] == rank).collect();
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |k| own[k]));
-        let sends = transport.others().iter().map(to).collect();
+        let sends = transport.other_ranks().iter().map(to).collect();
         drop(needs);
         world.free.keep_slots(&kept);
         let link = Arc::new(Link::new(transport, rings));
@@ -120,11 +120,11 @@ impl<const D: usize> Parts<D> {
     }
 
     /// The division of the particles.
-    pub fn divided(&self, free: &Store<D>) -> Divided {
+    pub fn divided(&self, free: &Store<D>) -> RankParticles {
         let partners = self.link.partners();
         let count = |all: &[Partner]| all.iter().map(|(_, slots)| slots.len()).sum::<usize>();
         let ghosts = count(&partners.receives);
-        Divided {
+        RankParticles {
             own: free.len() - ghosts,
             ghosts,
             sent: count(&partners.sends),
@@ -221,11 +221,11 @@ impl<const D: usize> Parts<D> {
         world.free.keep_slots(&own);
         self.move_house(world)?;
         let own = world.free.len();
-        let around = self.around(world)?;
+        let around = self.rank_boxes(world)?;
         let places = world.free.get(fields::POSITION)?.to_vec();
         let needs = Needs::new(world, self.link.rings);
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
-        let sends: Vec<Partner> = self.link.transport.others().iter().map(to).collect();
+        let sends: Vec<Partner> = self.link.transport.other_ranks().iter().map(to).collect();
         drop(needs);
         self.deliver(world, &sends)?;
         world.extent = Some(self.extent(&places)?);
@@ -320,7 +320,7 @@ impl<const D: usize> Parts<D> {
             numbers[*rank] = (message.len() / each) as u64;
         }
         self.link.count(&out);
-        let mut come = self.link.transport.trade(&numbers)?;
+        let mut come = self.link.transport.all_to_all(&numbers)?;
         come[self.link.transport.rank()] = 0;
         let from: Vec<usize> = (0..come.len()).filter(|r| come[*r] > 0).collect();
         let messages = self.link.transport.swap(out, &from)?;
@@ -336,7 +336,7 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Boxes around what each rank owns.
-    fn around(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
+    fn rank_boxes(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
         let own = RankBox::around(world.free.get(fields::POSITION)?.iter());
         let numbers = own.lower.iter().chain(own.upper.iter());
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();

@@ -4,7 +4,8 @@ use sph_core::plugin;
 
 use crate::laws::imposed_pressure;
 use crate::{
-    Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside, Place,
+    FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal,
+    OpenSetting,
 };
 
 /// Fluid leaves, and sound with it.
@@ -59,13 +60,13 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
     }
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    ) -> Vec<FaceValues<D>> {
         let g = moment.gravity.norm();
         let [present, mean] = of_the_face(places, inside);
-        let one = |(place, inside): (&Place<D>, &Inside<D>)| {
+        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
             let z = inside.impedance;
             let depth = |level: f64| (level - moment.height(&place.centre)).max(0.0);
             let far = self.pressure + self.level.map_or(0.0, |l| inside.density * g * depth(l));
@@ -86,7 +87,7 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
 ///
 /// Sound in front of a face is a plane wave there. What differs from element to element is the profile of the flow, and which
 /// particles have just been taken into the mean: times ρc that would be pressure.
-fn of_the_face<const D: usize>(places: &[Place<D>], inside: &[Inside<D>]) -> [f64; 2] {
+fn of_the_face<const D: usize>(places: &[FaceElement<D>], inside: &[FluidMean<D>]) -> [f64; 2] {
     let (mut sums, mut whole) = ([0.0; 2], 0.0);
     for (place, inside) in places.iter().zip(inside).filter(|(_, inside)| inside.wet) {
         let velocities = [inside.velocity, inside.mean];

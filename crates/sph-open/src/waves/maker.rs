@@ -80,15 +80,15 @@ struct Feedback<const D: usize> {
     absorption: Absorption,
 }
 
-type Settled<T> = Result<T, MoverRefusal>;
+type MoverResult<T> = Result<T, MoverRefusal>;
 
-fn refuse<T>(key: &str, why: impl Into<String>) -> Settled<T> {
+fn refuse<T>(key: &str, why: impl Into<String>) -> MoverResult<T> {
     Err(MoverRefusal::at_key(key, why))
 }
 
 impl<const D: usize> WaveMaker<D> {
     /// Depth of the water and size of gravity.
-    fn water(&self, setting: &MoverSetting<'_, D>) -> Settled<[f64; 2]> {
+    fn water(&self, setting: &MoverSetting<'_, D>) -> MoverResult<[f64; 2]> {
         let gravity = setting.gravity;
         let g = -gravity[D - 1];
         if !(g > 0.0 && gravity.norm() <= g * (1.0 + 1e-12)) {
@@ -105,7 +105,7 @@ impl<const D: usize> WaveMaker<D> {
     }
 
     /// The direction of the waves.
-    fn direction(&self) -> Settled<Vect<D>> {
+    fn direction(&self) -> MoverResult<Vect<D>> {
         let along = match &self.along {
             None => return Ok(Vect::from_fn(|k, _| if k == 0 { 1.0 } else { 0.0 })),
             Some(along) => along,
@@ -124,7 +124,7 @@ impl<const D: usize> WaveMaker<D> {
         }
     }
 
-    fn paddle(&self) -> Settled<Paddle> {
+    fn paddle(&self) -> MoverResult<Paddle> {
         let Some(hinge) = &self.hinge else {
             return Ok(Paddle::Piston);
         };
@@ -141,7 +141,7 @@ impl<const D: usize> WaveMaker<D> {
     }
 
     /// True if the motion has the correction of second order.
-    fn second_order(&self, paddle: Paddle, depth: f64, first: &Component) -> Settled<bool> {
+    fn second_order(&self, paddle: Paddle, depth: f64, first: &Component) -> MoverResult<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
         match self.order {
             Some(1) => return Ok(false),
@@ -162,7 +162,7 @@ impl<const D: usize> WaveMaker<D> {
     }
 
     /// The motion at the still level, m.
-    fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> Settled<Vec<SinePart>> {
+    fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> MoverResult<Vec<SinePart>> {
         let waves = self.waves.components(depth, gravity);
         let Some(first) = waves.first() else {
             return refuse(
@@ -198,7 +198,7 @@ impl<const D: usize> WaveMaker<D> {
         water: [f64; 2],
         ramp: f64,
         setting: &MoverSetting<'_, D>,
-    ) -> Settled<Option<Feedback<D>>> {
+    ) -> MoverResult<Option<Feedback<D>>> {
         if !self.absorb {
             return Ok(None);
         }
@@ -223,7 +223,7 @@ impl<const D: usize> WaveMaker<D> {
 }
 
 impl<const D: usize> Mover<D> for WaveMaker<D> {
-    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> MoverResult<()> {
         let water = self.water(setting)?;
         let faulty = |(key, why): (&str, String)| MoverRefusal::at_key(key, why);
         self.waves.check(water[0], water[1], 0.0).map_err(faulty)?;
@@ -281,7 +281,7 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
         let Some(Feedback { face, absorption }) = &self.feedback else {
             return plan;
         };
-        let besides = face.besides(now, &self.motion.state(time));
+        let besides = face.free_motion(now, &self.motion.state(time));
         let next = absorption.next(besides, load.depth, time, dt);
         face.moved(plan, next, (next[1] - besides[1]) / dt)
     }

@@ -44,14 +44,14 @@ pub struct Suspect {
     /// The body it came from.
     pub body: String,
     /// At the last good state, if there is one.
-    pub before: Option<Sighting>,
+    pub before: Option<ParticleRecord>,
     /// At the bad state.
-    pub after: Option<Sighting>,
+    pub after: Option<ParticleRecord>,
 }
 
 /// A particle at some time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sighting {
+pub struct ParticleRecord {
     /// Time, s.
     pub time: f64,
     /// Position, m.
@@ -155,7 +155,7 @@ pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<
 }
 
 /// A particle as it is now.
-pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<Sighting> {
+pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<ParticleRecord> {
     let world = &flow.world;
     let position = world.free.get(fields::POSITION).ok()?;
     let velocity = world.free.get(fields::VELOCITY).ok()?;
@@ -173,7 +173,7 @@ pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Optio
         Some((name.to_string(), distance / world.spacing))
     });
     let list = |v: &Vect<D>| v.iter().map(|c| finite(*c)).collect();
-    Some(Sighting {
+    Some(ParticleRecord {
         time: world.time,
         position: list(x),
         velocity: list(&velocity[particle]),

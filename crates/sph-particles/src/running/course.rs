@@ -32,7 +32,7 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) extrema: Extrema,
     pub(crate) outputs: Outputs,
     /// The state before the last step.
-    pub(crate) good: LastGood<D>,
+    pub(crate) good: StateBeforeStep<D>,
     /// Knowledge of the present state.
     pub(crate) known: DerivedState,
     /// The last step that was tried, s, and what limited it.
@@ -50,12 +50,12 @@ pub(crate) struct Running<'a, const D: usize> {
 
 /// The state before the last step, if any was kept.
 #[derive(Default)]
-pub(crate) struct LastGood<const D: usize> {
+pub(crate) struct StateBeforeStep<const D: usize> {
     pub(crate) snapshot: Snapshot<D>,
     pub(crate) taken: bool,
 }
 
-impl<const D: usize> LastGood<D> {
+impl<const D: usize> StateBeforeStep<D> {
     pub(crate) fn state(&self) -> Option<&Snapshot<D>> {
         self.taken.then_some(&self.snapshot)
     }

@@ -239,7 +239,7 @@ impl<const D: usize> Running<'_, D> {
     pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {
             None => cause,
-            Some(parts) => parts.confess(cause),
+            Some(parts) => parts.share_failure(cause),
         }
     }
 }

@@ -105,7 +105,7 @@ pub fn probes<const D: usize>(
         let built = Registry::<SolutionEntry>::discovered()
             .and_then(|registry| registry.find(&choice.name))
             .and_then(|entry| entry.build::<D>(&choice.table));
-        let solution = built.map_err(|e| SolverError::Scene(choice.blame(&e)))?;
+        let solution = built.map_err(|e| SolverError::Scene(choice.scene_problems(&e)))?;
         let field = field.clone();
         probes.push((column(name), Box::new(ErrorProbe { field, solution })));
     }

@@ -14,7 +14,7 @@ use sph_solver::{SolverError, defaults};
 
 use crate::setup::shapes::Drawn;
 use crate::setup::tension;
-use crate::setup::tension::Filled;
+use crate::setup::tension::FilledBox;
 
 /// Distance in front of a port in which the room of a particle is looked at, over the spacing.
 const ROOM: f64 = 0.5;
@@ -99,7 +99,7 @@ pub(crate) fn check<const D: usize>(
     scene: &Scene,
     opened: &Option<OpenBoundaries<D>>,
     walls: Option<&dyn Wall<D>>,
-    filled: Filled<'_, D>,
+    filled: FilledBox<'_, D>,
 ) -> Result<Vec<String>, SolverError> {
     let Some(opened) = opened else {
         return Ok(Vec::new());

@@ -19,7 +19,7 @@ const MOST: f64 = 0.3;
 const NEAR: f64 = 0.8;
 
 /// A box, its particles, their laws and what lifts these.
-pub(crate) type Filled<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
+pub(crate) type FilledBox<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
 
 /// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
 /// remark on it, or on the background pressure that is missing.
@@ -27,7 +27,7 @@ pub(crate) fn lift<const D: usize>(
     scene: &Scene,
     opened: &OpenBoundaries<D>,
     walls: Option<&dyn Wall<D>>,
-    (room, positions, laws, lift): Filled<'_, D>,
+    (room, positions, laws, lift): FilledBox<'_, D>,
 ) -> Option<String> {
     let walls = walls?;
     let references = || laws.iter().map(|law| law.reference());

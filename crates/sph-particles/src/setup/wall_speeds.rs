@@ -49,7 +49,7 @@ pub fn speeds<const D: usize>(
     let [mut pressed, mut changed] = [(0.0_f64, 0.0); 2];
     let begin: Vec<f64> = walls.iter().map(|w| moving(w, 0.0, 0.0).speed).collect();
     for time in times {
-        let all: Vec<Moving> = walls.iter().map(|w| moving(w, time, crossing)).collect();
+        let all: Vec<WallSpeed> = walls.iter().map(|w| moving(w, time, crossing)).collect();
         let least =
             |of: &dyn Fn(usize) -> f64| (0..all.len()).map(of).fold(f64::INFINITY, f64::min);
         let larger = |most: &mut (f64, f64), x: f64| {
@@ -169,13 +169,13 @@ fn known(x: f64) -> f64 {
 
 /// Largest speed of the corners of a wall, and how much their velocities have changed since a time before, m/s.
 #[derive(Clone, Copy, Default)]
-struct Moving {
+struct WallSpeed {
     speed: f64,
     change: f64,
 }
 
-fn moving<const D: usize>(wall: &WallSpec<D>, time: f64, since: f64) -> Moving {
-    let mut most = Moving::default();
+fn moving<const D: usize>(wall: &WallSpec<D>, time: f64, since: f64) -> WallSpeed {
+    let mut most = WallSpeed::default();
     if !wall.motion.moves() {
         return most;
     }

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::beds::columns::{Columns, End};
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Three curves over a movable bed, mass of what moves of it (kg, per metre of width), and lowest
@@ -49,7 +49,7 @@ pub(crate) fn threshold() -> f64 {
 }
 
 /// The three curves, and what moves.
-struct Drawn {
+struct BedCurves {
     surface: Columns,
     interface: Columns,
     /// Lowest moving grains.
@@ -59,8 +59,8 @@ struct Drawn {
 }
 
 impl BedLines {
-    fn draw(&self, world: &World<2>) -> Result<Drawn, StepError> {
-        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
+    fn draw(&self, world: &World<2>) -> Result<BedCurves, StepError> {
+        let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;
@@ -70,7 +70,7 @@ impl BedLines {
             xs().fold(f64::NEG_INFINITY, f64::max),
         ];
         let empty = |end| Columns::over(range, world.spacing, end);
-        let mut drawn = Drawn {
+        let mut drawn = BedCurves {
             surface: empty(End::Highest),
             interface: empty(End::Highest),
             moving: empty(End::Lowest),

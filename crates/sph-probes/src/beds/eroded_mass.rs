@@ -4,7 +4,7 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::front::Direction;
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Mass of a bed that has left its place at the start, kg (per metre of width in 2D).
@@ -59,7 +59,7 @@ impl<const D: usize> Probe<D> for ErodedMass {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
+        let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let sign = match self.direction {
             Direction::Forward => 1.0,
             Direction::Backward => -1.0,

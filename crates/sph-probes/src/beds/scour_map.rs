@@ -3,7 +3,7 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Width of a cell in spacings: one that grains have spread from by less than a spacing is not empty.
@@ -79,7 +79,7 @@ impl ScourMap {
     }
 
     fn cells(&self, world: &World<3>) -> Result<Vec<Cell>, StepError> {
-        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
+        let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let grid = self.grid(world.spacing);
         let cell = |k: usize, x: f64| {
             let n = ((x - grid.corner[k]) / grid.width[k]).floor() as i64;

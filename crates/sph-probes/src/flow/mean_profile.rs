@@ -205,7 +205,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
         self.file.as_deref()
     }
 
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
         let finite = rows.iter().flatten().all(|v| v.is_finite());
         let grows = rows.windows(2).all(|w| w[0][0] < w[1][0]);
         if rows.len() < 2 || !finite || !grows {

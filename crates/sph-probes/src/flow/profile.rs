@@ -130,7 +130,7 @@ impl<const D: usize> Probe<D> for Profile {
         Some(&self.file)
     }
 
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
         if rows.is_empty() || rows.iter().flatten().any(|v| !v.is_finite()) {
             return Err("is no profile: expected rows of a distance and a velocity".into());
         }

@@ -5,7 +5,7 @@ use sph_neighbours::World;
 
 use crate::beds::bed_lines;
 use crate::beds::columns::{Columns, End};
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Line of a body of soil.
@@ -70,7 +70,7 @@ pub struct Line {
 impl Line {
     /// The line over the reference.
     fn drawn(&self, world: &World<2>) -> Result<Columns, StepError> {
-        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
+        let counted = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         // Particles far away from the reference make no columns: these must fit into memory.
         let xs = || self.reference.iter().map(|[x, _]| *x);
@@ -124,7 +124,7 @@ impl Probe<2> for Line {
         Some(&self.file)
     }
 
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
         if rows.is_empty() || rows.iter().flatten().any(|v| !v.is_finite()) {
             return Err("is no line: expected rows of x and y".into());
         }

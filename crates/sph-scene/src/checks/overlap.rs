@@ -1,7 +1,7 @@
 //! Bodies that claim the same place.
 
 use crate::checks::problems::Problems;
-use crate::geometry::periodic_place::Placed;
+use crate::geometry::periodic_place::PeriodicRegion;
 use crate::geometry::vector::point;
 use crate::{Region, Scene};
 
@@ -25,7 +25,7 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
         .unzip();
     let placed: Vec<_> = regions
         .iter()
-        .map(|r| Placed::new(r, spacing, &periods))
+        .map(|r| PeriodicRegion::new(r, spacing, &periods))
         .collect();
     let mut work = WORK;
     for (i, first) in placed.iter().enumerate() {
@@ -58,8 +58,8 @@ fn edges<const D: usize>(region: &Region<D>) -> f64 {
 }
 
 fn common<const D: usize>(
-    first: &Placed<'_, D>,
-    second: &Placed<'_, D>,
+    first: &PeriodicRegion<'_, D>,
+    second: &PeriodicRegion<'_, D>,
     spacing: f64,
     effort: f64,
     work: &mut f64,

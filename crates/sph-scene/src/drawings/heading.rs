@@ -26,7 +26,7 @@ impl Form {
 
 /// The columns of a file that count.
 #[derive(Debug)]
-pub(crate) struct Chosen {
+pub(crate) struct ColumnChoice {
     /// Their places, from 0.
     pub at: [usize; 2],
     /// Factor from the numbers of each to SI.
@@ -35,7 +35,7 @@ pub(crate) struct Chosen {
     pub only: bool,
 }
 
-impl Chosen {
+impl ColumnChoice {
     /// Of a file with these heads, which may be none.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl Chosen {
                 (None, None) => 1.0,
             };
         }
-        Ok(Chosen {
+        Ok(ColumnChoice {
             at,
             factors,
             only: form.columns.is_none(),

@@ -85,10 +85,10 @@ pub(crate) fn crossing(
 }
 
 /// Two segments, by number, and the place where they meet.
-type Met = (usize, usize, [f64; 2]);
+type SegmentCrossing = (usize, usize, [f64; 2]);
 
 /// The same with the number of pairs that were held against each other.
-fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<Met>, usize) {
+fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<SegmentCrossing>, usize) {
     let n = edges.len();
     let tree = BoxTree::new(edges.iter().map(|(a, b)| bounds([*a, *b])).collect());
     let mut pairs = 0;

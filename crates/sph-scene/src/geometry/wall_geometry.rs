@@ -7,7 +7,7 @@ use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
 use crate::geometry::divide;
-use crate::geometry::outlines::{Line, Unsided, oriented, rectangle};
+use crate::geometry::outlines::{Line, SideError, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
@@ -53,14 +53,14 @@ impl Wall {
         };
         let turned = self.flip || open_box && self.side() == Some(FluidSide::Outside);
         let lines = oriented(drawn, side).map_err(|why| match why {
-            Unsided::Open(open) => {
+            SideError::Open(open) => {
                 let message = format!(
                     "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
                      it, or leave out `fluid` and draw it with the fluid on the left of travel"
                 );
                 SceneProblem::new(format!("{place}.fluid"), message)
             }
-            Unsided::Tangled => problem(
+            SideError::Tangled => problem(
                 "its lines have too many edges beside each other to find which is within which: leave \
                  out `fluid` and draw them with the fluid on the left of travel"
                     .to_string(),

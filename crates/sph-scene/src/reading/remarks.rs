@@ -27,10 +27,11 @@ fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> 
         return Ok(Vec::new());
     }
     let Some(plugin) = plugins.iter().find(|p| p.name == choice.name) else {
-        return Err(choice.blame(&unknown(choice, &plugins)));
+        return Err(choice.scene_problems(&unknown(choice, &plugins)));
     };
     let mut table = Value::Table(choice.table.clone());
-    let inside = |found: Vec<SceneProblem>| choice.blame(&RegistryError::Parameters(found));
+    let inside =
+        |found: Vec<SceneProblem>| choice.scene_problems(&RegistryError::Parameters(found));
     conform(&mut table, &(plugin.schema)())
         .map(inside)
         .map_err(inside)

@@ -107,7 +107,7 @@ pub enum Pressure {
 }
 
 /// A polygon, the axis along which it is drawn out, and both ends.
-pub(crate) type DrawnOut<'a> = (&'a [Vec<f64>], Axis, [f64; 2]);
+pub(crate) type ExtrudedPolygon<'a> = (&'a [Vec<f64>], Axis, [f64; 2]);
 
 /// The keys that may give a shape, wherever they stand.
 #[derive(Clone, Copy)]
@@ -123,7 +123,7 @@ pub(crate) struct ShapeKeys<'a> {
     pub cylinder: Option<([&'a [f64]; 2], f64)>,
     /// Base, apex and radius.
     pub cone: Option<([&'a [f64]; 2], f64)>,
-    pub extrusion: Option<DrawnOut<'a>>,
+    pub extrusion: Option<ExtrudedPolygon<'a>>,
 }
 
 impl ShapeKeys<'_> {

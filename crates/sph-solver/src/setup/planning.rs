@@ -18,7 +18,7 @@ use crate::step::stages::{InteractionSweep, Work};
 pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
 
 /// The works that run, those that do not, and the pair terms.
-pub struct Planned<const D: usize> {
+pub struct StagePlan<const D: usize> {
     /// Stages in order.
     pub stages: Vec<Work<D>>,
     /// Names of the stages that are not needed.
@@ -59,7 +59,7 @@ impl<const D: usize> Planning<'_, D> {
     ///
     /// # Errors
     /// The key of the scene for which a part is not known, or a column that no stage writes.
-    pub fn plan(&self, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
+    pub fn plan(&self, parts: &mut [Part<D>]) -> Result<StagePlan<D>, SolverError> {
         let mut offers = self.offers(parts)?;
         let mut stages: Vec<Work<D>> = Vec::new();
         if let Some(walls) = self.walls {
@@ -105,7 +105,7 @@ impl<const D: usize> Planning<'_, D> {
         stages.push(Work::Stage(Box::new(sweep)));
         let goals = self.goals(&all, &stages, later);
         let (stages, pruned) = self.ordered(stages, &goals, &hooks)?;
-        Ok(Planned {
+        Ok(StagePlan {
             stages,
             pruned,
             terms,

@@ -21,9 +21,9 @@ use crate::step::declared::Columns;
 use crate::step::ghosts::run_and_update_ghosts;
 use crate::step::guard;
 use crate::step::hooks::{Hooked, Hooks};
-use crate::step::kept_rates::Kept;
+use crate::step::kept_rates::KeptRates;
 use crate::step::new_particles::NewParticleDefaults;
-use crate::step::observer::{Boundary, Observer, Seen};
+use crate::step::observer::{Boundary, ObservedFlow, Observer};
 use crate::step::outlets::Outlets;
 use crate::step::saved_particles::SavedParticles;
 use crate::step::snapshot::Snapshot;
@@ -70,7 +70,7 @@ pub struct Flow<const D: usize> {
     /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
-    pub(crate) kept_rates: Kept<D>,
+    pub(crate) kept_rates: KeptRates<D>,
     /// The same particles, where some of them may go to another rank.
     pub(crate) kept_image: SavedParticles<D>,
     /// Equations of state, in the order of the phase numbers.
@@ -203,7 +203,7 @@ impl<const D: usize> Flow<D> {
 
     /// Shows the flow to the observers at a boundary within a step.
     pub(crate) fn observe(&mut self, at: Boundary, dt: f64) -> Result<(), StepError> {
-        let mut seen = Seen {
+        let mut seen = ObservedFlow {
             world: &mut self.world,
             terms: &self.terms,
             dt,

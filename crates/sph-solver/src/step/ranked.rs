@@ -46,7 +46,7 @@ impl<const D: usize> Flow<D> {
         let bad = guard::positions(&self.world).err();
         let expired = self.world.lists_expired()?;
         match parts.any(bad.is_some(), expired) {
-            Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(elsewhere)),
+            Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(failed_elsewhere)),
             Err(other) => Err(other.into()),
             Ok(false) => {
                 self.world.forget_pruned();
@@ -104,6 +104,6 @@ impl<const D: usize> Flow<D> {
     }
 }
 
-fn elsewhere() -> StepError {
+fn failed_elsewhere() -> StepError {
     PartError::Elsewhere.into()
 }

@@ -36,7 +36,7 @@ pub fn read(
     set: &[Override],
     only: &[String],
 ) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
-    let mut problems = whole(file);
+    let mut problems = study_problems(file);
     let mut ladders = Vec::new();
     for (k, given) in file.axis.iter().enumerate() {
         match one(file, given, &format!("axis[{k}]"), find) {
@@ -95,7 +95,7 @@ pub fn read(
 }
 
 /// A ladder with what its variants are made from.
-struct Found {
+struct LadderSource {
     ladder: Ladder,
     scene: SceneText,
     /// The ladder itself, the combinations, the values.
@@ -103,7 +103,7 @@ struct Found {
 }
 
 /// Mistakes of the study as a whole.
-fn whole(file: &StudyFile) -> Vec<SceneProblem> {
+fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     let mut problems = Vec::new();
     let mut problem = |path: String, message: &str| problems.push(SceneProblem::new(path, message));
     if !file.vary.is_empty() {
@@ -146,7 +146,7 @@ fn one(
     given: &file::Ladder,
     at: &str,
     find: &dyn Fn(&str) -> Result<SceneText, String>,
-) -> Result<Found, Vec<SceneProblem>> {
+) -> Result<LadderSource, Vec<SceneProblem>> {
     let problem =
         |key: &str, message: String| vec![SceneProblem::new(format!("{at}{key}"), message)];
     let values = values(given, at)?;
@@ -183,7 +183,7 @@ fn one(
         name: COLUMNS[k].to_string(),
         choices,
     };
-    Ok(Found {
+    Ok(LadderSource {
         axes: [
             axis(0, vec![itself]),
             axis(1, plugins(file, given)?),

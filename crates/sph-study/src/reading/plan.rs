@@ -85,7 +85,7 @@ impl Study {
         };
         let study = match file.axis.is_empty() {
             true => parts.varied(file, source)?,
-            false => parts.along(file, source)?,
+            false => parts.plan_ladders(file, source)?,
         };
         if let Some(pattern) = only
             .iter()
@@ -189,7 +189,7 @@ impl Parts<'_> {
     }
 
     /// Axes that are gone along until they break.
-    fn along(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
+    fn plan_ladders(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
         let (ladders, variants) = ladder::read(&file, &source, self.find, self.set, self.only)?;
         let mut scenes: Vec<&str> = Vec::new();
         for ladder in &ladders {

@@ -61,7 +61,7 @@ pub struct SolveCost {
 
 /// Their entries in the summary of a run.
 #[derive(Deserialize)]
-pub(crate) struct SolvesTold {
+pub(crate) struct SolveSummaries {
     by_method: BTreeMap<String, u64>,
     mean_iterations: f64,
     wall_seconds: f64,
@@ -69,7 +69,7 @@ pub(crate) struct SolvesTold {
 }
 
 impl SolveCost {
-    pub(crate) fn from_solves(solves: SolvesTold) -> Self {
+    pub(crate) fn from_solves(solves: SolveSummaries) -> Self {
         SolveCost {
             count: solves.by_method.values().sum(),
             seconds: solves.wall_seconds,

@@ -8,7 +8,7 @@ use serde_json::Value as Json;
 use sph_io::IoError;
 use sph_run::Trouble;
 
-use crate::running::cost::{Cost, SolveCost, SolvesTold};
+use crate::running::cost::{Cost, SolveCost, SolveSummaries};
 use crate::running::machine::Origin;
 
 /// Name of the record in a variant's folder.
@@ -148,12 +148,12 @@ struct RunSummary {
     steps_rolled_back: u64,
     simulated_seconds: f64,
     dt_limiters: BTreeMap<String, f64>,
-    implicit_viscosity: Option<SolvesTold>,
+    implicit_viscosity: Option<SolveSummaries>,
     errors: BTreeMap<String, Error>,
     wall_seconds_by_stage: BTreeMap<String, f64>,
     escaped: usize,
     density_range: [Option<f64>; 2],
-    drift: DriftTold,
+    drift: DriftSummary,
     mach: Option<f64>,
     nearest: [Option<f64>; 2],
     first_trouble: Option<Trouble>,
@@ -161,7 +161,7 @@ struct RunSummary {
 
 #[derive(Default, Deserialize)]
 #[serde(default)]
-struct DriftTold {
+struct DriftSummary {
     energy: Option<f64>,
     energy_rise: Option<f64>,
     momentum: Option<f64>,

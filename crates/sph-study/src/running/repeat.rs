@@ -55,7 +55,7 @@ impl Job<'_> {
         if record.fingerprint.is_empty() && folder.exists() {
             // What lies there belongs to another scene, or is to be forgotten; a killed run of
             // this one is known by its checkpoint.
-            self.forget(&folder)?;
+            self.remove_results(&folder)?;
         }
         sph_io::writable(&folder)?;
         record.fingerprint.clone_from(&self.variant.fingerprint);
@@ -64,7 +64,7 @@ impl Job<'_> {
         record.reason = None;
         while record.wall_seconds.len() < self.study.file.repetitions {
             record.status = Status::Interrupted;
-            let ended = self.once(&folder, record)?;
+            let ended = self.run_once(&folder, record)?;
             record.save(&folder)?;
             if ended != Status::Done {
                 break;
@@ -76,7 +76,7 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn forget(&self, folder: &Path) -> Result<(), IoError> {
+    fn remove_results(&self, folder: &Path) -> Result<(), IoError> {
         let record = Record::path(folder);
         let kept = folder.join(CHECKPOINT).exists() && !record.exists() && !self.options.fresh;
         if kept {
@@ -91,7 +91,7 @@ impl Job<'_> {
     }
 
     /// One repetition; the status is what became of it.
-    fn once(&self, folder: &Path, record: &mut Record) -> Result<Status, IoError> {
+    fn run_once(&self, folder: &Path, record: &mut Record) -> Result<Status, IoError> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);
         let identity = format!("{} repetition {repetition}", self.variant.fingerprint);
@@ -101,7 +101,7 @@ impl Job<'_> {
             options.start = Start::Resumed;
         }
         let limit = self.study.file.time_limit;
-        let mut observer = Watching {
+        let mut observer = StepRelay {
             job: self,
             since: Instant::now(),
             left: limit.map(|l| l - record.spent),
@@ -170,7 +170,7 @@ fn remove(file: &Path) {
 }
 
 /// Passes a run's steps on, and a stop back.
-struct Watching<'a> {
+struct StepRelay<'a> {
     job: &'a Job<'a>,
     since: Instant,
     /// Seconds that are left under the time limit.
@@ -178,7 +178,7 @@ struct Watching<'a> {
     cause: Option<Cause>,
 }
 
-impl Observer for Watching<'_> {
+impl Observer for StepRelay<'_> {
     fn step(&mut self, progress: &Progress) -> Command {
         self.job.watcher.step(self.job.variant, progress);
         let over = |left: f64| self.since.elapsed().as_secs_f64() > left;

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use super::common::ClosureCommon;
 use super::filter::FilterLength;
-use super::last_strain::KeepStrain;
+use super::last_strain::StrainRecorder;
 use super::phases::viscosities;
 use super::wall_units::WallUnits;
 use crate::bed::RoughBed;
@@ -152,7 +152,7 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         self.common().offer_to(setting, self.clone(), offer)?;
         if self.strain_of == StrainOf::LastStep {
-            offer.hook(KeepStrain);
+            offer.hook(StrainRecorder);
         }
         if self.damping != Damping::VanDriest {
             return Ok(());

@@ -43,14 +43,14 @@ pub(crate) struct Sources {
 
 /// Conditions of a particle next to a wall with a wall function.
 #[derive(Clone, Copy)]
-struct Near {
+struct WallConditions {
     friction_velocity: f64,
     distance: f64,
 }
 
 /// Strain rates of a particle.
 #[derive(Clone, Copy)]
-struct Strained {
+struct StrainRates {
     rate: f64,
     /// ν_t, m²/s, of the beginning of the step.
     eddies: f64,
@@ -69,7 +69,7 @@ impl Sources {
     }
 
     /// k and ε after a step within the flow.
-    fn inside(&self, [k, e]: [f64; 2], strained: Strained, dt: f64) -> [f64; 2] {
+    fn inside(&self, [k, e]: [f64; 2], strained: StrainRates, dt: f64) -> [f64; 2] {
         let model = KEpsilonModel::default();
         let share = if self.damped { strained.share } else { 1.0 };
         let of_eddies = || share * strained.eddies * strained.rate.powi(2);
@@ -90,7 +90,13 @@ impl Sources {
     }
 
     /// k and ε after a step.
-    fn after(&self, both: [f64; 2], strained: Strained, near: Option<Near>, dt: f64) -> [f64; 2] {
+    fn after(
+        &self,
+        both: [f64; 2],
+        strained: StrainRates,
+        near: Option<WallConditions>,
+        dt: f64,
+    ) -> [f64; 2] {
         let model = KEpsilonModel::default();
         let Some(near) = near else {
             let [k, e] = self.inside(both, strained, dt);
@@ -173,7 +179,7 @@ impl<const D: usize> StepHook<D> for Sources {
                 (friction[i] > 0.0 && distance < world.spacing).then_some([friction[i], distance])
             });
             let [friction_velocity, distance] = of_wall.or_else(|| bed.at(i))?;
-            Some(Near {
+            Some(WallConditions {
                 friction_velocity,
                 distance,
             })
@@ -183,7 +189,7 @@ impl<const D: usize> StepHook<D> for Sources {
             let Some(nu) = viscosity.at(i) else {
                 return;
             };
-            let strained = Strained {
+            let strained = StrainRates {
                 rate: rates[i],
                 eddies: eddies[i] / density[i],
                 viscosity: nu,

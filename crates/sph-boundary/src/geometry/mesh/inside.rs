@@ -24,7 +24,7 @@ const RIM: f64 = 1e-9;
 const ENCLOSED: f64 = 0.5;
 
 /// Queries of a ray and the eye to a mesh of one dimension.
-pub trait Outside<const D: usize> {
+pub trait RayQueries<const D: usize> {
     /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
     /// of it and −1 where it is on the far side.
     fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
@@ -38,7 +38,7 @@ pub trait Outside<const D: usize> {
 
 impl<const D: usize> Mesh<D>
 where
-    Self: Outside<D>,
+    Self: RayQueries<D>,
 {
     /// True if a point is in the fluid, as the walls see it.
     ///

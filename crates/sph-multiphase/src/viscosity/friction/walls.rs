@@ -45,7 +45,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 
     /// Unit vector along the velocity relative to an element, in its plane.
     #[inline(always)]
-    pub(super) fn along(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
+    pub(super) fn slip_direction(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
         let s = nearest.element as usize;
         let slip = self.velocity[i] - self.elements.velocity[s];
         let normal = &self.elements.normal[s];
@@ -121,7 +121,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     #[inline(always)]
     pub(super) fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
         match (F::DIRECTIONAL, nearest) {
-            (true, Some(nearest)) => self.along(i, nearest),
+            (true, Some(nearest)) => self.slip_direction(i, nearest),
             _ => Vect::zeros(),
         }
     }

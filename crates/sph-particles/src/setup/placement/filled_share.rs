@@ -2,7 +2,7 @@
 
 use sph_boundary::Wall;
 use sph_core::Vect;
-use sph_scene::{Body, Filled, Offset, Region, Scene, fill};
+use sph_scene::{Body, BodyParticles, Offset, Region, Scene, fill};
 
 /// A body that fills less or more than this off its space is remarked upon.
 const OFF: f64 = 0.015;
@@ -32,7 +32,7 @@ pub fn shares<const D: usize>(
     }
     let step = spacing / finer as f64;
     let samples = fill(regions, step, Offset::Half, periodic);
-    let share = |filled: &Filled<D>| {
+    let share = |filled: &BodyParticles<D>| {
         let inside = filled.positions.iter().map(|x| Vect::from(*x));
         let inside = inside.filter(|x| walls.contains(x)).count() as f64;
         kept[filled.body] as f64 * (finer as f64).powi(D as i32) / inside
