@@ -35,7 +35,7 @@ pub fn flag() -> Arc<AtomicBool> {
     raised
 }
 
-/// A file longer than `ulimit -f` allows is a disk that is full, and no reason to die without a word.
+/// A file longer than `ulimit -f` allows is reported as a full disk; by default the process ends without a message.
 #[cfg(unix)]
 fn too_long() {
     use signal_hook::{consts::SIGXFSZ, flag};

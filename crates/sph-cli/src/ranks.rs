@@ -40,7 +40,7 @@ pub fn communicator() -> Option<Arc<dyn Transport>> {
         .cloned()
 }
 
-/// True if this process speaks and writes: the first of several, or the only one.
+/// True if this process prints and writes: the first of several, or the only one.
 pub fn is_first() -> bool {
     communicator().is_none_or(|communicator| communicator.rank() == 0)
 }

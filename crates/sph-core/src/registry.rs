@@ -80,7 +80,7 @@ impl<E: Contract> Default for Registry<E> {
 }
 
 impl<E: Contract> Registry<E> {
-    /// No plugin at all; nothing global is looked at.
+    /// No plugin at all; global registrations are ignored.
     pub fn new() -> Self {
         Registry {
             entries: Vec::new(),

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 const FAR: f64 = 4.0;
 /// Triangles of a cluster that is not divided.
 const FEW: usize = 8;
-/// Triangles at which the side that a surface faces is asked for, at most.
+/// Largest number of triangles at which the side of a surface is sampled.
 const ASKED: usize = 256;
 
 /// Winding number of a surface around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one

@@ -47,7 +47,7 @@ pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
 
 /// A table of parameters, or a choice between variants in kebab case, that is a part of a plugin or of a scene.
 ///
-/// A field says `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`,
+/// A field takes `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`,
 /// `above` and `below` (bounds that are not reached), `min_items`, `max_items`, `quantity`, `examples`, `source`. Its doc
 /// comment is its meaning.
 ///

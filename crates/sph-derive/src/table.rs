@@ -72,7 +72,7 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
     })
 }
 
-/// The type with what its attribute says.
+/// The type with the words of its attribute.
 ///
 /// # Errors
 /// Unknown words; a union; fields without names.

@@ -31,7 +31,7 @@
 //!
 //! **No anonymous error.** Every failure is an [`IoError`] that names the file;
 //! damaged checkpoints name the check that failed ([`CheckpointFault`]), bad tables
-//! which line and column. [`writable`] asks for trouble before the run rather
+//! which line and column. [`writable`] reports trouble before the run rather
 //! than after it.
 //!
 //! All quantities are in SI units. Vectors of planar scenes are padded with a

@@ -8,7 +8,7 @@
 //! * [`PressureStage`] applies the equations of state.
 //! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
-//! * [`damping`]: velocities that die away, everywhere or in sponges.
+//! * [`damping`]: decay of velocities, everywhere or in sponges.
 //! * [`diffusion`] of density against noise, and of particles against gaps.
 //! * [`linear`]: sparse systems on the neighbour graph and what solves them.
 //! * [`viscosity`]: viscous operators, solved for or not, and viscosities of eddies.

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields};
 
 use crate::World;
 
-/// The place at which a wall looks at the fluid before it.
+/// The place at which a wall measures the depth of the fluid before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthGauge<const D: usize> {
     /// A point of its face, m; the lowest one that leans.

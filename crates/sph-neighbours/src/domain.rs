@@ -1,4 +1,4 @@
-//! The box the flow lives in, and which of its directions are periodic.
+//! The box of the flow, and its periodic directions.
 
 use sph_core::Vect;
 use sph_kernels::lanes::Lane;

@@ -46,7 +46,7 @@ pub fn facing_forces<const D: usize>(
     }
     let elements = &world.walls.elements;
     let owned = world.owned_elements()?;
-    // Of the pressure of one of the two, which one rank knows.
+    // From the pressure of one of the two, which one rank has.
     let part = |facing: &Facing, pressure: f64| {
         let ([s, t], [to_t, to_s]) = (facing.pair, facing.parts);
         let half = -0.5 * pressure;

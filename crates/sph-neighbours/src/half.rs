@@ -7,7 +7,7 @@ use crate::{CHUNK, Clusters};
 pub struct SweepHalf {
     /// Marks of particles that are sent to others, or that are in a cluster with one.
     edge: Vec<bool>,
-    /// True if the others are asked for.
+    /// True if the other half is requested.
     inner: bool,
 }
 
@@ -38,7 +38,7 @@ impl SweepHalf {
         self.inner
     }
 
-    /// True if a particle is asked for.
+    /// True if a particle is requested.
     #[inline]
     pub fn includes(&self, particle: usize) -> bool {
         self.edge[particle] != self.inner

@@ -18,7 +18,7 @@ use crate::{Clusters, Domain, HiddenPairs, WallPoints, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
 ///
-/// Since it looks at all distances, it also leaves the list without its skin in
+/// Since it computes all distances, it also leaves the list without its skin in
 /// [`Lists::pruned`](crate::Lists::pruned) for the sweeps that follow at the same positions.
 ///
 /// # Errors

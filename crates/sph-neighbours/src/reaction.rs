@@ -10,7 +10,7 @@ use crate::{Interaction, WallForce, WallPart, World, cross, wall_parts};
 /// It costs a sweep over the particles that see a wanted wall, nothing for the others.
 ///
 /// The walls' part of an acceleration is the whole less what the other particles would contribute
-/// with γ = 1, which is equal and opposite between two particles and leaves no momentum; [`wall_parts`] says which wall
+/// with γ = 1, which is equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the wall
 /// has how much of it. [`facing_forces`] are added.
 ///
 /// # Errors

@@ -21,7 +21,7 @@ pub struct Scaling<'a, const D: usize> {
 enum SlopeOf<'a, const D: usize> {
     /// Of all walls, at every particle.
     All(&'a [Vect<D>]),
-    /// Of some walls, at the particle that is looked at.
+    /// Of some walls, at the particle in hand.
     Some(Vect<D>),
 }
 

@@ -312,7 +312,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         }
     }
 
-    /// A cluster with all that its terms look at.
+    /// A cluster with all inputs of its terms.
     pub fn measured<'b>(
         &'b self,
         buffers: &'b mut Buffers<D>,

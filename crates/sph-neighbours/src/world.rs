@@ -16,7 +16,7 @@ use crate::{
 pub struct Lists<const D: usize> {
     /// Free particles around clusters of free particles, skin included.
     pub free: Clusters,
-    /// The same without the skin, at the present positions; filled by a sweep that looks at all
+    /// The same without the skin, at the present positions; filled by a sweep that computes all
     /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once a particle has moved.
     pub pruned: Option<Clusters>,
     pub(crate) spare: Clusters,

@@ -52,7 +52,7 @@ impl<const D: usize> Words for AdjacentFluid<D> {
 }
 
 impl<const D: usize> Faces<D> {
-    /// The means of all [elements](sph_neighbours::OwnedElements), each looked at where it counts.
+    /// The means of all [elements](sph_neighbours::OwnedElements), each where it counts.
     pub(crate) fn agreed(
         &self,
         world: &World<D>,

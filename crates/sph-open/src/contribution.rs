@@ -13,7 +13,7 @@ use crate::passing::FacePassing;
 use crate::walls::OpenWalls;
 use crate::{Entering, OpenBoundary, OpenRefusal};
 
-/// Parts of the run at the ends of which the course of a law is looked at.
+/// Parts of the run at the ends of which the course of a law is checked.
 const COURSE: usize = 4096;
 
 /// The open faces of a scene as a contribution.

@@ -161,7 +161,7 @@ impl<const D: usize> Faces<D> {
             let weights = [vw, columns.volume[j]];
             row.add(&place.normal, apart, self.spacing, weights, velocity);
         }
-        // Sound of one phase says nothing of the pressure of another beside it, which may be a thousand times as heavy.
+        // Sound of one phase does not carry the pressure of another beside it, which may be a thousand times as heavy.
         let q = self.before_all(k, mix);
         let (of_phase, filled) = (sums[q], mix[q]);
         let (mut p, mut u, mut z, mut rho) = (0.0, Vect::zeros(), 0.0, 0.0);

@@ -32,7 +32,7 @@ pub trait Model {
     ) -> Result<RunCounters, Self::Error>;
 
     /// One step that does not go beyond a time (s), repeated by the model. At a time that is reached nothing
-    /// moves: the state is made ready to be looked at, and judged.
+    /// moves: the state is prepared for outputs, and judged.
     ///
     /// # Errors
     /// An error that ends the run.

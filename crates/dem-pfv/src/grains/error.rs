@@ -174,7 +174,7 @@ pub enum GrainError {
         /// Laws given.
         laws: usize,
     },
-    /// A law remembers more numbers than there is room for.
+    /// The memory of a law exceeds the space of a contact.
     #[error("contact law {law} remembers {wanted} numbers per contact; there is room for {room}")]
     Memory {
         /// Its number.

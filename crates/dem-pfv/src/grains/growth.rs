@@ -29,7 +29,7 @@ pub struct Growth {
     pub safety: f64,
     /// Unbalanced force ratio, and relative distance from the stress, at which it ends.
     pub tolerance: f64,
-    /// Steps after which it gives up.
+    /// Largest number of steps.
     pub most_steps: u64,
 }
 

@@ -8,7 +8,7 @@ use crate::Entry;
 use crate::grains::{GrainError, Vector};
 use crate::registry::{built, entries};
 
-/// Largest number of values that a law remembers per contact.
+/// Largest number of values in the memory of a contact.
 pub const MEMORY: usize = 8;
 
 /// A contact of a grain, the first, with a second body: another grain, a wall or a triangle.

@@ -1,4 +1,4 @@
-//! The table of neighbours: pairs, grains at walls, grains at triangles, and what contacts remember.
+//! The table of neighbours: pairs, grains at walls, grains at triangles, and the memory of contacts.
 
 use std::ops::Range;
 

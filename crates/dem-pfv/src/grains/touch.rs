@@ -200,7 +200,7 @@ impl View<'_> {
     }
 }
 
-/// A grain that rolls or slides from one triangle to the next keeps what the contact remembers.
+/// The memory of a contact goes along with a grain that rolls or slides from one triangle to the next.
 fn hand_over(group: &mut [Slot], kept: &[(usize, Vector, f64)], at: &Vector) {
     for &(k, point, _) in kept {
         if group[k].active {

@@ -290,7 +290,7 @@ impl sph_run::Model for Running<'_> {
 }
 
 impl Running<'_> {
-    /// The last state in files, and a picture with the grain at fault, whose name the failure learns.
+    /// The last state in files, and a picture with the grain at fault, which the failure then names.
     fn draw_the_bad_state(
         &self,
         failure: &mut Failure,

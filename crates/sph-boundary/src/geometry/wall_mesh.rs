@@ -91,7 +91,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// Makes a face one contact, where that is cheaper.
     fn meet_whole_faces(&mut self) {}
 
-    /// Says what the beds are like that walls follow, from the next motion on.
+    /// Sets the levels of the beds that walls follow, from the next motion on.
     fn lay(&mut self, beds: &[Bed]);
 
     /// Moves every wall to its pose.

@@ -17,7 +17,7 @@ pub struct Load<const D: usize> {
     pub contact_moment: [f64; 3],
     /// Depth of the fluid before the wall, m, for a mover that [looks](crate::Mover::looks); none if there is no fluid.
     pub depth: Option<f64>,
-    /// Gravity, m/s²; what it does to the wall is the mover's business.
+    /// Gravity, m/s²; the mover applies it to the wall.
     pub gravity: Vect<D>,
 }
 

@@ -6,7 +6,7 @@ use sph_neighbours::DepthGauge;
 
 use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 
-/// Moves one wall. What it remembers is the wall's state alone: that is rolled back with the particles, and in
+/// Moves one wall. The wall's state is its whole memory: it is rolled back with the particles, and in
 /// checkpoints.
 pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Learns how its wall is drawn and what is around it; called once, first of all.

@@ -324,7 +324,7 @@ fn near_node<const D: usize, M: WallMesh<D>>(
     several: bool,
 ) -> NodeKind<D> {
     let reach = (REACH + 0.5) * of.kernel.smoothing_length();
-    // The mesh knows places in the box.
+    // The mesh takes places in the box.
     let place = of.domain.wrapped(*x);
     let near = of.mesh.near(&place, reach);
     let curved = near.iter().filter(|n| of.curved[n.index()]);

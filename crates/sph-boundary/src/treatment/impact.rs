@@ -29,7 +29,7 @@ impl<const D: usize> NearLists<D> {
     /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
     ///
     /// `height` gives a lower bound of the distance of the particle at a place of `particles`
-    /// from any element in front of it, m; those out of danger are not looked at.
+    /// from any element in front of it, m; particles out of danger are skipped.
     ///
     /// Returns the mean forces on the walls over `dt`, by their numbers; none where no reader needs forces.
     pub fn constrain<M: WallMesh<D>>(

@@ -114,7 +114,7 @@ impl<'a> Cloud<'a> {
         }
         let total = matrix[(0, 0)];
         if self.planar {
-            // z says nothing; its row is made one that does no harm.
+            // z has no information; its row becomes that of the unit matrix.
             matrix[(3, 3)] = total;
         }
         let spectrum = matrix.symmetric_eigenvalues();

@@ -10,7 +10,7 @@ use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
 use crate::files::folder::writable;
 
-/// Every tenth pixel is looked at for the 256 colours of a frame.
+/// Every tenth pixel counts for the 256 colours of a frame.
 const SPEED: i32 = 10;
 /// The last picture stands for so long, hundredths of a second.
 const LAST: u16 = 150;

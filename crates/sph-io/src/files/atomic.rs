@@ -100,7 +100,7 @@ impl Write for AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if let Some(buffer) = self.file.take() {
-            // Not flushed: the content is given up.
+            // Not flushed: the content is discarded.
             drop(buffer.into_parts());
             let _ = fs::remove_file(&self.temporary);
         }

@@ -98,7 +98,7 @@ pub fn dispatch<B: Body>(body: B) -> B::Output {
 pub fn dispatch_at<B: Body>(width: Width, body: B) -> B::Output {
     #[cfg(target_arch = "x86_64")]
     match width.min(processor()) {
-        // SAFETY: `processor` says `Eight` and `Four` only where it found the instructions.
+        // SAFETY: `processor` returns `Eight` and `Four` only where it found the instructions.
         Width::Eight => return unsafe { with_avx512(body) },
         Width::Four => return unsafe { with_avx2(body) },
         Width::Two => {}

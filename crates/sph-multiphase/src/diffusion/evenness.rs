@@ -194,7 +194,7 @@ fn images<const D: usize>(
     sum
 }
 
-/// Least weight of an image that is looked at.
+/// Least weight of an image that counts.
 const FAINT: f64 = 1e-4;
 
 /// Limits of shifts near a free surface.

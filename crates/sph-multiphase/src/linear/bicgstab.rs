@@ -25,7 +25,7 @@ pub struct Bicgstab {
     /// Relative residual |b − A x| / |b| at which it ends.
     #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
-    /// Iterations after which it gives up; the step is then tried again with half its length.
+    /// Largest number of iterations; a step that needs more is tried again with half its length.
     #[parameter(default: 2000, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
 }

@@ -14,7 +14,7 @@ use crate::linear::{LinearSolver, Operator, Preconditioner, Report, SolveError};
 pub struct Jacobi {
     /// Relative residual |b − A x| / |b| at which it ends.
     pub tolerance: f64,
-    /// Sweeps after which it gives up.
+    /// Largest number of sweeps.
     pub sweeps: usize,
 }
 

@@ -7,7 +7,7 @@ use crate::linear::{Operator, Report, SolveError};
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Relative residual |b − A x| / |b| asked for.
+    /// Target of the relative residual |b − A x| / |b|.
     pub residual: f64,
     /// Iterations allowed.
     pub iterations: usize,

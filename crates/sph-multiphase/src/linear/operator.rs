@@ -64,7 +64,7 @@ pub trait Operator<const D: usize>: Sync {
     }
 
     /// The entries between rows of one's own, for preconditioners and factorisations; none where no owner can write
-    /// them down, which may be done when it is asked for.
+    /// them down, which may be done on request.
     fn assembled(&self) -> Option<&Matrix<D>> {
         None
     }

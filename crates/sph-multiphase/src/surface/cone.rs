@@ -51,7 +51,7 @@ const FULL: f64 = 0.95;
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
 /// Volumes are those of the lattice, δr^d, so that the test does not depend on densities. Walls count in ∇C as filled.
-/// Only particles whose support is filled to less than 0.95 are looked at, where the sum is known from γρ − K.
+/// Only particles whose support is filled to less than 0.95 are examined, where the sum is known from γρ − K.
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
 /// sheets and lone particles are ours.

@@ -23,7 +23,7 @@ contribution_kind!(
 /// * no surface is within the support: K′ is K cut to ± ε ρ₀, for a full support lacks nothing;
 /// * the particle is at a surface: K′ is such that ρ is not below (1 − ε) ρ₀, for water there is not under tension; with
 ///   `no_pressure` K′ is such that ρ = ρ₀;
-/// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and flies like a stone;
+/// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and moves on a parabola;
 /// * an open face is within the support: K stays, unless the particle is at a surface or alone. Half of the row that passes the
 ///   face is in no sum, so K swings by ± 0.15 ρ₀ there; what is cut of it is mass that does not pass;
 /// * else K stays: what the kernel misses within reach of a surface is what it carries.
@@ -35,8 +35,8 @@ contribution_kind!(
 /// keeps that below ρU². ε has to be a share of the spread that is borne, for constants come to rest at its edge: with 0.01
 /// nearly all stay within 3 %, with 0.03 a few per cent of them stand just beyond.
 ///
-/// Meant for water that tears. It adds 3 to 20 % to a step: only particles whose support lacks fluid are looked at. Densities that
-/// follow a rate remember no surface: with other formulations nothing relaxes, and surfaces are found for other
+/// Meant for water that tears. It adds 3 to 20 % to a step: only particles whose support lacks fluid are examined. Densities that
+/// follow a rate have no memory of a surface: with other formulations nothing relaxes, and surfaces are found for other
 /// readers.
 ///
 /// Source: the cone test is of Marrone et al. 2010; relaxing K is ours.

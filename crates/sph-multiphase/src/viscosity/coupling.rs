@@ -44,7 +44,7 @@ pub trait BoundCoupling<const D: usize>: Sync {
     /// exactly zero beyond the support.
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>);
 
-    /// True if [`walls`](Self::scalar_walls) looks at the free neighbours of a particle.
+    /// True if [`walls`](Self::scalar_walls) reads the free neighbours of a particle.
     fn walls_need_neighbours(&self, particle: usize) -> bool;
 
     /// W and s of walls, for couplings that do not mix components.

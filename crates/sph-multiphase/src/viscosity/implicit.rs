@@ -218,7 +218,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         let solved = match self.lagged.stages.is_empty() {
             true => self.solver.solve(whole, &right, velocity),
             false => {
-                // More than the outer iteration asks for would be lost on it.
+                // A tolerance below that of the outer iteration gains nothing.
                 let enough = INNER * self.scheme.outer().tolerance;
                 let solver = &mut self.solver;
                 solver.solve_roughly(whole, &right, velocity, enough)

@@ -15,7 +15,7 @@ use crate::decomposition::owner::OWNER;
 use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
 use crate::{Extent, World};
 
-/// Rebuilt lists until the parts are looked at again.
+/// Rebuilt lists between two checks of the parts.
 const BUILDS_TO_LOOK: u64 = 20;
 /// Imbalance from which the space is cut anew: the largest share over the mean, less one.
 const UNEVEN: f64 = 0.05;
@@ -40,14 +40,14 @@ pub struct Parts<const D: usize> {
     cuts: Cuts<D>,
     /// Particles that went to another rank, and how often the space was cut anew.
     changes: [u64; 2],
-    /// Rebuilds since the parts were looked at.
+    /// Rebuilds since the last check of the parts.
     builds: u64,
 }
 
 impl<const D: usize> Parts<D> {
     /// Leaves a rank its part of the particles, which every rank holds as a whole; `rings` is how often a stage goes from particles
     /// to their neighbours. The places of the lists must be known; lists are built for the part alone. All particles are taken
-    /// to cost the same: the parts are looked at when lists are built next.
+    /// to cost the same: the parts are checked when lists are built next.
     ///
     /// # Errors
     /// More ranks than particles; a column that is missing.

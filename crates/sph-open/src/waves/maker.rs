@@ -22,7 +22,7 @@ use crate::waves::superposition::{Component, Waves};
 ///   X₂ = H²/(32 d) [3 cosh kd/sinh³ kd − 2/(H/S)] sin 2ωt.
 ///
 /// Irregular and focused waves, and flaps, are of first order. The paddle begins where it is drawn and at rest, and rises to its
-/// motion within `ramp`. With `absorb` it looks at the depth of the water within two smoothing lengths, and moves besides so that
+/// motion within `ramp`. With `absorb` it measures the depth of the water within two smoothing lengths, and moves besides so that
 /// waves that come back leave through it:
 ///
 ///   τ du'/dt + u' = −ω/e₀ (η − η_made) − X'/10T,   τ = E/(ω e₀)

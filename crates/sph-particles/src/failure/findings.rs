@@ -14,7 +14,7 @@ const NEAR: f64 = 4.0;
 pub struct Findings {
     /// The cause of the run's end.
     pub cause: Trouble,
-    /// Roll-backs before it was given up.
+    /// Roll-backs before the end.
     pub retries: u32,
     /// The step that failed last, s.
     pub dt: f64,

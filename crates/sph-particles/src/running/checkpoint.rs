@@ -165,7 +165,7 @@ pub fn load<const D: usize>(
 
 /// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
 ///
-/// All that the flow remembers must be in the checkpoint; more is left aside.
+/// The whole memory of the flow must be in the checkpoint; more is ignored.
 pub fn start_from<const D: usize>(
     flow: &mut Flow<D>,
     scene: &Scene,

@@ -82,7 +82,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
-    /// must ask. Nothing where one process runs all.
+    /// must call it. Nothing where one process runs all.
     pub(crate) fn gather(&mut self, evaluated: bool) -> Result<(), RunError> {
         if self.known.gathered.is_some_and(|done| done || !evaluated) {
             return Ok(());

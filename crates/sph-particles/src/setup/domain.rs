@@ -60,7 +60,7 @@ pub fn extent<const D: usize>(regions: &[Region<D>]) -> f64 {
     regions.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Times at which the way of prescribed walls is looked at.
+/// Times at which the way of prescribed walls is sampled.
 const SAMPLES: usize = 1000;
 
 /// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.

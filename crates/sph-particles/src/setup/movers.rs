@@ -1,4 +1,4 @@
-//! Movers learn of the scene and get their walls.
+//! Preparation of movers with the scene and their walls.
 
 use std::sync::Arc;
 

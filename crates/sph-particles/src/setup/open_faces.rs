@@ -1,4 +1,4 @@
-//! Open faces learn of the scene, and get their walls.
+//! Preparation of open faces with the scene and their walls.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::setup::shapes::Drawn;
 use crate::setup::tension;
 use crate::setup::tension::FilledBox;
 
-/// Distance in front of a port in which the room of a particle is looked at, over the spacing.
+/// Distance in front of a port within which the free volume of a particle is measured, over the spacing.
 const ROOM: f64 = 0.5;
 
 /// Opens the walls of a scene that have a law for it; takes the laws out of the choices.

@@ -4,7 +4,7 @@ use sph_boundary::WallSpec;
 use sph_core::{SceneProblem, number};
 use sph_scene::Scene;
 
-/// Times at which the motion of walls is looked at.
+/// Times at which the motion of walls is sampled.
 const SAMPLES: usize = 1000;
 /// The change Δv of a vessel's speed within the time L/c that sound takes through its fluid counts by Δv/c, the share
 /// of its density by which the fluid is pressed together: aL/c² of a lasting acceleration a. From the first on it is
@@ -147,7 +147,7 @@ fn vessel<const D: usize>(
     }
 }
 
-/// The key of the course of the first wall that moves, and where its file, if it has one, says what it does at a time.
+/// The key of the course of the first wall that moves, and the line of its file, if it has one, at a time.
 fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (String, String) {
     let moving = walls.iter().find(|w| w.motion.moves());
     let name = moving.map_or("", |w| w.drawing.name());

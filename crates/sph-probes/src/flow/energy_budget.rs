@@ -120,7 +120,7 @@ pub struct EnergyBudget {
 pub fn work_of_stranger(kind: &str) -> Field<Scalar> {
     static KNOWN: Mutex<BTreeMap<String, &'static str>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    // Fields have names that live as long as the program; there are as many as kinds.
+    // Names of fields have the lifetime of the program; there are as many as kinds.
     let name = known
         .entry(kind.to_string())
         .or_insert_with(|| Box::leak(format!("work_{kind}").into_boxed_str()));

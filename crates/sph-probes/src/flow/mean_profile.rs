@@ -13,7 +13,7 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
 ///
 /// Its curve has every component's, and −⟨u'w'⟩, u along the first axis and w along the axis of the profile. Where the flow is the
-/// same along an axis, as along a periodic one, nothing else need be said; `within` is for the others. A layer's distance is the
+/// same along an axis, as along a periodic one, no other key is needed; `within` is for the others. A layer's distance is the
 /// mean of its particles, so that a mean of a linear profile lies on it wherever rows stand in their layers; there it is compared
 /// with a `file` of distances and values. What was gathered goes on in a run that is resumed.
 ///

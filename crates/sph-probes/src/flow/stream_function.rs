@@ -143,7 +143,7 @@ impl Probe<2> for StreamFunction {
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
         let velocity = world.free.get(fields::VELOCITY)?;
         let [low, high] = self.corners.map(Vect::from);
-        // A correction looks at the neighbours of neighbours.
+        // A correction reads the neighbours of neighbours.
         let near = NearbyParticles::new(world, low, high, 1 + self.corrections as usize)?;
         if near.is_empty() {
             return Ok(vec![f64::NAN; 3]);

@@ -32,7 +32,7 @@ pub enum LineOf {
 /// ([`BedLines`](crate::BedLines)). Between
 /// two particles the line is straight, beyond the last ones level; a column without a particle
 /// interrupts it. Points of the reference without a line do not count in the first and the last value:
-/// look at the share, too. Without any they are NaN. A steep line is nearer than it is high.
+/// read the share, too. Without any they are NaN. A steep line is nearer than it is high.
 ///
 /// Displacements are kept for such probes only.
 ///

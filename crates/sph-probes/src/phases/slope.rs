@@ -56,7 +56,7 @@ impl Probe<2> for SurfaceSlope {
         let positions = world.free.get(fields::POSITION)?;
         let [first, last] = self.between;
         let columns = ((last - first) / world.spacing).round().max(0.0);
-        // Only of columns that have a particle: the places may be as far apart as they like.
+        // Only of columns that have a particle: the places may be arbitrarily far apart.
         let mut highest: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
         for (_, x) in positions
             .iter()

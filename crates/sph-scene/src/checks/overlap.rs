@@ -9,7 +9,7 @@ use crate::{Region, Scene};
 const SHARED: f64 = 1e-3;
 /// Most points tried along an axis of the box that two bodies have in common.
 const ALONG: f64 = 256.0;
-/// Bound on the work of all pairs, in edges looked at.
+/// Bound on the work of all pairs, in compared edges.
 const WORK: f64 = 2e7;
 
 /// Tries lattice points of what the boxes around two bodies have in common.

@@ -47,7 +47,7 @@ pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>,
         corners: 0,
     };
     let upright = upright(&root).map_err(told)?;
-    // Not by recursion: drawings may be nested as deeply as they like.
+    // Not by recursion: drawings may be nested to any depth.
     let mut waiting: Vec<(Node<'_, '_>, Affine)> = children(&root, upright);
     while let Some((node, outer)) = waiting.pop() {
         let place = |why: String| {

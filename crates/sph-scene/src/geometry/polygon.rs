@@ -70,7 +70,7 @@ pub(crate) fn crosses_ray(x: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
     (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
 }
 
-/// Most pairs of segments that are looked at; the mesh of a wall refuses one of more.
+/// Largest number of compared pairs of segments; the mesh of a wall refuses one of more.
 const PAIRS: usize = 200_000_000;
 
 /// The first two segments of a chain that cross or touch without being neighbours.

@@ -72,7 +72,7 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
     found
 }
 
-/// Tables of any depth with more keys than any table needs; what is in them is not looked at.
+/// Tables of any depth with more keys than any table needs; their contents are skipped.
 fn wide(table: &Table, path: &str, found: &mut Vec<SceneProblem>) {
     let n = table.len();
     if n > TABLES {

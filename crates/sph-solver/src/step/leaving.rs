@@ -42,7 +42,7 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a column is missing.
     pub fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
-        // First the gates that look at wall contacts, which are by slots.
+        // First the gates that read wall contacts, which are by slots.
         self.by_gates(dt)?;
         self.by_outlets(dt)
     }

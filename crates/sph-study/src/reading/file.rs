@@ -52,7 +52,7 @@ pub struct StudyFile {
     /// True if variants run one by one with all threads, false if side by side with one thread each.
     #[parameter(default: true)]
     pub serial: bool,
-    /// Wall-clock time after which a variant is given up, s; no limit if left out.
+    /// Largest wall-clock time of a variant, s; no limit if left out.
     #[parameter(unit: "s", above: 0.0)]
     pub time_limit: Option<f64>,
     /// True if variants write the pictures, fields and checkpoints of the scene.

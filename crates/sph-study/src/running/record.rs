@@ -24,7 +24,7 @@ pub enum Status {
     Done,
     /// It stopped on an error.
     Failed,
-    /// It was given up after the study's time limit.
+    /// It exceeded the study's time limit.
     OverLimit,
     /// It has begun, and goes on when the study is run again.
     Interrupted,

@@ -44,8 +44,8 @@ where
     ///
     /// A ray goes from the point along an axis that is not periodic (the last one if it may choose). Among the
     /// crossings at one height opposite ones cancel, as do the faces of a plate of zero thickness or
-    /// of two blocks that touch; the first height where one is left decides by the side that faces the point. A ray that meets
-    /// nothing asks the wall that reaches furthest along it; if all axes are periodic, it goes on
+    /// of two blocks that touch; the first height where one is left decides by the side that faces the point. For a ray
+    /// without a crossing the wall that reaches furthest along it decides; if all axes are periodic, it goes on
     /// along the next axis until it meets a wall. Without walls every point is in the fluid.
     ///
     /// Walls with free edges in space have a front: if there are any, the element nearest to the point decides

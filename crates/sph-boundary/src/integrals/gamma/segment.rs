@@ -5,7 +5,7 @@ use sph_kernels::lanes::{Lane, atan2, ln};
 use super::primitives::End;
 use super::renormalisation::Renormalisation2d;
 
-/// Below this distance over h the logarithmic terms, of order a² ln a, are no longer counted.
+/// Below this distance over h the logarithmic terms, of order a² ln a, are left out.
 const NO_LOGARITHM: f64 = 1e-30;
 
 /// Position of a point on a segment.

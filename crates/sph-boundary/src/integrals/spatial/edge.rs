@@ -4,7 +4,7 @@ use super::knot::End;
 use super::winding::Winding;
 use crate::geometry::vector::{Point, along, cross, dot};
 
-/// Below this distance over h the logarithmic terms, of order A² ln A, are no longer counted.
+/// Below this distance over h the logarithmic terms, of order A² ln A, are left out.
 const NO_LOGARITHM: f64 = 1e-30;
 
 /// An edge in the frame of its line, everything over h.

@@ -117,7 +117,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 }
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// The unit vector along the slip past the nearest wall, where it is looked at.
+    /// Unit vector along the slip past the nearest wall, where it is needed.
     #[inline(always)]
     pub(super) fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
         match (F::DIRECTIONAL, nearest) {

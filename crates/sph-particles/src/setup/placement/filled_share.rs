@@ -6,14 +6,14 @@ use sph_scene::{Body, BodyParticles, Offset, Region, Scene, fill};
 
 /// A body that fills less or more than this off its space is remarked upon.
 const OFF: f64 = 0.015;
-/// Samples that are looked at, at most: finer lattices find the space to a smaller share of its surface.
+/// Largest number of samples: finer lattices find the space to a smaller share of its surface.
 const SAMPLES: usize = 100_000;
 /// Samples per spacing, at most.
 const FINEST: usize = 16;
 
 /// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity: there
 /// is no surface then that could fall or rise, and what is missing opens as a void or lowers the pressure by ρc² times its
-/// share. Of walls with points of their own, which have volumes, nothing is said.
+/// share. Walls with points of their own, which have volumes, get no remark.
 pub fn shares<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
