@@ -52,5 +52,5 @@ pub use state::State;
 pub use system::CoupledSystem;
 pub use terzaghi::Terzaghi;
 
-/// A vector in space, SI units of whatever it holds.
+/// A vector in space, SI units of its quantity.
 pub type Vector = nalgebra::Vector3<f64>;

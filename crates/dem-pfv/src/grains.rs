@@ -75,5 +75,5 @@ pub use system::GrainSystem;
 pub use unrest::Unrest;
 pub use wall::{Control, Wall};
 
-/// A vector in space, SI units of whatever it holds.
+/// A vector in space, SI units of its quantity.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -6,7 +6,7 @@
 
 use crate::number::plain;
 
-/// Bounds of one quantity; the second pair is that of nature, with what stands there.
+/// Bounds of one quantity; the second pair is that of nature, with its description.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity {
     /// Its name, as schemas and messages have it.
@@ -216,7 +216,7 @@ pub const QUANTITIES: [Quantity; 20] = [
 pub enum Verdict {
     /// Nothing.
     Plausible,
-    /// It is outside what nature has.
+    /// It is outside the range of nature.
     Odd(String),
     /// No run can be right with it.
     Impossible(String),

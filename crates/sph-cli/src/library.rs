@@ -1,4 +1,4 @@
-//! The commands as functions: they write the files that the commands write, print nothing, and return what is printed.
+//! The commands as functions: they write the files that the commands write, print nothing, and return the printed text.
 //!
 //! ```no_run
 //! use sph_cli::library::{Request, check, open};

@@ -156,7 +156,7 @@ pub struct Bed {
     pub shear: Vec<[f64; 2]>,
     /// Volume of grains, without pores, that moves along the bed per width and time along x and y, m²/s.
     pub transport: Vec<[f64; 2]>,
-    /// Volume of grains that came through the places with held levels since the start, less what went, m³ (m² in two
+    /// Volume of grains that came through the places with held levels since the start, less the outflow, m³ (m² in two
     /// dimensions), without pores.
     pub fed: f64,
     /// Volume of grains that slid since the start.
@@ -256,7 +256,8 @@ impl Bed {
         all
     }
 
-    /// Takes what [`numbers`](Self::numbers) gave; the rest of the numbers, or none if there are too few or impossible ones.
+    /// Takes the values of [`numbers`](Self::numbers); the rest of the numbers, or none if there are too few or
+    /// impossible ones.
     #[must_use]
     pub fn put<'a>(&mut self, numbers: &'a [f64]) -> Option<&'a [f64]> {
         let count = self.lift.len();

@@ -32,8 +32,7 @@ pub struct Index;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tensor;
 
-/// One symmetric tensor in space per particle, whatever D (a stress in plane strain has a component
-/// out of the plane).
+/// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SymmetricTensor;
 

@@ -65,7 +65,7 @@ pub const CARRIED_STRESS: Field<SymmetricTensor> = Field::new(
     "Pa",
     "deviatoric elastic stress that acts (xx, yy, zz, xy, yz, xz)",
 );
-/// Shear modulus of what acts, for the strain of the step to come.
+/// Shear modulus of the acting material, for the strain of the step to come.
 pub const ELASTIC_STIFFNESS: Field<Scalar> = Field::new(
     "elastic_stiffness",
     "Pa",
@@ -131,7 +131,7 @@ pub const SCALE_RATE: Field<Scalar> = Field::new(
     "1/s",
     "rate of ln s at a fixed place by the motion of walls",
 );
-/// K = γρ − mΣθw: what the density sum does not see of the initial state.
+/// K = γρ − mΣθw: the part of the initial state that the density sum does not see.
 pub const DENSITY_CONSTANT: Field<Scalar> = Field::new(
     "density_constant",
     "kg/m³",

@@ -137,7 +137,7 @@ impl<E: Contract> Registry<E> {
     }
 }
 
-/// A kind of plugin, its plugins built by one call whatever they are: in D dimensions, or in none of their own.
+/// A kind of plugin, its plugins built by one call of any dimension: of D, or of none of their own.
 pub trait Makes<const D: usize>: Contract {
     /// Description of a plugin of the kind.
     type Made: ?Sized;

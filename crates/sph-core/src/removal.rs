@@ -56,7 +56,7 @@ impl<const D: usize> Store<D> {
         &self.taken
     }
 
-    /// Sets what has been taken out so far.
+    /// Sets the mass removed so far.
     pub fn set_removed(&mut self, taken: Vec<Removed>) {
         self.taken = taken;
     }

@@ -1,4 +1,4 @@
-//! Stages: what a piece of work reads and writes, and the work itself.
+//! Stages: the reads and writes of a piece of work, and the work itself.
 
 use crate::field::AnyField;
 use crate::{Field, Kind, StepError};

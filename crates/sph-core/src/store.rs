@@ -66,8 +66,8 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    /// Holds what follows to the columns of all that is `declared`, in builds with debug assertions alone; several may be
-    /// at work within each other.
+    /// Holds the following work to the columns of all that is `declared`, in builds with debug assertions alone;
+    /// several may be at work within each other.
     pub fn watch<'a>(&self, declared: impl IntoIterator<Item = &'a Access>) {
         if cfg!(debug_assertions) {
             self.watch.begin(declared);

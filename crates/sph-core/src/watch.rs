@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::{Access, AnyField, fields};
 
-/// The works in progress, the innermost last, with what they touched.
+/// The works in progress, the innermost last, with the columns that they touched.
 #[derive(Default)]
 pub(crate) struct Watch(Mutex<WorksInProgress>);
 

@@ -58,8 +58,8 @@ pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
     expanded(parse_macro_input!(item as DeriveInput), &root.0, None)
 }
 
-/// The type that [`macro@plugin`] makes, without scenes: what it derives of the standard library, and its `Default`.
-/// For crates whose plugins are a feature: the same attributes with the feature and without it.
+/// The type that [`macro@plugin`] makes, without scenes: its derives of the standard library, and its `Default`. For
+/// crates whose plugins are a feature: the same attributes with the feature and without it.
 #[proc_macro_attribute]
 pub fn plain_plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
     parse_macro_input!(arguments as registration::Registration);

@@ -108,7 +108,7 @@ pub fn value(word: &Ident, input: ParseStream<'_>) -> syn::Result<TokenStream> {
     }
 }
 
-/// A text becomes whatever text the field holds.
+/// A text becomes the text type of the field.
 fn owned(value: TokenStream) -> TokenStream {
     match syn::parse2::<syn::LitStr>(value.clone()) {
         Ok(text) => quote!(#text.into()),

@@ -30,7 +30,7 @@ impl Parse for Root {
     }
 }
 
-/// A type whose words have been read, and what goes with it.
+/// A type whose words have been read, and its further attributes.
 struct AnnotatedType {
     item: DeriveInput,
     derives: Vec<&'static str>,

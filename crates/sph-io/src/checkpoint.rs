@@ -135,7 +135,7 @@ pub enum CheckpointFault {
     HeaderChecksum {
         /// Checksum stored.
         expected: u32,
-        /// Checksum of what is there.
+        /// Checksum of the contents.
         found: u32,
     },
     /// Bytes of the file have changed.
@@ -143,7 +143,7 @@ pub enum CheckpointFault {
     Checksum {
         /// Checksum stored.
         expected: u32,
-        /// Checksum of what is there.
+        /// Checksum of the contents.
         found: u32,
     },
 }

@@ -116,7 +116,7 @@ pub enum IoError {
         /// The length found.
         found: u64,
     },
-    /// A file that is to be continued is not what this crate writes.
+    /// A file that is to be continued is not of the form that this crate writes.
     #[error("cannot continue {}: {problem}", path.display())]
     Malformed {
         /// The file.

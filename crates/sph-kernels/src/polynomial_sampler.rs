@@ -136,7 +136,7 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     }
 }
 
-/// A formula over a slice; whatever the width of the lanes, the compiler fills them.
+/// A formula over a slice; the compiler fills lanes of any width.
 struct Loop<'a, F> {
     range: &'a Range,
     formula: &'a F,

@@ -193,7 +193,7 @@ impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
 }
 
 impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
-    /// Without 1/γ: what one particle gets, another loses.
+    /// Without 1/γ: the gain of one particle is the loss of another.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.own::<f64>(Particles::one(at.particle));

@@ -1,4 +1,4 @@
-//! Sparse symmetric systems on the neighbour graph, and what solves them.
+//! Sparse symmetric systems on the neighbour graph, and their solvers.
 //!
 //! * [`Matrix`]: rows of particles, scalar or d × d entries, put together from the neighbour lists by an [`Assembly`].
 //! * [`Operator`]: what a solver needs of a system; a [`Matrix`] is one, a product without a matrix may be another.

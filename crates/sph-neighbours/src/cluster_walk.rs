@@ -1,4 +1,4 @@
-//! Walks over clusters that make rows of matrices, and what else is no sum.
+//! Walks over clusters that make rows of matrices, and other results that are no sums.
 
 use std::ops::Range;
 
@@ -49,8 +49,8 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         self.each_wanted(block, &mut visit, |_| true, |visit, c| visit(c), |_, _| ());
     }
 
-    /// The same with what is at hand; where no member is `wanted` no neighbours are searched, and `others` gets the
-    /// members.
+    /// The same with the scratch memory at hand; where no member is `wanted` no neighbours are searched, and `others`
+    /// gets the members.
     pub fn each_wanted<S>(
         &self,
         block: usize,

@@ -146,7 +146,7 @@ mod tests {
         }
     }
 
-    /// The upper face is the lower one, also for what rounding puts on it.
+    /// The upper face is the lower one, also for positions that rounding puts on it.
     #[test]
     fn a_place_is_wrapped_to_the_one_that_it_is() {
         let channel = channel();

@@ -2,7 +2,7 @@
 
 use crate::{CHUNK, Clusters};
 
-/// Particles for which a sweep is to sum; what it has summed for the others stays.
+/// Particles for which a sweep is to sum; its sums for the others stay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SweepHalf {
     /// Marks of particles that are sent to others, or that are in a cluster with one.

@@ -2,7 +2,7 @@
 
 use crate::members::Members;
 
-/// Sorted pairs of indices; a row holds what an index does not see.
+/// Sorted pairs of indices; a row holds the indices that its own does not see.
 #[derive(Clone, Debug, Default)]
 pub struct HiddenPairs {
     pairs: Vec<[u32; 2]>,

@@ -141,8 +141,8 @@ impl Body for Total<'_> {
     }
 }
 
-/// Leaves in `out` what `of` makes of the sums over the free particles around every target: those behind Shepard means at
-/// walls. The particles of the sum's own values are the targets; pairs carry kernel values and no gradients.
+/// Leaves in `out` the results of `of` for the sums over the free particles around every target: those behind Shepard
+/// means at walls. The particles of the sum's own values are the targets; pairs carry kernel values and no gradients.
 ///
 /// Each sums its particles in the order of their indices, whatever the number of lanes; `hidden` has the pairs that are
 /// left out.

@@ -28,8 +28,8 @@ pub trait PairSum<const D: usize>: Sync {
         pair: &LanePair<D, L>,
         sum: &mut Self::Sum<L>,
     );
-    /// Adds what the slope of s makes of a pair, which carries s_a s_b w; called beside [`pair`](Self::pair) where walls
-    /// scale some pair of a cluster.
+    /// Adds the part of a pair by the slope of s, which carries s_a s_b w; called beside [`pair`](Self::pair) where
+    /// walls scale some pair of a cluster.
     #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,

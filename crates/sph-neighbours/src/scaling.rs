@@ -81,7 +81,7 @@ impl<'a, const D: usize> Scaling<'a, D> {
 /// Values of a particle near walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]
 pub struct WallScale<const D: usize> {
-    /// w̃_aa = s_a² w(0), 1/m^d: what the particle adds to its own sum.
+    /// w̃_aa = s_a² w(0), 1/m^d: the particle's part in its own sum.
     pub own_value: f64,
     /// ∇ ln s, 1/m; that of one wall in sums for this wall.
     pub slope: Vect<D>,

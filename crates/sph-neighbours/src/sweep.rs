@@ -51,7 +51,7 @@ pub struct Sums<'a, const D: usize> {
     pub more: &'a mut [[f64; TRANSPORTED]],
 }
 
-/// As [`interactions`], with further scalars, for terms of which it is known what they have [`declared`].
+/// As [`interactions`], with further scalars, for terms that have [`declared`] their columns.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -74,7 +74,7 @@ pub fn all_sums<const D: usize>(
     )
 }
 
-/// Lends all terms as one to `with`, each held to what it declares while it looks its columns up.
+/// Passes all terms as one to `with`, each held to its declaration while it looks its columns up.
 ///
 /// Every term is on the stack of the one before it, so that no step allocates memory.
 pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
@@ -278,7 +278,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         self.lists.of_block(block)
     }
 
-    /// Adds what a term gives the particles of a block, in clusters where anyone is `wanted`.
+    /// Adds a term's rates to the particles of a block, in clusters with a `wanted` particle.
     fn block<T: RowTerm<D> + ?Sized>(
         &self,
         term: &T,

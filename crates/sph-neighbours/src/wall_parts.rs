@@ -214,7 +214,7 @@ impl<const D: usize> SeparateWalls<D> {
         sum(&mut without, term, &mut self.bare);
     }
 
-    /// Each wall has what its own points and elements add. (1 − γ) a is shared as the walls' own 1 − γ are.
+    /// Each wall has the part of its own points and elements. (1 − γ) a is shared as the walls' own 1 − γ are.
     fn leave(&self, mass: &[f64], parts: &mut Vec<WallPart<D>>) {
         for near in &self.near {
             let at = |rates: &[Rates<D>]| rates[near.member].acceleration;

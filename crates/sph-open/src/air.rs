@@ -64,8 +64,8 @@ impl<const D: usize> Faces<D> {
         (dry / (BESIDE * whole)).min(1.0)
     }
 
-    /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of what
-    /// comes faster that takes the place of air.
+    /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of
+    /// faster inflow that takes the place of air.
     fn idling(&self, k: usize, part: f64) -> f64 {
         let inside = &self.inside[k];
         let within = inside.velocity.dot(&self.places[k].normal);

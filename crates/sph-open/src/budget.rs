@@ -12,11 +12,11 @@ use crate::faces::Faces;
 /// let go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 
-/// Difference between what has passed a face and the requested volume without a warning, over the latter.
+/// Largest difference between the passed and the requested volume without a warning, over the latter.
 const BORNE: f64 = 0.005;
 
 impl<const D: usize> Faces<D> {
-    /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
+    /// Ports grow by the inflow and fade by the outflow in `dt` seconds.
     ///
     /// Through an element that has fluid before a part of it, this part passes. A port is to hold what the row before it
     /// [lacks](crate::faces::as_share); what it has beyond that goes with what passes, and all of it where the fluid has gone.
@@ -88,8 +88,8 @@ impl<const D: usize> Faces<D> {
         own.all(|k| !self.inside[k].wet)
     }
 
-    /// By face and phase: mass that entered, left and is held, kg; and what is missing of entered − left − (born − died) −
-    /// held, which is rounding. By face where its law requests a volume: this and what has passed, m³ at the reference
+    /// By face and phase: mass that entered, left and is held, kg; and the error entered − left − (born − died) − held,
+    /// which is rounding. By face where its law requests a volume: this and what has passed, m³ at the reference
     /// density.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();

@@ -32,7 +32,7 @@ pub struct FluidMean<const D: usize> {
     pub pressure: f64,
     /// Share of the element that has fluid before it.
     pub filled: f64,
-    /// Velocity, m/s; of what little there is, where it is not wet.
+    /// Velocity, m/s; of the little fluid there is, where it is not wet.
     pub velocity: Vect<D>,
     /// ρc, kg/(m² s).
     pub impedance: f64,
@@ -124,7 +124,7 @@ impl<const D: usize> Moment<D> {
     }
 }
 
-/// A key of a law's table, and what is wrong with it.
+/// A key of a law's table, and its fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenRefusal {
     /// The key in the table; the table itself, if empty.
@@ -177,7 +177,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     fn keeps_rows_even(&self) -> bool {
         false
     }
-    /// Volume into the fluid per time that it requests at the reference density, m³/s, whatever is in front of the
+    /// Volume into the fluid per time that it requests at the reference density, m³/s, for any fluid in front of the
     /// face; none where the velocity follows. The velocities of such a law are those at the reference density, too.
     fn asked(&self, _places: &[FaceElement<D>], _time: f64) -> Option<f64> {
         None

@@ -23,7 +23,7 @@ pub struct OpenBoundaries<const D: usize> {
     summed: bool,
 }
 
-/// Opens faces in the walls of a scene: the treatment of all of them, and what lets mass through.
+/// Opens faces in the walls of a scene: the treatment of all of them, and the passage of mass.
 ///
 /// `given` are the names of the walls with their laws; `phases` are the names of the phases; `summed` is whether
 /// densities are sums over positions.

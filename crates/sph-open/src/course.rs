@@ -2,7 +2,7 @@
 
 use crate::{OpenRefusal, OpenSetting};
 
-/// Straight lines between points of a table; what is beyond its ends is that of the end.
+/// Straight lines between points of a table; beyond its ends the value is that of the end.
 pub(crate) fn interpolated(table: &[[f64; 2]], x: f64) -> f64 {
     let after = table.partition_point(|[at, _]| *at <= x);
     match (after.checked_sub(1).map(|k| table[k]), table.get(after)) {

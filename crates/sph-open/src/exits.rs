@@ -14,7 +14,7 @@ const RIPE: f64 = 0.5;
 /// loses its profile (0.66 % with 0.9, 0.33 % with 0.8 and less), and below 0.9 still water stirs itself.
 const NEAREST: [f64; 2] = [0.8, 0.9];
 
-/// Least distance of a new particle from the face, over the spacing: on the fluid's side whatever is rounded.
+/// Least distance of a new particle from the face, over the spacing: on the fluid's side under any rounding.
 const IN_FRONT: f64 = 1e-6;
 
 /// A particle behind a face.

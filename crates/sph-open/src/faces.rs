@@ -1,4 +1,4 @@
-//! The open faces of a scene: their elements, what is in front of them, what they do.
+//! The open faces of a scene: their elements, the fluid in front of them, their values.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -21,7 +21,7 @@ pub(crate) const LATE: f64 = 0.2;
 /// the level before an outlet is higher by up to 3 %.
 const LAST: f64 = 0.75;
 
-/// The share θ of a particle with which a port takes part in sums, from what the row before it lacks.
+/// The share θ of a particle with which a port takes part in sums, from the deficit of the row before it.
 ///
 /// With rows at φ δr, (φ + 1) δr, … from the face the trapezoidal rule lacks θ = φ − ½ there (Euler & Maclaurin), −½ to ½
 /// as one row after the other comes nearer and passes, and a little more while one waits for its birth. A row farther away
@@ -36,7 +36,7 @@ pub(crate) fn as_share(lacks: f64) -> f64 {
     }
 }
 
-/// Least density of what passes, over the reference density of its phase.
+/// Least density of passing fluid, over the reference density of its phase.
 const THINNEST: f64 = 0.5;
 
 /// An element that is not open.
@@ -72,8 +72,8 @@ pub(crate) struct Faces<const D: usize> {
     pub open: Vec<u32>,
     pub places: Vec<FaceElement<D>>,
     pub face_of: Vec<usize>,
-    /// For every element those of its face near it, with their share in a mean over the support of what is the same along the
-    /// normal.
+    /// For every element those of its face near it, with their share in a mean over the support of a quantity that is
+    /// constant along the normal.
     pub smooth: Vec<Vec<(u32, f64)>>,
     pub inside: Vec<FluidMean<D>>,
     /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
@@ -250,7 +250,7 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// The phase that comes in at an element: the face's, or most of what is in front of it.
+    /// The phase that comes in at an element: the face's, or the largest one in front of it.
     pub fn phase(&self, element: usize) -> usize {
         let phases = self.whole.len();
         let mix = &self.mix[element * phases..(element + 1) * phases];
@@ -259,7 +259,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// The phase whose sound arrives at an element before which the phases have these shares: that which comes in, or
-    /// most of what is there if it is not.
+    /// the largest one there.
     pub fn before_all(&self, element: usize, mix: &[f64]) -> usize {
         let own = self.faces[self.face_of[element]].phase.map(|q| q as usize);
         own.filter(|q| mix[*q] > 0.0).unwrap_or_else(|| most(mix))
@@ -270,7 +270,7 @@ impl<const D: usize> Faces<D> {
         self.backgrounds[phase]
     }
 
-    /// Density at an element of what passes there, kg/m³.
+    /// Density of the fluid that passes at an element, kg/m³.
     pub fn density(&self, element: usize, phase: usize) -> f64 {
         self.density_at(self.outside[element].pressure, phase)
     }
@@ -283,8 +283,8 @@ impl<const D: usize> Faces<D> {
         density.max(THINNEST * law.reference().density)
     }
 
-    /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
-    /// adds.
+    /// The velocity with which fluid passes an element, m/s: the imposed one, or that of the row in front of it plus
+    /// the law's addend.
     pub fn through(&self, element: usize) -> Vect<D> {
         let outside = &self.outside[element];
         match outside.imposed {

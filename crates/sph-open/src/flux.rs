@@ -14,7 +14,7 @@ pub const OPEN_FLUX: Field<Scalar> = Field::new(
 );
 
 impl<const D: usize> Faces<D> {
-    /// Advances the density constants by what passes in `dt` seconds.
+    /// Advances the density constants by the fluid that passes in `dt` seconds.
     ///
     /// γ_a dρ_a/dt = m_a Σ_b θ_b u_ab·∇w_ab − ρ_a Σ_s u_as·∇γ_as with the velocity of the fluid at the face for u_s and
     /// u_v: a uniform flow changes nothing. With ρ_a = (K_a + m_a Σ w)/γ_a over particles alone,

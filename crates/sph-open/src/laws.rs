@@ -73,7 +73,7 @@ impl<const D: usize> FaceValues<D> {
     }
 }
 
-/// A pressure that is imposed; what comes in has no velocity along the face.
+/// A pressure that is imposed; inflow has no velocity along the face.
 pub(crate) fn imposed_pressure<const D: usize>(
     place: &FaceElement<D>,
     inside: &FluidMean<D>,

@@ -119,7 +119,7 @@ impl<const D: usize> Memory<D> {
         to.push(self.dt);
     }
 
-    /// Takes what [`numbers`](Self::numbers) gave; returns whether it could.
+    /// Takes the values of [`numbers`](Self::numbers); returns whether it could.
     pub fn put_back(&mut self, from: &[f64]) -> bool {
         if from.len() != self.count() || from.iter().any(|x| !x.is_finite()) {
             return false;

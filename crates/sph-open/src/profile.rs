@@ -76,7 +76,7 @@ impl Profile {
             .fold(0.0, f64::max)
     }
 
-    /// Refuses what is no profile in the dimension of the scene.
+    /// Refuses a profile of another dimension than the scene's.
     pub(crate) fn check(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         let refused = |why: &str| Err(OpenRefusal::at_key("profile", why));
         match self {

@@ -1,4 +1,4 @@
-//! Scenes of particles as what can be run.
+//! Scenes of particles as subjects of runs.
 
 use std::sync::Arc;
 

@@ -41,8 +41,8 @@ pub struct ProbeScene<'a> {
 pub struct Needs<'a> {
     /// The wall whose force it reads.
     pub force_on: Option<&'a str>,
-    /// Neighbour lists, contacts, or what walls carry besides forces, and not columns alone: where a flow is divided, one
-    /// process computes these.
+    /// Neighbour lists, contacts, or columns of walls besides forces, and not columns of particles alone: where a flow
+    /// is divided, one process computes these.
     pub around: bool,
     /// The displacement of the particles.
     pub displacement: bool,

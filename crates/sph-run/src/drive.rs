@@ -103,7 +103,7 @@ impl Opened {
         })
     }
 
-    /// Steps the model to the end, and writes what is due; the wall-clock time counts from `started`.
+    /// Steps the model to the end, and writes the outputs that are due; the wall-clock time counts from `started`.
     ///
     /// # Errors
     /// Files that cannot be written, what goes wrong in the model.

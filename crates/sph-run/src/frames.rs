@@ -8,7 +8,7 @@ use sph_io::{ColourRanges, Frame, IoError, Piece, PvdSeries};
 pub const BAD_STATE: &str = "bad_state.vtu";
 /// A picture of that state.
 pub const BAD_STATE_PICTURE: &str = "bad_state.png";
-/// A picture of what is around the place at fault.
+/// A picture of the surroundings of the place at fault.
 pub const BAD_STATE_NEAR: &str = "bad_state_near.png";
 
 /// Folders of numbered files.
@@ -19,7 +19,7 @@ const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
 pub struct Outlay {
     /// True if files for ParaView are written.
     pub vtk: bool,
-    /// Names of what has pictures, of which films are made.
+    /// Names of quantities with pictures, of which films are made.
     pub pictures: Vec<String>,
     /// Digits of the number in the name of a picture.
     pub digits: usize,

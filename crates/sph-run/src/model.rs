@@ -9,7 +9,7 @@ use crate::frames::Frames;
 use crate::observer::Watch;
 use crate::options::Start;
 
-/// A state that advances in time, with what there is to see of it.
+/// A state that advances in time, with its outputs.
 ///
 /// Where several processes compute one flow together, each has a model and a driver of its own: they are asked the same
 /// in the same order, and one of them alone has files.
@@ -98,7 +98,7 @@ pub struct ModelTime {
     pub dt: f64,
     /// Bound that limited it.
     pub limiter: &'static str,
-    /// Particles, grains, or what else the model counts.
+    /// Particles, grains, or other items of the model.
     pub size: usize,
 }
 
@@ -145,7 +145,7 @@ pub struct RunCounters {
     pub colours: ColourRanges,
     /// Wall-clock time, s.
     pub wall_seconds: f64,
-    /// Wall-clock time of what was written since the run began or went on, s.
+    /// Wall-clock time of the writing since the run began or went on, s.
     #[serde(skip)]
     pub output_seconds: f64,
 }

@@ -61,7 +61,7 @@ pub enum Start {
     Resumed,
     /// The same, although the scene, its overrides, its files or the program are not those of the checkpoint.
     Changed,
-    /// With the particles and the time of a checkpoint of another run of the same bodies, whatever its other settings.
+    /// With the particles and the time of a checkpoint of another run of the same bodies, with any other settings.
     From(PathBuf),
 }
 

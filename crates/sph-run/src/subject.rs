@@ -1,4 +1,4 @@
-//! Scenes that can be run, whatever computes them.
+//! Scenes that can be run, by any method.
 
 use std::fmt::Debug;
 use std::sync::Arc;

@@ -50,7 +50,7 @@ pub struct Results {
     pub refinement: Option<String>,
     /// True if variants ran one by one.
     pub serial: bool,
-    /// On what and by what this was last run.
+    /// Machine and program of the last run.
     #[serde(flatten)]
     pub origin: Origin,
     /// Range of each axis, of studies that go along axes until they break.

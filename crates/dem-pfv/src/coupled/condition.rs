@@ -156,7 +156,7 @@ impl WallBoundary {
         )
     }
 
-    /// Puts what is given at a time (s) into the conditions of the flow.
+    /// Sets the given values at a time (s) in the conditions of the flow.
     fn apply_at(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
         match &self.condition {
             FlowCondition::Closed => {}

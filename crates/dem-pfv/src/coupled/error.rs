@@ -44,7 +44,7 @@ pub enum CoupledError {
     /// A number out of range.
     #[error("{what} is {value}; it must be {valid}")]
     BadNumber {
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,

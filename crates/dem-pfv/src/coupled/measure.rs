@@ -66,7 +66,7 @@ impl CoupledSystem {
         self.grains.gravity() * (solid - self.setup.fluid.density * fluid)
     }
 
-    /// Lets every step from now on measure what flows through walls.
+    /// Makes every further step measure the flow through walls.
     pub fn measure_inflow(&mut self) {
         self.inflows = Some(Vec::new());
     }

@@ -110,7 +110,7 @@ impl Fluid {
 pub struct Remeshing {
     /// ε_RTRG; zero remeshes at every step, `None` by the number of steps only.
     pub strain: Option<f64>,
-    /// Steps after which it is done whatever the strain.
+    /// Steps after which it is done at any strain.
     pub most_steps: Option<u64>,
 }
 

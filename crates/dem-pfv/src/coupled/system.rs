@@ -333,7 +333,7 @@ impl CoupledSystem {
         self.rebuild(Places::from_grains(&self.grains))
     }
 
-    /// Sets what is given at a wall. Another value costs nothing; another kind of condition makes a new matrix, another
+    /// Sets the condition at a wall. Another value costs nothing; another kind of condition makes a new matrix, another
     /// grip new throats.
     ///
     /// # Errors

@@ -148,7 +148,7 @@ impl GrainSystem {
         &mut self.grains.spin
     }
 
-    /// Grains that keep their velocity whatever acts on them.
+    /// Grains that keep their velocity under any force.
     pub fn held_mut(&mut self) -> &mut [bool] {
         &mut self.grains.held
     }

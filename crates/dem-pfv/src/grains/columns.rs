@@ -128,7 +128,7 @@ impl Grains {
         INERTIA * self.mass[grain] * self.radius[grain].powi(2)
     }
 
-    /// Grains that keep their velocity whatever acts on them.
+    /// Grains that keep their velocity under any force.
     #[must_use]
     pub fn held(&self) -> &[bool] {
         &self.held

@@ -24,7 +24,7 @@ pub enum GrainError {
     NotPositive {
         /// The grain.
         grain: usize,
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -34,7 +34,7 @@ pub enum GrainError {
     NotFinite {
         /// The grain.
         grain: usize,
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: [f64; 3],
@@ -152,7 +152,7 @@ pub enum GrainError {
     BadLaw {
         /// The law.
         law: &'static str,
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -187,7 +187,7 @@ pub enum GrainError {
     /// A number of the whole system is out of range.
     #[error("the {what} is {value}; it must be {valid}")]
     BadNumber {
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,

@@ -123,7 +123,7 @@ pub struct Stiffness {
     pub damping: f64,
 }
 
-/// A contact law: forces from overlaps, velocities and what is remembered of each contact.
+/// A contact law: forces from overlaps, velocities and the memory of each contact.
 ///
 /// One call answers many contacts, so that laws cost no virtual call per contact. The answer to a
 /// contact must depend on nothing but that contact: batches differ from one number of threads to another.

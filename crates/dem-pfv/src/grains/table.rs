@@ -104,7 +104,7 @@ impl Table {
         })
     }
 
-    /// Only what touches; enough to go on from.
+    /// The pairs in contact alone; enough to go on from.
     pub fn touching(&self) -> Self {
         let mut kept = Self::default();
         for part in 0..self.ends.len() {
@@ -144,7 +144,7 @@ impl Table {
             .any(left)
     }
 
-    /// Makes the table anew; what touches keeps its memory.
+    /// Makes the table anew; contacts keep their memory.
     pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
         let Bodies {
             grains,
@@ -182,7 +182,7 @@ impl Table {
         };
     }
 
-    /// Both tables are sorted, so one walk along them finds what is in both.
+    /// Both tables are sorted, so one walk along them finds the common entries.
     fn carry(&mut self, old: &[Slot], old_ends: &[usize]) {
         let mut from = 0;
         for (part, &to) in old_ends.iter().enumerate().take(self.ends.len()) {

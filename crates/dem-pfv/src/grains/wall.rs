@@ -1,4 +1,4 @@
-//! Plane walls and what moves them.
+//! Plane walls and their motion.
 
 use serde::{Deserialize, Serialize};
 

@@ -31,7 +31,7 @@ pub struct Progress {
     pub colours: sph_io::ColourRanges,
     /// The last step, s.
     pub dt: f64,
-    /// Steps by what limited them.
+    /// Steps by their limits.
     pub limited: std::collections::BTreeMap<String, u64>,
     /// Wall-clock time so far, s. Kept beside the state, which has the same bits in equal runs.
     #[serde(skip)]

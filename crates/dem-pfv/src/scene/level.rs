@@ -53,7 +53,7 @@ mod tests {
 
     use super::*;
 
-    /// A hemisphere on a floor stands out by 2/3 π R³ over the area, whatever its depth.
+    /// A hemisphere on a floor stands out by 2/3 π R³ over the area, at any depth.
     #[test]
     fn the_mean_height_of_a_ball_is_that_of_its_upper_half() {
         let (radius, depth) = (0.5, 0.7);

@@ -11,7 +11,7 @@ use crate::scene::names::planes;
 use crate::scene::origin::Origin;
 use crate::scene::tables::{Probe, Scene};
 
-/// Unit of what a probe measures.
+/// Unit of a probe's values.
 pub fn unit(probe: &Probe) -> &'static str {
     match probe {
         Probe::Stress { .. } | Probe::EffectiveStress { .. } | Probe::Deviator { .. } => "Pa",

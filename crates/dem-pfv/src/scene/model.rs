@@ -88,7 +88,7 @@ impl Model {
         }
     }
 
-    /// Lets every step measure what flows through walls, if there is a fluid.
+    /// Makes every step measure the flow through walls, if there is a fluid.
     pub fn measure_inflow(&mut self) {
         if let Self::Wet(system) = self {
             system.measure_inflow();
@@ -179,7 +179,7 @@ impl Model {
         }
     }
 
-    /// Goes on from what was kept, with the laws of the scene.
+    /// Goes on from a saved state, with the laws of the scene.
     ///
     /// # Errors
     /// A state whose parts do not fit together.

@@ -151,7 +151,7 @@ fn one<T: DeserializeOwned>(
         .map_err(|e: toml::de::Error| told("", e.message().to_string()))
 }
 
-/// Kinds of probes or references with what they are, for listings.
+/// Kinds of probes or references with their descriptions, for listings.
 #[must_use]
 pub fn kinds_of_probes() -> Vec<(String, String)> {
     kinds(&schemars::schema_for!(Probe).to_value())

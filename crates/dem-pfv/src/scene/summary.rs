@@ -47,7 +47,7 @@ pub struct Summary {
     pub threads: usize,
     /// Grains times steps over the wall-clock time of the steps, 1/s.
     pub grain_steps_per_second: f64,
-    /// Shares of the steps by what limited them.
+    /// Shares of the steps by their limits.
     pub dt_limiters: BTreeMap<String, f64>,
     /// Values measured before the run started.
     pub derived: BTreeMap<String, f64>,

@@ -63,7 +63,7 @@ pub struct RigidBody {
     /// The time until which it goes on with the velocity that it has at the start, s: at rest if none is given.
     #[parameter(default, unit: "s", min: 0.0)]
     pub start: f64,
-    /// Times in which it moves as given, whatever pushes it: one after the other, from `start` on.
+    /// Times in which it moves as given, under any load: one after the other, from `start` on.
     #[parameter(default)]
     pub prescribed: Vec<Prescribed>,
     /// Springs and dampers on its degrees of freedom.

@@ -33,7 +33,7 @@ pub(crate) struct Catenary {
 pub(crate) struct Hang {
     /// Horizontal tension H, N.
     pub across: f64,
-    /// Vertical tension V at the body, N: what it carries of the line.
+    /// Vertical tension V at the body, N: the weight of the line that it carries.
     pub up: f64,
     /// ∂(H, V)/∂(x, z), N/m.
     pub stiffness: [[f64; 2]; 2],

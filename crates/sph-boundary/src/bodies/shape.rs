@@ -1,4 +1,4 @@
-//! Volume, centre and inertia of what walls enclose.
+//! Volume, centre and inertia of the volume that walls enclose.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! Walls that slide along each other or part: what one takes of the other's fluid.
+//! Walls that slide along each other or part: the part of the other's fluid that one takes.
 
 use rayon::prelude::*;
 use sph_core::Vect;
@@ -13,7 +13,7 @@ const SAMPLES: i32 = 3;
 /// there until the next search.
 const FAR: f64 = 2.8;
 
-/// Nodes near walls that move otherwise than their own, and what is left of their fluid.
+/// Nodes near walls that move otherwise than their own, and the rest of their fluid.
 ///
 /// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
 /// moves otherwise (a gate that stands on a floor, a piston that sweeps it) may take a part, which
@@ -29,7 +29,7 @@ pub(crate) struct Cover<const D: usize> {
     searched_at: Vec<Vect<D>>,
 }
 
-/// A node and what may be near it until the next search.
+/// A node and the elements that may be near it until the next search.
 #[derive(Debug)]
 struct NodeNeighbours<const D: usize> {
     node: usize,

@@ -118,7 +118,7 @@ fn cut(line: &Polyline, ends_at: impl Fn([f64; 2]) -> bool) -> Vec<Polyline> {
     bounds.windows(2).map(piece).collect()
 }
 
-/// Ends of open pieces, and what finds those at a place.
+/// Ends of open pieces, and the search for those at a place.
 struct Ends {
     all: Vec<End>,
     /// By end.

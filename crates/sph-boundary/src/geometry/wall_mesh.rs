@@ -53,12 +53,12 @@ pub struct Hindrance<const D: usize> {
     pub wall: usize,
     /// The nearest place of the wall, as near as it is seen, m.
     pub place: Vect<D>,
-    /// Whole periods from the wall to what is seen of it, m.
+    /// Whole periods from the wall to its visible image, m.
     pub image: Vect<D>,
 }
 
-/// The walls of a scene as a mesh of elements of about the particle spacing: what the two dimensions have in common, and what
-/// each answers in its own way.
+/// The walls of a scene as a mesh of elements of about the particle spacing: the common queries of the two dimensions,
+/// and those with a method of each.
 pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'static {
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
@@ -85,7 +85,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         smoothing_length: f64,
     ) -> Result<Self::Integrals, BoundaryError>;
 
-    /// The mesh and what finds its elements.
+    /// The mesh and the search for its elements.
     fn walls(&self) -> &Walls<D>;
 
     /// Makes a face one contact, where that is cheaper.

@@ -1,4 +1,4 @@
-//! The walls of a scene, meshed, with what finds their elements.
+//! The walls of a scene, meshed, with the search for their elements.
 
 use std::sync::OnceLock;
 

@@ -1,6 +1,6 @@
 //! Walls that grains make, as a scene describes them.
 
-/// A wall whose surface is a bed of grains: what it takes to lay its [`Bed`](sph_core::bed::Bed). Walls that stand in the
+/// A wall whose surface is a bed of grains: the data to lay its [`Bed`](sph_core::bed::Bed). Walls that stand in the
 /// bed have the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Erodible {

@@ -7,7 +7,7 @@ use crate::Drawing;
 /// Forces and moments that act on a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load<const D: usize> {
-    /// Force of the fluid, N (N/m in two dimensions): the reaction to what the wall does to the particles.
+    /// Force of the fluid, N (N/m in two dimensions): the reaction to the force of the wall on the particles.
     pub force: Vect<D>,
     /// Its moment about the origin, N m; only the last component in two dimensions.
     pub moment: [f64; 3],

@@ -9,7 +9,7 @@ use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 /// Moves one wall. The wall's state is its whole memory: it is rolled back with the particles, and in
 /// checkpoints.
 pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
-    /// Learns how its wall is drawn and what is around it; called once, first of all.
+    /// Takes the geometry of its wall and of its surroundings; called once, first of all.
     ///
     /// # Errors
     /// The key of its table that does not fit the scene.

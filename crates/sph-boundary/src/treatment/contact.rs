@@ -30,7 +30,7 @@ pub(crate) struct SurfacePair<const D: usize> {
     /// The walls themselves.
     pub walls: [usize; 2],
     pub place: Vect<D>,
-    /// Whole periods from the second wall to what the first one sees of it, m.
+    /// Whole periods from the second wall to its image that the first one sees, m.
     pub image: Vect<D>,
     pub away: Vect<D>,
     /// Distance of the surfaces, m; negative where one is behind the other.

@@ -126,7 +126,7 @@ pub trait WallShape<const D: usize> {
     /// Lower and upper corner of the box around all walls, m.
     fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
 
-    /// True if any wall ends freely: what goes over its end is outside.
+    /// True if any wall ends freely: particles that pass its end are outside.
     fn ends_freely(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! Densities where particles come to see past a free end, or lose sight of what is there.
+//! Densities where particles come to see past a free end, or lose sight of the fluid there.
 
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
@@ -20,8 +20,9 @@ struct DriftEnd<const D: usize> {
 }
 
 impl<const D: usize> NearLists<D> {
-    /// Changes the constants K of ρ = (K + m Σ w)/γ by what a drift changes of γ and of the sums in that walls hide less or
-    /// more: what comes into sight behind a free end may be water or nothing, and neither is a change of density.
+    /// Changes the constants K of ρ = (K + m Σ w)/γ by the change of γ and of the sums in a drift that is due to walls
+    /// hiding less or more: behind a free end water may come into sight, or nothing, and neither is a change of
+    /// density.
     ///
     /// ```text
     /// ΔK = ρ (Δγ − ∇γ·Δr) − m (Σ w of particles that come into gauge − Σ w of particles that go out of gauge)

@@ -20,7 +20,7 @@ pub(crate) const LEAST_CLEARANCE: f64 = 0.25;
 const TURNS: usize = 4;
 
 impl<const D: usize> NearLists<D> {
-    /// Takes from the velocities what would carry a particle into a wall within `dt`.
+    /// Removes the part of the velocities that would carry a particle into a wall within `dt`.
     ///
     /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
     /// d + Δt (u − u_w)·e falls below the `least` share of a spacing, the velocity along e is raised to
@@ -170,8 +170,8 @@ fn blows<const D: usize, M: WallMesh<D>>(
     each.iter().enumerate().map(whole).collect()
 }
 
-/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s, with the whole periods
-/// to the wall.
+/// The velocity of a particle that walls have stopped, and the change by each of them, m/s, with the whole periods to
+/// the wall.
 struct StoppedVelocity<const D: usize> {
     velocity: Vect<D>,
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,

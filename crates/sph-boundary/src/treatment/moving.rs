@@ -26,7 +26,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         specs.map(state).collect()
     }
 
-    /// Moves the mesh to what is prescribed at a time; returns whether anything moved.
+    /// Moves the mesh to the prescribed position at a time; returns whether anything moved.
     pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
         let states = self.states_at(time, &self.states);
         self.put(states, time)

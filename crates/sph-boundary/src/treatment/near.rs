@@ -92,8 +92,8 @@ impl<const D: usize> Row<D> {
 }
 
 impl<const D: usize> NearLists<D> {
-    /// Finds what the lists that were built since lack, for particles and walls where the neighbour lists found them: rows
-    /// stand as long as these, wherever the walls move meanwhile.
+    /// Finds the elements that are missing in the lists built since, for particles and walls where the neighbour lists
+    /// found them: rows stand as long as these, wherever the walls move meanwhile.
     pub fn refresh<M: WallMesh<D>>(
         &mut self,
         outline: &mut Outline<D, M>,
@@ -166,7 +166,7 @@ impl<const D: usize> NearLists<D> {
         self.identities.extend_from_slice(identities);
     }
 
-    /// Looks up what is missing.
+    /// Looks up missing elements.
     fn search<M: WallMesh<D>>(&mut self, mesh: &M, positions: &[Vect<D>], radius: f64, skin: f64) {
         let travelled = self.travelled;
         let mut room = std::mem::take(&mut self.room);
@@ -230,7 +230,7 @@ impl<const D: usize> NearLists<D> {
         self.particles.extend(near.map(|(_, i)| i));
     }
 
-    /// Throws away what no row holds any more, where that is more than what the rows hold.
+    /// Discards elements that no row holds, where they are more than those in rows.
     fn make_room(&mut self, more: usize) {
         let held: usize = self.rows.iter().map(|row| row.count as usize).sum();
         if self.elements.len() <= 2 * held {

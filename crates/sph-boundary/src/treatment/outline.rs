@@ -294,8 +294,8 @@ fn check_reach<const D: usize>(
     Ok(())
 }
 
-/// Shape and motion of walls by their outline; the treatment
-/// keeps it in `self.set_up`, whose `moved` places what the walls carry.
+/// Shape and motion of walls by their outline; the treatment keeps it in `self.set_up`, whose `moved` places the points
+/// and elements of the walls.
 macro_rules! shaped_by_outline {
     ($treatment:ident) => {
         impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {

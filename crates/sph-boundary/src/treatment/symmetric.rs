@@ -47,7 +47,7 @@ pub struct Symmetric<const D: usize, M: WallMesh<D>> {
     scales: Option<Scales<D, M>>,
 }
 
-/// The scale, and what was found of it last.
+/// The scale, and its last results.
 #[derive(Debug)]
 struct Scales<const D: usize, M> {
     walls: WallScales<D, M>,

@@ -19,7 +19,7 @@ const PARTS: f64 = 10.0;
 const MOST_PARTS: f64 = 20_000.0;
 /// Depth to which the weight of all bodies together presses a face into the gap, over the spacing.
 const SINKS: f64 = 0.025;
-/// Share of the stiffness of the stiffest body that all contacts have, for what it may do to a light one in its way: it
+/// Share of the stiffness of the stiffest body that all contacts have, for its effect on a light one in its way: it
 /// stops a fortieth of the speed that the body's own contacts stop.
 const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
@@ -140,7 +140,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         near.iter().map(one).collect()
     }
 
-    /// The states after a step with these loads, without contact; what touches is added to them.
+    /// The states after a step with these loads, without contact; contacts are added to the loads.
     ///
     /// # Errors
     /// A wall whose state is no number; walls that go through each other.

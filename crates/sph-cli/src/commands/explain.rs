@@ -16,7 +16,7 @@ use crate::terminal::trouble::Trouble;
 /// Machines that are listed.
 const SHOWN: usize = 16;
 
-/// Shows what a scene is made of.
+/// Shows the parts of a scene.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let mut told = output(&opened)?;
@@ -41,7 +41,7 @@ pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     })
 }
 
-/// Adds what several machines would have and send.
+/// Adds the shares and messages of several machines.
 fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         return Err(Trouble::usage(

@@ -69,7 +69,7 @@ fn place(x: &[f64; 3]) -> String {
     format!("({})", x.map(number::plain).join(", "))
 }
 
-/// A surface and what is known of it.
+/// A surface and its properties.
 struct Mesh {
     facets: Facets,
     topology: Topology,

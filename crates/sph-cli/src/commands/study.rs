@@ -150,7 +150,7 @@ fn read(
     })
 }
 
-/// Puts together what is to be run, so that every mistake is known before the first run.
+/// Collects the variants to run, so that every mistake is known before the first run.
 fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
     for (k, variant) in study.variants.iter().enumerate() {
         if watcher.has_to_run(k) {

@@ -20,7 +20,7 @@ pub fn raw(bytes: &[u8]) {
     note(written);
 }
 
-/// Complains of what could not be written, once.
+/// Reports output that could not be written, once.
 fn note(written: std::io::Result<()>) {
     // `sph schema | head` closes the pipe: no reason to complain.
     if let Err(error) = written

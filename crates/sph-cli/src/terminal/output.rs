@@ -9,7 +9,7 @@ use crate::terminal::console;
 pub struct CommandOutput {
     /// For programs.
     pub json: Json,
-    /// For people: what the command prints.
+    /// For people: the printed text.
     pub text: String,
 }
 

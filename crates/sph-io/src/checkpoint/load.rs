@@ -73,7 +73,7 @@ impl From<Fault> for ReadFault {
     }
 }
 
-/// The file and the checksum of what has been read of it.
+/// The file and the checksum of the part that has been read.
 struct Source<R> {
     input: R,
     sum: crc32fast::Hasher,

@@ -54,7 +54,7 @@ impl Checkpoint {
         out.put(&sum.to_le_bytes())
     }
 
-    /// The columns as the header describes them, or what does not fit.
+    /// The columns as the header describes them, or the contradiction.
     fn shapes(&self) -> std::result::Result<Vec<Shape>, String> {
         let mut shapes: Vec<Shape> = Vec::with_capacity(self.columns.len());
         for column in &self.columns {

@@ -75,7 +75,7 @@ fn corners(frame: &Rect, width: f64, height: f64, gap: f64) -> [Rect; 4] {
     })
 }
 
-/// Spots along all series, close enough together to see what a box hides.
+/// Spots along all series, close enough together to find those that a box hides.
 fn visited<'a>(marks: impl Iterator<Item = &'a Mark<'a>>, axes: &Axes) -> Vec<Spot> {
     let step = axes.size;
     let mut spots = Vec::new();

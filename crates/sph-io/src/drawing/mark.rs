@@ -5,7 +5,7 @@ use crate::drawing::colour::{Colour, SERIES};
 use crate::drawing::draw_target::{DrawTarget, Fill, Pen, Spot};
 use crate::drawing::drawn_series::{Series, Style};
 
-/// Points beyond which lines are thinned to what can be seen.
+/// Points beyond which lines are thinned to the visible ones.
 const MANY: usize = 4000;
 
 /// A series with its colour and shape.

@@ -17,7 +17,7 @@ const SWOLLEN: f64 = 1.5;
 const PASSES: usize = 3;
 /// Direction to the light: to the right, upwards, away from the eye.
 const LIGHT: [f64; 3] = [-0.35, 0.75, -0.56];
-/// Brightness of what is turned away from the light.
+/// Brightness of surfaces turned away from the light.
 const DARK: f64 = 0.45;
 
 /// Place on the screen, and distance from it, m.
@@ -62,7 +62,7 @@ impl Relief {
         }
     }
 
-    /// Draws what is seen of particles of a diameter, in colours of their values.
+    /// Draws the visible surface of particles of a diameter, in colours of their values.
     pub(crate) fn draw(&mut self, on: &mut Canvas, diameter: f64, colour: impl Fn(f64) -> Colour) {
         let reach = (0.5 * diameter * self.scale).round().clamp(1.0, 12.0) as usize;
         for _ in 0..PASSES {
@@ -102,7 +102,7 @@ impl Relief {
         }
     }
 
-    /// Averages depths and values over `reach` pixels to all sides, of what is not further away by more than `step` m.
+    /// Averages depths and values over `reach` pixels to all sides, of those that are further away by at most `step` m.
     fn smooth(&mut self, reach: usize, step: f64) {
         for [right, down] in [[1, 0], [0, 1]] {
             let (depth, value) = (self.depth.clone(), self.value.clone());

@@ -68,7 +68,7 @@ fn is_swept(error: &IoError, folder: &Path) -> bool {
     matches!(error, IoError::InUse { .. }) || !folder.exists()
 }
 
-/// Removes folders of the prefix whose process is dead; whatever cannot be removed stays.
+/// Removes folders of the prefix whose process is dead; folders that cannot be removed stay.
 ///
 /// A process may die between the making of its folder and that of the lock in it: an empty folder goes too. Its
 /// owner may live and be about to hold it; then it makes another.
@@ -94,7 +94,7 @@ fn sweep(place: &Path, prefix: &str, own: &Path) {
     }
 }
 
-/// True if a folder belongs to the user to whom our own does.
+/// True if a folder has the same owner as our own.
 #[cfg(unix)]
 fn is_ours(path: &Path, own: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

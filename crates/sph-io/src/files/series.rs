@@ -65,8 +65,8 @@ impl SeriesWriter {
         Ok(series)
     }
 
-    /// Continues the series at the byte `offset` that [`position`](Self::position)
-    /// gave when the run was checkpointed; what follows is cut off.
+    /// Continues the series at the byte `offset` that [`position`](Self::position) gave when the run was checkpointed;
+    /// the rest is cut off.
     ///
     /// A file that is shorter, has no end of row there, or has other columns, is refused untouched.
     pub fn open_truncated<N: AsRef<str>, U: AsRef<str>>(

@@ -66,8 +66,7 @@ struct Entry {
 }
 
 impl PvdSeries {
-    /// Starts a series at `path` (ending in `.pvd`); the first frame replaces
-    /// whatever list is there.
+    /// Starts a series at `path` (ending in `.pvd`); the first frame replaces an earlier list.
     pub fn create(path: impl AsRef<Path>) -> Result<Self> {
         let series = Self {
             path: path.as_ref().to_path_buf(),
@@ -201,7 +200,7 @@ impl PvdSeries {
         )
     }
 
-    /// Takes over what came not after `end`, and lists only that.
+    /// Takes over the entries up to `end`, and lists only that.
     fn keep(&mut self, mut found: Vec<Entry>, end: f64) -> Result<()> {
         let before = found.len();
         found.retain(|e| e.time <= end);

@@ -49,7 +49,7 @@ fn share_name(name: &str, index: usize, rank: usize) -> String {
     format!("{name}_{index:06}_r{rank}.vtu")
 }
 
-/// Writes the list of the shares of a piece of points; `piece` has the arrays that all shares have, whatever is in them.
+/// Writes the list of the shares of a piece of points; `piece` has the arrays that all shares have, with any contents.
 pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize) -> Result<()> {
     let mut xml = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \

@@ -1,4 +1,4 @@
-//! Reads back what [`write_vtu`](crate::write_vtu) wrote; it is no reader of all of VTK.
+//! Reads back files of [`write_vtu`](crate::write_vtu); it is no reader of all of VTK.
 
 use std::fs;
 use std::io::Read;

@@ -7,7 +7,7 @@ use crate::lanes::{Lane, Lanes};
 /// Number of lanes, which are computed side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Width {
-    /// 2: what every processor has.
+    /// 2: available on every processor.
     Two,
     /// 4: AVX2.
     Four,
@@ -29,8 +29,8 @@ impl Width {
 /// 0 for the widest there is, else the most lanes that are allowed.
 static ALLOWED: AtomicU8 = AtomicU8::new(0);
 
-/// Allows no more lanes than these from now on; `None` allows what the processor has. For tests: results do not depend
-/// on it, to the bit.
+/// Limits the lanes from here on; `None` allows all of the processor. For tests: results do not depend on it, to the
+/// bit.
 pub fn force_width(most: Option<Width>) {
     let most = most.map_or(0, |w| w.lanes() as u8);
     ALLOWED.store(most, Ordering::Relaxed);

@@ -9,7 +9,7 @@ use crate::lanes::Lane;
 /// Below this over the larger of both sides atan is its series; from [`STEEP`] on it is taken from π/4.
 const FLAT: f64 = 7.0 / 16.0;
 const STEEP: f64 = 11.0 / 16.0;
-/// atan(1/2), and what its rounding leaves out.
+/// atan(1/2), and its rounding error.
 const ATAN_HALF: [f64; 2] = [4.636_476_090_008_061e-1, 2.269_877_745_296_169e-17];
 /// Rounding error of π/4.
 const QUARTER_LOW: f64 = 3.061_616_997_868_383e-17;

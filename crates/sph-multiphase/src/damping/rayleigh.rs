@@ -14,7 +14,8 @@ contribution_kind!(
     .works(Work::Damping)
 );
 
-/// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, whatever ΓΔt.
+/// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, for any
+/// ΓΔt.
 ///
 /// Γ is `rate` everywhere, or in `zones` with a share that grows smoothly ([`Zone`]; the largest where they overlap). It takes
 /// momentum out of the fluid that no wall takes up: for fluids that are to settle before something begins (`until`), and for

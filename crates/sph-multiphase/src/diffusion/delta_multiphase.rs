@@ -178,7 +178,7 @@ pub struct BoundDelta<'a, const D: usize> {
 }
 
 impl<const D: usize> BoundDelta<'_, D> {
-    /// ∇p of what is left alone, Pa/m.
+    /// ∇p of the undiffused pressure, Pa/m.
     fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
         (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
     }

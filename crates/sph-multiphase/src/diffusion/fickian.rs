@@ -218,7 +218,7 @@ fn along_interface<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64
 /// are left a smoothing length before a flat wall and three quarters at one and a half.
 const TOWARDS_WALLS: f64 = 0.05;
 
-/// Leaves out what leads towards walls or away from them.
+/// Removes the part towards walls or away from them.
 ///
 /// A density that takes no notice of shifts lets u = −s stand at a wall that no particle passes: fluid would flow through
 /// the wall, and the shift would bring its particles back.
@@ -240,7 +240,7 @@ fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vec
     }
 }
 
-/// Leaves out what leads into a wall that is nearer than half a spacing.
+/// Removes the part into a wall that is nearer than half a spacing.
 fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<D>) {
     for contact in world.walls.contacts.of_particle(particle) {
         if contact.distance < 0.5 * world.spacing {

@@ -9,8 +9,8 @@ use sph_neighbours::{CHUNK, Cluster, ClusterWalk, World};
 
 use crate::linear::{Entry, Pattern, Values};
 
-/// A matrix of a system of C components, the dimensions of space for velocities, one for a pressure; with its sources, and
-/// what it is put together from.
+/// A matrix of a system of C components, the dimensions of space for velocities, one for a pressure; with its sources,
+/// and its parts.
 ///
 /// It is kept from step to step for its memory: to ask for tens of megabytes anew in every step costs a tenth of it.
 #[derive(Clone, Debug)]

@@ -9,8 +9,8 @@ use crate::linear::{
     LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError,
 };
 
-/// BiCGSTAB (van der Vorst 1992), which needs no symmetry: what the thesis solves with. Two products
-/// per iteration; for these matrices conjugate gradients are faster.
+/// BiCGSTAB (van der Vorst 1992), which needs no symmetry: the solver of the thesis. Two products per iteration; for
+/// these matrices conjugate gradients are faster.
 ///
 /// ```toml
 /// [linear-solver.bicgstab]

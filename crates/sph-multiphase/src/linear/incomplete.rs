@@ -43,7 +43,7 @@ struct Part<E, S> {
 
 /// Rows of a part; their number fits into 16 bits.
 pub(crate) const PART: usize = 2048;
-/// By what share the diagonal is raised at the first failure; tenfold at every further one.
+/// Share by which the diagonal is raised at the first failure; tenfold at every further one.
 const RAISE: f64 = 1e-3;
 /// Failures after which the matrix is called indefinite.
 const ATTEMPTS: usize = 5;

@@ -167,8 +167,8 @@ impl<const D: usize> Matrix<D> {
         }
     }
 
-    /// Largest ratio of what couples a row to others to what is left of its diagonal, Σ|a_ij|/(a_ii − Σ|a_ij|); of
-    /// blocks with the means of their diagonals.
+    /// Largest ratio of the couplings of a row to the rest of its diagonal, Σ|a_ij|/(a_ii − Σ|a_ij|); of blocks with
+    /// the means of their diagonals.
     pub fn stiffness(&self) -> f64 {
         match &self.entries {
             Entries::Scalar(values) => values.stiffness::<D>(&self.pattern),

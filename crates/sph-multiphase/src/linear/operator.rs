@@ -22,7 +22,7 @@ pub trait Operator<const D: usize>: Sync {
     /// Gives the copies, x\[rows..columns\], the values of their owners.
     fn import(&self, _x: &mut [Vect<D>]) {}
 
-    /// The sum over the owners of all rows of what each has summed over its own; the same bits for all.
+    /// The sum over the owners of all rows of the sums that each has over its own; the same bits for all.
     fn total(&self, part: f64) -> f64 {
         part
     }
@@ -57,7 +57,7 @@ pub trait Operator<const D: usize>: Sync {
         self.assembled().map(|matrix| matrix.entries.diagonal())
     }
 
-    /// Largest ratio of what couples a row to others to what is left of its diagonal, as
+    /// Largest ratio of the couplings of a row to the rest of its diagonal, as
     /// [`Matrix::stiffness`](crate::linear::Matrix::stiffness); none where it is not known.
     fn stiffness(&self) -> Option<f64> {
         self.assembled().map(Matrix::stiffness)

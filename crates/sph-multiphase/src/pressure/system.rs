@@ -1,4 +1,4 @@
-//! The system of the pressure: what couples particles, and what holds them.
+//! The system of the pressure: the couplings of particles, and their diagonal.
 
 use sph_core::{Pool, Vect};
 use sph_neighbours::{
@@ -44,7 +44,7 @@ pub(crate) struct Part {
 /// Numbers of a cluster for its rows.
 #[derive(Default)]
 pub(crate) struct ClusterCoefficients {
-    /// c and what it adds to the source, for every candidate, one number per lane each.
+    /// c and its part of the source, for every candidate, one number per lane each.
     numbers: Vec<f64>,
     /// Columns that are coupled to a row, and their c, one number per lane.
     columns: Vec<u32>,
@@ -95,8 +95,8 @@ impl<const D: usize> Couplings<'_, D> {
         }
     }
 
-    /// 1/γ: by it the gradient of the pressure grows beside walls, and nothing that moves a particle may be more than what is
-    /// solved for.
+    /// 1/γ: by it the gradient of the pressure grows beside walls, and nothing that moves a particle may exceed the
+    /// solution.
     #[inline(always)]
     fn growth(&self, i: usize) -> f64 {
         self.gamma.map_or(1.0, |gamma| 1.0 / gamma[i])

@@ -128,7 +128,7 @@ impl Relaxation {
         }
     }
 
-    /// Relaxes the constants over a step; what that gives to the particles, J.
+    /// Relaxes the constants over a step; returns the energy of the particles from it, J.
     fn relax<const D: usize>(
         &self,
         world: &World<D>,

@@ -161,7 +161,7 @@ impl<const D: usize> Bodies<D> {
         Ok((!all.is_empty()).then_some(Bodies(all)))
     }
 
-    /// Adds what bodies do to the fluid besides, and gives the vectors of the update.
+    /// Adds the further effect of bodies on the fluid, and gives the vectors of the update.
     pub fn bind(
         &self,
         base: &dyn Operator<D>,

@@ -1,4 +1,4 @@
-//! Friction as a matrix: what an implicit scheme needs of a viscous operator.
+//! Friction as a matrix: the form of a viscous operator for an implicit scheme.
 
 use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};

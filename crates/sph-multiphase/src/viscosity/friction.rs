@@ -42,7 +42,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
         }
         force
     }
-    /// ½ t·f(t) of several particles: what a unit velocity along t gives.
+    /// ½ t·f(t) of several particles: the response to a unit velocity along t.
     #[inline(always)]
     fn shears<L: Lane>(self, volume: L, there: L, along: &[L; D], pair: &LanePair<D, L>) -> L {
         let half = L::splat(0.5);

@@ -19,7 +19,7 @@ use crate::viscosity::{Coupling, FrictionSystem, Solves};
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
 const INNER: f64 = 0.1;
 
-/// Vectors of a solve: right-hand side, uⁿ, u*, what they start from, and those of conjugate gradients.
+/// Vectors of a solve: right-hand side, uⁿ, u*, their start, and those of conjugate gradients.
 const VECTORS: usize = 8;
 
 /// Updates of the viscosity with the velocity within a step.
@@ -48,7 +48,7 @@ pub struct ImplicitViscosity<const D: usize> {
     ahead: Vec<Vect<D>>,
     /// uⁿ⁺¹ on its way.
     velocity: Vec<Vect<D>>,
-    /// Viscosities without what makes them stiff.
+    /// Viscosities without the stiffening.
     plain: Vec<f64>,
 }
 
@@ -310,7 +310,7 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
     }
 }
 
-/// Adds what the strain of the step does to an elastic material, s𝒢Δt, to the viscosities; `plain` keeps those without it.
+/// Adds the elastic response to the strain of the step, s𝒢Δt, to the viscosities; `plain` keeps those without it.
 ///
 /// Δt is the whole step, over which stresses follow the velocity, also in a kick over a part of it.
 fn stiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
@@ -329,8 +329,8 @@ fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Resu
     Ok(())
 }
 
-/// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:
-/// next to rest the velocity need not be more accurate than the change that one step could give it.
+/// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with the driving acceleration: next to rest the
+/// velocity need not be more accurate than the change that one step could give it.
 fn relative_change<const D: usize>(
     world: &World<D>,
     velocity: &[Vect<D>],

@@ -21,7 +21,7 @@ pub struct Solves {
     /// Wall-clock time of all solves, without putting the systems together, s.
     #[serde(default)]
     pub wall_seconds: f64,
-    /// Most bytes of a matrix and of what the solver held for it.
+    /// Most bytes of a matrix and of the solver's memory for it.
     #[serde(default)]
     pub most_bytes: usize,
     /// Updates of the viscosity by the velocity, where it depends on it.

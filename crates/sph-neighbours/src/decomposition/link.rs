@@ -126,8 +126,8 @@ impl Link {
         sends.map(|(rank, slots)| (*rank, pack(slots))).collect()
     }
 
-    /// Sends messages to the ranks with copies, and does some `work` meanwhile; gives what comes for the ghosts, owner
-    /// by owner.
+    /// Sends messages to the ranks with copies, and does some `work` meanwhile; returns the messages for the ghosts,
+    /// owner by owner.
     fn swapped(
         &self,
         out: Vec<(usize, Vec<u8>)>,

@@ -335,7 +335,7 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Boxes around what each rank owns.
+    /// Boxes around the particles of each rank.
     fn rank_boxes(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
         let own = RankBox::around(world.free.get(fields::POSITION)?.iter());
         let numbers = own.lower.iter().chain(own.upper.iter());

@@ -11,7 +11,7 @@ use crate::{
     OpenRefusal, OpenSetting, Profile,
 };
 
-/// A volume per time passes through the part of the face that has fluid in front of it, at whatever level that is.
+/// A volume per time passes through the part of the face that has fluid in front of it, at any level.
 ///
 /// Velocities are those of a [`VelocityInlet`](crate::VelocityInlet), scaled so that they have the rate.
 ///

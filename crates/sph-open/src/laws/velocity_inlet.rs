@@ -11,7 +11,7 @@ use crate::{
     OpenRefusal, OpenSetting, Profile,
 };
 
-/// Fluid passes with a given velocity along the normal of the face, whatever is in front of it.
+/// Fluid passes with a given velocity along the normal of the face, for any fluid in front of it.
 ///
 /// The pressure follows from the characteristic that leaves the fluid, p = p_i + ρc (u − u_i): sound that arrives is
 /// thrown back as from a wall that moves so. A negative velocity takes fluid out, as far as there is fluid before the

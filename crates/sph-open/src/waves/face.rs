@@ -1,4 +1,4 @@
-//! The face of a paddle: where it looks, and how it moves besides what is prescribed.
+//! The face of a paddle: its gauge, and its motion besides the prescribed one.
 
 use sph_boundary::{Drawing, MoverSetting, RigidState};
 use sph_core::Vect;
@@ -90,7 +90,7 @@ impl<const D: usize> Face<D> {
         [arm * angle, arm * rate]
     }
 
-    /// Way and velocity besides what is prescribed.
+    /// Way and velocity besides the prescribed motion.
     pub fn free_motion(&self, now: &RigidState<D>, plan: &RigidState<D>) -> [f64; 2] {
         let (now, plan) = (self.movement(now), self.movement(plan));
         [now[0] - plan[0], now[1] - plan[1]]

@@ -304,8 +304,8 @@ mod tests {
         }
     }
 
-    /// Feeds it what waves (frequency, amplitude there, amplitude back, phase) make, every 20 ms, in steps that do not meet the
-    /// window's ends.
+    /// Feeds it the levels of waves (frequency, amplitude there, amplitude back, phase), every 20 ms, in steps that do
+    /// not meet the window's ends.
     fn fed(probe: &ReflectionProbe, waves: &[[f64; 4]]) {
         let mut t = 0.003;
         while t < probe.to + 0.05 {

@@ -16,7 +16,7 @@ const BEYOND: f64 = 0.01;
 /// Half the thickness of the slice through a body of three dimensions, in spacings.
 const SLICE: f64 = 1.0;
 
-/// The column that shows what went wrong.
+/// The column that shows the failure.
 fn deciding_column(cause: &StepError) -> &'static str {
     match cause {
         StepError::Bad {

@@ -89,7 +89,7 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Authors of the reference: what a line `# Source: …` of its file has up to the year.
+/// Authors of the reference: the text of a line `# Source: …` of its file up to the year.
 fn source(path: &Path) -> Option<String> {
     let lines = BufReader::new(File::open(path).ok()?).lines();
     let heads = lines

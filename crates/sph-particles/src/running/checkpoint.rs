@@ -117,8 +117,8 @@ fn refused(path: &Path, reason: impl Into<String>) -> RunError {
     }
 }
 
-/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is
-/// given; returns what the driver saved. A flow that had no lists gets none.
+/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is given;
+/// returns the driver's saved state. A flow that had no lists gets none.
 pub fn load<const D: usize>(
     flow: &mut Flow<D>,
     scene: &Scene,

@@ -85,7 +85,7 @@ impl Counters {
         }
     }
 
-    /// Takes over what the driver has counted.
+    /// Takes over the counts of the driver.
     pub(crate) fn take(&mut self, books: &RunCounters) {
         self.rows = books.rows;
         self.last_row = books.last_row.map(f64::to_bits);
@@ -206,7 +206,7 @@ impl Counters {
     }
 }
 
-/// All whole numbers in what a piece of work has counted.
+/// All whole numbers in the counts of a piece of work.
 fn whole_numbers(counted: &Json) -> Vec<u64> {
     match counted {
         Json::Number(n) => n.as_u64().into_iter().collect(),

@@ -1,4 +1,4 @@
-//! A run on its way: the particles, and what was counted of them.
+//! A run on its way: the particles, and their counts.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) good: StateBeforeStep<D>,
     /// Knowledge of the present state.
     pub(crate) known: DerivedState,
-    /// The last step that was tried, s, and what limited it.
+    /// The last step that was tried, s, and its limit.
     pub(crate) tried: (f64, &'static str),
     /// Bounds of the step at hand.
     pub(crate) limits: Vec<StepLimit>,

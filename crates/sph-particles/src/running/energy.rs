@@ -10,10 +10,10 @@ use crate::setup::moves;
 /// Shares of the scale from which the run warns, and from which it fails.
 const TOLD: f64 = 0.01;
 const GROSS: f64 = 0.1;
-/// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that what is at rest is not
+/// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that a fluid at rest is not
 /// measured by its own noise.
 const STILL: f64 = 2e-3;
-/// Kinds of plugins that give a flow no energy but what its sums hold.
+/// Kinds of plugins that give a flow no energy besides that of its sums.
 const OWN: [&str; 9] = [
     "formulation",
     "viscous-operator",
@@ -39,7 +39,7 @@ pub(crate) struct EnergyWatch {
 }
 
 impl EnergyWatch {
-    /// Of a scene; `so_far` is what a run that is resumed has seen.
+    /// Of a scene; `so_far` is from the earlier part of a resumed run.
     pub fn from_scene<const D: usize>(
         scene: &Scene,
         flow: &Flow<D>,

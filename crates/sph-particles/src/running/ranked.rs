@@ -1,4 +1,4 @@
-//! A run on several ranks: the first gathers what all have found, and writes it.
+//! A run on several ranks: the first gathers all results, and writes them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -75,7 +75,7 @@ impl<const D: usize> Running<'_, D> {
         self.whole.as_ref().unwrap_or(&self.parts)
     }
 
-    /// The walls of what is shown: its own, or those of this process's part.
+    /// The walls of outputs: its own, or those of this process's part.
     pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
         let own = self.shown().flow.walls.as_deref();
         own.or(self.parts.flow.walls.as_deref())
@@ -134,7 +134,7 @@ impl<const D: usize> Running<'_, D> {
         self.parts.probes.iter().any(|(_, p)| p.needs().around)
     }
 
-    /// Counts what is near the particles of this process.
+    /// Counts the neighbours of the particles of this process.
     pub(crate) fn look_around(&mut self) -> Result<(), RunError> {
         let flow = &self.parts.flow;
         let free = &flow.world.free;

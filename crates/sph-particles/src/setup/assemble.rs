@@ -61,7 +61,8 @@ pub struct Assembled<const D: usize> {
     pub body_of: Vec<u32>,
 }
 
-/// Builds the plugins, the particles and the plan of what a process begins with. Where this is a part of the flow, all ranks assemble together.
+/// Builds the plugins, the particles and the plan of the start of a process. Where this is a part of the flow, all
+/// ranks assemble together.
 ///
 /// # Errors
 /// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
@@ -337,8 +338,7 @@ fn show<const D: usize>(
     check_output_fields(scene, flow)
 }
 
-/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are
-/// open.
+/// Equations of state with their reference states, and the change of gravity; the lift where faces are open.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,

@@ -31,7 +31,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// From the particle count, the first step, s, and what the run holds, bytes.
+    /// From the particle count, the first step, s, and the memory of the run, bytes.
     pub fn new(scene: &Scene, particles: f64, dt: f64, memory: f64) -> Self {
         let steps = (scene.run.end / dt).ceil();
         let outputs = match (&scene.output.times, scene.output.every) {

@@ -100,7 +100,7 @@ pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
     })
 }
 
-/// As [`examine`] of a scene in `D` dimensions, with what was assembled for it.
+/// As [`examine`] of a scene in `D` dimensions, with its assembly.
 ///
 /// # Errors
 /// Every problem of the scene, with its path.

@@ -6,7 +6,7 @@ use sph_probes::{Probe, ProbeColumn, Solution, SolutionEntry, norm};
 use sph_scene::{Norm, Scene};
 use sph_solver::SolverError;
 
-/// A field with what it should be, `components` numbers per particle.
+/// A field and its exact values, `components` numbers per particle.
 pub struct Compared {
     /// Values of the field.
     pub values: Vec<f64>,

@@ -11,14 +11,14 @@ use sph_open::OpenBoundaries;
 use sph_rheology::state::{Laws, Lift};
 use sph_scene::Scene;
 
-/// Lift over ρcΔu: half as much again for what faces and walls throw back.
+/// Lift over ρcΔu: half as much again for reflections at faces and walls.
 const LIFT: f64 = 1.5;
 /// The largest lift over ρc²: that of a flow of Mach 0.1 that turns round.
 const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
-/// A box, its particles, their laws and what lifts these.
+/// A box, its particles, their laws and their lift.
 pub(crate) type FilledBox<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
 
 /// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a

@@ -7,8 +7,7 @@ use crate::beds::columns::{Columns, End};
 use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// Three curves over a movable bed, mass of what moves of it (kg, per metre of width), and lowest
-/// point of the motion (m).
+/// Three curves over a movable bed, moving mass of it (kg, per metre of width), and lowest point of the motion (m).
 ///
 /// A grain moves if its speed |u| is above `threshold` = Δx/Δt, one pixel of the experiment's
 /// camera in one of its images: 1 mm in 5 ms. Columns are two spacings wide, and in every one
@@ -48,13 +47,13 @@ pub(crate) fn threshold() -> f64 {
     0.2
 }
 
-/// The three curves, and what moves.
+/// The three curves, and the moving mass.
 struct BedCurves {
     surface: Columns,
     interface: Columns,
     /// Lowest moving grains.
     moving: Columns,
-    /// Mass of what moves, kg.
+    /// Moving mass, kg.
     mass: f64,
 }
 

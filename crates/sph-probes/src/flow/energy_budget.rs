@@ -10,11 +10,11 @@ use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 /// Terms that give energy to a particle or take it, in the order of [`ENERGY_WORKS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnergyWork {
-    /// Friction, explicit or solved for, of eddies and at walls too; what moving walls rub in.
+    /// Friction, explicit or solved for, of eddies and at walls too; the work of moving walls.
     Viscosity,
     /// Diffusion of the density.
     Smoother,
-    /// Shifted positions, and what shifted particles take up.
+    /// Shifted positions, and the density and velocity that shifted particles take up.
     Shifting,
     /// Terms of `[damping.…]`: the damper of sound.
     Damper,

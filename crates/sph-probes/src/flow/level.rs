@@ -7,7 +7,7 @@ use crate::flow::point::{carried, point};
 use crate::phases::phase::{self, CountedPhase, column, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// The highest place over a point where Σ V w falls to half of what it is under water, V being at most a cell δr^d.
+/// The highest place over a point where Σ V w falls to half of its value under water, V being at most a cell δr^d.
 ///
 /// The sum is over the particles of `phase`, so that its top is found under another fluid, or over
 /// all particles. Under water it is one, and less beside an upright wall, as no particles are behind that: there the

@@ -82,7 +82,7 @@ impl MeanProfile {
         (self.to - self.from) * (layer as f64 + 0.5) / self.layers as f64
     }
 
-    /// Mean distance of what was in a layer from `from`, m; the middle of one where nothing was.
+    /// Mean distance of the particles of a layer from `from`, m; the middle of an empty one.
     fn distance(&self, layer: usize, sums: &[f64], components: usize) -> f64 {
         match sums[0] > 0.0 {
             true => sums[2 + 2 * components] / sums[0],

@@ -74,7 +74,7 @@ impl Profile {
 /// Least eigenvalue over the largest of the matrix of a fit that is believed.
 const LEAST: f64 = 1e-6;
 
-/// The velocity at a place by a linear fit of what is around; nothing where no particle is.
+/// The velocity at a place by a linear fit of the particles around; none where there is no particle.
 fn fitted_velocity<const D: usize>(
     world: &World<D>,
     x: &Vect<D>,

@@ -57,7 +57,7 @@ impl PlannedColumn {
     }
 }
 
-/// A measurement: which particles count, with which weight, and what of them is reduced.
+/// A measurement: the particles that count, their weights, and the quantity that is reduced.
 pub(crate) struct Plan<'a> {
     pub phase: Option<&'a str>,
     pub conditions: Vec<QuantityBounds>,

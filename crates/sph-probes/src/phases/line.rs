@@ -21,8 +21,8 @@ pub enum LineOf {
     Limit,
 }
 
-/// Root mean square of the height of a line over a reference's, at the reference's points, the
-/// share of these points where there is a line, and the root mean square of their distances from it, in whatever direction.
+/// Root mean square of the height of a line over a reference's, at the reference's points, the share of these points
+/// where there is a line, and the root mean square of their distances from it, in any direction.
 ///
 /// The line goes through the highest particle of every column of two spacings' width, half a spacing
 /// above it; with `of = "failure"` through the highest that has moved by less than `moved` since the

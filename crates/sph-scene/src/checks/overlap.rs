@@ -12,7 +12,7 @@ const ALONG: f64 = 256.0;
 /// Bound on the work of all pairs, in compared edges.
 const WORK: f64 = 2e7;
 
-/// Tries lattice points of what the boxes around two bodies have in common.
+/// Tries lattice points of the intersection of the boxes around two bodies.
 ///
 /// Bodies that walls clip or that fill them are left to the code that has the walls.
 pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {

@@ -9,7 +9,7 @@ pub(crate) struct Form {
     pub columns: Option<Vec<String>>,
     /// Factor from the numbers of each to SI; that of the unit in its head, else 1, if left out.
     pub factors: [Option<f64>; 2],
-    /// SI units of what they hold.
+    /// SI units of the columns.
     pub alike: [&'static str; 2],
 }
 

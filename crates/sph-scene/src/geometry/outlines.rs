@@ -77,7 +77,7 @@ pub(crate) enum SideError {
 /// Most edges, of all lines together, that are passed on the way out from a corner of each.
 const PASSED: usize = 200_000_000;
 
-/// Turns closed lines so that the fluid is inside or outside of what they enclose.
+/// Turns closed lines so that the fluid is inside or outside of the enclosed area.
 ///
 /// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
 /// number of others shows in the number of edges that a ray from one of its corners to the right passes.

@@ -5,7 +5,7 @@ use crate::{Polygon, Region, Shape};
 /// A relative length that counts as rounding.
 pub(crate) const ROUNDING: f64 = 1e-6;
 
-/// A region with what periodicity makes of it.
+/// A region with its periodic images.
 pub(crate) struct PeriodicRegion<'a, const D: usize> {
     base: Periodic<'a, D>,
     cuts: Vec<Periodic<'a, D>>,

@@ -239,7 +239,7 @@ impl Wall {
         ))
     }
 
-    /// Refuses what is absurdly large or small against the spacing.
+    /// Refuses lengths that are absurdly large or small against the spacing.
     fn fits<const D: usize>(
         &self,
         [lo, hi]: &[[f64; D]; 2],

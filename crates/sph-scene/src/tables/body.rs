@@ -9,7 +9,7 @@ use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::tables::given_keys::given;
 use crate::{LevelSurface, Shape, Wall, Wave};
 
-/// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
+/// A piece of a phase at the start: one shape, or the volume that walls enclose, less subtracted shapes.
 #[parameters]
 pub struct Body {
     /// Name of the phase it is made of.
@@ -33,7 +33,7 @@ pub struct Body {
     pub cone: Option<Cone>,
     /// Polygon drawn out along an axis. Three dimensions only.
     pub extrusion: Option<Extrusion>,
-    /// Fills what the walls enclose, instead of a shape; a `box` bounds it.
+    /// Fills the volume that walls enclose, instead of a shape; a `box` bounds it.
     pub fill: Option<Filling>,
     /// Point, m, in that one of several regions between the walls which `fill` fills; all of them if left out.
     #[parameter(unit: "m")]
@@ -44,11 +44,12 @@ pub struct Body {
     /// Shapes that are cut out.
     #[parameter(default)]
     pub subtract: Vec<Cutout>,
-    /// Only what is above this surface is filled: bodies of one `box` with the same surface in `below` and `above` share a lattice.
+    /// Surface above which alone the body is filled: bodies of one `box` with the same surface in `below` and `above`
+    /// share a lattice.
     pub above: Option<LevelSurface>,
-    /// Only what is below this surface is filled.
+    /// Surface below which alone the body is filled.
     pub below: Option<LevelSurface>,
-    /// Wave that is on it at the start: what is above its surface is not filled.
+    /// Wave on it at the start: the part above its surface is not filled.
     pub wave: Option<Wave>,
     /// Velocity at the start, m/s; at rest if left out.
     #[parameter(unit: "m/s")]
@@ -207,7 +208,7 @@ with_shape!(Cutout, ellipse);
 with_shape!(Wall);
 
 impl Body {
-    /// True if walls decide what is filled: `clip` or `fill`.
+    /// True if walls bound the filling: `clip` or `fill`.
     pub fn needs_walls(&self) -> bool {
         self.clip || self.fill.is_some()
     }

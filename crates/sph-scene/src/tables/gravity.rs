@@ -1,4 +1,4 @@
-//! The table `[numerics.gravity_over_time]`: what gravity changes by.
+//! The table `[numerics.gravity_over_time]`: the change of gravity over time.
 
 use std::path::PathBuf;
 

@@ -39,7 +39,7 @@ pub struct Motion {
     pub stop: Option<f64>,
 }
 
-/// Places of the wall are lifted by what a level has risen since the start, linear between places along x; courses of
+/// Places of the wall are lifted by the rise of a level since the start, linear between places along x; courses of
 /// levels are smooth between the rows of the table, at rest before the first and after the last.
 #[parameters]
 pub struct Levels {

@@ -15,7 +15,7 @@ pub struct Outlet {
     #[serde(rename = "box")]
     #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
-    /// Place of a plane along `axis`, m: what is beyond it leaves.
+    /// Place of a plane along `axis`, m: particles beyond it leave.
     #[parameter(unit: "m")]
     pub beyond: Option<f64>,
     /// Axis across which the plane stands; x if left out.

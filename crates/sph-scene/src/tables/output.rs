@@ -1,4 +1,4 @@
-//! The table `[output]`: what a run writes and when.
+//! The table `[output]`: files of a run, and the times of writing.
 
 use scene_text::PictureRange;
 use serde::{Deserialize, Deserializer};

@@ -1,4 +1,4 @@
-//! The table `[reference.NAME]`: what a result is compared with, and by which norm.
+//! The table `[reference.NAME]`: the reference of a result, and the norm of the difference.
 
 use std::path::PathBuf;
 

@@ -17,7 +17,7 @@ use sph_core::PluginChoice;
 /// on 0.0021, from 0 0.0042).
 pub const OFF_LATTICE: f64 = 0.01;
 
-/// A scene: what flows where, under which laws, for how long, and what is written.
+/// A scene: materials and their places, laws, duration and outputs.
 #[parameters]
 pub struct Scene {
     /// The scene in one line, with its publication.
@@ -100,7 +100,7 @@ impl Scene {
         self.body.values().filter_map(Region::from_body).collect()
     }
 
-    /// True if a body fills what the walls enclose.
+    /// True if a body fills the volume that walls enclose.
     pub fn fills_walls(&self) -> bool {
         self.body.values().any(|b| b.fill.is_some())
     }

@@ -66,7 +66,7 @@ pub struct Wall {
     pub rotate: Option<Rotate>,
     /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
     pub fluid: Option<FluidSide>,
-    /// True if a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
+    /// True if a `polyline`, or the geometry of a `file`, is turned round: the fluid is on the other side.
     #[parameter(default)]
     pub flip: bool,
     /// True if facets of an STL file that face the other way than most of those they hang together with are turned
@@ -79,7 +79,8 @@ pub struct Wall {
     /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
     #[parameter(unit: "m", above: 0.0)]
     pub slip_length: Option<f64>,
-    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times what they press on the wall.
+    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times their load on
+    /// the wall.
     #[parameter(unit: "1", min: 0.0)]
     pub friction_coefficient: Option<f64>,
     /// Distribution of that friction, for `condition = "coulomb"`.

@@ -1,4 +1,4 @@
-//! A flow of what was planned.
+//! A flow from a plan.
 
 use sph_boundary::Wall;
 use sph_core::{AnyField, Evolved, Role, fields};
@@ -29,7 +29,7 @@ pub struct FlowInputs<const D: usize> {
     pub density: Evolved,
 }
 
-/// A flow of what was planned, with all columns that it touches.
+/// A flow from a plan, with all columns that it touches.
 pub fn joined<const D: usize>(
     world: World<D>,
     planned: StagePlan<D>,

@@ -22,7 +22,7 @@ fn own(work: EnergyWork) -> Account {
     ENERGY_WORKS[work as usize]
 }
 
-/// Classes of terms with rates of their own; the pressure has what they leave of the acceleration.
+/// Classes of terms with rates of their own; the pressure has the rest of the acceleration.
 const CLASSES: [EnergyWork; 5] = [
     EnergyWork::Viscosity,
     EnergyWork::Smoother,
@@ -167,7 +167,7 @@ impl<const D: usize> EnergyBudget<D> {
         })
     }
 
-    /// After an evaluation: what the motion has made of the compression since that was booked.
+    /// After an evaluation: the work of compression by the motion since the last entry.
     fn evaluated(&self, world: &mut World<D>) -> Result<(), FieldError> {
         let density = world.free.get(fields::DENSITY)?;
         let now = self.compression(world, density)?;
@@ -189,7 +189,7 @@ impl<const D: usize> EnergyBudget<D> {
         Ok(())
     }
 
-    /// Before a kick: what every class of terms is about to do.
+    /// Before a kick: the work of every class of terms in it.
     fn before_kick(
         &mut self,
         world: &World<D>,

@@ -52,7 +52,7 @@ mod tests {
     const SALT: Field<Scalar> = Field::new("salt", "1", "mass fraction");
     const SALT_RATE: Field<Scalar> = Field::new("salt_rate", "1/s", "its rate");
 
-    /// Heun's mean, of each particle with itself, whatever its place was when the rates were kept.
+    /// Heun's mean, of each particle with itself, independent of its place when the rates were kept.
     #[test]
     fn rates_are_the_mean_of_both_ends_of_a_step() {
         let evolved = [Evolved {

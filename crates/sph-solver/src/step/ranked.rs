@@ -67,7 +67,7 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Brings what is kept within a step to the particles that this rank has now.
+    /// Brings values kept within a step to the present particles of this rank.
     pub(crate) fn kept_follows(&mut self) -> Result<(), StepError> {
         let image = &mut self.kept_image;
         if let Some(free) = image.follow(self.parts.as_ref(), &self.world)? {

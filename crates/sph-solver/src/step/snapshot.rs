@@ -74,7 +74,7 @@ impl<const D: usize> Snapshot<D> {
         now.iter().map(place).collect::<Result<_, _>>().map(Some)
     }
 
-    /// Puts part of the state back, whatever order the particles are in now.
+    /// Puts part of the state back, for any present order of the particles.
     ///
     /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, from what a
     /// solve starts) is left as the last evaluation made it: only motion is undone.

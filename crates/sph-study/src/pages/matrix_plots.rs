@@ -1,4 +1,4 @@
-//! A plot per axis: what the runs along it reached.
+//! A plot per axis: results of the runs along it.
 
 use sph_io::{Plot, Series, Style};
 

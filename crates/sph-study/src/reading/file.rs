@@ -108,7 +108,7 @@ pub struct Ladder {
     /// Label of the last value that must survive.
     #[schemars(with = "Option<Json>")]
     pub must: Option<Value>,
-    /// Bounds of green and of yellow by quantity: a reference, or what every run has.
+    /// Bounds of green and of yellow by quantity: a reference, or a quantity of every run.
     #[parameter(default)]
     pub judge: Bounds,
     /// True if variants after a red value are run all the same.

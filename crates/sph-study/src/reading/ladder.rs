@@ -13,7 +13,7 @@ use crate::reading::scene_text::SceneText;
 use crate::reading::variant::Variant;
 use crate::running::verdict::QUANTITIES;
 
-/// Names of what the labels of such a study's variants belong to.
+/// Names of the axes to which the labels of such a study's variants belong.
 const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
 
 /// The axes of such a study as a table has them.
@@ -94,7 +94,7 @@ pub fn read(
     }
 }
 
-/// A ladder with what its variants are made from.
+/// A ladder with the source of its variants.
 struct LadderSource {
     ladder: Ladder,
     scene: SceneText,
@@ -242,7 +242,7 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
     Ok(choices)
 }
 
-/// Refuses bounds of what no run of the axis has, and bounds in the wrong order.
+/// Refuses bounds of quantities that no run of the axis has, and bounds in the wrong order.
 fn check(judge: &Bounds, errors: &[String], path: &str) -> Result<(), Vec<SceneProblem>> {
     let known = || {
         let own = errors.iter().map(String::as_str);

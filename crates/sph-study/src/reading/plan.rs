@@ -31,7 +31,7 @@ pub struct Study {
     pub axes: Vec<StudyAxis>,
     /// Key over which the order of convergence is computed.
     pub refinement: Option<String>,
-    /// Axes that are gone along until they break, instead of what is varied.
+    /// Axes that are gone along until they break, instead of varied values.
     pub ladders: Vec<Ladder>,
     /// Settings put on top of every variant, as of `--set`.
     pub set: Vec<String>,

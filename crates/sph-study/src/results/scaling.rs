@@ -16,7 +16,7 @@ type CostSeries = (String, Vec<[f64; 2]>);
 /// Costs of all series, and the fastest at each size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scale {
-    /// Of what.
+    /// Unit of the cost.
     pub cost: Cost,
     /// One per series of the study that has run.
     pub series: Vec<SeriesCost>,

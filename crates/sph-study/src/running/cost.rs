@@ -8,7 +8,7 @@ use sph_core::parameters;
 /// A cost against the number of particles.
 #[parameters]
 pub struct Scaling {
-    /// Of what.
+    /// Unit of the cost.
     #[parameter(default)]
     pub cost: Cost,
     /// Name of the axis whose entries compete: the fastest at each size, and the sizes at which another takes over.
@@ -55,7 +55,7 @@ pub struct SolveCost {
     pub seconds: f64,
     /// Mean number of iterations.
     pub iterations: f64,
-    /// Most bytes of a matrix and of what the solver kept for it.
+    /// Most bytes of a matrix and of the solver's memory for it.
     pub bytes: usize,
 }
 

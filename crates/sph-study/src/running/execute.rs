@@ -1,4 +1,4 @@
-//! Runs what a study has not run yet, one by one or side by side.
+//! Runs the missing variants of a study, one by one or side by side.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -140,7 +140,7 @@ fn breaks(study: &Study, variant: &Variant, record: &Record) -> bool {
     })
 }
 
-/// The record of a variant behind one that broke: what is known from before, or that it is skipped.
+/// The record of a variant behind one that broke: the earlier one, or that it is skipped.
 fn skipped(before: &Variant, variant: &Variant, options: &Options) -> Record {
     let known = options.known(variant);
     let ended = known.filter(|r| !matches!(r.status, Status::Interrupted | Status::Pending));

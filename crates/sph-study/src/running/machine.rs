@@ -1,4 +1,4 @@
-//! On what and by what a study was run.
+//! Machine and program of a study.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -34,7 +34,7 @@ impl Machine {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Origin {
-    /// On what it ran.
+    /// The machine.
     pub machine: Machine,
     /// Version of the program.
     pub version: String,
@@ -45,7 +45,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Of what this program runs here and now.
+    /// Of this program and machine, at present.
     pub fn new(built_with: &str) -> Self {
         Origin {
             machine: Machine::this_machine(),

@@ -85,7 +85,7 @@ pub struct Record {
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// On what and by what it was run.
+    /// Machine and program of the run.
     #[serde(flatten)]
     pub origin: Origin,
 }
@@ -136,7 +136,7 @@ fn one() -> String {
     "1".into()
 }
 
-/// The part of a run's summary that a study reads, whatever computed it.
+/// The part of a run's summary that a study reads, of any method.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RunSummary {
@@ -218,7 +218,7 @@ impl Record {
         folder.join(FILE)
     }
 
-    /// Takes over what a finished repetition gave.
+    /// Takes over the results of a finished repetition.
     pub fn add(&mut self, run: &Record) {
         let fastest = self.least_seconds().is_none_or(|s| run.spent <= s);
         self.wall_seconds.push(run.spent);

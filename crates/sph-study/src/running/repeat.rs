@@ -1,4 +1,4 @@
-//! One variant: its repetitions, and what becomes of its folder.
+//! One variant: its repetitions, and the end of its folder.
 
 use std::path::Path;
 use std::time::Instant;
@@ -32,7 +32,7 @@ enum Cause {
 }
 
 impl Job<'_> {
-    /// Runs what is missing; the record is what is known afterwards, whatever happened.
+    /// Runs the missing repetitions; the record has all that is known afterwards, also after a failure.
     pub fn run(&self) -> (Record, Result<(), IoError>) {
         let file = &self.study.file;
         let mut record = self.options.known(self.variant).unwrap_or_default();
@@ -90,7 +90,7 @@ impl Job<'_> {
         })
     }
 
-    /// One repetition; the status is what became of it.
+    /// One repetition; the status is its outcome.
     fn run_once(&self, folder: &Path, record: &mut Record) -> Result<Status, IoError> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);

@@ -34,7 +34,7 @@ pub(crate) struct ClosureCommon {
 }
 
 impl ClosureCommon {
-    /// Refuses what no closure is for.
+    /// Refuses phases that no closure is for.
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
         check(self.name, &self.phases, setting)?;

@@ -33,7 +33,7 @@ pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     eddies: &'a [f64],
     density: &'a [f64],
     volume: &'a [f64],
-    /// 1 − 1/σ: what an eddy's viscosity does not move.
+    /// 1 − 1/σ: the part that an eddy's viscosity does not move.
     held: [f64; N],
     slot: [usize; N],
     /// 2C_μ/σ of a flux through walls.
@@ -143,7 +143,7 @@ impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
     }
 }
 
-/// Δt ≤ C ρ h²/(η + η_t): what keeps an explicit diffusion positive.
+/// Δt ≤ C ρ h²/(η + η_t): the limit of a positive explicit diffusion.
 pub(crate) struct DiffusionLimit(
     /// C.
     pub f64,

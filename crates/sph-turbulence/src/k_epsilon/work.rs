@@ -1,4 +1,4 @@
-//! Production and dissipation within a step, and what walls set.
+//! Production and dissipation within a step, and the values at walls.
 
 use rayon::prelude::*;
 use sph_contribution::{Report, StepHook, StepMoment, StepPhase};

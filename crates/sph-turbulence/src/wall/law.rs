@@ -289,7 +289,7 @@ mod tests {
         }
     }
 
-    /// Page §4.7: u* = 0.05 m/s, k_s = 10 mm, k_s⁺ = 500: Nikuradse's law, whatever the viscosity.
+    /// Page §4.7: u* = 0.05 m/s, k_s = 10 mm, k_s⁺ = 500: Nikuradse's law, for any viscosity.
     #[test]
     fn a_fully_rough_wall_has_nikuradses_law() {
         let law = rough(0.01);

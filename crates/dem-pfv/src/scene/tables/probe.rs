@@ -123,8 +123,9 @@ pub enum Probe {
         /// Name of a wall of the box.
         wall: String,
     },
-    /// Permeability κ of the packing along an axis, m²: κ = µ Q L/(A Δp) with a pressure Δp between the two walls across the
-    /// axis, others closed, and the grains held, whatever the scene gives at its walls. Every row solves for it.
+    /// Permeability κ of the packing along an axis, m²: κ = µ Q L/(A Δp) with a pressure Δp between the two walls
+    /// across the axis, others closed, and the grains held, for any conditions of the scene at its walls. Every row
+    /// solves for it.
     Permeability {
         /// The axis.
         axis: Axis,

@@ -61,8 +61,8 @@ pub struct Run {
     pub checkpoint_every: Option<f64>,
 }
 
-/// A sudden load on a piston, and what its answer is measured with: the strain under the same load when it comes
-/// slowly and dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
+/// A sudden load on a piston, and the measures of its answer: the strain under the same load when it comes slowly and
+/// dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
 #[parameters(crate: crate::reexport)]
 pub struct Oedometer {
     /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.

@@ -44,7 +44,7 @@ pub struct Wall {
     /// Factor on the coordinates of the `file`, instead of a unit.
     #[parameter(default, unit: "1", above: 0.0)]
     pub scale: Option<f64>,
-    /// Shift of what is in the `file`, after it is scaled, m.
+    /// Shift of the surface of the `file`, after scaling, m.
     #[parameter(default, unit: "m")]
     pub translate: Option<Triple>,
     /// Velocity, m/s.

@@ -17,7 +17,7 @@ pub(super) enum Continuation {
     Start { wall: usize, image: [i32; 2] },
 }
 
-/// For every wall, what follows its last point, and whether its first point is free.
+/// For every wall, the continuation of its last point, and true if its first point is free.
 pub(super) struct Joints {
     pub after: Vec<Continuation>,
     pub starts_free: Vec<bool>,

@@ -81,7 +81,7 @@ where
         self.wound(self.sides(), point)
     }
 
-    /// The axes that a ray may take, and what decides where there are none.
+    /// The axes that a ray may take, and the decision where there are none.
     fn sides(&self) -> &Sides<D> {
         self.sides.get_or_init(|| {
             let open = (0..D).rev().find(|k| !self.domain.periodic[*k]);

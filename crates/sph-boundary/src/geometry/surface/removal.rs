@@ -16,7 +16,7 @@ use crate::geometry::vector::sub;
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
 const BITS: i32 = 44;
 
-/// Takes from every patch what patches of other walls cover with opposite normals.
+/// Takes from every patch the part that patches of other walls cover with opposite normals.
 ///
 /// The difference of polygons is taken in whole numbers; corners that come out of it are welded to
 /// those that are known, so that what is left of both walls meets in the same edges. Returns where they touched.

@@ -14,7 +14,7 @@ use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 pub(super) struct FaceContacts {
     /// Edges of the pieces that touched, as they were.
     pub edges: HashSet<EdgeKey>,
-    /// By piece: whether it is what is left of one that touched.
+    /// By piece: true if it is the rest of one that touched.
     pub pieces: Vec<bool>,
 }
 

@@ -97,7 +97,7 @@ impl Edge {
         (self.offset * (y2 - y1)).atan2(cos)
     }
 
-    /// φ of what a clip has cut off.
+    /// φ of the part that a clip has cut off.
     #[inline]
     pub fn angle_outside(&self, from: End, to: End) -> f64 {
         let d = self.offset;

@@ -6,7 +6,7 @@ use super::Renormalisation3d;
 use super::plane::{Circle, Foot, Patch};
 use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six, six};
 
-/// The triangles of a plane that a point sees, and what each weighs; buffers that are used again and again.
+/// The triangles of a plane that a point sees, and their weights; buffers for reuse.
 #[derive(Debug, Default)]
 pub struct Weights {
     near: Vec<u32>,

@@ -33,7 +33,7 @@ struct DifferencePlace {
     position: Vec<f64>,
 }
 
-/// Of every column that both tables have how it differs; what only one has, and how many rows.
+/// Differences of all common columns of two tables; columns of only one, and the numbers of rows.
 pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<String>) {
     let mut remarks = Vec::new();
     let rows: HashMap<u64, usize> = b

@@ -1,4 +1,4 @@
-//! Laws with the parameters of their examples, and what is put on top of them.
+//! Laws with the parameters of their examples, and their overrides.
 
 use serde_json::Value as Json;
 use sph_core::{PluginInfo, RegistryError, number, suggestion};
@@ -11,7 +11,7 @@ use crate::terminal::trouble::Trouble;
 
 /// A law to be sheared.
 pub struct LawSample {
-    /// Name, and what it differs in from its neighbours.
+    /// Name, and its difference from its neighbours.
     pub label: String,
     /// The law itself.
     pub law: Box<dyn Rheology>,

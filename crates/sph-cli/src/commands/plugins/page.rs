@@ -6,12 +6,12 @@ use serde_json::Value as Json;
 
 use super::{KERNELS, LAWS};
 
-/// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, what is seen.
+/// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, description.
 const DRAWN: [(&str, &str, &str); 2] = [
     (LAWS, "law", "sheared alone"),
     (KERNELS, "kernel", "and its slope"),
 ];
-/// Pictures of runs and walls: kind, name, file in `docs/images`, what is seen.
+/// Pictures of runs and walls: kind, name, file in `docs/images`, description.
 const SHOWN: [(&str, &str, &str, &str); 8] = [
     (
         "eddy-viscosity",

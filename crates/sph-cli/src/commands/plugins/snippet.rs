@@ -29,7 +29,7 @@ pub fn toml_lines(kind: &str, plugin: &PluginInfo) -> String {
     }
 }
 
-/// `name = value   # unit`; what may be left out and has no default is commented out.
+/// `name = value   # unit`; optional keys without a default are commented out.
 fn key(parameter: &Parameter, schema: &Json) -> String {
     let name = &parameter.name;
     let required = required(schema, name);

@@ -11,9 +11,9 @@ const SAMPLES: usize = 100_000;
 /// Samples per spacing, at most.
 const FINEST: usize = 16;
 
-/// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity: there
-/// is no surface then that could fall or rise, and what is missing opens as a void or lowers the pressure by ρc² times its
-/// share. Walls with points of their own, which have volumes, get no remark.
+/// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity:
+/// there is no surface then that could fall or rise, and the missing volume opens as a void or lowers the pressure by
+/// ρc² times its share. Walls with points of their own, which have volumes, get no remark.
 pub fn shares<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
