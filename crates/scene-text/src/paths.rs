@@ -51,7 +51,7 @@ pub fn within(folder: &Path, named: &str, allowed: &[PathBuf]) -> Result<PathBuf
         Some(real) if real_folder(folder).is_some() && !in_folder(folder) => Err(
             PathProblem::Link(named.to_string(), real.display().to_string()),
         ),
-        // What is not there leads nowhere.
+        // A missing file leads nowhere.
         _ => Ok(path),
     }
 }

@@ -1,6 +1,6 @@
 //! Plausible ranges of numbers of a scene: bounds by quantity, outside which a number is a mistake.
 //!
-//! Outside what nature or a laboratory has, a number is remarked upon; where no run can be right, it is refused.
+//! A number outside the range of nature or a laboratory gets a remark; where no run can be right, it is refused.
 //! A key has the quantity that its schema names (`"quantity" = "spacing"`), or else that of its unit. Signs do not
 //! count, and zero is left to the range of the key. Bounds leave room for scenes without units.
 

@@ -151,7 +151,7 @@ that differs it has the largest difference with time, particle and place. Writes
 
 Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
     Compare(CompareArguments),
-    /// Draw what a run did not: streamlines, profiles along a line, tracks of particles
+    /// Draw results that a run has not drawn: streamlines, profiles along a line, tracks of particles
     #[command(after_help = "\
 Examples:
   sph draw streamlines results/cavity --out cavity.png

@@ -23,7 +23,7 @@ pub struct PluginInForce {
 
 /// The plugins that a scene names, and the defaults of kinds of which it names none.
 ///
-/// Every call builds a plugin anew. What is wrong with names and parameters is collected.
+/// Every call builds a plugin anew. Faults of names and parameters are collected.
 pub struct Plugins {
     choices: Vec<PluginChoice>,
     phases: Vec<Vec<PluginChoice>>,

@@ -79,7 +79,7 @@ impl AccessRecord {
         let name = |field: &AnyField| field.name;
         let reads = [&access.here, &access.neighbours, &access.where_there];
         self.reads.extend(reads.into_iter().flatten().map(name));
-        // Every walk over neighbours reads their places, and what walls cut off.
+        // Every walk over neighbours reads their places, and the part that walls cut off.
         if access.sweep {
             let always = [
                 fields::POSITION.name,

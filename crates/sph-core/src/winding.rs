@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn it_is_one_inside_and_the_share_of_the_sphere_that_is_left_in_an_open_one() {
-        // What a dipole leaves out is of second order in the radius of a cluster over its distance.
+        // The error of a dipole is of second order in the radius of a cluster over its distance.
         let dipole = FAR.powi(-2);
         let whole = Winding::new(ball(40, 0));
         for (x, w) in [

@@ -13,7 +13,7 @@
 //!
 //! Both attributes derive `Clone`, `Debug`, `Deserialize` and `JsonSchema`, deny unknown keys, and derive `Copy` for
 //! plain numbers. Where every field has a default or is an `Option`, the type has `Default`. A plugin with a field that
-//! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. What an author derives as well is
+//! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. A trait that an author derives is
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
 mod attributes;

@@ -18,7 +18,7 @@
 //!
 //! Three promises hold for all of them.
 //!
-//! **No half file.** What is rewritten (lists, checkpoints, pictures,
+//! **No half file.** A file that is rewritten (lists, checkpoints, pictures,
 //! summaries, grids) is written under a temporary name and renamed
 //! ([`write_atomic`]); what grows (tables) grows by whole rows. A full disk or
 //! a killed process costs the last output, never the ones before.

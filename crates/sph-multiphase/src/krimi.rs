@@ -18,7 +18,7 @@ use sph_contribution::Stages;
 /// side of a jump then counts the heavy neighbours almost twice, and the heavy side the light
 /// ones hardly: exact in energy, not for the compression of a single particle.
 ///
-/// Limits: as printed, the power of the pressure forces is not what the compression takes up, and layers at rest
+/// Limits: as printed, the power of the pressure forces is not that of the compression, and layers at rest
 /// gain energy: 5 % and 47 % of it within 0.3 s at density ratios 100 and 1000, 0.1 % with the adjoint. Beyond a ratio of
 /// 10 take `consistent`, or an artificial viscosity between the phases.
 ///

@@ -24,7 +24,7 @@ struct Run<const D: usize> {
     to: u32,
 }
 
-/// Contacts of some particles, one behind the other. What the elements of one plane share is there once.
+/// Contacts of some particles, one behind the other. Common values of the elements of one plane are stored once.
 #[derive(Clone, Debug, Default)]
 pub struct ContactBlock<const D: usize> {
     runs: Vec<Run<D>>,

@@ -179,7 +179,7 @@ impl<const D: usize> CouplingsAt<'_, D> {
                         true => numbers[stride - lanes + lane],
                         false => 0.0,
                     };
-                    // Not "≠": what is not a number has to be seen.
+                    // Not "≠": NaN has to be kept.
                     if even == 0.0 && along == 0.0 {
                         continue;
                     }

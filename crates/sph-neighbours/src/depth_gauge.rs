@@ -32,7 +32,7 @@ impl<const D: usize> DepthGauge<D> {
             side < from || side > to
         };
         match !aside && q < 1.0 {
-            // What has come behind the face belongs to it.
+            // Fluid that has come behind the face belongs to it.
             true => (1.0 - q.max(0.0)).powi(2) * (1.0 + 2.0 * q.max(0.0)),
             false => 0.0,
         }

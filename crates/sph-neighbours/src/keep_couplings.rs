@@ -40,7 +40,7 @@ pub struct CouplingWriter<'a> {
 pub type Rows<'a, A, B, C> = (&'a mut [A], &'a mut [B], &'a mut [C]);
 
 impl Couplings {
-    /// Finds them anew. `cluster` hands those of a cluster to the [`CouplingWriter`]; `rows` has room for what else it finds, three places per
+    /// Finds them anew. `cluster` hands those of a cluster to the [`CouplingWriter`]; `rows` has space for further results, three places per
     /// particle.
     ///
     /// # Errors
@@ -167,7 +167,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             let mut softness = zero;
             if let Some(weak) = weak {
                 let there = L::splat(weak.limit[j]);
-                // Of what is not a number nothing is positive: it is kept, and seen by the solver.
+                // No comparison with NaN is true: it is kept, and seen by the solver.
                 softness = (limit - there).where_positive(there, limit) - norm;
                 if zero.any_less(softness) {
                     let soft = [

@@ -2,7 +2,7 @@
 //!
 //! * [`CellGrid`] sorts points by cell; [`NeighbourList`] keeps, per particle, the candidates
 //!   within the support plus a skin, and stays valid until a particle moved half the skin.
-//! * [`World`] is what a stage sees: the columns of the free particles, the wall points and
+//! * [`World`] is the input of a stage: the columns of the free particles, the wall points and
 //!   elements, the lists, the kernel.
 //! * A [`PairTerm`] sums over pairs ([`PairSum`]), its formula written once for lanes; [`Interaction`] is the object-safe
 //!   form, called once per cluster of particles and never per pair.

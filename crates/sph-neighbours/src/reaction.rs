@@ -9,9 +9,9 @@ use crate::{Interaction, WallForce, WallPart, World, cross, wall_parts};
 ///
 /// It costs a sweep over the particles that see a wanted wall, nothing for the others.
 ///
-/// The walls' part of an acceleration is the whole less what the other particles would contribute
-/// with γ = 1, which is equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the wall
-/// has how much of it. [`facing_forces`] are added.
+/// The walls' part of an acceleration is the whole less the contribution of the other particles with γ = 1, which is
+/// equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the wall has how much of it.
+/// [`facing_forces`] are added.
 ///
 /// # Errors
 /// If a term misses a column.

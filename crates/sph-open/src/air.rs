@@ -28,7 +28,7 @@ impl<const D: usize> Faces<D> {
         for k in own.clone() {
             let [aim, faster] = self.speeds(k);
             let (measure, filled) = (self.places[k].measure, self.inside[k].filled);
-            // Where the law has shared out its volume among what is filled, nothing is to spare.
+            // Where the law has shared out its volume among the filled elements, there is no rest.
             if self.outside[k].share == Some(1.0) {
                 spare -= measure * (1.0 - filled) * aim;
             }

@@ -89,7 +89,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// By face and phase: mass that entered, left and is held, kg; and the error entered − left − (born − died) − held,
-    /// which is rounding. By face where its law requests a volume: this and what has passed, m³ at the reference
+    /// which is rounding. By face where its law requests a volume: this and the passed volume, m³ at the reference
     /// density.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();

@@ -71,8 +71,8 @@ pub struct FaceValues<const D: usize> {
     /// p = p_i + ρc (u − u_i), with the mean of u over the support for u. If not, fluid passes with its own velocity,
     /// changed by the difference of `velocity` from that inside.
     pub imposed: bool,
-    /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Fluid that goes
-    /// out passes no more than what has fluid before it, unless the share is 1.
+    /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Outflow
+    /// passes at most the part with fluid before it, unless the share is 1.
     pub share: Option<f64>,
 }
 
@@ -152,7 +152,7 @@ pub struct Entering {
     pub values: BTreeMap<String, f64>,
 }
 
-/// The law of an open face. It has no memory: what it needs of the past is in [`FluidMean::mean`].
+/// The law of an open face. It has no memory: the past of the flow is in [`FluidMean::mean`].
 pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Checks its table against the scene.
     ///

@@ -21,11 +21,11 @@ impl<const D: usize> Faces<D> {
     ///
     ///   dK_a/dt = ρ_a Σ_s u_s·∇γ_as + m_a Σ_v θ_v (u_a − u_v)·∇w_av.
     ///
-    /// Where a velocity is not imposed, u_s is that of the row in front of the element, changed by what the law adds to the mean
-    /// before the face: the mean over the support has not the profile of the flow.
+    /// Where a velocity is not imposed, u_s is that of the row in front of the element, changed by the difference of
+    /// the law from the mean before the face: the mean over the support has not the profile of the flow.
     ///
-    /// The first sum is what γ gains as the particle goes; it is advanced to second order (Adams & Bashforth), since what
-    /// a step misses of it stays.
+    /// The first sum is what γ gains as the particle goes; it is advanced to second order (Adams & Bashforth), since
+    /// the error of a step stays.
     pub fn advance_densities(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         let mut last = world.free.take(OPEN_FLUX)?;

@@ -33,9 +33,9 @@ impl<const D: usize> FaceValues<D> {
     ///
     ///   p = p₀ − ζ (u_n − u₀ₙ),   u_n inwards,
     ///
-    /// ζ ≥ 0 in kg/(m² s). With the characteristic that leaves the fluid, p = p_i + ρc (u_n − u_i), both follow. ζ = 0 imposes
-    /// the pressure, ζ → ∞ the velocity, and ρc lets sound out. Fluid that leaves keeps its velocity along the face; what comes
-    /// in has that of u₀.
+    /// ζ ≥ 0 in kg/(m² s). With the characteristic that leaves the fluid, p = p_i + ρc (u_n − u_i), both follow. ζ = 0
+    /// imposes the pressure, ζ → ∞ the velocity, and ρc lets sound out. Fluid that leaves keeps its velocity along the
+    /// face; inflow has that of u₀.
     ///
     /// Above a surface there is no pressure, and the element goes with the water below it: one at rest would be a wall to
     /// those that see it, all within a support of the surface.

@@ -87,7 +87,7 @@ pub trait Probe<const D: usize>: Send {
     /// Learns the scene.
     ///
     /// # Errors
-    /// If the probe names a phase that is not in the scene: what is wrong with its key `phase`.
+    /// If the probe names a phase that is not in the scene: the fault of its key `phase`.
     fn prepare(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
         Ok(())
     }

@@ -78,7 +78,7 @@ impl Opened {
             None => None,
             Some(outlay) => {
                 let path = folder.join(SERIES);
-                // First what may be refused: a changed scene may measure other columns.
+                // First the steps that may be refused: a changed scene may measure other columns.
                 let series = match goes_on {
                     false => SeriesWriter::create(path, model.columns())?,
                     true => SeriesWriter::open_truncated(path, books.series, model.columns())?,
@@ -132,7 +132,7 @@ impl Opened {
             Err(mut error) => {
                 let summary = model.conclude(Err(&mut error), driver.counters(), observer);
                 let told = summary.and_then(|summary| driver.write_summary::<M>(summary.as_ref()));
-                // The failure itself matters more than what could not be written about it.
+                // The failure itself matters more than an error of writing about it.
                 if let Err(problem) = told {
                     observer.message(&format!("the summary could not be written: {problem}"));
                 }
@@ -202,7 +202,7 @@ impl Driver<'_> {
                 let written = self.write(model, due, observer);
                 self.opened.books.output_seconds += begun.elapsed().as_secs_f64();
                 model.agree(Poll::Written(written))?;
-                // What was seen is judged.
+                // The gathered findings are judged.
                 if let Err(error) = model.advance(now.time, observer) {
                     return Ok(Err(error));
                 }

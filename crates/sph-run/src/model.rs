@@ -20,7 +20,7 @@ pub trait Model {
     type Summary: Serialize;
 
     /// Puts the model where the run begins: by the scene, or at a checkpoint; `own` is that of the run's folder.
-    /// Gives what was counted until there.
+    /// Returns the counts until there.
     ///
     /// # Errors
     /// A checkpoint that cannot be read, or is of another run.

@@ -72,7 +72,7 @@ impl CoupledSystem {
     }
 
     /// Flow into the pores through a wall at the last step, m³/s, negative if out of them. The volume that a moving
-    /// wall frees counts: through all walls together, the rate of the box's volume and what the fluid stores. Where
+    /// wall frees counts: through all walls together, the rate of the box's volume and the storage of the fluid. Where
     /// walls with pressures meet, the later one counts. None before the first step after
     /// [`CoupledSystem::measure_inflow`].
     #[must_use]

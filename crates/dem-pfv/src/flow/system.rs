@@ -313,8 +313,8 @@ impl FlowSystem {
     }
 
     /// Flux (m³/s) into the room through each cell with a given pressure, zero in others: its flow to others, its gain
-    /// of volume and its storage, less its source. With the sources they add up to the rates of all volumes and what is
-    /// stored. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
+    /// of volume and its storage, less its source. With the sources they add up to the rates of all volumes and the
+    /// storage. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
     #[must_use]
     pub fn influx(
         &self,

@@ -53,7 +53,7 @@ impl Growth {
     /// Grows the grains of a system in its box; returns the number of steps.
     ///
     /// # Errors
-    /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; what a step may refuse.
+    /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; the refusals of a step.
     pub fn run(&self, system: &mut GrainSystem) -> Result<u64, GrainError> {
         let (what, value, fine) = match self.target {
             Target::Stress(stress) => ("stress", stress, stress > 0.0),
@@ -109,7 +109,7 @@ impl Growth {
 /// of grains that roll over a floor, is taken away.
 ///
 /// # Errors
-/// [`GrainError::NotSettled`] after `most_steps`; what a step may refuse.
+/// [`GrainError::NotSettled`] after `most_steps`; the refusals of a step.
 pub fn step_to_rest(
     system: &mut GrainSystem,
     safety: f64,

@@ -316,7 +316,7 @@ impl Running<'_> {
             let time = model.grains().time();
             Ok(sph_io::write_vtu(out.join(BAD_STATE), &piece, time)?)
         });
-        // The failure itself matters more than what could not be written about it.
+        // The failure itself matters more than an error of writing about it.
         for problem in [drawn, saved].into_iter().filter_map(Result::err) {
             observer.message(&format!("note: {problem}"));
         }

@@ -13,8 +13,8 @@ use crate::bodies::shape::{Solid, winding};
 use crate::bodies::spatial_vector::padded;
 use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch};
 
-/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid
-/// does to them in one blow throws them: it has several times their mass.
+/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but a blow of one particle of the
+/// fluid throws them: it has several times their mass.
 const LIGHTEST: f64 = 0.02;
 
 /// Speed that a contact stops within half a spacing, over the largest speed of sound.
@@ -22,8 +22,8 @@ const FASTEST: f64 = 10.0;
 
 /// A rigid body that floats, sinks and turns: Newton's and Euler's equations with the force of the fluid.
 ///
-/// The force is the reaction to what the wall does to the particles, so that momentum is conserved to rounding. Mass and
-/// inertia follow from the shape where a `density` is given.
+/// The force is the reaction to the force of the wall on the particles, so that momentum is conserved to rounding. Mass
+/// and inertia follow from the shape where a `density` is given.
 ///
 /// The pressure at a wall depends on its acceleration, and an acceleration that follows the force at once would make
 /// light bodies swing from step to step. It is let follow: (M + A*) (ã' − ã) = M (a − ã), with a the acceleration of

@@ -8,8 +8,8 @@ use crate::bodies::spatial_vector::padded;
 
 /// A line from a fixed place to a place of the body. It pulls with k (l − l₀) + c l̇ ≥ 0, and never pushes.
 ///
-/// With a `weight` it is a chain that hangs in a catenary, always at rest: k is then EA/l₀, and what it does not need lies
-/// on the bed at the height of its fixed end (Irvine 1981; Jonkman 2007).
+/// With a `weight` it is a chain that hangs in a catenary, always at rest: k is then EA/l₀, and the rest of its length
+/// lies on the bed at the height of its fixed end (Irvine 1981; Jonkman 2007).
 ///
 /// ```toml
 /// [[wall.buoy.mover.rigid-body.line]]

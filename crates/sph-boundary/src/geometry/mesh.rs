@@ -2,7 +2,7 @@
 //!
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
-//! * `closest`, `signed`, `grid`, `near`, `rows`: what is near a place;
+//! * `closest`, `signed`, `grid`, `near`, `rows`: elements near a place;
 //! * `rays`, `sides`, `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).

@@ -110,8 +110,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         rows: &mut Vec<NearElement<D>>,
     );
 
-    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. What is
-    /// hidden behind such a shell is no contact.
+    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. An
+    /// element hidden behind such a shell is no contact.
     fn gammas<'a>(
         &self,
         integrals: &Self::Integrals,
@@ -210,7 +210,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     }
 
     /// γ at a point from all elements that may be within the support; those that are become
-    /// contacts. What else is in the row changes nothing.
+    /// contacts. Further elements of the row change nothing.
     fn gamma(
         &self,
         integrals: &Self::Integrals,

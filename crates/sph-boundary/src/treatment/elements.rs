@@ -251,7 +251,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
-        // Wall functions and what is transported to walls read the contacts of every particle, and not in sums.
+        // Wall functions and scalars transported to walls read the contacts of every particle, and not in sums.
         let read = !(world.walls.elements.wall_function.is_empty() && world.transported.is_empty());
         let idle = match read {
             true => None,

@@ -98,7 +98,7 @@ impl<const D: usize> NearLists<D> {
         let velocity = world.free.get(fields::VELOCITY)?;
         let shift = world.free.get(fields::SHIFT_VELOCITY).ok();
         let behind = self.behind.iter().map(|(place, _)| *place);
-        // What a row holds beyond the support depends on its history.
+        // The elements of a row beyond the support depend on its history.
         let near_rim = |place: &u32| {
             let (mesh, x) = (
                 &outline.mesh,

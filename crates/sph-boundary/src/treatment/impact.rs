@@ -84,8 +84,8 @@ impl<const D: usize> NearLists<D> {
 }
 
 /// Lets a body give way to the particles that it has stopped: all leave the plastic impact with one velocity along e,
-/// that of the body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than
-/// what it meets would be thrown.
+/// that of the body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than its
+/// obstacle would be thrown.
 fn give_way<const D: usize>(
     body: &FreeBody<D>,
     world: &World<D>,
@@ -233,18 +233,18 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         let wall = hindrance.wall;
         let place = hindrance.place - hindrance.image;
         let movement = self.outline.movement(wall, &place);
-        // Its mean over the step: where a wall turns, what follows its velocity leaves it by ½ a Δt².
+        // Its mean over the step: where a wall turns, a point with its velocity leaves it by ½ a Δt².
         movement.velocity + movement.acceleration * (0.5 * self.dt)
     }
 
     /// The change of velocity by a hindrance.
     fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
         let least = self.least;
-        // What is missing of the velocity along e to end at the least clearance.
+        // The deficit of the velocity along e for an end at the least clearance.
         let missing = |e: &Vect<D>, distance: f64| {
             let allowed = ((least - distance) / self.dt).min(0.0);
             let missing = allowed - (u - wall).dot(e);
-            // Rounding of what was corrected already is no impact.
+            // Rounding of an earlier correction is no impact.
             (missing > 1e-12 * (u - wall).norm()).then_some(missing)
         };
         if let Some((e, distance)) = &hindrance.only_if {

@@ -12,7 +12,8 @@ use crate::treatment::stage_error;
 /// Range of the search for elements beyond that of the neighbour lists, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.
 ///
-/// Longer rows cost every γ, which has to leave out what is beyond the support; shorter ones are looked for more often.
+/// Longer rows cost every γ, which has to leave out elements beyond the support; shorter ones are looked for more
+/// often.
 const SKIN: f64 = 0.3;
 
 /// Particles whose elements one task looks for.
@@ -21,8 +22,8 @@ const BATCH: usize = 256;
 /// Elements that may be within the support of a particle until the neighbour lists are rebuilt.
 ///
 /// Each particle has a row of its own, found for the place where it was then: after every build of the lists only those
-/// that moved farther than the skin since are looked up anew. What a row holds beyond the support depends on this history,
-/// and nothing that is made of it does.
+/// that moved farther than the skin since are looked up anew. The elements of a row beyond the support depend on this
+/// history, and no result does.
 #[derive(Debug, Default)]
 pub(crate) struct NearLists<const D: usize> {
     built_for: u64,

@@ -86,7 +86,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let mut near = self.near_pairs(&touches);
         let velocities = self.closing(&self.states, &near);
         let mut velocity = velocities.iter();
-        // Twice the way of now, and a tenth of the spacing for what accelerates.
+        // Twice the way of the present velocity, and a tenth of the spacing for accelerations.
         near.retain(|n| {
             let parting = velocity.next().map_or(0.0, |v| v.dot(&n.away));
             n.height + 2.0 * dt * parting.min(0.0) - 0.1 * self.spacing < self.gap(n.pair)

@@ -149,7 +149,7 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
         }
         _ => String::new(),
     };
-    // What is wanted most comes first: a narrow terminal cuts the end.
+    // The most frequent choice comes first: a narrow terminal cuts the end.
     format!(
         "t = {} of {} s{left}  Δt {:.1e} s ({})  {speed}  step {}",
         number::plain(progress.time),

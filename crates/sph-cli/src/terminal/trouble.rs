@@ -203,7 +203,7 @@ impl Trouble {
             Trouble::Usage(message) => json!([{ "message": message }]),
             Trouble::Scene(all) => diagnostics::json(all),
             Trouble::Failed { error, summary, .. } => match summary {
-                // What was left, or else the error alone.
+                // The remaining text, or else the error alone.
                 Some(summary) => (**summary).clone(),
                 None => json!([{ "message": error }]),
             },

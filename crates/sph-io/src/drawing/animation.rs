@@ -84,8 +84,8 @@ pub fn write_gif(
     })
 }
 
-/// The bytes of a picture on a larger white one. Pictures are opaque, so that what is multiplied with opacity is what
-/// it was.
+/// The bytes of a picture on a larger white one. Pictures are opaque, so that multiplication with opacity changes
+/// nothing.
 fn on_white(map: &Pixmap, width: usize, height: usize) -> Vec<u8> {
     let mut pixels = vec![255; 4 * width * height];
     let row = 4 * map.width() as usize;

@@ -1,11 +1,10 @@
 //! A particle field as a PNG picture.
 //!
-//! Particles are discs of their own diameter, coloured by a field, between
-//! walls drawn as dark lines, with axes in metres and a colour bar. Discs of a
-//! few pixels are drawn up to √2 times larger, so that a full lattice shows its
-//! field and not the gaps between the discs. Spheres in 3D are seen along +y: what is
-//! drawn is the x–z plane, and of particles behind each other the one with the
-//! least y is on top; a fluid in 3D is seen from above and shows its surface.
+//! Particles are discs of their own diameter, coloured by a field, between walls drawn as dark lines, with axes in
+//! metres and a colour bar. Discs of a few pixels are drawn up to √2 times larger, so that a full lattice shows its
+//! field and not the gaps between the discs. Spheres in 3D are seen along +y: the drawing is the x–z plane, and of
+//! particles behind each other the one with the least y is on top; a fluid in 3D is seen from above and shows its
+//! surface.
 
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Texts from files, so that a terminal shows them and does not execute them.
 //!
-//! Escape sequences move the cursor, set titles and clear what stands there; marks of direction show a text in
+//! Escape sequences move the cursor, set titles and clear text; marks of direction show a text in
 //! another order than it has. Either may stand in a title, a key, a value or the name of a file.
 
 use std::borrow::Cow;

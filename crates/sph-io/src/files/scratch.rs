@@ -9,7 +9,7 @@ use crate::error::{IoError, Result};
 use crate::files::lock::{FolderLock, left};
 
 /// A folder in the system's temporary place, of a name that cannot be guessed, for this user alone; it goes with
-/// its owner. What a killed process left is removed by the next one that makes such a folder.
+/// its owner. The folder of a killed process is removed by the next one that makes such a folder.
 #[derive(Debug)]
 pub struct Scratch {
     // Given back before the folder goes.

@@ -138,7 +138,7 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             // Drifts may sort particles between their halves: the shift must be sorted, too.
             .remembers(fields::SHIFT_VELOCITY)
             .writes(fields::VOID_FRACTION)
-            // Normals are sums over what has been summed at neighbours.
+            // Normals are sums over sums at neighbours.
             .rings(2)
     }
 }
@@ -232,7 +232,7 @@ fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vec
         *shift -= normal * (shift.dot(&normal) * (1.0 - left));
         whole += contact.gradient;
     }
-    // Of a curved wall the last elements turn what the first have left.
+    // Of a curved wall the last elements turn the result of the first.
     let size = whole.norm();
     if size > 0.0 {
         let normal = whole / size;

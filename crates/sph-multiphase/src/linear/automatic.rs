@@ -119,7 +119,7 @@ where
                 false => BLOCK_PATIENCE,
                 true => patience.unwrap_or(ITERATIONS),
             };
-            // What a stage reached is where the next one starts.
+            // Each stage starts from the result of the one before.
             let system = (operator, right, &mut *x);
             let memory = self.memories.memory();
             match iterate(preconditioner, within(iterations), memory, system) {

@@ -131,7 +131,7 @@ impl<E: Copy> Part<E> {
         part.lower.clear();
         part.outside.clear();
         part.others.clear();
-        // Room for what there is: growing by doubles would keep half of it empty.
+        // Capacity of the present entries: growing by doubles would keep half of it empty.
         let room = pattern.starts[own.end] as usize - pattern.starts[own.start] as usize;
         part.starts.reserve_exact(own.len() + 1);
         part.inside.reserve_exact(room / 2);

@@ -139,7 +139,7 @@ impl<E: Copy, S: Copy> Part<E, S> {
         starts.clear();
         starts.push(0);
         columns.clear();
-        // Room for what there is: growing by doubles would keep half of it empty.
+        // Capacity of the present entries: growing by doubles would keep half of it empty.
         let room = pattern.row(rows.end - 1).end - pattern.row(from).start;
         columns.reserve_exact(room / 2);
         lower.clear();

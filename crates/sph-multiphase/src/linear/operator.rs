@@ -9,7 +9,7 @@ use crate::linear::{Diagonal, Halved, Halves, Matrix, SolveError};
 ///
 /// Rows are those of particles of one's own. Columns are the same particles and, after them, copies of particles
 /// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives copies the values
-/// of their owners, [`total`](Operator::total) adds what all owners of rows have summed. A [`Matrix`] has no copies.
+/// of their owners, [`total`](Operator::total) adds the sums of all owners of rows. A [`Matrix`] has no copies.
 pub trait Operator<const D: usize>: Sync {
     /// Rows: particles of one's own.
     fn rows(&self) -> usize;

@@ -26,7 +26,7 @@ contribution_kind!(
 /// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and moves on a parabola;
 /// * an open face is within the support: K stays, unless the particle is at a surface or alone. Half of the row that passes the
 ///   face is in no sum, so K swings by ± 0.15 ρ₀ there; what is cut of it is mass that does not pass;
-/// * else K stays: what the kernel misses within reach of a surface is what it carries.
+/// * else K stays: the particle carries the part that the kernel misses within reach of a surface.
 ///
 /// Symbols: h smoothing length (m), c speed of sound of the phase at rest (m/s). Where a full support has K > 0, as many of
 /// the particles fill more space than they have volume: a fold closed on a gap. The loss of K lowers their pressure until

@@ -174,8 +174,8 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
     }
 }
 
-/// Largest of Σ C over the rest of the diagonal, of blocks with the means of their diagonals: Σ C is the whole less
-/// what is a row's own.
+/// Largest of Σ C over the rest of the diagonal, of blocks with the means of their diagonals: Σ C is the whole less the
+/// row's own part.
 fn stiffness<E: Entry<D>, const D: usize>(own: &[E], whole: &[E]) -> f64 {
     let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
     let row = |(own, whole): (&E, &E)| {

@@ -1,8 +1,8 @@
 //! A rank's part of a flow: its own particles, and ghosts, which are copies of others' that are near.
 //!
-//! Ghosts take part in every step as if they were the rank's own. Only what is summed over neighbours comes out wrong for them,
-//! since some of their neighbours are missing: it is overwritten with what their owner found. All that follows from a
-//! particle's own columns is the same on both ranks, to the bit.
+//! Ghosts take part in every step as if they were the rank's own. Only what is summed over neighbours comes out wrong
+//! for them, since some of their neighbours are missing: it is overwritten with the result of their owner. All that
+//! follows from a particle's own columns is the same on both ranks, to the bit.
 
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};

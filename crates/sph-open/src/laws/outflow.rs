@@ -11,7 +11,7 @@ use crate::{
 /// Fluid leaves, and sound with it.
 ///
 /// With u inwards, p_i − ρc u_i arrives from the fluid, u_i that of the face as a whole. With a `velocity` −u₀ far away,
-/// p₀ + ρc u₀ comes from outside, so that p = ½ [p_i + p₀ + ρc (u₀ − u_i)]. With a `memory` only what changes faster leaves, and the means of p_i and u_i over this
+/// p₀ + ρc u₀ comes from outside, so that p = ½ [p_i + p₀ + ρc (u₀ − u_i)]. With a `memory` only faster changes leave, and the means of p_i and u_i over this
 /// time, p̄ and ū, have the pressure p₀: p = p₀ + ½ [(p_i − p̄) − ρc (u_i − ū)]. In both cases fluid passes with
 /// u = u_i + (p − p_i)/ρc, with the u_i of each element.
 ///

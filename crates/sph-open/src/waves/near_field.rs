@@ -23,7 +23,7 @@ impl Paddle {
                 Paddle::Flap(hinge) => {
                     let arm = (depth - hinge) / depth;
                     let low = x * (1.0 - arm).max(0.0);
-                    // A hinge below the floor: what of the flap moves there counts for nothing.
+                    // A hinge below the floor: the motion of the flap there does not count.
                     x.sin() + (x.cos() - low.cos()) / (x * arm)
                 }
             };

@@ -77,7 +77,8 @@ impl Orbits {
         };
         let water = self.extrapolated(z.min(top), time, share);
         let pressure = match z < elevation {
-            // Above the still level the first order has the pressure of the still level, and the weight of what is above.
+            // Above the still level the first order has the pressure of the still level, and the weight of the water
+            // above.
             true => water.pressure + self.gravity * (z.min(top) - z),
             false => 0.0,
         };

@@ -17,7 +17,7 @@ use crate::{
 ///
 /// Behind the face is the water of linear waves on a uniform current, regular waves to second order ([`Waves`]): its surface,
 /// pressure p₀ and velocity u₀. Where a current comes in, or waves without a current, the face imposes u₀ at every depth, below
-/// its own surface; what runs to it is thrown back.
+/// its own surface; a wave that runs to it is reflected.
 ///
 /// Elsewhere, and where a current goes out against the waves, the face yields. A wave that runs to it has p' = −ρ C u' at every depth, with u' inwards and its speed C = σ/k
 /// in the water at rest. So

@@ -122,7 +122,7 @@ pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Opti
         return Some((place_of(flow, *particle)?, true));
     }
     let acceleration = flow.world.free.get(fields::ACCELERATION).ok()?;
-    // What is not a number is larger than any.
+    // NaN is larger than any number.
     let size = |k: &usize| {
         let a = acceleration[*k].norm_squared();
         if a.is_nan() { f64::INFINITY } else { a }

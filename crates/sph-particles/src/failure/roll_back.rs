@@ -156,7 +156,7 @@ impl<const D: usize> Running<'_, D> {
             before: None,
             after: sighting(flow, k),
         });
-        // Densities and accelerations are judged after the sweep; what fails earlier has none of this state.
+        // Densities and accelerations are judged after the sweep; an earlier failure has none of this state.
         let judged = ["density", "acceleration"];
         // A whole that was gathered is not evaluated.
         let evaluated = self.whole.is_none();

@@ -107,8 +107,8 @@ impl Counters {
 
     /// The error of counts that no run of the scene can have at a time.
     ///
-    /// A checkpoint with right checksums may be of any origin. Counts that decide what is done
-    /// next must fit the time; others need only be such that counting on is possible.
+    /// A checkpoint with right checksums may be of any origin. Counts that decide the next work must fit the time;
+    /// others need only be such that counting on is possible.
     pub(crate) fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
         let scale = f64::from_bits(self.step_scale);
         if !(scale > 0.0 && scale <= 1.0) {

@@ -157,7 +157,7 @@ mod tests {
         assert!(told.contains("2.000e-1 J, 2.4 %"), "{told}");
         assert_eq!(flow.look(&balance(4.3, 6.0, 100.0), 0.0, 4.0), None, "once");
         assert!(flow.verdict().is_none() && flow.remarks().is_some());
-        // What has been lost again was made all the same.
+        // Energy that was lost again was made all the same.
         flow.look(&balance(6.0, 6.0, 100.0), 0.0, 5.0);
         flow.look(&balance(1.0, 6.0, 100.0), 0.0, 6.0);
         assert!(flow.verdict().is_some());

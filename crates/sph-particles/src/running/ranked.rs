@@ -97,7 +97,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(whole) = whole else {
             return Ok(parts.gather(&flow.world, None).map_err(StepError::from)?);
         };
-        // Only what is evaluated has neighbours.
+        // Only an evaluated state has neighbours.
         whole.world.forget_lists();
         let gathered = parts.gather(&flow.world, Some(&mut whole.world));
         gathered.map_err(StepError::from)?;

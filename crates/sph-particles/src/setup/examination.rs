@@ -190,7 +190,7 @@ fn memory<const D: usize>(
     flow: &mut Flow<D>,
     dt: f64,
 ) -> Result<Memory, SolverError> {
-    // Where the state is one that the run will refuse, what can be counted without it counts.
+    // Where the state is one that the run will refuse, the parts that need no state count.
     let evaluated = flow.evaluate().is_ok();
     let mut system = 0;
     for hooked in flow.hooks.all.iter().filter(|_| evaluated) {

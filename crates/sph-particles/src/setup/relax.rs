@@ -206,7 +206,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
             add(row.row(), values, &|v| points.share[v as usize]);
         }
         let contacts = world.walls.contacts.of_particle(i).iter();
-        // What the walls add to the gradient: −∇γ, or ∇ ln s times the sum.
+        // The part of the walls in the gradient: −∇γ, or ∇ ln s times the sum.
         let wall = match slope {
             Some(slope) => slope[i] * -(whole * sum),
             None => contacts.fold(Vect::zeros(), |sum: Vect<D>, c| sum + c.gradient),

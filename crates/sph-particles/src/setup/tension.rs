@@ -2,7 +2,7 @@
 //! tension.
 //!
 //! A face whose velocity into the fluid falls by Δu sends off a wave of −ρcΔu. Particles carry no tension: a full box
-//! without background pressure is torn apart, and what is torn off goes its own way.
+//! without background pressure is torn apart, and torn parts move on their own.
 
 use sph_boundary::Wall;
 use sph_core::Vect;

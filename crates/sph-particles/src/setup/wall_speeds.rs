@@ -25,9 +25,9 @@ pub struct Speeds {
 
 /// The speeds of the walls before the end of the run, for a speed of sound, m/s, and a length of the fluid, m.
 ///
-/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose
-/// walls all move together carries its fluid along and may be of any speed; what its acceleration does to the fluid
-/// may not.
+/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose walls
+/// all move together carries its fluid along and may be of any speed; the effect of its acceleration on the fluid may
+/// not.
 pub fn speeds<const D: usize>(
     scene: &Scene,
     walls: &[WallSpec<D>],

@@ -15,7 +15,7 @@ const GAP: f64 = 2.0;
 ///
 /// The bed is seen from above in cells two spacings wide, or a little wider so that whole ones fill the part that counts: where a
 /// bed begins in the middle of a cell, its grains leave the half cell for the next. Its height in a cell is half a spacing above the
-/// last grain, from the bottom up, over which there is a gap of two spacings: what is in suspension does not count.
+/// last grain, from the bottom up, over which there is a gap of two spacings: grains in suspension do not count.
 /// The depth of scour is `level` less that height, negative where the bed has risen.
 ///
 /// With every output of fields the map goes to `curves/NAME_0003.csv`, with the columns x, y, height and depth in m, and to

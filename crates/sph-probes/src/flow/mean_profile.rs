@@ -15,7 +15,7 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 /// Its curve has every component's, and −⟨u'w'⟩, u along the first axis and w along the axis of the profile. Where the flow is the
 /// same along an axis, as along a periodic one, no other key is needed; `within` is for the others. A layer's distance is the
 /// mean of its particles, so that a mean of a linear profile lies on it wherever rows stand in their layers; there it is compared
-/// with a `file` of distances and values. What was gathered goes on in a run that is resumed.
+/// with a `file` of distances and values. A resumed run goes on with the gathered values.
 ///
 /// Source: Issa 2004, Eq. 6.46–6.50, with layers in the place of points.
 ///
@@ -344,7 +344,7 @@ impl<const D: usize> Gathers<D> for MeanProfile {
     }
 
     fn recall(&self, gathered: &[u64]) {
-        // What another scene gathered is of other layers.
+        // Values gathered by another scene are of other layers.
         let fits = gathered.len() == self.layers * self.stride::<D>();
         if let (true, Ok(mut sums)) = (fits, self.sums.lock()) {
             *sums = gathered.iter().map(|v| f64::from_bits(*v)).collect();

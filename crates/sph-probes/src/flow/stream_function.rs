@@ -149,7 +149,7 @@ impl Probe<2> for StreamFunction {
             return Ok(vec![f64::NAN; 3]);
         }
         let along: Vec<f64> = near.numbers().map(|k| velocity[k][0]).collect();
-        // q is what is averaged: u, and then u with what its mean lacks.
+        // q is the averaged quantity: u, and then u with what its mean lacks.
         let mut q = along.clone();
         for _ in 0..self.corrections {
             let mean = near.means(&*world.kernel, &q);

@@ -10,7 +10,7 @@ use crate::measure::{
 /// Share of the particles whose strain rate is above a threshold, γ̇ > γ̇_y, and the mean strain
 /// rate of those, 1/s.
 ///
-/// A regularised law has no plug that does not move at all: what counts as yielded is a choice. A
+/// A regularised law has no plug that does not move at all: the definition of yielding is a choice. A
 /// phase without particles has no share, and without one that yields there is no mean: NaN. Only
 /// scenes with a law that reads the strain rate have one; the probe computes it in all phases.
 ///

@@ -18,7 +18,7 @@ const WORK: f64 = 2e7;
 pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     let spacing = scene.numerics.spacing;
     let periods = scene.numerics.periodic.bounds::<D>();
-    // What walls cut away may overlap; that shows once there are walls.
+    // Parts that walls cut away may overlap; that shows once there are walls.
     let whole = scene.body.iter().filter(|(_, b)| !b.needs_walls());
     let (names, regions): (Vec<&String>, Vec<Region<D>>) = whole
         .filter_map(|(name, body)| Some((name, Region::from_body(body)?)))

@@ -45,7 +45,7 @@ impl Wall {
                 drawn.len()
             )));
         }
-        // The sides of an open box run anticlockwise; there is no asking what they enclose.
+        // The sides of an open box run anticlockwise; their enclosed volume is not known yet.
         let open_box = self.bounds.is_some() && !self.open.is_empty();
         let side = match self.side() {
             Some(side) if !open_box => side,
@@ -184,7 +184,7 @@ impl Wall {
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
-        // What is scaled later is taken as it stands, else the heads of the columns may have units.
+        // A drawing that is scaled later is taken as it stands, else the heads of the columns may have units.
         let scaled = self.unit.is_some() || self.scale.is_some();
         let form = Form::places(&self.columns, scaled.then_some(1.0));
         rows::lines(&rows::text(path)?, &path.display().to_string(), &form)

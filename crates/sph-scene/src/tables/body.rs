@@ -61,7 +61,7 @@ pub struct Body {
     /// Pressure at the start.
     #[parameter(default)]
     pub pressure: Pressure,
-    /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of what stands over a place in all bodies.
+    /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of all bodies over a place.
     #[parameter(unit: "m")]
     pub surface: Option<f64>,
 }

@@ -7,7 +7,7 @@ use sph_core::parameters;
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
-/// Courses count their time from `start` and hold what they reached at `stop`.
+/// Courses count their time from `start` and hold the values reached at `stop`.
 #[parameters]
 pub struct Motion {
     /// Constant velocity, m/s; none if left out.

@@ -7,7 +7,7 @@ use crate::Heading;
 /// A place where particles leave the flow: a box, or all that is beyond a plane across an axis.
 ///
 /// A particle that is there at the end of a step is taken out, and its mass counted. Nothing is
-/// there at the start. Neither the outlet nor what has left through it holds the flow back: what is upstream
+/// there at the start. Neither the outlet nor fluid beyond it holds the flow back: what is upstream
 /// has a free surface there, which suits falls and flows faster than their waves.
 #[parameters]
 pub struct Outlet {

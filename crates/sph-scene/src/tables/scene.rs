@@ -107,9 +107,8 @@ impl Scene {
 
     /// One region for every body, in the order of `body`; `bounds` is the box around all walls, m.
     ///
-    /// The region of a body that fills the walls is that box, or the part of it in the body's
-    /// own `box`; its lattice counts from the lower corner. What is behind walls is to be taken
-    /// away by the caller, as it is of a body with `clip`.
+    /// The region of a body that fills the walls is that box, or the part of it in the body's own `box`; its lattice
+    /// counts from the lower corner. The caller removes the part behind walls, as it is of a body with `clip`.
     ///
     /// # Errors
     /// If a body fills the walls and there are no bounds, or its box has nothing in common with

@@ -207,7 +207,7 @@ impl<const D: usize> EnergyBudget<D> {
         let free = &world.free;
         free.get(fields::VELOCITY)?.clone_into(&mut self.before);
         free.get(fields::DENSITY)?.clone_into(&mut self.density);
-        // What a step that failed has left.
+        // The rest of a step that failed.
         self.turns.clear();
         self.changes.clear();
         Ok(())

@@ -226,7 +226,7 @@ impl<const D: usize> Flow<D> {
             true => self.state_columns(),
             false => Vec::new(),
         };
-        // What only writes state has been done: a solve would start from its own result.
+        // Stages that only write state have run: a solve would start from its own result.
         let done = |writes: &[AnyField]| {
             let known = |f: &AnyField| state.contains(&f.name);
             restored && !writes.is_empty() && writes.iter().all(known)

@@ -48,7 +48,7 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
                 .as_ref()
                 .is_some_and(|v| v.colour == Colour::Red);
             match ordinate(frontier, variant).filter(|y| y.is_finite()) {
-                // A logarithmic axis cannot show what is exact.
+                // A logarithmic axis cannot show an error of zero.
                 Some(y) => points.push([place, y.max(1e-16)]),
                 None if red => broken.push(place),
                 None => {}

@@ -121,7 +121,7 @@ impl Study {
             given_by: &variant.given_by,
         };
         let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
-        // What no key of the study is to blame for still belongs to a variant.
+        // A mistake without a key of the study still belongs to a variant.
         for mistake in &mut mistakes {
             if mistake.diagnostic.file != self.source.file() {
                 let message = &mut mistake.diagnostic.message;

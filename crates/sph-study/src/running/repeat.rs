@@ -53,7 +53,7 @@ impl Job<'_> {
     fn repeat(&self, record: &mut Record) -> Result<(), IoError> {
         let folder = self.options.folder(self.variant);
         if record.fingerprint.is_empty() && folder.exists() {
-            // What lies there belongs to another scene, or is to be forgotten; a killed run of
+            // Files there belong to another scene, or are obsolete; a killed run of
             // this one is known by its checkpoint.
             self.remove_results(&folder)?;
         }

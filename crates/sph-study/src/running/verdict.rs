@@ -130,7 +130,7 @@ pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
         let (colour, bound) = match *value {
             x if x <= *green => continue,
             x if x <= *yellow => (Colour::Yellow, green),
-            // Nothing compares with what is not a number.
+            // Nothing compares with NaN.
             _ => (Colour::Red, yellow),
         };
         if colour > worst.colour {

@@ -27,10 +27,11 @@ use crate::kind::KIND;
 /// dk/dt = div((ν + ν_t/σ_k) grad k) + P − ε,
 /// dε/dt = div((ν + ν_t/σ_ε) grad ε) + (C_ε1 P − C_ε2 ε) ε/k:
 ///
-/// the standard model, with P = min(√C_μ, C_μ k S/ε) k S. Diffusion is explicit, and what is dissipated is that of the end
-/// of the step, so that both are positive by construction; nothing is clipped. Within a spacing of walls with a wall
+/// the standard model, with P = min(√C_μ, C_μ k S/ε) k S. Diffusion is explicit, and dissipation is that of the end of
+/// the step, so that both are positive by construction; nothing is clipped. Within a spacing of walls with a wall
 /// function k = u*²/√C_μ and ε = u*³/(κz), or that of `at_wall`. Nothing passes through other walls and the surface.
-/// `variant` takes other equations, "realisable" those of [`RealisableModel`], "explicit-algebraic" C_μ of [`AlgebraicStress`].
+/// `variant` takes other equations, "realisable" those of [`RealisableModel`], "explicit-algebraic" C_μ of
+/// [`AlgebraicStress`].
 ///
 /// The constants imply κ = √((C_ε2 − C_ε1) σ_ε √C_μ) = 0.433 in a logarithmic layer.
 ///

@@ -208,7 +208,7 @@ impl WallLaw {
                     false => 2.0 * u,
                 };
             }
-            // Newton's error is squared by each step: what is left of the next is below rounding.
+            // Newton's error is squared by each step: the rest of the next is below rounding.
             let squeezed = high.is_finite() && high - low <= 1e-15 * high;
             if squeezed || (next - u).abs() <= 1e-10 * u {
                 return next;

@@ -21,7 +21,7 @@ impl<const D: usize> Grid<D> {
     /// For every point the images of elements that may be nearer than `radius`, because the spheres around them are: their
     /// number, and all of them one behind the other, each point's by image and element. `radius` at most the reach of the grid.
     ///
-    /// The grid is walked once, and what it holds is sorted once, for neighbouring points that follow one another; each
+    /// The grid is walked once, and its contents are sorted once, for neighbouring points that follow one another; each
     /// takes what is in its own reach.
     pub fn rows(
         &self,

@@ -19,7 +19,7 @@ const BITS: i32 = 44;
 /// Takes from every patch the part that patches of other walls cover with opposite normals.
 ///
 /// The difference of polygons is taken in whole numbers; corners that come out of it are welded to
-/// those that are known, so that what is left of both walls meets in the same edges. Returns where they touched.
+/// those that are known, so that the rests of both walls meet in the same edges. Returns where they touched.
 pub(super) fn remove_contacts(
     patches: &mut Vec<Patch>,
     patch_of: &[u32],

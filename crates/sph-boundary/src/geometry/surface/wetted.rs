@@ -21,8 +21,8 @@ pub(super) struct FaceContacts {
 /// By piece, whether it bounds the fluid.
 ///
 /// Around an edge a wedge of fluid lies between two faces that look at each other, and these belong together. Where an
-/// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and what
-/// closes it. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
+/// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and the
+/// closing face. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
 /// pipe. It ends there on the back of another wall, so that no fluid can be before it.
 pub(super) fn wetted_pieces(
     pieces: &[Patch],

@@ -164,7 +164,7 @@ fn line(page: &mut String, text: &str) {
 fn wrapped(text: &str, indent: &str) -> String {
     let mut pieces: Vec<String> = Vec::new();
     for word in text.split(' ') {
-        // What begins a list or a heading must not begin a line: it stays with the word before it.
+        // Characters that begin a list or a heading must not begin a line: it stays with the word before it.
         let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
         let begins = number || word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
         match pieces.last_mut().filter(|_| begins) {
