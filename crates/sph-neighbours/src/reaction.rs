@@ -10,7 +10,7 @@ use crate::{Interaction, WallForce, WallPart, World, cross, wall_parts};
 /// It costs a sweep over the particles that see a wanted wall, nothing for the others.
 ///
 /// The walls' part of an acceleration is the whole less the contribution of the other particles with γ = 1, which is
-/// equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the wall has how much of it.
+/// equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the part of each wall.
 /// [`facing_forces`] are added.
 ///
 /// # Errors

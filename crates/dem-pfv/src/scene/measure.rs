@@ -171,8 +171,8 @@ fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64
     Some(1.0 - solid / (area * (to - from)))
 }
 
-/// Length of a deposit along an axis, m: from its first slice to the first slice of two diameters that holds less than
-/// a layer of grains would with six tenths of its places taken.
+/// Length of a deposit along an axis, m: from its start to the first slice of two diameters that holds less than a layer
+/// of grains would with six tenths of its places taken.
 fn deposit(grains: &GrainSystem, axis: usize) -> f64 {
     let all = grains.grains();
     let diameter = 2.0 * all.radii().iter().sum::<f64>() / all.len() as f64;

@@ -9,7 +9,7 @@ use crate::error::{IoError, Result, is_full};
 /// Size of the test file in bytes: one block, so that a full disk shows.
 const BLOCK: usize = 4096;
 
-/// Refuses all but plain files, or has more than `most` bytes, before it is opened.
+/// Refuses a path that is no plain file or has more than `most` bytes, before it is opened.
 ///
 /// # Errors
 /// The kind of the file instead: a folder, a pipe, a file that is too long or not there.
