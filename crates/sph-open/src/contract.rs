@@ -197,5 +197,5 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
 
 contract!(
     /// The law of an open face that a wall may name.
-    pub OpenBoundaryEntry, "open-boundary", InWall, "what the fluid meets where it passes a wall", OpenBoundary<D>
+    pub OpenBoundaryEntry, "open-boundary", InWall, "the condition at a wall that fluid passes", OpenBoundary<D>
 );

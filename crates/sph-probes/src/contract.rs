@@ -123,7 +123,7 @@ pub trait Probe<const D: usize>: Send {
 
 contract!(
     /// A probe that a scene may name.
-    pub ProbeEntry, "probe", Probe, "what is measured over time", Probe<D>
+    pub ProbeEntry, "probe", Probe, "a measurement over time", Probe<D>
 );
 
 /// An analytical flow.

@@ -7,7 +7,7 @@ use sph_core::{Access, Axis, StepError, Work, fields, plugin};
 
 contribution_kind!(
     /// A control of the flow rate that a scene may name.
-    pub FlowControlEntry, "flow-control", One, "what holds the flow rate of a periodic flow", .works(Work::Others)
+    pub FlowControlEntry, "flow-control", One, "control of the flow rate of a periodic flow", .works(Work::Others)
 );
 
 /// After every kick all particles are pushed by U₀ − Σ m u/Σ m along an axis, so that the mean velocity is U₀: a body

@@ -10,7 +10,7 @@ use crate::damping::zone::Zone;
 
 contribution_kind!(
     /// Damping that a scene may name.
-    pub DampingEntry, "damping", Any, "what takes motion away: of a fluid that is to settle, of waves, of sound",
+    pub DampingEntry, "damping", Any, "damping of motion: of a fluid that is to settle, of waves, of sound",
     .works(Work::Damping)
 );
 

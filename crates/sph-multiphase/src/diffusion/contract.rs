@@ -16,7 +16,7 @@ contribution_kind!(
 contribution_kind!(
     /// A shifting scheme that a scene may name. The last of its stages writes
     /// [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
-    pub ShiftingEntry, "shifting", One, "what keeps particles evenly spread",
+    pub ShiftingEntry, "shifting", One, "shifts that keep particles evenly spread",
     .ordered(90).works(Work::Shifting)
 );
 

@@ -31,7 +31,7 @@ use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 /// [smoother.rhie-chow]
 /// strength = 0.1
 /// ```
-#[plugin(SmootherEntry [2, 3], "rhie-chow", "pressure diffusion less what the wide stencil resolves",
+#[plugin(SmootherEntry [2, 3], "rhie-chow", "pressure diffusion less the part that the wide stencil resolves",
     source: "Ghaïtanellis 2017, Eq. 2.96–2.98")]
 pub struct RhieChow {
     /// Strength δ: the diffusivity of the density over h c.

@@ -53,7 +53,7 @@ pub trait LinearSolver<const D: usize>: Send {
 
 contract!(
     /// A linear solver that a scene may name.
-    pub LinearSolverEntry, "linear-solver", One, "what solves sparse systems", LinearSolver<D>,
+    pub LinearSolverEntry, "linear-solver", One, "the solver of sparse systems", LinearSolver<D>,
     .by_default("automatic").idle(
         "nothing in this scene is solved for: take this table out, or add `[implicit-viscosity.backward-euler]`"
     )

@@ -13,7 +13,7 @@ use super::cone::{FREE_SURFACE, FreeSurface, Place};
 
 contribution_kind!(
     /// A treatment of free surfaces that a scene may name.
-    pub SurfaceEntry, "surface", One, "where free surfaces are, and what densities there know of them",
+    pub SurfaceEntry, "surface", One, "free surfaces, and densities there",
     .absent("surfaces that densities remember if left out").works(Work::Surface)
 );
 

@@ -39,7 +39,7 @@ use crate::waves::superposition::{Component, Waves};
 /// waves = { regular = { height = "8 cm", period = "1.2 s" } }
 /// ```
 #[plugin(MoverEntry [2 => WaveMaker<2>, 3 => WaveMaker<3>], "wave-maker",
-    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb what comes back",
+    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb waves that come back",
     source: "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003")]
 #[derive(Debug)]
 #[serde(bound = "")]

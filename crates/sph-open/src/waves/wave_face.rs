@@ -36,7 +36,7 @@ use crate::{
 /// current = "0.2 m/s"
 /// waves = { regular = { height = "8 cm", period = "1.2 s" } }
 /// ```
-#[plugin(OpenBoundaryEntry [2, 3], "waves", "waves come in on a current, and what comes to the face goes out",
+#[plugin(OpenBoundaryEntry [2, 3], "waves", "waves come in on a current, and waves that come to the face go out",
     source: "Stokes 1847; Verbrugghe et al. 2019")]
 #[derive(Debug)]
 pub struct WaveFace {
