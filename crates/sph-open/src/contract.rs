@@ -182,7 +182,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     fn asked(&self, _places: &[FaceElement<D>], _time: f64) -> Option<f64> {
         None
     }
-    /// Time of the [means](Inside::mean) of velocity and pressure, s, if it does.
+    /// Time of the [means](FluidMean::mean) of velocity and pressure, s, if it does.
     fn memory(&self) -> Option<f64> {
         None
     }

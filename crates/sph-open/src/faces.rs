@@ -87,7 +87,7 @@ pub(crate) struct Faces<const D: usize> {
     pub mix: Vec<f64>,
     /// Weight of the row before every element where the face is full.
     pub full: Vec<f64>,
-    /// Volume that [stands](crate::row::stands) before every element where the face is full, m^d.
+    /// Volume that [stands](crate::row::row_weight) before every element where the face is full, m^d.
     pub stands: Vec<f64>,
     /// Share of a whole particle at the port of every element in that weight.
     pub at_port: Vec<f64>,
@@ -198,7 +198,7 @@ impl<const D: usize> Faces<D> {
         own.map(one).sum::<f64>() * self.spacing
     }
 
-    /// Volume that [stands](crate::row::stands) before an element where its face is full, m^d.
+    /// Volume that [stands](crate::row::row_weight) before an element where its face is full, m^d.
     fn standing_volume(&self, k: usize, kernel: &dyn Sampler) -> f64 {
         let own = self.faces[self.face_of[k]].elements.clone();
         let one = |j: usize| {

@@ -12,7 +12,7 @@ pub(crate) struct Row<const D: usize> {
     across: [f64; 3],
     /// Σ w u, Σ w t u and Σ w s u.
     velocities: [Vect<D>; 3],
-    /// Volume of those that [stand](stands) before the place.
+    /// Volume of those that [stand](row_weight) before the place.
     volume: f64,
 }
 
