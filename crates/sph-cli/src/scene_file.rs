@@ -57,12 +57,12 @@ impl AnyScene {
 }
 
 /// A scene ready for its solver, and the folder its data were unpacked to.
-pub struct Opened {
+pub struct OpenScene {
     /// The scene with its text.
     pub scene: AnyScene,
     /// Name without folder and extension.
     pub stem: String,
-    /// What messages call it: its file, or its name if it is compiled in.
+    /// Name in messages: its file, or its name if it is compiled in.
     pub shown: String,
     /// Kept until the scene is done with.
     _unpacked: Option<Scratch>,
@@ -91,7 +91,7 @@ pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
 }
 
 /// Reads the scene, by its path or by the name of a shipped one.
-pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
+pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
     let path = Path::new(&arguments.scene);
@@ -113,10 +113,10 @@ pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
 }
 
 /// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
-pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<Opened, Trouble> {
+pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
-    Ok(Opened {
+    Ok(OpenScene {
         scene: read(Source::new(text, file, &overrides).allowing(allowed))?,
         stem: stem(Path::new(file)).to_string(),
         shown: file.to_string(),
@@ -125,7 +125,7 @@ pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<O
 }
 
 /// A scene's text, found but not yet read as one; its data disappear with it.
-pub struct Found {
+pub struct SceneSource {
     /// Name, text and file.
     pub scene: SceneText,
     _unpacked: Option<Scratch>,
@@ -133,7 +133,7 @@ pub struct Found {
 
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
 /// allowed one, or by the name of a shipped one.
-pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, String> {
+pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<SceneSource, String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
     let file = match path.exists() && !path.is_dir() {
         true => Some(path),
@@ -148,7 +148,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
         (Some(file), _) => {
             let shown = file.display().to_string();
             let text = read_text(&file).map_err(|why| format!("cannot read `{shown}`: {why}"))?;
-            Ok(Found {
+            Ok(SceneSource {
                 scene: SceneText {
                     name,
                     method: method(&text, &shown),
@@ -162,7 +162,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
         (None, text) => {
             let text = text.unwrap_or_default().to_string();
             let (file, unpacked) = unpacked(&name, &text)?;
-            Ok(Found {
+            Ok(SceneSource {
                 scene: SceneText {
                     method: method(&text, &name),
                     name,
@@ -176,7 +176,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, St
     }
 }
 
-/// What computes the scene of a text in a study; the name is for messages.
+/// Method that computes the scene of a text in a study; the name is for messages.
 #[must_use]
 pub fn method(text: &str, name: &str) -> &'static dyn Method {
     let table = Source::new(text, name, &[]).table();
@@ -190,13 +190,17 @@ fn stem(path: &Path) -> &str {
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("scene")
 }
 
-fn from_file(path: &Path, overrides: &[Override], allowed: &[PathBuf]) -> Result<Opened, Trouble> {
+fn from_file(
+    path: &Path,
+    overrides: &[Override],
+    allowed: &[PathBuf],
+) -> Result<OpenScene, Trouble> {
     let file = path.display().to_string();
     let text = read_text(path).map_err(|reason| {
         let file = file.clone();
         Trouble::Usage(LoadError::Unreadable { file, reason }.to_string())
     })?;
-    Ok(Opened {
+    Ok(OpenScene {
         scene: read(Source::new(&text, &file, overrides).allowing(allowed))?,
         stem: stem(path).to_string(),
         shown: file,
@@ -210,9 +214,9 @@ fn compiled_in(
     text: &str,
     overrides: &[Override],
     allowed: &[PathBuf],
-) -> Result<Opened, Trouble> {
+) -> Result<OpenScene, Trouble> {
     let (file, unpacked) = unpacked(name, text).map_err(Trouble::Usage)?;
-    Ok(Opened {
+    Ok(OpenScene {
         scene: read(Source::new(text, &file, overrides).allowing(allowed))?,
         stem: name.to_string(),
         shown: name.to_string(),

@@ -98,8 +98,8 @@ impl GrainSystem {
         Ok(())
     }
 
-    /// Replaces a contact law, as when the friction of the preparation gives way to that of the test. What
-    /// contacts remember stays.
+    /// Replaces a contact law, as when the friction of the preparation gives way to that of the test. The memory of
+    /// contacts stays.
     ///
     /// # Errors
     /// Parameters out of range; no law of that number.
@@ -148,7 +148,7 @@ impl GrainSystem {
         &mut self.grains.spin
     }
 
-    /// Grains that keep their velocity whatever acts on them.
+    /// Grains that keep their velocity under any force.
     pub fn held_mut(&mut self) -> &mut [bool] {
         &mut self.grains.held
     }

@@ -55,7 +55,7 @@ impl Grains {
         }
     }
 
-    /// Whether all columns have the same length.
+    /// True if all columns have the same length.
     pub(crate) fn fits(&self) -> bool {
         let n = self.position.len();
         let vectors = [
@@ -74,13 +74,13 @@ impl Grains {
                 .all(|c| c.len() == n)
     }
 
-    /// How many there are.
+    /// Number of grains.
     #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
@@ -128,7 +128,7 @@ impl Grains {
         INERTIA * self.mass[grain] * self.radius[grain].powi(2)
     }
 
-    /// Grains that keep their velocity whatever acts on them.
+    /// Grains that keep their velocity under any force.
     #[must_use]
     pub fn held(&self) -> &[bool] {
         &self.held

@@ -71,7 +71,7 @@ impl<'a> Cloud<'a> {
         self.spacing
     }
 
-    /// Whether they lie in a plane of constant z.
+    /// True if they lie in a plane of constant z.
     pub fn planar(&self) -> bool {
         self.planar
     }
@@ -81,7 +81,7 @@ impl<'a> Cloud<'a> {
     }
 
     /// The points nearer to `x` than the radius of the fit, with r_j − x.
-    fn around(&self, x: [f64; 3]) -> impl Iterator<Item = (u32, [f64; 3])> {
+    fn neighbours(&self, x: [f64; 3]) -> impl Iterator<Item = (u32, [f64; 3])> {
         let middle = self.cell(x);
         let reach = RADIUS * self.spacing;
         let cells = (0..27).map(move |k| [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1]);
@@ -101,7 +101,7 @@ impl<'a> Cloud<'a> {
         let mut matrix = Matrix4::<f64>::zeros();
         let mut near: Vec<(u32, f64, Vector4<f64>)> = Vec::new();
         let mut nearest = f64::INFINITY;
-        for (j, d) in self.around(x) {
+        for (j, d) in self.neighbours(x) {
             let r2 = square(&d);
             nearest = nearest.min(r2);
             let weight = (1.0 - r2 / (reach * reach)).powi(2);
@@ -114,7 +114,7 @@ impl<'a> Cloud<'a> {
         }
         let total = matrix[(0, 0)];
         if self.planar {
-            // z says nothing; its row is made one that does no harm.
+            // z has no information; its row becomes that of the unit matrix.
             matrix[(3, 3)] = total;
         }
         let spectrum = matrix.symmetric_eigenvalues();

@@ -10,8 +10,7 @@ impl Problems {
         self.0.push(SceneProblem::new(path, message));
     }
 
-    /// Whether exactly one of the keys that give `what` is there; `all` are those that may be, and there is `advice` where
-    /// there are several.
+    /// True if exactly one of the keys for `what` is given; `all` lists the possible keys, and `advice` is for several.
     pub fn one_of(
         &mut self,
         given: &[&str],

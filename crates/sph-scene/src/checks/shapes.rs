@@ -7,7 +7,7 @@ use crate::checks::wave;
 use crate::tables::body::ShapeKeys;
 use crate::{Body, LevelSurface, Pressure, Scene};
 
-/// Checks what a body gives in space.
+/// Checks the keys of a body in space.
 pub(crate) fn body_geometry(
     scene: &Scene,
     body: &Body,

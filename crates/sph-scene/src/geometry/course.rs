@@ -75,7 +75,7 @@ impl Motion {
     }
 }
 
-/// What a translation and a rotation have in common, with other units.
+/// Fields of translations and rotations, with the units of each.
 macro_rules! with_course {
     ($table:ident, $unit:literal) => {
         impl $table {
@@ -189,8 +189,8 @@ fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
 }
 
 impl Motion {
-    /// Where the scene says what the wall does at a time, s: the key, and the name of the file with the line if it is in
-    /// one. None of a motion without a table.
+    /// Source of the wall's motion at a time, s: the key, and the name of the file with the line if it is in one. None
+    /// of a motion without a table.
     pub fn told_at(&self, place: &str, time: f64) -> Option<(String, Option<String>)> {
         let mut translations = self.translate.iter().enumerate();
         let translate = translations.find(|(_, t)| t.path.is_some() || t.table.is_some());

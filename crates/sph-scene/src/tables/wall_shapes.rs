@@ -31,7 +31,7 @@ impl Face {
         self as usize / 2
     }
 
-    /// Whether it is towards more.
+    /// True if it is towards more.
     pub fn upper(self) -> bool {
         self as usize % 2 == 1
     }
@@ -91,7 +91,7 @@ pub struct CylinderWall {
     /// Angle, rad, right-handed about the direction of travel, from +x for a cylinder along z (+y along x, +z along y) at which the first corner lies. A slanted cylinder counts as along the axis it is nearest to.
     #[parameter(default, unit: "rad")]
     pub turn: f64,
-    /// Whether the two flat ends are left out: a pipe.
+    /// True if the two flat ends are left out: a pipe.
     #[parameter(default)]
     pub open_ends: bool,
 }
@@ -146,7 +146,7 @@ pub struct ExtrusionWall {
     /// Coordinate of the other end along the axis, m.
     #[parameter(unit: "m")]
     pub to: f64,
-    /// Whether the two flat ends are left out.
+    /// True if the two flat ends are left out.
     #[parameter(default)]
     pub open_ends: bool,
 }

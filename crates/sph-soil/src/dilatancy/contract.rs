@@ -26,7 +26,7 @@ pub struct Dilation {
 pub trait Dilatancy: Send + Sync {
     /// The expansion at a state.
     fn dilation(&self, state: &GrainState) -> Dilation;
-    /// Whether dilation adds friction to that of the rheology.
+    /// True if dilation adds friction to that of the rheology.
     fn adds_friction(&self) -> bool {
         false
     }

@@ -101,7 +101,7 @@ pub struct Skeleton {
     pub modulus: Option<f64>,
     /// Load that the surface bears, Pa.
     pub load: f64,
-    /// Whether the grains bear it at the start.
+    /// True if the grains bear it at the start.
     pub consolidated: bool,
     /// A wall that feeds the pores.
     pub supply: Option<Supply>,
@@ -124,7 +124,7 @@ pub struct PoreSettings {
     pub bodies: BTreeMap<String, f64>,
     /// Density of the fluid that goes in and out, kg/m³; that of the water if `None`.
     pub fluid_density: Option<f64>,
-    /// Whether volumes of particles follow the packing.
+    /// True if volumes of particles follow the packing.
     pub swelling: bool,
     /// The excess pressure; `None` if the fluid passes freely.
     pub skeleton: Option<Skeleton>,

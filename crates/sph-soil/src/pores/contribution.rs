@@ -27,9 +27,9 @@ struct Pores {
     settings: PoreSettings,
     law: Option<Arc<dyn Dilatancy>>,
     rheologies: Vec<Box<dyn Rheology>>,
-    /// Whether the scene has an effective pressure.
+    /// True if the scene has an effective pressure.
     effective: bool,
-    /// Whether it has a seepage of its own.
+    /// True if it has a seepage of its own.
     seeps: bool,
 }
 

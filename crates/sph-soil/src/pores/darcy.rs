@@ -56,7 +56,7 @@ pub struct Darcy {
     /// Load on the surface of the soil, through which the fluid passes.
     #[parameter(default, unit: "Pa", min: 0.0)]
     pub load: f64,
-    /// Whether the grains bear the load at the start; the fluid does if not.
+    /// True if the grains bear the load at the start; the fluid does if not.
     #[parameter(default: false)]
     pub consolidated: bool,
     /// A wall that feeds the pores: a table with `wall`, `excess` and `rise`.
@@ -65,7 +65,7 @@ pub struct Darcy {
     /// Density of the fluid that goes in and out; that of `water`, or 1000 kg/m³, if left out.
     #[parameter(unit: "kg/m³", min: 0.0)]
     pub fluid_density: Option<f64>,
-    /// Whether particles grow and shrink with their packing.
+    /// True if particles grow and shrink with their packing.
     #[parameter(default: true)]
     pub swelling: bool,
     /// Relative residual at which the iteration ends.

@@ -29,7 +29,7 @@ pub struct Drained {
     /// Density of the fluid that goes in and out; 0 for dry pores.
     #[parameter(default, unit: "kg/m³", min: 0.0)]
     pub fluid_density: f64,
-    /// Whether particles grow and shrink with their packing.
+    /// True if particles grow and shrink with their packing.
     #[parameter(default: true)]
     pub swelling: bool,
 }

@@ -46,7 +46,7 @@ impl SoilPhase {
 pub(crate) struct SoilMask<'a>(Option<(&'a [u32], u32)>);
 
 impl SoilMask<'_> {
-    /// Whether a particle is soil.
+    /// True for a particle of the soil.
     pub fn has(self, i: usize) -> bool {
         self.0.is_none_or(|(phase, number)| phase[i] == number)
     }
@@ -81,7 +81,7 @@ pub(crate) struct Scratch {
     storage: Vec<f64>,
     diagonal: Vec<f64>,
     source: Vec<f64>,
-    /// What comes in where walls feed the pores and have no pressure on the other side, m^d/s.
+    /// Inflow through walls that feed pores without an excess pressure, m^d/s.
     fed: Vec<f64>,
     excess: Vec<Vect<1>>,
     product: Vec<Vect<1>>,
@@ -256,7 +256,7 @@ impl PoreFlow {
             ..
         } = scratch;
         growth.clear();
-        // What is stored or taken by the law is no flux.
+        // Storage and the law's share are no flux.
         let grown = product.iter().zip(&*excess).zip(&*storage);
         growth.extend(grown.map(|((flux, p), storage)| dt * (storage * p[0] - flux[0])));
         for (i, grown) in growth.iter_mut().enumerate() {

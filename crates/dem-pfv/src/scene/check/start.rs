@@ -13,7 +13,7 @@ pub fn start(scene: &Scene, found: &mut Vec<SceneProblem>) {
     room(scene, found);
 }
 
-/// How the grains get their places: one way of several.
+/// Checks that the grains get their places in one way alone.
 fn ways(scene: &Scene, found: &mut Vec<SceneProblem>) {
     let s = &scene.start;
     let ways = [
