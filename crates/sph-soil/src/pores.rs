@@ -10,6 +10,7 @@ mod contribution;
 mod darcy;
 mod drained;
 mod effective;
+mod plastic_share;
 mod pore_flow;
 mod surface;
 mod surface_distance;

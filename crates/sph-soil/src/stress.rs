@@ -20,7 +20,7 @@ mod bed_system;
 mod blend;
 mod blended;
 mod carried_stress;
-mod contribution;
+pub(crate) mod contribution;
 mod coulomb;
 mod displacement;
 mod divergence;

@@ -7,18 +7,19 @@ use sph_contribution::{
 };
 use sph_core::{fields, suggestion};
 use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
-use sph_rheology::{Rheology, RheologyEntry};
 
 use super::contract::{
     EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PorePressureEntry,
     PoreSettings, Supply,
 };
 use super::effective::{DilatantFriction, GrainPressure};
+use super::plastic_share::PlasticShare;
 use super::pore_flow::{PoreFlow, Scratch, SoilPhase};
 use super::surface_distance::SurfaceDistance;
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, DilatancyEntry};
 use crate::seepage::{Exchange, Phase};
+use crate::stress::{LawInputs, contribution::Materials};
 
 const KIND: &str = "pore-pressure";
 
@@ -26,7 +27,7 @@ const KIND: &str = "pore-pressure";
 struct Pores {
     settings: PoreSettings,
     law: Option<Arc<dyn Dilatancy>>,
-    rheologies: Vec<Box<dyn Rheology>>,
+    law_inputs: LawInputs,
     /// True if the scene has an effective pressure.
     effective: bool,
     /// True if it has a seepage of its own.
@@ -49,7 +50,7 @@ impl<const D: usize> FromPlugins<D> for PoresOf<D> {
         Some(PoresOf(Pores {
             settings: plugins.one::<D, PorePressureEntry>()?.settings(),
             law: law.flatten().map(Arc::from),
-            rheologies: plugins.of_phases::<D, RheologyEntry>(),
+            law_inputs: Materials::<D>::from_plugins(plugins)?.law_inputs(),
             effective: plugins.names("effective-pressure"),
             seeps: plugins.names("seepage"),
         }))
@@ -98,10 +99,13 @@ impl<const D: usize> Contribution<D> for PoresOf<D> {
         if let Some(friction) = pores.friction(soil, phase)? {
             offer.stage(friction);
         }
+        let kernel = &setting.world.kernel;
+        let elastic = pores.law_inputs.laws[soil].elastic().is_some();
         let given = settings.skeleton.as_ref().and_then(|s| s.modulus);
         offer.hook(PoreFlow {
             soil: phase,
             law: pores.law.clone(),
+            plastic: elastic.then(|| PlasticShare(pores.law_inputs.clone())),
             skeleton: settings.skeleton.clone(),
             supply: pores.supply(setting)?,
             solver: ConjugateGradient {
@@ -113,7 +117,7 @@ impl<const D: usize> Contribution<D> for PoresOf<D> {
             contacts: given.unwrap_or(STIFF * reference.density * reference.sound_speed.powi(2)),
             swelling: pores.swelling(setting, soil)?,
             density: setting.density.value,
-            distance: SurfaceDistance::new::<D>(&*setting.world.kernel),
+            distance: SurfaceDistance::new::<D>(kernel.support_radius(), &|r| kernel.at(r).0),
             scratch: Scratch::default(),
         });
         let why = "the pressure in the pores could not be solved for: raise `pore-pressure.darcy.iterations`, or \
@@ -187,8 +191,7 @@ impl Pores {
         let Some(law) = self.law.as_ref().filter(|law| law.adds_friction()) else {
             return Ok(None);
         };
-        let rheology = self.rheologies.get(soil);
-        let Some(friction) = rheology.and_then(|r| r.slow_friction()) else {
+        let Some(friction) = self.law_inputs.laws[soil].slow_friction() else {
             let why = "it adds to the friction of the rheology, and that of the soil has no coefficient: take a \
                        rheology of grains, or [dilatancy.plastic-pressure]";
             return Err(Refusal::at_key("dilatancy", "", why));

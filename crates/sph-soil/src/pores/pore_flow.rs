@@ -13,6 +13,7 @@ use super::contract::{
     DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
     Skeleton, Supply,
 };
+use super::plastic_share::PlasticShare;
 use super::surface::{Outlet, outlets};
 use super::surface_distance::SurfaceDistance;
 use super::swelling::Swelling;
@@ -56,6 +57,8 @@ impl SoilMask<'_> {
 pub(crate) struct PoreFlow {
     pub soil: SoilPhase,
     pub law: Option<Arc<dyn Dilatancy>>,
+    /// Of a soil with an elastic part.
+    pub plastic: Option<PlasticShare>,
     /// `None` if the fluid passes freely.
     pub skeleton: Option<Skeleton>,
     /// A wall that feeds the pores, with its number.
@@ -109,6 +112,9 @@ impl<const D: usize> StepHook<D> for PoreFlow {
             .writes(EARLIER_DRAINED_PRESSURE);
         if self.law.is_some() {
             access = access.here(fields::STRAIN_RATE);
+            if let Some(plastic) = &self.plastic {
+                access = access.and(plastic.access());
+            }
         }
         match self.swelling.is_some() {
             false => access,
@@ -193,14 +199,22 @@ impl PoreFlow {
         self.law.as_ref().map_or(none, |law| law.dilation(&state))
     }
 
-    /// Strain rates; empty without a law.
-    fn strain_rates<'a, const D: usize>(
-        &self,
-        world: &'a World<D>,
-    ) -> Result<&'a [f64], StepError> {
-        match self.law.is_some() {
-            true => Ok(world.free.get(fields::STRAIN_RATE)?),
-            false => Ok(&[]),
+    /// Plastic strain rates; empty without a law.
+    fn strain_rates<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        if self.law.is_none() {
+            return Ok(Vec::new());
+        }
+        let rates = world.free.get(fields::STRAIN_RATE)?;
+        match &self.plastic {
+            None => Ok(rates.to_vec()),
+            Some(plastic) => {
+                let shares = plastic.shares(world)?;
+                Ok(rates
+                    .iter()
+                    .zip(shares)
+                    .map(|(rate, share)| rate * share)
+                    .collect())
+            }
         }
     }
 

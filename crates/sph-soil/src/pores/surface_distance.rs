@@ -1,7 +1,5 @@
 //! Distance of a particle to a plane surface, from the part of its kernel beyond.
 
-use sph_kernels::Sampler;
-
 /// Distances d by the integral I(d) = ∫ w dA of the kernel over the plane, which is |Σ V ∇w| over the soil before it.
 #[derive(Debug)]
 pub(crate) struct SurfaceDistance {
@@ -19,9 +17,8 @@ const POINTS: usize = 256;
 const LEAST: f64 = 0.05;
 
 impl SurfaceDistance {
-    /// Of a kernel in D dimensions.
-    pub fn new<const D: usize>(kernel: &dyn Sampler) -> Self {
-        let radius = kernel.support_radius();
+    /// Of a kernel w(r), 1/m^d, in D dimensions with a support radius, m.
+    pub fn new<const D: usize>(radius: f64, kernel: &dyn Fn(f64) -> f64) -> Self {
         let integral = |d: f64| {
             let end = (radius * radius - d * d).max(0.0).sqrt();
             let step = end / POINTS as f64;
@@ -31,7 +28,7 @@ impl SurfaceDistance {
                     2 => 2.0,
                     _ => std::f64::consts::TAU * across,
                 };
-                ring * kernel.at(across.hypot(d)).0
+                ring * kernel(across.hypot(d))
             };
             (0..POINTS).map(at).sum::<f64>() * step
         };
@@ -60,14 +57,17 @@ impl SurfaceDistance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sph_kernels::{Kernel, wendland_c2};
 
     /// Rows of a lattice below a plane, half a spacing and more away.
     #[test]
     fn rows_of_a_lattice_find_their_distance() {
         let spacing = 0.01;
-        let kernel = wendland_c2().sampler(2, 2.0 * spacing);
-        let table = SurfaceDistance::new::<2>(&*kernel);
+        let (h, area) = (2.0 * spacing, std::f64::consts::PI);
+        // Wendland C2 in the plane, and −w'/r.
+        let left = |r: f64| (1.0 - 0.5 * r / h).max(0.0);
+        let kernel = |r: f64| 7.0 / (4.0 * area * h * h) * left(r).powi(4) * (1.0 + 2.0 * r / h);
+        let slope = |r: f64| 35.0 / (4.0 * area * h.powi(4)) * left(r).powi(3);
+        let table = SurfaceDistance::new::<2>(2.0 * h, &kernel);
         for row in 0..3 {
             let distance = (f64::from(row) + 0.5) * spacing;
             // The half plane beyond, particle by particle.
@@ -79,9 +79,7 @@ mod tests {
                         distance + (f64::from(above) + 0.5) * spacing,
                     );
                     let r = f64::hypot(x, y);
-                    if r < kernel.support_radius() {
-                        missing += spacing * spacing * -kernel.at(r).1 * y;
-                    }
+                    missing += spacing * spacing * slope(r) * y;
                 }
             }
             let found = table.at(missing);

@@ -6,4 +6,4 @@ mod materials;
 mod straining;
 mod wall_friction;
 
-use materials::Materials;
+pub(crate) use materials::Materials;
