@@ -12,6 +12,8 @@ pub struct Setting<'a, const D: usize> {
     pub laws: &'a Laws,
     /// Names of the phases, in the order of their numbers.
     pub phases: &'a [String],
+    /// Names of the bodies.
+    pub bodies: &'a [String],
     /// η/ρ₀ of every phase whose law has one viscosity, m²/s; none of the others.
     pub viscosities: &'a [Option<f64>],
     /// Phases that are soils: their laws read a pressure.

@@ -66,6 +66,7 @@ pub fn offered<const D: usize>(
     let setting = Setting {
         laws,
         phases: &phases,
+        bodies: &[],
         viscosities: &[None, None],
         soils: &[false, false],
         density: Formulation::<D>::diffused(&HuAdams::default()).evolved,

@@ -219,12 +219,14 @@ pub fn moves(wall: &sph_scene::Wall) -> bool {
 impl<const D: usize> About<'_, D> {
     fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
         let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
+        let bodies: Vec<String> = self.scene.body.keys().cloned().collect();
         let diffused = self.formulation.diffused();
         let coefficients = self.integrator.coefficients();
         let moving = self.scene.wall.iter().find(|(_, wall)| moves(wall));
         let setting = Setting {
             laws: self.laws,
             phases: &phases,
+            bodies: &bodies,
             viscosities: self.viscosities,
             soils: self.soils,
             density: diffused.evolved,

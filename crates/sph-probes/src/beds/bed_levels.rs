@@ -10,7 +10,7 @@ use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 ///
 /// Columns: the lowest place of the bed, `.lowest` (m), with its `.lowest-x`, and the highest, `.highest`, with `.highest-x`; the change of its
 /// volume with pores, `.volume`; the mean Shields number, `.shields`; the mean flux of grains without pores along x,
-/// `.transport` (m²/s); the volume of grains that came in at the ends, `.fed`, and that slid, `.slid`. With every output of
+/// `.transport` (m²/s); the volume of grains that came in at the ends, `.fed`, that slid, `.slid`, and that the flow has lifted into suspension less what settled, `.lifted`. With every output of
 /// fields a row for each place goes to `curves/NAME_0003.csv`: x, y in three dimensions, level, rise since the start, Shields
 /// number and flux.
 ///
@@ -73,6 +73,7 @@ impl<const D: usize> Probe<D> for BedLevels {
             (".transport", "m²/s"),
             (".fed", volume),
             (".slid", volume),
+            (".lifted", volume),
         ]
         .map(|(suffix, unit)| ProbeColumn::named(suffix, unit))
         .into()
@@ -109,6 +110,7 @@ impl<const D: usize> Probe<D> for BedLevels {
             total(&|k| bed.transport[k][0]) / area,
             bed.fed,
             bed.slid,
+            bed.lifted,
         ])
     }
 }
