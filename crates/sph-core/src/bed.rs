@@ -167,6 +167,8 @@ pub struct Bed {
     pub critical: Vec<f64>,
     /// (s − 1) g d, the shear over density of a Shields number of 1, m²/s²; 0 as long as no grains lie there.
     pub unit_shear: f64,
+    /// √((s − 1) g d³), the flux of a dimensionless rate of 1, m²/s; 0 as long as no grains lie there.
+    pub unit_transport: f64,
 }
 
 /// The horizontal part of a position, m.
@@ -197,6 +199,7 @@ impl Bed {
             lifted: 0.0,
             critical: Vec::new(),
             unit_shear: 0.0,
+            unit_transport: 0.0,
         }
     }
 

@@ -18,8 +18,7 @@ mod suspension;
 
 pub use balance::{Balance, Packing, balance};
 pub use grains::Grains;
-pub use laws::BedLoadLaw;
-pub use moving_bed::{BedLoadEntry, MovingBed};
+pub use moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
 pub use plugins::{EngelundFredsoe, MeyerPeterMuller, VanRijn, WongParker};
 pub use slope::critical_ratio;
 pub use suspension::{

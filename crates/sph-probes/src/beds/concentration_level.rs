@@ -35,7 +35,15 @@ impl<const D: usize> Probe<D> for ConcentrationLevel {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let concentration = world.free.get(fields::CONCENTRATION)?;
+        let concentration =
+            world
+                .free
+                .get(fields::CONCENTRATION)
+                .map_err(|_| StepError::Stage {
+                    stage: "probe `concentration-level`".into(),
+                    reason: "no fluid of this scene carries grains: expected `[suspension.PLUGIN]`"
+                        .into(),
+                })?;
         let position = world.free.get(fields::POSITION)?;
         let mass = world.free.get(fields::MASS)?;
         let mut grains: Vec<[f64; 3]> = (0..position.len())

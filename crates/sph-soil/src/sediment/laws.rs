@@ -1,16 +1,6 @@
 //! Rates of transport along a bed.
 
 use super::grains::Grains;
-use super::moving_bed::MovingBed;
-
-/// A law of bed load.
-pub trait BedLoadLaw: Send {
-    /// The grains of the bed, and how it moves.
-    fn bed(&self) -> &MovingBed;
-    /// q* = q/√((s − 1) g d³) of a Shields number, with its critical value; q is the volume of grains per width and time, without
-    /// pores. Zero up to the critical value.
-    fn rate(&self, shields: f64, critical: f64, grains: &Grains) -> f64;
-}
 
 /// 8 (θ − θ_c)^(3/2). Source: Meyer-Peter and Müller 1948.
 #[must_use]

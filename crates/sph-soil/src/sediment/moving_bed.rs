@@ -11,8 +11,16 @@ use sph_neighbours::World;
 use super::balance::{Packing, balance};
 use super::bed_shear::shear;
 use super::grains::Grains;
-use super::laws::BedLoadLaw;
 use super::slope::critical_ratio;
+
+/// A law of bed load.
+pub trait BedLoadLaw: Send {
+    /// The grains of the bed, and how it moves.
+    fn bed(&self) -> &MovingBed;
+    /// q* = q/√((s − 1) g d³) of a Shields number, with its critical value; q is the volume of grains per width and time, without
+    /// pores. Zero up to the critical value.
+    fn rate(&self, shields: f64, critical: f64, grains: &Grains) -> f64;
+}
 
 contract!(
     /// A law of bed load that a scene may name.
@@ -61,6 +69,13 @@ pub struct MovingBed {
 }
 
 impl MovingBed {
+    /// Critical Shields number of a flat bed of its grains.
+    #[must_use]
+    pub fn critical(&self, grains: &Grains) -> f64 {
+        let own = || grains.critical_shields();
+        self.critical_shields.unwrap_or_else(own)
+    }
+
     /// Its grains in a fluid of this kinematic viscosity (m²/s), density (kg/m³) and gravity (m/s²).
     #[must_use]
     pub fn grains(&self, viscosity: f64, density: f64, gravity: f64) -> Grains {
@@ -171,9 +186,8 @@ struct BedLoad {
 impl BedLoad {
     /// Critical Shields number on a slope, for a flow along a unit vector.
     fn critical(&self, gradient: [f64; 2], along: [f64; 2]) -> f64 {
-        let flat = self.bed.critical_shields;
-        let flat = flat.unwrap_or_else(|| self.grains.critical_shields());
-        flat * critical_ratio(gradient, along, self.bed.repose_angle.tan())
+        self.bed.critical(&self.grains)
+            * critical_ratio(gradient, along, self.bed.repose_angle.tan())
     }
 
     /// Critical Shields number at a place; infinite where no water flows.
@@ -212,6 +226,7 @@ impl BedLoad {
         dt: f64,
     ) -> Result<(), StepError> {
         bed.unit_shear = self.grains.shields(1.0).recip();
+        bed.unit_transport = self.grains.unit_transport();
         let share = match self.bed.averaging_time > dt {
             true => dt / self.bed.averaging_time,
             false => 1.0,

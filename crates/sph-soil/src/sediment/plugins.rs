@@ -3,8 +3,8 @@
 use sph_core::plugin;
 
 use super::grains::Grains;
-use super::laws::{self, BedLoadLaw};
-use super::moving_bed::{BedLoadEntry, MovingBed};
+use super::laws;
+use super::moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
 
 /// q* = 8 (θ − θ_c)^(3/2), of gravel in flumes; 1.5 to 2 times what later analyses of the same data give.
 ///

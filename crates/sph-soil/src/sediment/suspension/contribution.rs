@@ -185,6 +185,7 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
                 grains,
                 settling,
                 height: reference.unwrap_or(REFERENCE_GRAINS * grains.diameter),
+                critical: self.bed.map_or(0.0, |bed| bed.critical(&grains)),
                 schmidt: self.suspended.schmidt_number,
                 solid,
                 density,

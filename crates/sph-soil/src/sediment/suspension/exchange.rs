@@ -19,6 +19,8 @@ pub(super) struct BedExchange {
     pub settling: HinderedSettling,
     /// Height a over the bed at which grains leave it, m.
     pub height: f64,
+    /// Critical Shields number of a flat bed.
+    pub critical: f64,
     /// Viscosity of the eddies over the diffusivity of the grains.
     pub schmidt: f64,
     /// 1 − n of the bed.
@@ -150,8 +152,8 @@ impl BedExchange {
         let [x, y] = bed.shear[place];
         let friction_velocity = x.hypot(y).sqrt();
         let rate = self.law.rate(
-            bed.shields(place),
-            bed.critical[place],
+            bed.shields(place) - bed.critical[place],
+            self.critical,
             &self.grains,
             self.settling.speed,
         );

@@ -1,4 +1,4 @@
-//! How grains settle and mix, as a scene gives it.
+//! Settling and mixing of grains, as a scene gives it.
 
 use sph_core::parameters;
 

@@ -20,7 +20,7 @@ use crate::sediment::Grains;
     source: "Richardson and Zaki 1954; Kynch 1952")]
 pub struct Settling(pub Suspended);
 
-/// E = 0.00033 D*^0.3 T^1.5 √((s − 1) g d), T = θ/θ_c − 1, of sand from 0.13 to 1.5 mm.
+/// E = 0.00033 D*^0.3 T^1.5 √((s − 1) g d), T = (θ − θ_c)/θ_c,flat, of sand from 0.13 to 1.5 mm.
 ///
 /// ```toml
 /// [suspension.van-rijn]
@@ -48,21 +48,19 @@ macro_rules! pick_up {
             fn lifts(&self) -> bool {
                 $lifts
             }
-            fn rate(&self, shields: f64, critical: f64, grains: &Grains, settling: f64) -> f64 {
-                $rate(shields, critical, grains, settling)
+            fn rate(&self, excess: f64, critical: f64, grains: &Grains, settling: f64) -> f64 {
+                $rate(excess, critical, grains, settling)
             }
         }
     };
 }
 
 pick_up!(Settling, false, |_, _, _: &Grains, _| 0.0);
-pick_up!(PickUpVanRijn, true, |theta, critical, grains, _| {
-    pick_up::van_rijn(theta, critical, grains)
+pick_up!(PickUpVanRijn, true, |excess, critical, grains, _| {
+    pick_up::van_rijn(excess, critical, grains)
 });
 pick_up!(
     ZysermanFredsoe,
     true,
-    |theta, critical, _: &Grains, settling: f64| {
-        settling * pick_up::zyserman_fredsoe(theta, critical)
-    }
+    |excess, _, _: &Grains, settling: f64| { settling * pick_up::zyserman_fredsoe(excess) }
 );

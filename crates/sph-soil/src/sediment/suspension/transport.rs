@@ -43,9 +43,9 @@ pub struct Carried {
 }
 
 impl Carried {
-    /// Of a concentration.
+    /// Those of a concentration.
     #[must_use]
-    pub fn of(settling: &HinderedSettling, concentration: f64) -> Self {
+    pub fn new(settling: &HinderedSettling, concentration: f64) -> Self {
         Carried {
             concentration,
             demand: settling.demand(concentration),
@@ -127,8 +127,8 @@ impl Transport {
         let carries = |i: usize| carriers.as_ref().is_none_or(|all| all[i]);
         let inverse = world.free.get(fields::RENORMALISATION).ok();
         let inverse = |i: usize| inverse.map_or(1.0, |gamma| 1.0 / gamma[i]);
-        let of = |c: &f64| Carried::of(&self.settling, *c);
-        let grains: Vec<Carried> = concentration.iter().map(of).collect();
+        let carried = |c: &f64| Carried::new(&self.settling, *c);
+        let grains: Vec<Carried> = concentration.iter().map(carried).collect();
         let gravity = world.gravity.norm();
         let down = world.gravity * if gravity > 0.0 { 1.0 / gravity } else { 0.0 };
         let leaving = |at: &Neighbourhood<'_, D>| -> f64 {
@@ -182,11 +182,11 @@ mod tests {
         for (drop, mixing) in [(0.01, 1e-3), (0.03, 2e-4), (0.0, 1e-3)] {
             let above = 1e-3;
             let below = above * (SETTLING.speed * drop / mixing).exp();
-            let both = [above, below].map(|c| Carried::of(&SETTLING, c));
+            let both = [above, below].map(|c| Carried::new(&SETTLING, c));
             let flux = pair_flux(&SETTLING, both, drop, mixing);
             assert!(flux.abs() < 1e-15 * SETTLING.speed, "{drop}: {flux:e}");
         }
-        let both = [0.2, 0.1].map(|c| Carried::of(&SETTLING, c));
+        let both = [0.2, 0.1].map(|c| Carried::new(&SETTLING, c));
         assert!((pair_flux(&SETTLING, both, 0.0, 1e-3) - 1e-4).abs() < 1e-18);
         assert_eq!(pair_flux(&SETTLING, both, 0.01, 0.0), 0.2 * 0.02 * 0.01);
     }
