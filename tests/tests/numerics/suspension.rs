@@ -182,7 +182,7 @@ fn no_grain_leaves_a_bed_up_to_the_threshold() {
 }
 
 #[test]
-fn suspensions_have_the_same_bits_on_threads_and_after_an_interruption() {
+fn suspensions_have_the_same_bits_on_threads_on_ranks_and_after_an_interruption() {
     for (name, scene) in [("plane", CHANNEL.to_string()), ("space", in_space())] {
         let bench = Bench::with(PROGRAM, &lifting(&scene));
         bench.done("run scene.toml --quiet --out one --threads 1");
@@ -190,11 +190,82 @@ fn suspensions_have_the_same_bits_on_threads_and_after_an_interruption() {
         let one = FinalState::read(&bench.path("one"));
         assert!(one.columns["concentration"].iter().any(|c| *c > 0));
         one.assert_same(&FinalState::read(&bench.path("two")), name);
+        bench.done("run scene.toml --quiet --out ranks --ranks 2");
+        one.assert_same(&FinalState::read(&bench.path("ranks")), name);
         let parts = "run scene.toml --quiet --out parts";
         bench.call(&format!("{parts} --set run.max_steps=7"));
         bench.done(&format!("{parts} --resume --changed"));
         one.assert_same(&FinalState::read(&bench.path("parts")), name);
     }
+}
+
+/// Water with grains that do not settle, between two open faces.
+const OPEN: &str = r#"
+title = "Grains come in with the water"
+dimension = 2
+[run]
+end = 1.5
+[numerics]
+spacing = 0.05
+gravity = [0.0, -1e-3]
+[suspension.settling]
+grain_diameter = "1 mm"
+grain_density = 1001.0
+settling_velocity = 0.0
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[walls.usaw]
+vertices = false
+[wall.bottom]
+polyline = [[0.0, 0.0], [1.0, 0.0]]
+condition = "free-slip"
+[wall.outlet]
+polyline = [[1.0, 0.0], [1.0, 0.5]]
+[wall.outlet.open-boundary.outflow]
+memory = "1 s"
+[wall.top]
+polyline = [[1.0, 0.5], [0.0, 0.5]]
+condition = "free-slip"
+[wall.inlet]
+polyline = [[0.0, 0.5], [0.0, 0.0]]
+[wall.inlet.open-boundary.velocity-inlet]
+velocity = "1 m/s"
+values = { concentration = 0.01 }
+[phase.water]
+density = 1000.0
+speed_of_sound = 12.0
+rheology.newtonian = { viscosity = "1e-1 Pa s" }
+[body.water]
+phase = "water"
+box = [[0.0, 0.0], [1.0, 0.5]]
+velocity = [1.0, 0.0]
+[probe.grains]
+kind = "statistic"
+field = "concentration"
+reduce = ["min", "max", "mean"]
+[output]
+every = 1.5
+series_every = 0.25
+vtk = false
+"#;
+
+/// Behind an inlet with `values` the concentration is that of the inlet, and grains leave with their water.
+#[test]
+fn grains_come_in_and_go_out_by_open_faces() {
+    let bench = Bench::with(PROGRAM, OPEN);
+    bench.done("run scene.toml --quiet --out out");
+    let [time, least, most] =
+        ["time", "grains.min", "grains.max"].map(|name| column(&bench, "out", name));
+    for k in 0..time.len() {
+        assert!(most[k] <= 0.01 && least[k] >= 0.0);
+        assert!(
+            time[k] < 1.1 || (least[k] - 0.01).abs() < 1e-15,
+            "{}: {}",
+            time[k],
+            least[k]
+        );
+    }
+    assert!(*time.last().expect("rows") > 1.4);
 }
 
 #[test]
