@@ -161,8 +161,14 @@ pub struct Bed {
     pub fed: f64,
     /// Volume of grains that slid since the start.
     pub slid: f64,
+    /// Volume of grains that the flow has lifted into suspension since the start, less what has settled.
+    pub lifted: f64,
+    /// Shields numbers at which the grains of the places begin to move; none as long as the bed is held fast.
+    pub critical: Vec<f64>,
     /// (s − 1) g d, the shear over density of a Shields number of 1, m²/s²; 0 as long as no grains lie there.
     pub unit_shear: f64,
+    /// √((s − 1) g d³), the flux of a dimensionless rate of 1, m²/s; 0 as long as no grains lie there.
+    pub unit_transport: f64,
 }
 
 /// The horizontal part of a position, m.
@@ -190,7 +196,10 @@ impl Bed {
             transport: vec![[0.0; 2]; count],
             fed: 0.0,
             slid: 0.0,
+            lifted: 0.0,
+            critical: Vec::new(),
             unit_shear: 0.0,
+            unit_transport: 0.0,
         }
     }
 
@@ -252,7 +261,7 @@ impl Bed {
     pub fn numbers(&self) -> Vec<f64> {
         let mut all = [&self.lift[..], &self.rate].concat();
         all.extend(self.shear.iter().chain(&self.transport).flatten());
-        all.extend([self.fed, self.slid]);
+        all.extend([self.fed, self.slid, self.lifted]);
         all
     }
 
@@ -261,7 +270,7 @@ impl Bed {
     #[must_use]
     pub fn put<'a>(&mut self, numbers: &'a [f64]) -> Option<&'a [f64]> {
         let count = self.lift.len();
-        let (own, rest) = numbers.split_at_checked(6 * count + 2)?;
+        let (own, rest) = numbers.split_at_checked(6 * count + 3)?;
         if !own.iter().all(|x| x.is_finite()) {
             return None;
         }
@@ -271,7 +280,7 @@ impl Bed {
         self.rate.fill_with(&mut next);
         let vectors = self.shear.iter_mut().chain(&mut self.transport);
         vectors.for_each(|v| *v = [next(), next()]);
-        [self.fed, self.slid] = [next(), next()];
+        [self.fed, self.slid, self.lifted] = [next(), next(), next()];
         Some(rest)
     }
 }
@@ -329,6 +338,7 @@ mod tests {
             rate: vec![0.0, 0.1, -0.3],
             shear: vec![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]],
             fed: 7.0,
+            lifted: 8.0,
             ..Bed::drawn(grid, vec![0.0, 0.5, 0.0])
         }
     }
@@ -358,6 +368,6 @@ mod tests {
         let numbers = [bed().numbers(), vec![1.0]].concat();
         assert_eq!(other.put(&numbers), Some(&[1.0][..]));
         assert_eq!(other, bed());
-        assert_eq!(other.put(&numbers[..18]), None);
+        assert_eq!(other.put(&numbers[..20]), None);
     }
 }

@@ -41,6 +41,12 @@ pub const WALL_FRICTION: Field<Scalar> = Field::new(
     "Pa s/m",
     "shear stress of the wall function over the speed along the wall",
 );
+/// Volume of the grains that a fluid carries over its own at the reference density.
+pub const CONCENTRATION: Field<Scalar> = Field::new(
+    "concentration",
+    "1",
+    "volume of suspended grains per volume",
+);
 /// Pressure between the grains of a soil, which makes friction.
 pub const EFFECTIVE_PRESSURE: Field<Scalar> = Field::new(
     "effective_pressure",

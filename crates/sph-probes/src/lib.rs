@@ -28,6 +28,7 @@ mod surface;
 
 pub use beds::bed_levels::BedLevels;
 pub use beds::bed_lines::BedLines;
+pub use beds::concentration_level::ConcentrationLevel;
 pub use beds::eroded_mass::ErodedMass;
 pub use beds::pore_pressure::PorePressureProbe;
 pub use beds::scour_map::ScourMap;

@@ -3,6 +3,8 @@
 //! * [`Grains`]: Shields number, its critical value, settling velocity; [`critical_ratio`]: on a slope.
 //! * [`BedLoadLaw`]: a rate of transport; [`MeyerPeterMuller`], [`WongParker`], [`EngelundFredsoe`] and [`VanRijn`] are
 //!   plugins of the kind `bed-load`, and move the walls that are [beds](sph_core::bed::Bed).
+//! * [`PickUp`]: a rate at which a flow lifts grains; [`Settling`], [`PickUpVanRijn`] and [`ZysermanFredsoe`] are plugins of the
+//!   kind `suspension`.
 //! * [`balance`]: Exner's equation and slides, which keep the volume of the grains.
 
 mod balance;
@@ -12,10 +14,14 @@ mod laws;
 mod moving_bed;
 mod plugins;
 mod slope;
+mod suspension;
 
 pub use balance::{Balance, Packing, balance};
 pub use grains::Grains;
-pub use laws::BedLoadLaw;
-pub use moving_bed::{BedLoadEntry, MovingBed};
+pub use moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
 pub use plugins::{EngelundFredsoe, MeyerPeterMuller, VanRijn, WongParker};
 pub use slope::critical_ratio;
+pub use suspension::{
+    BodyConcentration, Carried, HinderedSettling, PickUp, PickUpVanRijn, Settling, SettlingLaw,
+    Suspended, SuspensionEntry, ZysermanFredsoe, pair_flux,
+};

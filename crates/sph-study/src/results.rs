@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::reading::file::MeansPlot;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
 use crate::results::frontier::Frontier;
@@ -48,6 +49,9 @@ pub struct Results {
     pub axes: Vec<String>,
     /// Key over which orders are computed.
     pub refinement: Option<String>,
+    /// References whose means are plotted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub means: Option<MeansPlot>,
     /// True if variants ran one by one.
     pub serial: bool,
     /// Machine and program of the last run.
@@ -85,6 +89,7 @@ impl Results {
             set: study.set.clone(),
             errors: study.errors.clone(),
             refinement: study.refinement.clone(),
+            means: study.file.means.clone(),
             serial: study.file.serial,
             origin,
             frontiers: Vec::new(),

@@ -6,5 +6,6 @@ mod phases;
 mod ranks;
 mod sediment;
 mod soils;
+mod suspension;
 mod threads;
 mod turbulence;

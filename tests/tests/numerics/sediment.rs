@@ -8,7 +8,7 @@ use sph_tests::{Bench, FinalState};
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// Water over a bed along x with a bump in the middle.
-const CHANNEL: &str = r#"
+pub(super) const CHANNEL: &str = r#"
 title = "Water over sand"
 dimension = 2
 [run]
@@ -55,7 +55,7 @@ vtk = false
 "#;
 
 /// A heap of sand in a channel of three dimensions.
-fn in_space() -> String {
+pub(super) fn in_space() -> String {
     CHANNEL
         .replace("dimension = 2", "dimension = 3")
         .replace("end = 0.05", "end = 0.01")
@@ -81,7 +81,7 @@ fn in_space() -> String {
         .replace("velocity = [1.0, 0.0]", "velocity = [1.0, 0.2, 0.0]")
 }
 
-fn column(bench: &Bench, folder: &str, name: &str) -> Vec<f64> {
+pub(super) fn column(bench: &Bench, folder: &str, name: &str) -> Vec<f64> {
     let series = sph_io::read_table(bench.path(&format!("{folder}/series.csv"))).expect("a series");
     series.column(name).expect("a column").to_vec()
 }
@@ -166,8 +166,13 @@ fn beds_have_the_same_bits_on_threads_and_after_an_interruption() {
 
 /// Assembly refuses the scene with these words.
 fn refused(from: &str, to: &str, words: &str) {
-    assert!(CHANNEL.contains(from), "the scene lost `{from}`");
-    let text = CHANNEL.replacen(from, to, 1);
+    refused_of(CHANNEL, from, to, words);
+}
+
+/// The same of another scene.
+pub(super) fn refused_of(scene: &str, from: &str, to: &str, words: &str) {
+    assert!(scene.contains(from), "the scene lost `{from}`");
+    let text = scene.replacen(from, to, 1);
     let text = match text.contains("gravity = [") {
         true => text,
         false => text.replace("pressure = \"hydrostatic\"", ""),
@@ -235,7 +240,7 @@ fn beds_that_are_none_are_refused() {
     refused(
         "[wall-function.log-law]\nwalls = [\"bed\"]\nroughness = \"2.5 mm\"\n",
         "",
-        "field `wall_friction`",
+        "bed-load.meyer-peter-muller: the shear on a bed is that of a wall function",
     );
     refused(
         law,

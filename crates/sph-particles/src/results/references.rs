@@ -87,6 +87,7 @@ fn entry(value: f64, reference: &Reference, samples: usize, window: [f64; 2]) ->
         samples,
         window,
         against,
+        means: None,
     }
 }
 
@@ -147,7 +148,13 @@ fn averaged(reference: &Reference, times: &[f64], values: &[f64]) -> Result<Erro
         }
         _ => mean(),
     };
-    Ok(entry(value, reference, times.len(), [*first, *last]))
+    let exact = reference.value.filter(|_| reference.norm() == Norm::Mean);
+    Ok(ErrorEntry {
+        means: exact
+            .map(|exact| [mean(), exact])
+            .filter(|all| all[0].is_finite()),
+        ..entry(value, reference, times.len(), [*first, *last])
+    })
 }
 
 /// A probe's series against a file or a solution's rate of decay.

@@ -29,6 +29,9 @@ pub struct ErrorEntry {
     pub window: [f64; 2],
     /// The reference of the comparison.
     pub against: String,
+    /// The mean that is compared, of the norm `mean`, and that of the reference.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub means: Option<[f64; 2]>,
 }
 
 /// Data of one of several ranks, at the end of a run.

@@ -8,11 +8,11 @@ use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// Levels of a bed, its load, and Shields numbers.
 ///
-/// Columns: the lowest place of the bed, `.lowest` (m), with its `.lowest-x`, and the highest, `.highest`, with `.highest-x`; the change of its
-/// volume with pores, `.volume`; the mean Shields number, `.shields`; the mean flux of grains without pores along x,
-/// `.transport` (m²/s); the volume of grains that came in at the ends, `.fed`, and that slid, `.slid`. With every output of
-/// fields a row for each place goes to `curves/NAME_0003.csv`: x, y in three dimensions, level, rise since the start, Shields
-/// number and flux.
+/// Columns: the lowest place of the bed, `.lowest` (m), with its `.lowest-x`, and the highest, `.highest`, with `.highest-x`;
+/// the change of its volume with pores, `.volume`; the mean Shields number, `.shields`; the mean flux of grains without pores
+/// along x, `.transport` (m²/s), and over √((s − 1) g d³), `.rate`; the volume of grains that came in at the ends, `.fed`, that
+/// slid, `.slid`, and that the flow has lifted into suspension less what settled, `.lifted`. With every output of fields a row
+/// for each place goes to `curves/NAME_0003.csv`: x, y in three dimensions, level, rise since the start, Shields number and flux.
 ///
 /// ```toml
 /// [probe.bed]
@@ -71,8 +71,10 @@ impl<const D: usize> Probe<D> for BedLevels {
             (".volume", volume),
             (".shields", "1"),
             (".transport", "m²/s"),
+            (".rate", "1"),
             (".fed", volume),
             (".slid", volume),
+            (".lifted", volume),
         ]
         .map(|(suffix, unit)| ProbeColumn::named(suffix, unit))
         .into()
@@ -99,6 +101,7 @@ impl<const D: usize> Probe<D> for BedLevels {
         let total = |value: &dyn Fn(usize) -> f64| -> f64 {
             self.places(bed).map(|k| bed.grid.area(k) * value(k)).sum()
         };
+        let transport = total(&|k| bed.transport[k][0]) / area;
         Ok(vec![
             lowest[0],
             lowest[1],
@@ -106,9 +109,14 @@ impl<const D: usize> Probe<D> for BedLevels {
             highest[1],
             total(&|k| bed.lift[k]),
             total(&|k| bed.shields(k)) / area,
-            total(&|k| bed.transport[k][0]) / area,
+            transport,
+            match bed.unit_transport > 0.0 {
+                true => transport / bed.unit_transport,
+                false => 0.0,
+            },
             bed.fed,
             bed.slid,
+            bed.lifted,
         ])
     }
 }

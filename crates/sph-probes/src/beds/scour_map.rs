@@ -14,15 +14,17 @@ const GAP: f64 = 2.0;
 /// Deepest scour and highest deposit (m), and volume scoured (m³) of a bed.
 ///
 /// The bed is seen from above in cells two spacings wide, or a little wider so that whole ones fill the part that counts: where a
-/// bed begins in the middle of a cell, its grains leave the half cell for the next. Its height in a cell is half a spacing above the
-/// last grain, from the bottom up, over which there is a gap of two spacings: grains in suspension do not count.
-/// The depth of scour is `level` less that height, negative where the bed has risen.
+/// bed begins in the middle of a cell, its grains leave the half cell for the next. Its top in a cell is half a spacing above the
+/// last grain, from the bottom up, over which there is a gap of two spacings: grains in suspension do not count. Its height is
+/// that of the ground, half a spacing below the lowest particle of any phase, and the share of the grains among the particles up to the
+/// top, times the way to it: a row of which water has taken half counts half. The depth of scour is `level` less that height,
+/// negative where the bed has risen.
 ///
 /// With every output of fields the map goes to `curves/NAME_0003.csv`, with the columns x, y, height and depth in m, and to
-/// `pictures/NAME_0003.png`. Cells without grains are left out: where the bed is gone to its ground there is nothing to
-/// measure. Three dimensions only.
+/// `pictures/NAME_0003.png`. Where no grain is left within `within`, the bed is gone to its ground; without `within`, cells
+/// without grains are left out. Three dimensions only.
 ///
-/// Source: the scour map of Ghaïtanellis 2017, §5.4.3; cells and gap are ours.
+/// Source: the scour map of Ghaïtanellis 2017, §5.4.3; cells, gap and heights are ours.
 ///
 /// ```toml
 /// [probe.scour]
@@ -91,32 +93,48 @@ impl ScourMap {
                 .is_none_or(|[lo, hi]| between([lo[0], hi[0]], x) && between([lo[1], hi[1]], y))
         };
         let positions = world.free.get(fields::POSITION)?.iter().enumerate();
-        let grains = positions.filter(|(k, x)| bed.has(*k) && inside(x[0], x[1]));
-        let mut grains: Vec<([i64; 2], f64)> = grains
-            .map(|(_, x)| ([0, 1].map(|k| cell(k, x[k])), x[2]))
+        let mut all: Vec<([i64; 2], f64, bool)> = positions
+            .filter(|(_, x)| inside(x[0], x[1]))
+            .map(|(k, x)| ([0, 1].map(|k| cell(k, x[k])), x[2], bed.has(k)))
             .collect();
-        grains.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let columns = grains.chunk_by(|a, b| a.0 == b.0);
+        all.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let columns = all.chunk_by(|a, b| a.0 == b.0);
         Ok(columns
-            .map(|column| {
-                let mut top = column[0].1;
-                for (_, height) in column {
-                    if height - top > GAP * world.spacing {
-                        break;
-                    }
-                    top = *height;
-                }
+            .filter_map(|column| {
                 let middle = |k: usize| {
                     let n = column[0].0[k] as f64;
                     grid.corner[k] + (n + 0.5) * grid.width[k]
                 };
-                Cell {
+                let particles = column.iter().map(|(_, z, grain)| (*z, *grain));
+                let height = height(particles, world.spacing);
+                let emptied = self.within.map(|_| column[0].1 - 0.5 * world.spacing);
+                Some(Cell {
                     middle: [middle(0), middle(1)],
-                    height: top + 0.5 * world.spacing,
-                }
+                    height: height.or(emptied)?,
+                })
             })
             .collect())
     }
+}
+
+/// Height of the bed in a cell from the particles there, from the lowest up, each with whether it is a grain of the bed; none
+/// without grains.
+fn height(particles: impl Iterator<Item = (f64, bool)> + Clone, spacing: f64) -> Option<f64> {
+    let ground = particles.clone().next()?.0 - 0.5 * spacing;
+    let mut grains = particles.clone().filter(|(_, grain)| *grain);
+    let mut top = grains.next()?.0;
+    for (z, _) in grains {
+        if z - top > GAP * spacing {
+            break;
+        }
+        top = z;
+    }
+    let (mut own, mut all) = (0.0, 0.0);
+    for (_, grain) in particles.take_while(|(z, _)| *z <= top) {
+        all += 1.0;
+        own += f64::from(u8::from(grain));
+    }
+    Some(ground + (top + 0.5 * spacing - ground) * own / all)
 }
 
 impl Probe<3> for ScourMap {

@@ -2,6 +2,7 @@
 
 mod bed;
 mod common;
+mod concentration_level;
 mod line;
 mod measure;
 mod phases;

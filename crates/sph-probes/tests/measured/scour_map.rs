@@ -64,6 +64,37 @@ fn a_pit_has_its_depth_and_volume_and_grains_in_suspension_do_not_fill_it() {
     near(outside[2], 0.0);
 }
 
+/// Water has taken two of the four grains of a cell's top row, and all of the cell beside it: half a row, and the whole bed.
+#[test]
+fn a_row_half_gone_counts_half_and_a_bed_gone_is_as_deep_as_its_ground() {
+    let mut world = world();
+    let gone = |x: &Vect<3>| {
+        let top = x[0] < 0.05 && x[1] > 0.3 && x[2] > 0.4;
+        let beside = x[0] > 0.3 && x[1] > 0.3;
+        top || beside
+    };
+    let water: Vec<u32> = {
+        let phases = world.free.get(fields::PHASE).unwrap().iter();
+        let both = phases.zip(world.free.get(fields::POSITION).unwrap());
+        both.map(|(phase, x)| if gone(x) { 1 } else { *phase })
+            .collect()
+    };
+    *world.free.get_mut(fields::PHASE).unwrap() = water;
+    let all = "within = [[0.0, 0.0], [0.4, 0.4]]";
+    let rows = probe(all).as_curves().unwrap().curves(&world).unwrap();
+    let depth = |x: f64, y: f64| {
+        let near = |row: &&Vec<f64>| (row[0] - x).hypot(row[1] - y) < 1e-9;
+        rows.iter().find(near).map(|row| row[3])
+    };
+    // The quarter has gained a row: half of it is left.
+    near(depth(0.05, 0.35).unwrap(), -0.5 * SPACING);
+    near(depth(0.35, 0.35).unwrap(), LEVEL);
+    let found = probe(all).measure(&world).unwrap();
+    near(found[0], LEVEL);
+    // Without a part that counts, cells without grains are left out.
+    near(probe("").measure(&world).unwrap()[0], 3.0 * SPACING);
+}
+
 /// Seven columns from x = 0.05 on: three cells, not four of which one is half outside.
 #[test]
 fn whole_cells_fill_the_part_that_counts() {

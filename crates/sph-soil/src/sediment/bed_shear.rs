@@ -5,7 +5,7 @@ use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
 /// Below this share of a full row of particles over a place, its shear fades.
-const WET: f64 = 0.25;
+pub(super) const WET: f64 = 0.25;
 
 /// Shear stress at the places of a bed, over the density of the water, m²/s²: the mean of u* u*_i, weighted with V |∇γ| and
 /// with the bilinear weights of the places around.

@@ -51,6 +51,14 @@ impl Grains {
         self.viscosity / self.diameter * 1.049 * cube / (root + 10.36)
     }
 
+    /// Speed at which a small sphere settles in still fluid, m/s: (s − 1) g d²/(18 ν).
+    ///
+    /// Source: Stokes 1851.
+    #[must_use]
+    pub fn stokes_velocity(&self) -> f64 {
+        self.submerged_gravity() * self.diameter.powi(2) / (18.0 * self.viscosity)
+    }
+
     /// √((s − 1) g d³), m²/s: the volume of grains per width and time at q* = 1.
     #[must_use]
     pub fn unit_transport(&self) -> f64 {

@@ -2,13 +2,6 @@
 
 use super::grains::Grains;
 
-/// A law of bed load.
-pub trait BedLoadLaw {
-    /// q* = q/√((s − 1) g d³) of a Shields number, with its critical value; q is the volume of grains per width and time, without
-    /// pores. Zero up to the critical value.
-    fn rate(&self, shields: f64, critical: f64, grains: &Grains) -> f64;
-}
-
 /// 8 (θ − θ_c)^(3/2). Source: Meyer-Peter and Müller 1948.
 #[must_use]
 pub(super) fn meyer_peter_muller(shields: f64, critical: f64) -> f64 {

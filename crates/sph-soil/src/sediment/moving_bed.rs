@@ -1,22 +1,33 @@
 //! Beds that bed load moves.
 
 use sph_contribution::{
-    Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase, contribution_kind,
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, StepHook, StepMoment, StepPhase,
+    contributes,
 };
 use sph_core::bed::Bed;
-use sph_core::{Access, StepError, Work, fields, parameters};
+use sph_core::{Access, StepError, Work, contract, fields, parameters};
 use sph_neighbours::World;
 
 use super::balance::{Packing, balance};
 use super::bed_shear::shear;
 use super::grains::Grains;
-use super::laws::BedLoadLaw;
 use super::slope::critical_ratio;
 
-contribution_kind!(
+/// A law of bed load.
+pub trait BedLoadLaw: Send {
+    /// The grains of the bed, and how it moves.
+    fn bed(&self) -> &MovingBed;
+    /// q* = q/√((s − 1) g d³) of a Shields number, with its critical value; q is the volume of grains per width and time, without
+    /// pores. Zero up to the critical value.
+    fn rate(&self, shields: f64, critical: f64, grains: &Grains) -> f64;
+}
+
+contract!(
     /// A law of bed load that a scene may name.
-    pub BedLoadEntry, "bed-load", One, "how a flow carries grains along walls that are beds", .works(Work::Others)
+    pub BedLoadEntry, "bed-load", One, "how a flow carries grains along walls that are beds", BedLoadLaw,
+    .works(Work::Others)
 );
+contributes!("bed-load", BedLoadOfScene);
 
 const KIND: &str = "bed-load";
 
@@ -58,17 +69,64 @@ pub struct MovingBed {
 }
 
 impl MovingBed {
-    /// Offers the hook that moves the beds by a law.
-    ///
-    /// # Errors
-    /// A scene without beds, without one viscous fluid, or grains that are lighter than it.
-    pub fn offer<const D: usize>(
-        &self,
-        law: impl BedLoadLaw + Send + 'static,
-        setting: &Setting<'_, D>,
-        offer: &mut Offer<D>,
-    ) -> Result<(), Refusal> {
+    /// Critical Shields number of a flat bed of its grains.
+    #[must_use]
+    pub fn critical(&self, grains: &Grains) -> f64 {
+        let own = || grains.critical_shields();
+        self.critical_shields.unwrap_or_else(own)
+    }
+
+    /// Its grains in a fluid of this kinematic viscosity (m²/s), density (kg/m³) and gravity (m/s²).
+    #[must_use]
+    pub fn grains(&self, viscosity: f64, density: f64, gravity: f64) -> Grains {
+        Grains {
+            diameter: self.grain_diameter,
+            relative_density: self.grain_density / density,
+            viscosity,
+            gravity,
+        }
+    }
+}
+
+/// The law of bed load that a scene names.
+struct BedLoadOfScene<const D: usize> {
+    law: Option<Box<dyn BedLoadLaw>>,
+    /// True if the scene names a wall function.
+    has_shear: bool,
+}
+
+impl<const D: usize> FromPlugins<D> for BedLoadOfScene<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        Some(BedLoadOfScene {
+            law: Some(plugins.one::<D, BedLoadEntry>()?),
+            has_shear: plugins.names("wall-function"),
+        })
+    }
+}
+
+/// The one viscous fluid of a scene that carries grains: the number of its phase, its kinematic viscosity (m²/s) and density
+/// (kg/m³).
+pub(super) fn carrier<const D: usize>(
+    setting: &Setting<'_, D>,
+    kind: &'static str,
+) -> Result<(usize, f64, f64), Refusal> {
+    let viscous = |nu: &Option<f64>| nu.is_some_and(|nu| nu > 0.0);
+    let mut fluids = (0..setting.phases.len()).filter(|k| viscous(&setting.viscosities[*k]));
+    let (Some(water), None) = (fluids.next(), fluids.next()) else {
+        let why = "grains are carried by one viscous fluid, and this scene has none or several";
+        return Err(Refusal::at_key(kind, "", why));
+    };
+    let viscosity = setting.viscosities[water].unwrap_or_default();
+    Ok((water, viscosity, setting.laws[water].reference().density))
+}
+
+impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
+        let Some(law) = self.law.take() else {
+            return Ok(());
+        };
+        let moving = *law.bed();
         let world = setting.world;
         if world.walls.beds.is_empty() {
             let why = "no wall of this scene is a bed: give one `[wall.NAME.erodible]`";
@@ -81,23 +139,17 @@ impl MovingBed {
                 "grains without weight have no threshold: give the scene `gravity`".into(),
             );
         }
-        let viscous = |nu: &Option<f64>| nu.is_some_and(|nu| nu > 0.0);
-        let mut fluids = (0..setting.phases.len()).filter(|k| viscous(&setting.viscosities[*k]));
-        let (Some(water), None) = (fluids.next(), fluids.next()) else {
-            let why = "grains are carried by one viscous fluid, and this scene has none or several";
-            return refused("", why.into());
-        };
-        let density = setting.laws[water].reference().density;
-        if self.grain_density <= density {
+        let (_, viscosity, density) = carrier(setting, KIND)?;
+        if moving.grain_density <= density {
             let why = format!(
                 "grains of {} kg/m³ float in a fluid of {density} kg/m³",
-                self.grain_density
+                moving.grain_density
             );
             return refused("grain_density", why);
         }
         let thickest = |bed: &Bed| bed.drawn.iter().fold(0.0, |a: f64, z| a.max(z - bed.rock));
         for bed in &world.walls.beds {
-            if thickest(bed) < self.grain_diameter {
+            if thickest(bed) < moving.grain_diameter {
                 let name = &world.walls.names[bed.walls[0] as usize];
                 let why = format!(
                     "the bed `{name}` is nowhere thicker than {:.3e} m, less than a grain: lower its `rock`",
@@ -106,16 +158,19 @@ impl MovingBed {
                 return refused("grain_diameter", why);
             }
         }
+        if !self.has_shear {
+            let name = &world.walls.names[world.walls.beds[0].walls[0] as usize];
+            let why = format!(
+                "the shear on a bed is that of a wall function, and this scene has none: expected \
+                 `[wall-function.log-law]` with `walls = [\"{name}\"]`"
+            );
+            return refused("", why);
+        }
         offer.goals.push(fields::WALL_FRICTION.any());
         offer.hook(BedLoad {
-            grains: Grains {
-                diameter: self.grain_diameter,
-                relative_density: self.grain_density / density,
-                viscosity: setting.viscosities[water].unwrap_or_default(),
-                gravity,
-            },
-            bed: *self,
-            law: Box::new(law),
+            grains: moving.grains(viscosity, density, gravity),
+            bed: moving,
+            law,
         });
         Ok(())
     }
@@ -125,10 +180,26 @@ impl MovingBed {
 struct BedLoad {
     bed: MovingBed,
     grains: Grains,
-    law: Box<dyn BedLoadLaw + Send>,
+    law: Box<dyn BedLoadLaw>,
 }
 
 impl BedLoad {
+    /// Critical Shields number on a slope, for a flow along a unit vector.
+    fn critical(&self, gradient: [f64; 2], along: [f64; 2]) -> f64 {
+        self.bed.critical(&self.grains)
+            * critical_ratio(gradient, along, self.bed.repose_angle.tan())
+    }
+
+    /// Critical Shields number at a place; infinite where no water flows.
+    fn threshold(&self, bed: &Bed, place: usize) -> f64 {
+        let [x, y] = bed.shear[place];
+        let squared = x.hypot(y);
+        match squared > 0.0 {
+            true => self.critical(gradient(bed, place), [x / squared, y / squared]),
+            false => f64::INFINITY,
+        }
+    }
+
     /// Flux of grains at a place, m²/s.
     fn flux(&self, bed: &Bed, place: usize) -> [f64; 2] {
         let [x, y] = bed.shear[place];
@@ -138,9 +209,7 @@ impl BedLoad {
         }
         let along = [x / squared, y / squared];
         let gradient = gradient(bed, place);
-        let flat = self.bed.critical_shields;
-        let flat = flat.unwrap_or_else(|| self.grains.critical_shields());
-        let critical = flat * critical_ratio(gradient, along, self.bed.repose_angle.tan());
+        let critical = self.critical(gradient, along);
         let shields = self.grains.shields(squared);
         let rate = self.law.rate(shields, critical, &self.grains) * self.grains.unit_transport();
         let across = [-along[1], along[0]];
@@ -157,6 +226,7 @@ impl BedLoad {
         dt: f64,
     ) -> Result<(), StepError> {
         bed.unit_shear = self.grains.shields(1.0).recip();
+        bed.unit_transport = self.grains.unit_transport();
         let share = match self.bed.averaging_time > dt {
             true => dt / self.bed.averaging_time,
             false => 1.0,
@@ -171,6 +241,9 @@ impl BedLoad {
         if world.time < self.bed.start {
             return Ok(());
         }
+        bed.critical = (0..bed.grid.len())
+            .map(|place| self.threshold(bed, place))
+            .collect();
         let cell = bed.grid.cell[0];
         let packing = Packing {
             porosity: self.bed.porosity,

@@ -1,11 +1,10 @@
 //! The laws of bed load as plugins.
 
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::plugin;
 
 use super::grains::Grains;
-use super::laws::{self, BedLoadLaw};
-use super::moving_bed::{BedLoadEntry, MovingBed};
+use super::laws;
+use super::moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
 
 /// q* = 8 (θ − θ_c)^(3/2), of gravel in flumes; 1.5 to 2 times what later analyses of the same data give.
 ///
@@ -13,7 +12,7 @@ use super::moving_bed::{BedLoadEntry, MovingBed};
 /// [bed-load.meyer-peter-muller]
 /// grain_diameter = "1 mm"
 /// ```
-#[plugin(BedLoadEntry [2, 3], "meyer-peter-muller", "bed load of Meyer-Peter and Müller, 8 (θ − θ_c)^1.5",
+#[plugin(BedLoadEntry, "meyer-peter-muller", "bed load of Meyer-Peter and Müller, 8 (θ − θ_c)^1.5",
     source: "Meyer-Peter and Müller 1948")]
 pub struct MeyerPeterMuller(pub MovingBed);
 
@@ -23,7 +22,7 @@ pub struct MeyerPeterMuller(pub MovingBed);
 /// [bed-load.wong-parker]
 /// grain_diameter = "1 mm"
 /// ```
-#[plugin(BedLoadEntry [2, 3], "wong-parker", "bed load of Wong and Parker, 3.97 (θ − θ_c)^1.5",
+#[plugin(BedLoadEntry, "wong-parker", "bed load of Wong and Parker, 3.97 (θ − θ_c)^1.5",
     source: "Wong and Parker 2006, Eq. 24")]
 pub struct WongParker(pub MovingBed);
 
@@ -33,7 +32,7 @@ pub struct WongParker(pub MovingBed);
 /// [bed-load.engelund-fredsoe]
 /// grain_diameter = "0.36 mm"
 /// ```
-#[plugin(BedLoadEntry [2, 3], "engelund-fredsoe", "bed load of Engelund and Fredsøe, by the share of grains that move",
+#[plugin(BedLoadEntry, "engelund-fredsoe", "bed load of Engelund and Fredsøe, by the share of grains that move",
     source: "Engelund and Fredsøe 1976")]
 pub struct EngelundFredsoe(pub MovingBed);
 
@@ -43,7 +42,7 @@ pub struct EngelundFredsoe(pub MovingBed);
 /// [bed-load.van-rijn]
 /// grain_diameter = "0.5 mm"
 /// ```
-#[plugin(BedLoadEntry [2, 3], "van-rijn", "bed load of van Rijn, 0.053 T^2.1/D*^0.3",
+#[plugin(BedLoadEntry, "van-rijn", "bed load of van Rijn, 0.053 T^2.1/D*^0.3",
     source: "van Rijn 1984, Part I, Eq. 22")]
 pub struct VanRijn(pub MovingBed);
 
@@ -51,18 +50,11 @@ pub struct VanRijn(pub MovingBed);
 macro_rules! bed_load {
     ($plugin:ident, $rate:expr) => {
         impl BedLoadLaw for $plugin {
+            fn bed(&self) -> &MovingBed {
+                &self.0
+            }
             fn rate(&self, shields: f64, critical: f64, grains: &Grains) -> f64 {
                 $rate(shields, critical, grains)
-            }
-        }
-
-        impl<const D: usize> Contribution<D> for $plugin {
-            fn offer(
-                &mut self,
-                setting: &Setting<'_, D>,
-                offer: &mut Offer<D>,
-            ) -> Result<(), Refusal> {
-                self.0.offer(self.clone(), setting, offer)
             }
         }
     };

@@ -1,5 +1,7 @@
 //! Plots of a study: error against time, and error against refinement.
 
+use std::collections::BTreeMap;
+
 use sph_core::number;
 use sph_io::{Plot, Series, Style};
 
@@ -59,6 +61,43 @@ pub fn convergence(results: &Results) -> Option<Plot> {
         log_x: true,
         log_y: true,
         series: drawn(results, of),
+    })
+}
+
+/// Means of two references against each other, if the study asks for it: markers for every number of particles, and the
+/// references' own values as a line of dashes.
+pub fn means(results: &Results) -> Option<Plot> {
+    let plot = results.means.as_ref()?;
+    let mut by_size: BTreeMap<usize, [Vec<[f64; 2]>; 2]> = BTreeMap::new();
+    for variant in &results.variants {
+        let of = |name: &String| variant.errors.get(name)?.means;
+        let (Some(x), Some(y)) = (of(&plot.x), of(&plot.y)) else {
+            continue;
+        };
+        let [measured, exact] = by_size.entry(variant.particles).or_default();
+        measured.push([x[0], y[0]]);
+        exact.push([x[1], y[1]]);
+    }
+    let mut series = Vec::new();
+    for (particles, [measured, exact]) in by_size {
+        series.push(Series::styled(
+            format!("{particles} particles"),
+            measured,
+            Style::Markers,
+        ));
+        series.push(Series::styled(
+            format!("reference, {particles}"),
+            exact,
+            Style::Dashes,
+        ));
+    }
+    Some(Plot {
+        title: results.title.clone(),
+        x_label: plot.x.clone(),
+        y_label: plot.y.clone(),
+        log_x: true,
+        log_y: true,
+        series,
     })
 }
 

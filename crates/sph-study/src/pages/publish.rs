@@ -36,6 +36,9 @@ fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
     if let Some(scale) = &results.scale {
         write_both(&scale.plot(&results.title), folder, "cost-against-size")?;
     }
+    if let Some(plot) = plots::means(results) {
+        both(&plot, folder, "means")?;
+    }
     if let Some(plot) = plots::convergence(results) {
         write_both(&plot, folder, "error-against-refinement")?;
     }

@@ -62,6 +62,10 @@ fn compared(results: &Results) -> Result<String, IoError> {
         let _ = writeln!(page, "<h2>Error against run time</h2>");
         page.push_str(&plots::work_precision(results).to_svg()?);
     }
+    if let Some(plot) = plots::means(results) {
+        let _ = writeln!(page, "<h2>Means</h2>");
+        page.push_str(&plot.to_svg()?);
+    }
     if let Some(plot) = plots::convergence(results) {
         let _ = writeln!(page, "<h2>Convergence</h2>");
         page.push_str(&plot.to_svg()?);

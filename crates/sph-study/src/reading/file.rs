@@ -46,6 +46,8 @@ pub struct StudyFile {
     pub refinement: Option<String>,
     /// Cost against the number of particles, with or without `error`.
     pub scaling: Option<Scaling>,
+    /// A plot of means: of a reference with the norm `mean` over those of another, beside the values of both.
+    pub means: Option<MeansPlot>,
     /// Number of runs of a variant; its time is the least.
     #[parameter(default: 1, min: 1, max: 1000)]
     pub repetitions: usize,
@@ -62,6 +64,16 @@ pub struct StudyFile {
     #[parameter(default)]
     #[schemars(with = "Vec<BTreeMap<String, Json>>")]
     pub skip: Vec<BTreeMap<String, Value>>,
+}
+
+/// Two judged references whose means are plotted, markers for every number of particles.
+#[parameters]
+#[derive(serde::Serialize)]
+pub struct MeansPlot {
+    /// Name of the reference along the horizontal axis.
+    pub x: String,
+    /// Name of the reference along the vertical axis.
+    pub y: String,
 }
 
 /// One direction in which variants differ.

@@ -151,6 +151,16 @@ impl Parts<'_> {
             let why = "a study needs an `error`, or the `scaling` of a cost";
             return Err(refused(vec![SceneProblem::new("error", why)]));
         }
+        for (key, name) in file.means.iter().flat_map(|m| [("x", &m.x), ("y", &m.y)]) {
+            if !errors.iter().any(|(error, _)| error == name) {
+                let near = suggestion(name, errors.iter().map(|(error, _)| error.as_str()));
+                let why = format!("`{name}` is not judged: expected a name of `error`{near}");
+                return Err(refused(vec![SceneProblem::new(
+                    format!("means.{key}"),
+                    why,
+                )]));
+            }
+        }
         let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
         if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
             let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));

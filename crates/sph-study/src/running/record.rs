@@ -130,6 +130,9 @@ pub struct Error {
     /// Unit, "1" for relative norms.
     #[serde(default = "one")]
     pub unit: String,
+    /// The mean that is compared, of the norm `mean`, and that of the reference.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub means: Option<[f64; 2]>,
 }
 
 fn one() -> String {

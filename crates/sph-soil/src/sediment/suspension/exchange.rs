@@ -1,0 +1,192 @@
+//! Grains that leave a bed for the water, and come back.
+
+use sph_core::bed::{Bed, horizontal};
+use sph_core::{StepError, fields};
+use sph_neighbours::World;
+
+use super::hindered::HinderedSettling;
+use super::pick_up::PickUp;
+use crate::sediment::Grains;
+use crate::sediment::bed_shear::WET;
+
+/// κ of the law of the wall.
+const KARMAN: f64 = 0.41;
+
+/// Exchange of grains between a bed and the water over it.
+pub(super) struct BedExchange {
+    pub law: Box<dyn PickUp>,
+    pub grains: Grains,
+    pub settling: HinderedSettling,
+    /// Height a over the bed at which grains leave it, m.
+    pub height: f64,
+    /// Critical Shields number of a flat bed.
+    pub critical: f64,
+    /// Viscosity of the eddies over the diffusivity of the grains.
+    pub schmidt: f64,
+    /// 1 − n of the bed.
+    pub solid: f64,
+    /// Reference density of the fluid, kg/m³.
+    pub density: f64,
+}
+
+/// Largest exchange between a particle and a place of the bed in a step, volumes of grains.
+struct Pass {
+    particle: usize,
+    place: usize,
+    lifted: f64,
+    settled: f64,
+}
+
+impl BedExchange {
+    /// Moves grains between a bed and the particles that touch it, for a step of `dt` seconds.
+    ///
+    /// Between the height a and a particle at the height z grains settle and mix in the shear of the wall: of the rate E at
+    /// which the flow lifts them, E (a/z)^Z arrives with Z = σw/(κu*), and the particle's own grains settle past a.
+    /// A place gives no more than lies over its rock, and a particle takes no more than packed grains.
+    pub fn step<const D: usize>(
+        &self,
+        world: &World<D>,
+        bed: &mut Bed,
+        concentration: &mut [f64],
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let mut all = self.passes(world, bed, concentration, dt)?;
+        let volume = world.free.get(fields::MASS)?;
+        let volume = |i: usize| volume[i] / self.density;
+        for own in all.chunk_by_mut(|a, b| a.particle == b.particle) {
+            let i = own[0].particle;
+            let (held, room) = (concentration[i], self.settling.packing - concentration[i]);
+            let settled: f64 = own.iter().map(|pass| pass.settled).sum();
+            let lifted: f64 = own.iter().map(|pass| pass.lifted).sum();
+            let share = |wish: f64, most: f64| if wish > most { most / wish } else { 1.0 };
+            let settling = share(settled, held.max(0.0) * volume(i));
+            let lifting = share(lifted, room.max(0.0) * volume(i));
+            for pass in own {
+                pass.settled *= settling;
+                pass.lifted *= lifting;
+            }
+        }
+        self.limit_to_stock(world, bed, &mut all, dt)?;
+        for pass in &all {
+            concentration[pass.particle] += (pass.lifted - pass.settled) / volume(pass.particle);
+        }
+        let net: Vec<_> = all
+            .iter()
+            .map(|pass| (pass.place, pass.settled - pass.lifted))
+            .collect();
+        for (place, change) in world
+            .sums_by_place(&net, bed.grid.len())?
+            .iter()
+            .enumerate()
+        {
+            bed.lifted -= change;
+            match bed.held[place] {
+                true => bed.fed -= change,
+                false => bed.rate[place] += change / (self.solid * bed.grid.area(place) * dt),
+            }
+        }
+        Ok(())
+    }
+
+    /// Grains that the flow would lift and that settle, by particle and place.
+    fn passes<const D: usize>(
+        &self,
+        world: &World<D>,
+        bed: &Bed,
+        concentration: &[f64],
+        dt: f64,
+    ) -> Result<Vec<Pass>, StepError> {
+        let volume = world.free.get(fields::VOLUME)?;
+        let (walls, owned) = (&world.walls, world.owned());
+        let elements = &walls.elements;
+        let rates: Vec<[f64; 2]> = (0..bed.grid.len())
+            .map(|place| self.rate(bed, place))
+            .collect();
+        // Each with the part of the bed, seen from above, that is the particle's, and its height over it.
+        let mut parts: Vec<(Pass, f64, f64)> = Vec::new();
+        for &particle in &walls.contacts.particles {
+            let i = particle as usize;
+            if !owned.has(i) {
+                continue;
+            }
+            for contact in walls.contacts.of_particle(i) {
+                let s = contact.element as usize;
+                if elements.wall[s] != bed.walls[0] {
+                    continue;
+                }
+                let part = volume[i] * contact.gradient.norm();
+                for (place, share) in bed.grid.around(horizontal(&elements.centre[s].into())) {
+                    if share > 0.0 && !bed.covered[place] {
+                        let pass = Pass {
+                            particle: i,
+                            place,
+                            lifted: 0.0,
+                            settled: 0.0,
+                        };
+                        parts.push((pass, part * share, contact.distance));
+                    }
+                }
+            }
+        }
+        let weights: Vec<_> = parts
+            .iter()
+            .map(|(pass, part, _)| (pass.place, *part))
+            .collect();
+        let weights = world.sums_by_place(&weights, bed.grid.len())?;
+        let filled = parts.into_iter().map(|(pass, part, distance)| {
+            let area = bed.grid.area(pass.place);
+            let own = dt * area * part / weights[pass.place].max(WET * 0.5 * area);
+            let [rate, rouse] = rates[pass.place];
+            let arriving = (self.height / distance.max(self.height)).powf(rouse);
+            Pass {
+                lifted: own * rate * arriving,
+                settled: own * self.settling.demand(concentration[pass.particle].max(0.0)),
+                ..pass
+            }
+        });
+        Ok(filled.collect())
+    }
+
+    /// The rate at which the flow lifts grains off a place, m/s, and Z there.
+    fn rate(&self, bed: &Bed, place: usize) -> [f64; 2] {
+        let [x, y] = bed.shear[place];
+        let friction_velocity = x.hypot(y).sqrt();
+        let rate = self.law.rate(
+            bed.shields(place) - bed.critical[place],
+            self.critical,
+            &self.grains,
+            self.settling.speed,
+        );
+        match rate > 0.0 {
+            true => {
+                let rouse = self.schmidt * self.settling.speed / (KARMAN * friction_velocity);
+                [rate, rouse]
+            }
+            false => [0.0; 2],
+        }
+    }
+
+    /// Lets no place give more than lies over the rock when bed load has moved.
+    fn limit_to_stock<const D: usize>(
+        &self,
+        world: &World<D>,
+        bed: &Bed,
+        all: &mut [Pass],
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let lifted: Vec<_> = all.iter().map(|pass| (pass.place, pass.lifted)).collect();
+        let lifted = world.sums_by_place(&lifted, bed.grid.len())?;
+        let share = |place: usize| {
+            let depth = bed.level(place) + dt * bed.rate[place] - bed.rock;
+            let stock = depth.max(0.0) * self.solid * bed.grid.area(place);
+            match !bed.held[place] && lifted[place] > stock {
+                true => stock / lifted[place],
+                false => 1.0,
+            }
+        };
+        let shares: Vec<f64> = (0..bed.grid.len()).map(share).collect();
+        all.iter_mut()
+            .for_each(|pass| pass.lifted *= shares[pass.place]);
+        Ok(())
+    }
+}

@@ -1,0 +1,318 @@
+//! Grains in suspension: shocks of settling, balance of settling and mixing, the balance of the grains, the same bits, refusals.
+
+use sph_io::{Checkpoint, ColumnData};
+use sph_tests::{Bench, FinalState};
+
+use crate::sediment::{CHANNEL, column, in_space, refused_of};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+
+/// A still column with grains at a concentration of 0.1 that are hardly heavier than water.
+const COLUMN: &str = r#"
+title = "Grains settle"
+dimension = 2
+[run]
+end = 2.0
+[numerics]
+spacing = 0.005
+smoothing_ratio = 2.0
+gravity = [0.0, -9.81]
+periodic = { x = [0.0, 0.05] }
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[suspension.settling]
+grain_diameter = "1 mm"
+grain_density = 1001.0
+settling_velocity = 0.05
+hindrance_exponent = 4.65
+packing = 0.6
+start = [{ body = "water", concentration = 0.1 }]
+[wall.ground]
+polyline = [[0.0, 0.0], [0.05, 0.0]]
+[phase.water]
+density = 1000.0
+speed_of_sound = 13.0
+rheology.newtonian = { viscosity = "1 mPa s" }
+[body.water]
+phase = "water"
+box = [[0.0, 0.0], [0.05, 0.15]]
+pressure = "hydrostatic"
+[probe.clear]
+kind = "concentration-level"
+concentration = 0.05
+[probe.deposit]
+kind = "concentration-level"
+concentration = 0.35
+[probe.grains]
+kind = "statistic"
+field = "concentration"
+weight = "mass"
+reduce = ["sum", "min", "max"]
+[output]
+every = 2.0
+series_every = 0.1
+vtk = false
+"#;
+
+/// A channel whose flow lifts grains.
+fn lifting(scene: &str) -> String {
+    let law = "[suspension.van-rijn]\n[probe.grains]\nkind = \"statistic\"\nfield = \"concentration\"\n\
+               weight = \"mass\"\nreduce = [\"sum\", \"max\"]\n";
+    scene.replace("[walls.usaw]", &format!("{law}[walls.usaw]"))
+}
+
+/// Kynch's theory: clear water over grains that sink with w (1 − C)^n, a deposit that grows with what arrives, both until they
+/// meet, each within seven tenths of a spacing; no grain is lost, none passes 0 or the packing.
+#[test]
+fn a_suspension_settles_in_two_shocks() {
+    let scene = COLUMN.replace("end = 2.0", "end = 5.0");
+    let bench = Bench::with(PROGRAM, &scene);
+    bench.done("run scene.toml --quiet --out out");
+    let series = |name: &str| column(&bench, "out", name);
+    let (time, clear, deposit) = (series("time"), series("clear"), series("deposit"));
+    let speed = 0.05 * 0.9_f64.powf(4.65);
+    let growth = 0.1 * speed / (0.6 - 0.1);
+    let mut compared = 0;
+    for k in 0..time.len() {
+        let upper = 0.15 - speed * time[k];
+        let lower = growth * time[k];
+        if time[k] > 0.95 && upper > lower + 0.02 {
+            assert!(
+                (clear[k] - upper).abs() < 0.0025,
+                "{}: {} {upper}",
+                time[k],
+                clear[k]
+            );
+            assert!(
+                (deposit[k] - lower).abs() < 0.0035,
+                "{}: {} {lower}",
+                time[k],
+                deposit[k]
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared > 15, "{compared} rows");
+    // All grains lie in a deposit at packing.
+    let last = deposit.last().expect("rows");
+    assert!((last - 0.1 * 0.15 / 0.6).abs() < 0.0025, "{last}");
+    let [sum, least, most] = ["sum", "min", "max"].map(|of| series(&format!("grains.{of}")));
+    assert!(sum.iter().all(|s| (s / sum[0] - 1.0).abs() < 1e-13));
+    assert!(least.iter().all(|c| *c >= 0.0) && most.iter().all(|c| *c <= 0.6));
+    assert!(*most.last().expect("rows") > 0.59);
+}
+
+fn numbers(bench: &Bench, name: &str) -> Vec<f64> {
+    let state = Checkpoint::load(bench.path("out/checkpoint.sph")).expect("a checkpoint");
+    let found = state.columns.iter().find(|column| column.name == name);
+    match &found.expect("a column").data {
+        ColumnData::F64(values) => values.clone(),
+        _ => panic!("{name} has no reals"),
+    }
+}
+
+/// Settling against mixing ends at C ∝ exp(−wz/D), at every particle, as far as the water is at rest.
+#[test]
+fn settling_and_mixing_end_in_an_exponential() {
+    let scene = COLUMN
+        .replace("end = 2.0", "end = 12.0")
+        .replace("spacing = 0.005", "spacing = 0.0125")
+        .replace("[0.0, 0.05] }", "[0.0, 0.125] }")
+        .replace("[0.05, 0.0]]", "[0.125, 0.0]]")
+        .replace("[0.05, 0.15]]", "[0.125, 0.125]]")
+        .replace(
+            "hindrance_exponent = 4.65",
+            "hindrance_exponent = 0.0\ndiffusivity = 4e-3",
+        )
+        .replace("concentration = 0.1 }", "concentration = 1e-3 }");
+    let bench = Bench::with(PROGRAM, &scene);
+    bench.done("run scene.toml --quiet --out out");
+    let (places, grains) = (
+        numbers(&bench, "position"),
+        numbers(&bench, "concentration"),
+    );
+    let rate = 0.05 / 4e-3;
+    let scaled = places
+        .chunks(2)
+        .zip(&grains)
+        .map(|(x, c)| c * (rate * x[1]).exp());
+    let (least, most) = scaled.fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
+    assert!(most / least - 1.0 < 2e-4, "{least:e} {most:e}");
+}
+
+/// The grains of the bed, without pores, and those in the water are one number.
+#[test]
+fn what_leaves_the_bed_is_in_the_water() {
+    for (name, scene) in [("plane", CHANNEL.to_string()), ("space", in_space())] {
+        let bench = Bench::with(PROGRAM, &lifting(&scene));
+        bench.done("run scene.toml --quiet --out out");
+        let series = |name: &str| column(&bench, "out", name);
+        let (volume, lifted) = (series("bed.volume"), series("bed.lifted"));
+        let suspended = series("grains.sum");
+        let last = *lifted.last().expect("rows");
+        assert!(last > 1e-10, "{name}: {last:e} were lifted");
+        for k in 0..volume.len() {
+            let water = suspended[k] / 1000.0;
+            assert!(
+                (water - lifted[k]).abs() < 1e-12 * last,
+                "{name}: {water:e} {}",
+                lifted[k]
+            );
+            assert!(
+                (0.6 * volume[k] + lifted[k]).abs() < 1e-15,
+                "{name}: {:e}",
+                volume[k]
+            );
+        }
+        assert!(series("grains.max").iter().all(|c| *c <= 0.6));
+    }
+}
+
+#[test]
+fn no_grain_leaves_a_bed_up_to_the_threshold() {
+    let law = "grain_diameter = \"1 mm\"";
+    let shields = |critical: f64| {
+        let scene = lifting(CHANNEL).replace(law, &format!("{law}\ncritical_shields = {critical}"));
+        let bench = Bench::with(PROGRAM, &scene);
+        bench.done("run scene.toml --quiet --out out");
+        column(&bench, "out", "grains.max")
+    };
+    assert!(shields(50.0).iter().all(|c| *c == 0.0));
+    assert!(*shields(0.05).last().expect("rows") > 0.0);
+}
+
+#[test]
+fn suspensions_have_the_same_bits_on_threads_on_ranks_and_after_an_interruption() {
+    for (name, scene) in [("plane", CHANNEL.to_string()), ("space", in_space())] {
+        let bench = Bench::with(PROGRAM, &lifting(&scene));
+        bench.done("run scene.toml --quiet --out one --threads 1");
+        bench.done("run scene.toml --quiet --out two --threads 2");
+        let one = FinalState::read(&bench.path("one"));
+        assert!(one.columns["concentration"].iter().any(|c| *c > 0));
+        one.assert_same(&FinalState::read(&bench.path("two")), name);
+        bench.done("run scene.toml --quiet --out ranks --ranks 2");
+        one.assert_same(&FinalState::read(&bench.path("ranks")), name);
+        let parts = "run scene.toml --quiet --out parts";
+        bench.call(&format!("{parts} --set run.max_steps=7"));
+        bench.done(&format!("{parts} --resume --changed"));
+        one.assert_same(&FinalState::read(&bench.path("parts")), name);
+    }
+}
+
+/// Water with grains that do not settle, between two open faces.
+const OPEN: &str = r#"
+title = "Grains come in with the water"
+dimension = 2
+[run]
+end = 1.5
+[numerics]
+spacing = 0.05
+gravity = [0.0, -1e-3]
+[suspension.settling]
+grain_diameter = "1 mm"
+grain_density = 1001.0
+settling_velocity = 0.0
+[smoother.brezzi-pitkaranta]
+strength = 0.04
+[walls.usaw]
+vertices = false
+[wall.bottom]
+polyline = [[0.0, 0.0], [1.0, 0.0]]
+condition = "free-slip"
+[wall.outlet]
+polyline = [[1.0, 0.0], [1.0, 0.5]]
+[wall.outlet.open-boundary.outflow]
+memory = "1 s"
+[wall.top]
+polyline = [[1.0, 0.5], [0.0, 0.5]]
+condition = "free-slip"
+[wall.inlet]
+polyline = [[0.0, 0.5], [0.0, 0.0]]
+[wall.inlet.open-boundary.velocity-inlet]
+velocity = "1 m/s"
+values = { concentration = 0.01 }
+[phase.water]
+density = 1000.0
+speed_of_sound = 12.0
+rheology.newtonian = { viscosity = "1e-1 Pa s" }
+[body.water]
+phase = "water"
+box = [[0.0, 0.0], [1.0, 0.5]]
+velocity = [1.0, 0.0]
+[probe.grains]
+kind = "statistic"
+field = "concentration"
+reduce = ["min", "max", "mean"]
+[output]
+every = 1.5
+series_every = 0.25
+vtk = false
+"#;
+
+/// Behind an inlet with `values` the concentration is that of the inlet, and grains leave with their water.
+#[test]
+fn grains_come_in_and_go_out_by_open_faces() {
+    let bench = Bench::with(PROGRAM, OPEN);
+    bench.done("run scene.toml --quiet --out out");
+    let [time, least, most] =
+        ["time", "grains.min", "grains.max"].map(|name| column(&bench, "out", name));
+    for k in 0..time.len() {
+        assert!(most[k] <= 0.01 && least[k] >= 0.0);
+        assert!(
+            time[k] < 1.1 || (least[k] - 0.01).abs() < 1e-15,
+            "{}: {}",
+            time[k],
+            least[k]
+        );
+    }
+    assert!(*time.last().expect("rows") > 1.4);
+}
+
+#[test]
+fn suspensions_that_are_none_are_refused() {
+    let refused = |from: &str, to: &str, words: &str| refused_of(COLUMN, from, to, words);
+    refused(
+        "concentration = 0.1 }",
+        "concentration = 0.7 }",
+        "start[0].concentration: 0.7 is above the packing of the grains: expected at most 0.6",
+    );
+    refused(
+        "body = \"water\"",
+        "body = \"watre\"",
+        "no body is called `watre`, did you mean `water`?",
+    );
+    refused("\"1 mm\"", "\"0 mm\"", "must be more than 0 m, found 0");
+    refused(
+        "grain_diameter = \"1 mm\"\n",
+        "",
+        "expected a `grain_diameter`",
+    );
+    refused(
+        "1001.0",
+        "900.0",
+        "grains of 900 kg/m³ float in a fluid of 1000 kg/m³",
+    );
+    refused(
+        "gravity = [0.0, -9.81]",
+        "",
+        "grains without weight do not settle",
+    );
+    refused(
+        "[suspension.settling]",
+        "[suspension.van-rijn]",
+        "grains are lifted off a bed, and this scene has none",
+    );
+    let lifting = lifting(CHANNEL);
+    refused_of(
+        &lifting,
+        "[eddy-viscosity.mixing-length]\ndepth = 0.1\nwalls = [\"bed\"]\n",
+        "",
+        "eddies carry grains off a bed, and this scene has none",
+    );
+    refused_of(
+        &lifting,
+        "[suspension.van-rijn]",
+        "[suspension.van-rijn]\ngrain_diameter = \"2 mm\"",
+        "the grains are those of `[bed-load]`",
+    );
+}
