@@ -1,8 +1,8 @@
 //! Lines along the velocity of one moment.
 
-use std::collections::HashMap;
 use std::path::Path;
 
+use crate::curves::cells::PlaceCells;
 use crate::curves::cloud::square;
 use crate::curves::{Cloud, DrawError, Frames, Snapshot};
 
@@ -48,7 +48,7 @@ pub fn streamlines(
         let line = flow.through(start, &drawn, apart);
         // Shorter ones are blots.
         if line.len() as f64 * STEP * cloud.spacing() > apart {
-            line.iter().for_each(|x| drawn.add(*x));
+            line.iter().for_each(|x| drawn.add(*x, *x));
             lines.push(line);
         }
     }
@@ -141,7 +141,7 @@ impl Flow<'_> {
             if let Some(past) = line.len().checked_sub(lag + 1).map(|k| line[k])
                 && home(&past) > crowded
             {
-                own.add(past);
+                own.add(past, past);
             }
         }
         (line, false)
@@ -149,34 +149,13 @@ impl Flow<'_> {
 }
 
 /// Points of lines, sorted into cells.
-struct Drawn {
-    side: f64,
-    cells: HashMap<[i64; 3], Vec<[f64; 3]>>,
-}
+type Drawn = PlaceCells<[f64; 3]>;
 
 impl Drawn {
-    fn new(side: f64) -> Self {
-        Drawn {
-            side,
-            cells: HashMap::new(),
-        }
-    }
-
-    fn cell(&self, x: [f64; 3]) -> [i64; 3] {
-        x.map(|x| (x / self.side).floor() as i64)
-    }
-
-    fn add(&mut self, x: [f64; 3]) {
-        self.cells.entry(self.cell(x)).or_default().push(x);
-    }
-
     /// Whether a point is nearer than `reach`, which is at most a side of a cell.
     fn near(&self, x: [f64; 3], reach: f64) -> bool {
-        let middle = self.cell(x);
-        let around = (0..27).map(|k| [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1]);
-        let here = around.filter_map(|d| self.cells.get(&[0, 1, 2].map(|k| middle[k] + d[k])));
-        here.flatten()
-            .any(|p| square(&[0, 1, 2].map(|k| p[k] - x[k])) < reach * reach)
+        let apart = |p: &[f64; 3]| square(&[0, 1, 2].map(|k| p[k] - x[k]));
+        self.around(x).any(|p| apart(p) < reach * reach)
     }
 }
 

@@ -43,6 +43,6 @@ fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
 }
 
 fn both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
-    plot.save_svg(folder.join(format!("{name}.svg")))?;
-    plot.save_png(folder.join(format!("{name}.png")))
+    plot.save(folder.join(format!("{name}.svg")))?;
+    plot.save(folder.join(format!("{name}.png")))
 }
