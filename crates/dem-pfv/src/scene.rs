@@ -77,7 +77,7 @@ pub use examine::{Examination, examine};
 pub use forecast::Cost;
 pub use model::{Load, Made, Model, Saved};
 pub use origin::Origin;
-pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};
+pub use read::{Loaded, is_grain_scene, read};
 pub use run::{identity, run};
 pub use schema::editor_schema;
 pub use subject::DiscreteElements;

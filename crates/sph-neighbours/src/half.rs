@@ -33,11 +33,6 @@ impl SweepHalf {
         }
     }
 
-    /// Whether this is the second one.
-    pub fn is_second(&self) -> bool {
-        self.inner
-    }
-
     /// Whether a particle is asked for.
     #[inline]
     pub fn includes(&self, particle: usize) -> bool {

@@ -63,10 +63,4 @@ impl CoupledSystem {
     pub fn meshes(&self) -> u64 {
         self.clock.meshes
     }
-
-    /// Largest strain of a pore per step, summed since the mesh was made.
-    #[must_use]
-    pub fn strain_since_mesh(&self) -> f64 {
-        self.clock.strain
-    }
 }

@@ -140,12 +140,6 @@ impl Grains {
         &self.contact_force
     }
 
-    /// Sums of the moments of contacts at the last evaluation, N m.
-    #[must_use]
-    pub fn contact_torques(&self) -> &[Vector] {
-        &self.contact_torque
-    }
-
     /// Forces from outside, N.
     #[must_use]
     pub fn external_forces(&self) -> &[Vector] {

@@ -151,28 +151,6 @@ fn one<T: DeserializeOwned>(
         .map_err(|e: toml::de::Error| told("", e.message().to_string()))
 }
 
-/// Kinds of probes or references with what they are, for listings.
-#[must_use]
-pub fn kinds_of_probes() -> Vec<(String, String)> {
-    kinds(&schemars::schema_for!(Probe).to_value())
-}
-
-/// The same for references.
-#[must_use]
-pub fn kinds_of_references() -> Vec<(String, String)> {
-    kinds(&schemars::schema_for!(Reference).to_value())
-}
-
-fn kinds(root: &Json) -> Vec<(String, String)> {
-    let variants = root["oneOf"].as_array().into_iter().flatten();
-    let told = |v: &Json| {
-        let kind = v["properties"]["kind"]["const"].as_str()?.to_string();
-        let text = v["description"].as_str().unwrap_or_default();
-        Some((kind, text.replace('\n', " ")))
-    };
-    variants.filter_map(told).collect()
-}
-
 impl Loaded {
     /// Whether every file that the scene names is there, and those with loads hold what the scene takes from them.
     ///
@@ -204,23 +182,28 @@ impl Loaded {
     /// Every file that the scene names, as it names it, with the key that does.
     #[must_use]
     pub fn files(&self) -> Vec<(String, String)> {
-        let mut found = Vec::new();
-        let start = self.scene.start.file.iter();
-        found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
-        for (name, wall) in &self.scene.wall {
-            let file = wall.file.iter();
-            found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
-            let recorded = wall.recorded.iter();
-            found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
-        }
-        let of = |plugins: &Plugins, what: &str| {
-            let named = plugins.iter().filter_map(|(name, table)| {
-                let file = table.get("file")?.as_str()?.to_string();
-                Some((format!("{what}.{name}.file"), file))
-            });
-            named.collect::<Vec<_>>()
-        };
-        found.extend(of(&self.scene.reference, "reference"));
-        found
+        files(&self.scene)
     }
+}
+
+/// The files that a scene names, by their keys.
+pub(crate) fn files(scene: &Scene) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let start = scene.start.file.iter();
+    found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
+    for (name, wall) in &scene.wall {
+        let file = wall.file.iter();
+        found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
+        let recorded = wall.recorded.iter();
+        found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
+    }
+    let of = |plugins: &Plugins, what: &str| {
+        let named = plugins.iter().filter_map(|(name, table)| {
+            let file = table.get("file")?.as_str()?.to_string();
+            Some((format!("{what}.{name}.file"), file))
+        });
+        named.collect::<Vec<_>>()
+    };
+    found.extend(of(&scene.reference, "reference"));
+    found
 }

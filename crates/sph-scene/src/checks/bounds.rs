@@ -1,8 +1,8 @@
 //! Bodies against the periodic box, the domain and the spacing.
 
+use scene_text::Problems;
 use sph_core::plausible::Quantity;
 
-use crate::checks::problems::Problems;
 use crate::checks::wave;
 use crate::geometry::periodic_place::{ROUNDING, spans};
 use crate::{Region, Scene};

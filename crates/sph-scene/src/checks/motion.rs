@@ -1,9 +1,9 @@
 //! The motion of walls.
 
+use scene_text::Problems;
 use sph_core::unit_factor;
 
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
 use crate::geometry::wall_geometry::has_ending;
 use crate::{Levels, Motion};
 

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use scene_text::{Problems, given};
 use sph_core::suggestion;
 use toml::{Table, Value};
 
-use crate::checks::problems::Problems;
 use crate::{Motion, Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
@@ -188,12 +188,11 @@ fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
         );
     }
     if reference.file.is_none() {
-        let keys = [
+        for key in given([
             ("columns", reference.columns.is_some()),
             ("lower", reference.lower.is_some()),
             ("upper", reference.upper.is_some()),
-        ];
-        for (key, _) in keys.iter().filter(|(_, given)| *given) {
+        ]) {
             found.add(format!("{path}.{key}"), "columns belong to a `file`");
         }
     }

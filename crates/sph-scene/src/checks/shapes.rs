@@ -1,8 +1,9 @@
 //! Bodies: their shapes, and how they are filled.
 
+use scene_text::Problems;
+
 use crate::checks::corners::polygon;
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
 use crate::checks::wave;
 use crate::tables::body::ShapeKeys;
 use crate::{Body, LevelSurface, Pressure, Scene};

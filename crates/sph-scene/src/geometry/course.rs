@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use scene_text::given;
 use sph_core::course::{self, Course, Translation};
 use sph_core::{SceneProblem, unit_factor};
 
@@ -9,7 +10,6 @@ use crate::drawings::heading::Form;
 use crate::drawings::rows::{self, Row};
 use crate::geometry::vector::{array, unit};
 use crate::reading::limits::TIMES;
-use crate::tables::given_keys::given;
 use crate::tables::motion::{Motion, Rotation, Translate};
 
 /// All courses of a motion.

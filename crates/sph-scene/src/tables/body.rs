@@ -1,12 +1,12 @@
 //! The table `[body.NAME]`: where a phase is at the start.
 
+use scene_text::given;
 use sph_core::{Axis, parameters};
 
 use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
-use crate::tables::given_keys::given;
 use crate::{LevelSurface, Shape, Wall, Wave};
 
 /// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.

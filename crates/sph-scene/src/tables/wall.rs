@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use scene_text::given;
 use sph_core::parameters;
 
 use crate::reading::plugins::{AnyPlugins, Plugins};
-use crate::tables::given_keys::given;
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
