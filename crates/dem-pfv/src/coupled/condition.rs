@@ -64,7 +64,6 @@ pub struct Wave {
 
 impl Wave {
     /// Pressure (Pa) at a place (m) and a time (s).
-    #[must_use]
     pub fn pressure(&self, place: &Vector, time: f64) -> f64 {
         let phase = PI * (place[self.axis] - self.crest) / self.half_length;
         let swing = self.period.map_or(1.0, |t| (2.0 * PI * time / t).sin());
@@ -74,7 +73,6 @@ impl Wave {
 
 impl WallBoundary {
     /// No flow, and no grip.
-    #[must_use]
     pub fn closed() -> Self {
         Self {
             condition: FlowCondition::Closed,
@@ -83,7 +81,6 @@ impl WallBoundary {
     }
 
     /// A given pressure (Pa) without grip.
-    #[must_use]
     pub fn drained(pressure: f64) -> Self {
         Self {
             condition: FlowCondition::Pressure(pressure),

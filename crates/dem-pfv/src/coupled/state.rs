@@ -25,7 +25,6 @@ pub struct State {
 
 impl CoupledSystem {
     /// State to resume.
-    #[must_use]
     pub fn save(&self) -> State {
         let setup = &self.setup;
         State {

@@ -363,7 +363,6 @@ impl CoupledSystem {
     }
 
     /// Time, s.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.grains.time()
     }

@@ -14,7 +14,6 @@ pub struct Boundary {
 
 impl Boundary {
     /// All walls closed, no sources.
-    #[must_use]
     pub fn closed(geometry: &PoreGeometry) -> Self {
         let cells = geometry.mesh().cells().len();
         Self {

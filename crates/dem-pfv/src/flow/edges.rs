@@ -22,7 +22,6 @@ impl PoreGeometry {
     /// surface reaches up to the wall above them.
     ///
     /// The pyramids over all faces with tips at the spheres fill the room.
-    #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
         let mut parts: Vec<Edge> = Vec::with_capacity(3 * self.throats().len());
         for throat in self.throats() {

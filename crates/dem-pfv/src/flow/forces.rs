@@ -29,7 +29,6 @@ pub struct Forces {
 
 impl Forces {
     /// Forces of the pressures of all cells, Pa.
-    #[must_use]
     pub fn new(geometry: &PoreGeometry, pressures: &[f64]) -> Self {
         let mesh = geometry.mesh();
         let spheres = vec![Vector3::zeros(); mesh.spheres().len()];
@@ -70,7 +69,6 @@ impl Forces {
     }
 
     /// Sum of both parts on a sphere, N.
-    #[must_use]
     pub fn on_sphere(&self, sphere: usize) -> Vector3<f64> {
         self.pressure[sphere] + self.viscous[sphere]
     }

@@ -78,37 +78,31 @@ impl PoreGeometry {
     }
 
     /// The triangulation.
-    #[must_use]
     pub fn mesh(&self) -> &Triangulation {
         &self.mesh
     }
 
     /// Power centre of every cell, m.
-    #[must_use]
     pub fn centres(&self) -> &[Vector3<f64>] {
         &self.centres
     }
 
     /// Volume of every cell, m³; the sum is that of the room.
-    #[must_use]
     pub fn volumes(&self) -> &[f64] {
         &self.volumes
     }
 
     /// Volume of fluid in every cell, m³.
-    #[must_use]
     pub fn void_volumes(&self) -> &[f64] {
         &self.void_volumes
     }
 
     /// All throats.
-    #[must_use]
     pub fn throats(&self) -> &[Throat] {
         &self.throats
     }
 
     /// Share (m²) of a cell in a wall: the projection of the facet opposite; zero if it has no part in the wall.
-    #[must_use]
     pub fn area_on_wall(&self, cell: usize, wall: usize) -> f64 {
         let v = self.mesh.cells()[cell].vertices();
         let Some(i) = v.iter().position(|v| *v == Vertex::Wall(wall)) else {

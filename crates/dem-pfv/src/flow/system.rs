@@ -217,13 +217,11 @@ impl FlowSystem {
     }
 
     /// Number of unknown pressures.
-    #[must_use]
     pub fn unknowns(&self) -> usize {
         self.matrix.len()
     }
 
     /// k of every throat, m³ Pa⁻¹ s⁻¹; zero for open ones, whose cells have one pressure.
-    #[must_use]
     pub fn conductances(&self) -> &[f64] {
         &self.conductances
     }
@@ -315,7 +313,6 @@ impl FlowSystem {
     /// Flux (m³/s) into the room through each cell with a given pressure, zero in others: what flows from it to others,
     /// what it gains of volume and stores, less its source. With the sources they add up to the rates of all volumes and
     /// what is stored. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
-    #[must_use]
     pub fn influx(
         &self,
         boundary: &Boundary,
@@ -341,7 +338,6 @@ impl FlowSystem {
     }
 
     /// Flux (m³/s) into the room through a wall with given pressures: what flows from the pores on it to others.
-    #[must_use]
     pub fn inflow(&self, geometry: &PoreGeometry, wall: usize, pressures: &[f64]) -> f64 {
         let mut on_wall = vec![false; self.pores.len()];
         let wall = crate::triangulation::Vertex::Wall(wall);

@@ -61,7 +61,6 @@ pub struct Throat {
 
 impl Throat {
     /// Hydraulic radius R = φ/γ, m. Source: Catalano 2012, Eq. (3.5).
-    #[must_use]
     pub fn hydraulic_radius(&self) -> f64 {
         self.fluid_volume / self.wetted.iter().sum::<f64>()
     }

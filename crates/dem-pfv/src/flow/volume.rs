@@ -18,7 +18,6 @@ use crate::triangulation::{Cell, Triangulation, Vertex, Wall};
 ///
 /// A volume is negative if the cell has turned inside out. Rates follow by differences in time, from
 /// volumes of the same mesh. Source: the exact limit of Catalano 2012, §3.1.
-#[must_use]
 pub fn cell_volumes(mesh: &Triangulation, centres: &[Vector3<f64>], walls: &[Wall]) -> Vec<f64> {
     let volume = |cell: &Cell| volume(cell, centres, walls);
     mesh.cells().iter().map(volume).collect()

@@ -4,13 +4,11 @@ use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, W
 
 impl GrainSystem {
     /// The grains.
-    #[must_use]
     pub fn grains(&self) -> &Grains {
         &self.grains
     }
 
     /// The walls.
-    #[must_use]
     pub fn walls(&self) -> &[Wall] {
         &self.walls
     }
@@ -21,7 +19,6 @@ impl GrainSystem {
     }
 
     /// The meshes.
-    #[must_use]
     pub fn meshes(&self) -> &[Mesh] {
         &self.meshes
     }
@@ -48,25 +45,21 @@ impl GrainSystem {
     }
 
     /// Axes along which the box repeats itself.
-    #[must_use]
     pub fn period(&self) -> &crate::grains::Period {
         &self.period
     }
 
     /// Time, s.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
     /// Steps made.
-    #[must_use]
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
     /// Number of times that the lists of neighbours were made.
-    #[must_use]
     pub fn renewals(&self) -> u64 {
         self.renewals
     }
@@ -77,7 +70,6 @@ impl GrainSystem {
     }
 
     /// Gravity, m/s².
-    #[must_use]
     pub fn gravity(&self) -> Vector {
         self.gravity
     }

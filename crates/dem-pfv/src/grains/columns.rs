@@ -75,85 +75,71 @@ impl Grains {
     }
 
     /// How many there are.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
 
     /// Centres, m.
-    #[must_use]
     pub fn positions(&self) -> &[Vector] {
         &self.position
     }
 
     /// Velocities, m/s; half a step behind the positions while a system steps.
-    #[must_use]
     pub fn velocities(&self) -> &[Vector] {
         &self.velocity
     }
 
     /// Angular velocities, rad/s.
-    #[must_use]
     pub fn spins(&self) -> &[Vector] {
         &self.spin
     }
 
     /// Orientations, unit quaternions (w, x, y, z) from the start to now.
-    #[must_use]
     pub fn orientations(&self) -> &[[f64; 4]] {
         &self.orientation
     }
 
     /// Radii R, m.
-    #[must_use]
     pub fn radii(&self) -> &[f64] {
         &self.radius
     }
 
     /// Masses, kg.
-    #[must_use]
     pub fn masses(&self) -> &[f64] {
         &self.mass
     }
 
     /// Moment of inertia J = (2/5) m R² of a grain, kg m².
-    #[must_use]
     pub fn inertia(&self, grain: usize) -> f64 {
         INERTIA * self.mass[grain] * self.radius[grain].powi(2)
     }
 
     /// Grains that keep their velocity whatever acts on them.
-    #[must_use]
     pub fn held(&self) -> &[bool] {
         &self.held
     }
 
     /// Sums of the contact forces at the last evaluation, N.
-    #[must_use]
     pub fn contact_forces(&self) -> &[Vector] {
         &self.contact_force
     }
 
     /// Forces from outside, N.
-    #[must_use]
     pub fn external_forces(&self) -> &[Vector] {
         &self.external_force
     }
 
     /// Moments from outside, N m.
-    #[must_use]
     pub fn external_torques(&self) -> &[Vector] {
         &self.external_torque
     }
 
     /// Volume of all grains Σ (4/3) π R³, m³.
-    #[must_use]
     pub fn volume(&self) -> f64 {
         self.radius.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
     }

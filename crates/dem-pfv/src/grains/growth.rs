@@ -38,7 +38,6 @@ const EVERY: u64 = 10;
 
 impl Growth {
     /// The custom: m_fast = 1 + 2·10⁴ Pa/E, m_slow = 1 + 2·10³ Pa/E with the micro modulus E in Pa.
-    #[must_use]
     pub fn new(target: Target, modulus: f64) -> Self {
         Self {
             target,

@@ -64,7 +64,6 @@ impl Load {
 
 impl Model {
     /// The grains.
-    #[must_use]
     pub fn grains(&self) -> &GrainSystem {
         match self {
             Self::Dry(system) => system,
@@ -80,7 +79,6 @@ impl Model {
     }
 
     /// The coupled system, if there is a fluid.
-    #[must_use]
     pub fn wet(&self) -> Option<&CoupledSystem> {
         match self {
             Self::Dry(_) => None,
@@ -171,7 +169,6 @@ impl Model {
     }
 
     /// State to go on bit for bit.
-    #[must_use]
     pub fn save(&self) -> Saved {
         match self {
             Self::Dry(system) => Saved::Dry(Box::new(system.save())),

@@ -27,7 +27,6 @@ pub struct Origin {
 
 impl Origin {
     /// Of grains that are ready.
-    #[must_use]
     pub fn new(scene: &Scene, grains: &GrainSystem) -> Self {
         let all = grains.grains();
         let test = scene.oedometer.as_ref();
@@ -44,7 +43,6 @@ impl Origin {
     }
 
     /// C_v = K Δσ / ε, m²/s.
-    #[must_use]
     pub fn consolidation(&self) -> Option<f64> {
         Some(self.mobility? * self.load? / self.dry_strain?)
     }

@@ -29,7 +29,6 @@ pub struct Loaded {
 }
 
 /// Whether a table is that of a scene of grains.
-#[must_use]
 pub fn is_grain_scene(table: &Table) -> bool {
     table.contains_key("grains")
 }
@@ -180,7 +179,6 @@ impl Loaded {
     }
 
     /// Every file that the scene names, as it names it, with the key that does.
-    #[must_use]
     pub fn files(&self) -> Vec<(String, String)> {
         files(&self.scene)
     }

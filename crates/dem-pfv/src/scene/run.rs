@@ -29,7 +29,6 @@ use crate::scene::tables::Probe;
 const SCHEMA_VERSION: u32 = 1;
 
 /// Identity of the checkpoints of a scene.
-#[must_use]
 pub fn identity(loaded: &Loaded) -> Identity {
     Identity::of_text(loaded.table.to_string())
 }
