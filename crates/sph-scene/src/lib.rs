@@ -72,7 +72,7 @@ pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
     Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
 };
-pub use tables::body::{Body, Cutout, Filling, Pressure};
+pub use tables::body::{Body, BodyShape, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::erodible::Erodible;
 pub use tables::gravity::{GravityOverTime, GravitySine};

@@ -19,7 +19,7 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
     };
     let advice = "; a wall of several parts is several walls";
     if found.one_of(&wall.geometries(), path, "geometry", [all, advice]) {
-        keys_of_shape(wall.keys(), of, path, found);
+        keys_of_shape(&wall.shape(), of, path, found);
         drawn(wall, of, path, found);
         companions(wall, path, found);
     }
