@@ -77,7 +77,7 @@ pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::erodible::Erodible;
 pub use tables::gravity::{GravityOverTime, GravitySine};
 pub use tables::motion::{
-    AngularRamp, AngularSine, Levels, Motion, Ramp, Rotation, Sine, Translate,
+    AngularRamp, AngularSine, CourseRows, Levels, Motion, Ramp, Rotation, Sine, Translate,
 };
 pub use tables::numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
 pub use tables::outlet::Outlet;
