@@ -19,8 +19,8 @@ impl CoupledSystem {
 
     /// The grains without the fluid and its forces.
     pub fn into_grains(mut self) -> GrainSystem {
-        self.grains.external_forces_mut().fill(Vector::zeros());
-        for wall in self.grains.walls_mut() {
+        self.grains.grains.external_force.fill(Vector::zeros());
+        for wall in &mut self.grains.walls {
             wall.external_force = Vector::zeros();
         }
         self.grains

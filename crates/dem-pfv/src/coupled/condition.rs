@@ -189,7 +189,7 @@ pub(crate) fn boundary(sides: &[WallBoundary], pores: &PoreGeometry, time: f64) 
 /// Flux into the pores through every wall, m³/s, from that through each cell with a given pressure.
 pub(crate) fn inflows(sides: &[WallBoundary], pores: &PoreGeometry, influx: &[f64]) -> Vec<f64> {
     let mut owners = vec![usize::MAX; influx.len()];
-    let around = |wall: usize| pores.mesh().cells_around(Vertex::Wall(wall)).iter();
+    let around = |wall: usize| pores.mesh.cells_around(Vertex::Wall(wall)).iter();
     for (wall, _) in sides.iter().enumerate().filter(|(_, s)| s.presses()) {
         around(wall).for_each(|c| owners[*c as usize] = wall);
     }

@@ -48,17 +48,17 @@ impl CoupledSystem {
 
     /// Sum of the fluid's forces on all grains, buoyancy apart, N.
     pub fn drag(&self) -> Vector {
-        let grains = self.grains.grains();
-        let total: Vector = grains.external_forces().iter().sum();
-        total + self.setup.fluid.density * self.grains.gravity() * grains.volume()
+        let grains = &self.grains.grains;
+        let total: Vector = grains.external_force.iter().sum();
+        total + self.setup.fluid.density * self.grains.gravity * grains.volume()
     }
 
     /// Weight of the grains less buoyancy Σ (ρ_s − ρ_f) V g, N.
     pub fn buoyant_weight(&self) -> Vector {
-        let grains = self.grains.grains();
-        let solid: f64 = grains.masses().iter().sum();
-        let fluid: f64 = grains.radii().iter().map(|r| sphere(*r)).sum();
-        self.grains.gravity() * (solid - self.setup.fluid.density * fluid)
+        let grains = &self.grains.grains;
+        let solid: f64 = grains.mass.iter().sum();
+        let fluid: f64 = grains.radius.iter().map(|r| sphere(*r)).sum();
+        self.grains.gravity * (solid - self.setup.fluid.density * fluid)
     }
 
     /// Lets every step from now on measure what flows through walls.
@@ -81,7 +81,7 @@ impl CoupledSystem {
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
         let mut sides = vec![crate::coupled::WallBoundary::closed(); 6];
-        let walls = self.grains.walls().iter().enumerate();
+        let walls = self.grains.walls.iter().enumerate();
         let facing = |sign: f64| {
             let found = walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
             found.map(|(number, _)| number)

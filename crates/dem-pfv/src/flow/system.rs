@@ -113,12 +113,12 @@ impl FlowSystem {
         positive("viscosity", viscosity)?;
         let conductances = conductances(geometry, law, viscosity)?;
         let ends: Vec<_> = geometry
-            .throats()
+            .throats
             .iter()
             .map(|t| t.cells.map(|c| c as u32))
             .collect();
-        let open = geometry.throats().iter().zip(&ends).filter(|(t, _)| t.open);
-        let pores = joined(geometry.volumes().len(), open.map(|(_, e)| *e));
+        let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
+        let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
         let given = given(boundary, &pores);
         if storage.is_none() {
             reachable(&conductances, &ends, &given, &pores)?;
@@ -133,7 +133,7 @@ impl FlowSystem {
             unknowns,
             given: boundary.pressures.iter().map(Option::is_some).collect(),
             givers,
-            void_volumes: geometry.void_volumes().to_vec(),
+            void_volumes: geometry.void_volumes.to_vec(),
             storage,
             diagonal,
             matrix,
@@ -143,7 +143,7 @@ impl FlowSystem {
         };
         if system.solver == Solver::Direct && count > 0 {
             let mut places = vec![Default::default(); count];
-            for (&u, at) in system.unknowns.iter().zip(geometry.centres()) {
+            for (&u, at) in system.unknowns.iter().zip(&geometry.centres) {
                 if u != GIVEN {
                     places[u as usize] = *at;
                 }
@@ -341,7 +341,7 @@ impl FlowSystem {
     pub fn inflow(&self, geometry: &PoreGeometry, wall: usize, pressures: &[f64]) -> f64 {
         let mut on_wall = vec![false; self.pores.len()];
         let wall = crate::triangulation::Vertex::Wall(wall);
-        for &c in geometry.mesh().cells_around(wall) {
+        for &c in geometry.mesh.cells_around(wall) {
             on_wall[self.pores[c as usize] as usize] |= self.given[c as usize];
         }
         let throats = self.conductances.iter().zip(&self.ends);

@@ -77,7 +77,7 @@ impl Growth {
                         1.0 + (1.0 - stress / goal) * (most - 1.0)
                     }
                     Target::Porosity(goal) => {
-                        let (volume, solid) = (system.box_volume(), system.grains().volume());
+                        let (volume, solid) = (system.box_volume(), system.grains.volume());
                         let volume = volume.ok_or(GrainError::NoArea { wall: 0 })?;
                         let left = ((1.0 - goal) * volume / solid).cbrt();
                         if left <= 1.0 && still {

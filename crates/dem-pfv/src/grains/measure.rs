@@ -161,14 +161,14 @@ impl GrainSystem {
     /// # Errors
     /// If the box is not closed.
     pub fn effective_stress(&self, axis: usize, at: f64) -> Result<f64, GrainError> {
-        let above = |grain: usize| self.grains().positions()[grain][axis] >= at;
+        let above = |grain: usize| self.grains.position[grain][axis] >= at;
         let mut force = 0.0;
         for touch in self.contacts() {
             let first = above(touch.grain);
             let second = match touch.partner {
                 Partner::Grain(other) => above(other),
                 Partner::Wall(wall) => {
-                    let wall = &self.walls()[wall];
+                    let wall = &self.walls[wall];
                     match wall.normal[axis].abs() > 0.5 {
                         true => wall.point[axis] >= at,
                         false => first,

@@ -96,8 +96,8 @@ impl Model {
     /// Sets the loads of the time that is now.
     pub fn apply(&mut self, loads: &[Load]) {
         for load in loads {
-            let stress = load.stress(self.grains().time());
-            if let Some(wall) = self.grains_mut().walls_mut().get_mut(load.wall)
+            let stress = load.stress(self.grains().time);
+            if let Some(wall) = self.grains_mut().walls.get_mut(load.wall)
                 && let Control::Piston { mass, .. } = wall.control
             {
                 wall.control = Control::Piston { stress, mass };
@@ -115,7 +115,7 @@ impl Model {
     }
 
     fn try_advance(&mut self, safety: f64, end: f64) -> Result<Made, CoupledError> {
-        let left = (end - self.grains().time()).max(0.0);
+        let left = (end - self.grains().time).max(0.0);
         // The last step is shortened, but not to nothing.
         let cut = |step: f64| {
             if left < step {
@@ -157,10 +157,10 @@ impl Model {
     fn failure(&self, error: CoupledError) -> Failure {
         let grains = self.grains();
         let grain = grain_of(&error);
-        let position = grain.and_then(|k| grains.grains().positions().get(k));
+        let position = grain.and_then(|k| grains.grains.position.get(k));
         Failure {
-            time: grains.time(),
-            step: grains.steps(),
+            time: grains.time,
+            step: grains.steps,
             position: position.map(|x| [x.x, x.y, x.z]),
             grain,
             error,

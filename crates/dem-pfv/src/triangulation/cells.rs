@@ -68,9 +68,12 @@ pub struct Facet {
 /// The regular triangulation of spheres.
 #[derive(Clone, Debug)]
 pub struct Triangulation {
-    spheres: Vec<Sphere>,
-    walls: Vec<Wall>,
-    cells: Vec<Cell>,
+    /// The spheres, in the order given.
+    pub spheres: Vec<Sphere>,
+    /// The walls, in the order given.
+    pub walls: Vec<Wall>,
+    /// All cells.
+    pub cells: Vec<Cell>,
     /// Cells of sphere k: `incident[first[k]..first[k + 1]]`; walls follow the spheres.
     first: Vec<usize>,
     incident: Vec<u32>,
@@ -152,21 +155,6 @@ impl Triangulation {
             first,
             incident,
         })
-    }
-
-    /// The spheres, in the order given.
-    pub fn spheres(&self) -> &[Sphere] {
-        &self.spheres
-    }
-
-    /// The walls, in the order given.
-    pub fn walls(&self) -> &[Wall] {
-        &self.walls
-    }
-
-    /// All cells.
-    pub fn cells(&self) -> &[Cell] {
-        &self.cells
     }
 
     /// The numbers of the cells around a vertex, ascending.

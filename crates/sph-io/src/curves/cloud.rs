@@ -34,10 +34,13 @@ pub type Weights = Vec<(u32, f64)>;
 /// assert!(cloud.weights([3.0, 0.0, 0.0]).is_none());
 /// ```
 pub struct Cloud<'a> {
-    points: &'a [[f64; 3]],
-    spacing: f64,
+    /// The points, m.
+    pub points: &'a [[f64; 3]],
+    /// Their distance, m.
+    pub spacing: f64,
     cells: PlaceCells<u32>,
-    planar: bool,
+    /// Whether they lie in a plane of constant z.
+    pub planar: bool,
 }
 
 impl<'a> Cloud<'a> {
@@ -58,21 +61,6 @@ impl<'a> Cloud<'a> {
             cells,
             planar,
         }
-    }
-
-    /// The points, m.
-    pub fn points(&self) -> &[[f64; 3]] {
-        self.points
-    }
-
-    /// Their distance, m.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
-    /// Whether they lie in a plane of constant z.
-    pub fn planar(&self) -> bool {
-        self.planar
     }
 
     /// The points nearer to `x` than the radius of the fit, with r_j − x.

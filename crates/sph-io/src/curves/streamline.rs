@@ -35,19 +35,19 @@ pub fn streamlines(
         still: STILL * fastest(velocity),
     };
     let speed = |k: u32| square(&flow.own(k));
-    let mut seeds: Vec<u32> = (0..cloud.points().len() as u32).collect();
+    let mut seeds: Vec<u32> = (0..cloud.points.len() as u32).collect();
     // The same on every machine: particles of one speed keep their order.
     seeds.sort_by(|a, b| speed(*b).total_cmp(&speed(*a)).then(a.cmp(b)));
     let mut drawn = Drawn::new(apart);
     let mut lines = Vec::new();
     for seed in seeds {
-        let start = cloud.points()[seed as usize];
+        let start = cloud.points[seed as usize];
         if drawn.near(start, apart) {
             continue;
         }
         let line = flow.through(start, &drawn, apart);
         // Shorter ones are blots.
-        if line.len() as f64 * STEP * cloud.spacing() > apart {
+        if line.len() as f64 * STEP * cloud.spacing > apart {
             line.iter().for_each(|x| drawn.add(*x, *x));
             lines.push(line);
         }
@@ -102,7 +102,7 @@ impl Flow<'_> {
 
     /// The line through a place, against the flow and along it.
     fn through(&self, start: [f64; 3], drawn: &Drawn, apart: f64) -> Vec<[f64; 3]> {
-        let step = STEP * self.cloud.spacing();
+        let step = STEP * self.cloud.spacing;
         let (mut line, closed) = self.followed(start, step, drawn, apart);
         if closed {
             return line;
@@ -181,15 +181,15 @@ pub fn draw_streamlines(
         .map(|[lo, hi]| hi - lo);
     let apart = apart.unwrap_or(sides.iter().fold(0.0_f64, |m, s| m.max(*s)) / 40.0);
     let apart = apart.max(snapshot.spacing);
-    let flat = if cloud.planar() { 2 } else { 1 };
+    let flat = if cloud.planar { 2 } else { 1 };
     let [near, far] = ends(&snapshot, flat);
     let level = plane.unwrap_or(0.5 * (near + far));
     // Lines of a slice begin at its own particles, moved into it.
     let (mut points, mut values, mut moving) = (Vec::new(), Vec::new(), Vec::new());
     for (k, point) in snapshot.points().iter().enumerate() {
-        if cloud.planar() || (point[flat] - level).abs() <= 0.5 * snapshot.spacing {
+        if cloud.planar || (point[flat] - level).abs() <= 0.5 * snapshot.spacing {
             let mut point = *point;
-            if !cloud.planar() {
+            if !cloud.planar {
                 point[flat] = level;
             }
             points.push(point);
