@@ -3,7 +3,7 @@
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString};
-use sph_cli::library::{Opened, Request, open, open_text};
+use sph_cli::library::{OpenScene, Request, open, open_text};
 use toml::{Table, Value};
 
 use crate::errors;
@@ -12,7 +12,7 @@ use crate::errors;
 const DEEPEST: usize = 64;
 
 /// Opens a scene: a path or the name of a shipped scene, a text with several lines, or a dict.
-pub fn opened(scene: &Bound<'_, PyAny>, request: &Request) -> PyResult<Opened> {
+pub fn opened(scene: &Bound<'_, PyAny>, request: &Request) -> PyResult<OpenScene> {
     let py = scene.py();
     let told = |t| errors::from_trouble(py, &t);
     if let Ok(dict) = scene.cast::<PyDict>() {

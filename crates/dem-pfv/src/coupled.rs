@@ -8,7 +8,7 @@
 //! * [`Remeshing`]: when pores are found anew. [`StepLimit`]: the largest stable step, of contacts and drag.
 //! * [`CoupledSystem::layer_pressure`], [`CoupledSystem::gradient`], [`GrainSystem::effective_stress`](crate::grains::GrainSystem::effective_stress),
 //!   [`CoupledSystem::mobility`]: measures.
-//! * [`State`]: saved, and resumed to the same bits. [`CoupledError`]: what is refused, by grain, wall or cell.
+//! * [`State`]: saved, and resumed to the same bits. [`CoupledError`]: refusals, by grain, wall or cell.
 //! * [`Terzaghi`]: the exact consolidation that a loaded packing is compared with.
 //!
 //! ```
@@ -52,5 +52,5 @@ pub use state::State;
 pub use system::CoupledSystem;
 pub use terzaghi::Terzaghi;
 
-/// A vector in space, SI units of whatever it holds.
+/// A vector in space, SI units of its quantity.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -10,7 +10,7 @@
 //! * [`Cloud`], [`rain`], [`Growth`], [`step_to_rest`]: samples.
 //! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
 //!   measures.
-//! * [`State`]: saved, and resumed to the same bits. [`GrainError`]: what is refused, by the grain's number.
+//! * [`State`]: saved, and resumed to the same bits. [`GrainError`]: refusals, by the grain's number.
 //!
 //! ```
 //! use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
@@ -75,5 +75,5 @@ pub use system::GrainSystem;
 pub use unrest::Unrest;
 pub use wall::{Control, Wall};
 
-/// A vector in space, SI units of whatever it holds.
+/// A vector in space, SI units of its quantity.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -75,7 +75,7 @@ pub use compare::Compared;
 pub use error::{DemError, Failure};
 pub use examine::{Examination, examine};
 pub use forecast::Cost;
-pub use model::{Load, Made, Model, Saved};
+pub use model::{Load, Model, Saved, StepOutcome};
 pub use origin::Origin;
 pub use read::{Loaded, is_grain_scene, read};
 pub use run::{identity, run};

@@ -8,8 +8,8 @@
 //!
 //! * [`Triangulation`]: [`Triangulation::of_spheres`] between nothing but the spheres,
 //!   [`Triangulation::within`] between walls; its [`Cell`]s, [`Facet`]s, neighbours, power centres.
-//! * [`Sphere`] and [`Wall`]: what is triangulated; [`Wall::cuboid`] makes the six walls of a box.
-//! * [`TriangulationError`]: what is refused, with the sphere or the wall by its number.
+//! * [`Sphere`] and [`Wall`]: the input; [`Wall::cuboid`] makes the six walls of a box.
+//! * [`TriangulationError`]: refusals, with the sphere or the wall by its number.
 //!
 //! A wall is one vertex at infinity, the limit of a tangent sphere of infinite radius; the power
 //! bisector between a sphere and a wall is the wall itself, so power centres lie exactly on walls.

@@ -10,8 +10,8 @@ use crate::plausible::{Quantity, Verdict};
 use crate::problem::describe;
 use crate::{MOST_PROBLEMS, SceneProblem, parse_quantity, suggestion};
 
-/// Checks `value` against `schema` and converts quantities to SI in place; returns remarks on numbers outside
-/// what nature has ([`plausible`](crate::plausible)), at most [`MOST_PROBLEMS`].
+/// Checks `value` against `schema` and converts quantities to SI in place; returns remarks on numbers outside the range
+/// of nature ([`plausible`](crate::plausible)), at most [`MOST_PROBLEMS`].
 ///
 /// # Errors
 /// The problems found, each with its path relative to `value`, at most [`MOST_PROBLEMS`].
@@ -49,7 +49,7 @@ impl<'s> Walk<'s> {
         self.problems.push(SceneProblem::new(path, message));
     }
 
-    /// Whether as many problems are known as are reported.
+    /// True if no further problem is reported.
     fn full(&self) -> bool {
         self.problems.len() >= MOST_PROBLEMS
     }
@@ -248,7 +248,7 @@ impl<'s> Walk<'s> {
         }
     }
 
-    /// Bounds by quantity, for what is within the range of its key.
+    /// Bounds by quantity, for values within the range of their keys.
     fn plausible(&mut self, x: f64, schema: &Json, path: &str, unit: Option<&str>) {
         let name = schema.get("quantity").and_then(Json::as_str);
         match Quantity::find(name, unit).map(|q| q.judge(x)) {

@@ -12,7 +12,7 @@ pub enum Origin {
     Override(usize),
 }
 
-/// A mistake in a scene: what is wrong and where.
+/// A mistake in a scene: its message and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The defect, the expected value, the nearest valid name.

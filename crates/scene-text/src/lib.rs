@@ -1,4 +1,4 @@
-//! Scenes as texts, whatever they are about: units, schemas, overrides, and mistakes with their place.
+//! Scenes of any method as texts: units, schemas, overrides, and mistakes with their place.
 //!
 //! The subject of a scene is not known here. A reader of scenes
 //!

@@ -17,12 +17,12 @@ pub(crate) struct Place {
 pub(crate) fn locate(table: &DeTable<'_>, path: &str) -> Place {
     let mut here = 0..0;
     let mut rest = path;
-    let mut inside = Inside::Table(table);
+    let mut inside = TextNode::Table(table);
     while !rest.is_empty() {
         let step = match inside {
-            Inside::Table(table) => named(table, rest),
-            Inside::List(items) => indexed(items, rest),
-            Inside::Leaf => None,
+            TextNode::Table(table) => named(table, rest),
+            TextNode::List(items) => indexed(items, rest),
+            TextNode::Leaf => None,
         };
         let Some((span, value, remaining)) = step else {
             return Place {
@@ -33,9 +33,9 @@ pub(crate) fn locate(table: &DeTable<'_>, path: &str) -> Place {
         here = span;
         rest = remaining.strip_prefix('.').unwrap_or(remaining);
         inside = match value.get_ref() {
-            DeValue::Table(table) => Inside::Table(table),
-            DeValue::Array(items) => Inside::List(items),
-            _ => Inside::Leaf,
+            DeValue::Table(table) => TextNode::Table(table),
+            DeValue::Array(items) => TextNode::List(items),
+            _ => TextNode::Leaf,
         };
     }
     Place {
@@ -44,7 +44,7 @@ pub(crate) fn locate(table: &DeTable<'_>, path: &str) -> Place {
     }
 }
 
-enum Inside<'t> {
+enum TextNode<'t> {
     Table(&'t DeTable<'t>),
     List(&'t [Spanned<DeValue<'t>>]),
     Leaf,

@@ -78,7 +78,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A share as a percentage; what is not nothing is not printed as nothing.
+/// A share as a percentage; a share above zero is never printed as zero.
 pub fn percent(share: f64) -> String {
     match 100.0 * share {
         p if p > 0.0 && p < 0.05 => "<0.1 %".into(),

@@ -21,7 +21,7 @@ fn single() -> Vec<Vec<&'static str>> {
 
 /// A value for a key of the scene in place of that of the file.
 ///
-/// The value is TOML; what is not TOML is taken as a string, so that a shell needs no second
+/// The value is TOML; text that is not TOML is taken as a string, so that a shell needs no second
 /// pair of quotes. Setting another plugin where a scene has exactly one replaces the present
 /// one: `kernel.wendland-c4={}`.
 ///
@@ -41,7 +41,7 @@ pub struct Override {
     segments: Vec<Segment>,
     /// The value.
     pub value: Value,
-    /// Whether it stood on the command line.
+    /// True if it stood on the command line.
     pub(crate) users: bool,
 }
 
@@ -90,7 +90,7 @@ impl Override {
         })
     }
 
-    /// Whether the value of a key is its own or within its own.
+    /// True if the value of a key is its own or within its own.
     pub(crate) fn gives(&self, key: &str) -> bool {
         let rest = key.strip_prefix(self.path.as_str());
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
@@ -146,7 +146,7 @@ impl Override {
         Ok(())
     }
 
-    /// Whether the key at that depth names a plugin where there is exactly one.
+    /// True if the key at that depth names a plugin where there is exactly one.
     fn replaces(&self, depth: usize) -> bool {
         let fits = |pattern: &Vec<&str>| {
             pattern.len() == depth

@@ -51,7 +51,7 @@ pub fn within(folder: &Path, named: &str, allowed: &[PathBuf]) -> Result<PathBuf
         Some(real) if real_folder(folder).is_some() && !in_folder(folder) => Err(
             PathProblem::Link(named.to_string(), real.display().to_string()),
         ),
-        // What is not there leads nowhere.
+        // A missing file leads nowhere.
         _ => Ok(path),
     }
 }
@@ -83,7 +83,7 @@ fn leaves(named: &str) -> Result<(), PathProblem> {
     Ok(())
 }
 
-/// Where a path leads; of a file that is not there, where it would be.
+/// Target of a path without links; of a missing file, the path that it would have.
 fn real(path: &Path) -> Option<PathBuf> {
     let there = path.canonicalize().ok();
     there.or_else(|| Some(real_folder(path.parent()?)?.join(path.file_name()?)))

@@ -1,12 +1,12 @@
 //! Plausible ranges of numbers of a scene: bounds by quantity, outside which a number is a mistake.
 //!
-//! Outside what nature or a laboratory has, a number is remarked upon; where no run can be right, it is refused.
+//! A number outside the range of nature or a laboratory gets a remark; where no run can be right, it is refused.
 //! A key has the quantity that its schema names (`"quantity" = "spacing"`), or else that of its unit. Signs do not
 //! count, and zero is left to the range of the key. Bounds leave room for scenes without units.
 
 use crate::number::plain;
 
-/// Bounds of one quantity; the second pair is that of nature, with what stands there.
+/// Bounds of one quantity; the second pair is that of nature, with its description.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity {
     /// Its name, as schemas and messages have it.
@@ -21,7 +21,7 @@ pub struct Quantity {
     pub high: (f64, &'static str),
     /// Larger ones are refused.
     pub most: f64,
-    /// Why others are refused.
+    /// Reason to refuse other numbers.
     pub refusal: &'static str,
 }
 
@@ -216,7 +216,7 @@ pub const QUANTITIES: [Quantity; 20] = [
 pub enum Verdict {
     /// Nothing.
     Plausible,
-    /// It is outside what nature has.
+    /// It is outside the range of nature.
     Odd(String),
     /// No run can be right with it.
     Impossible(String),
@@ -230,7 +230,7 @@ impl Quantity {
         name.and_then(named).or_else(|| measured(unit?))
     }
 
-    /// Why no run can be right with a number of the quantity of a name, if none can.
+    /// Reason that no run can be right with a number of the quantity of a name, if there is one.
     pub fn refused(name: &str, x: f64) -> Option<String> {
         match Self::find(Some(name), None)?.judge(x) {
             Verdict::Impossible(why) => Some(why),

@@ -24,7 +24,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// A text by the name of its file, and what is put on top of it.
+    /// A text by the name of its file, and its overrides.
     pub fn new(text: &str, file: &str, overrides: &[Override]) -> Self {
         Source {
             file: file.to_string(),
@@ -65,8 +65,8 @@ impl Source {
         }
     }
 
-    /// Finds problems in the text: what an override set is shown there, the rest in the file.
-    /// Sorted by position, those of overrides last. Of more than [`MOST_PROBLEMS`] the first are placed.
+    /// Finds problems in the text: a value of an override is shown there, others in the file. Sorted by position, those
+    /// of overrides last. Of more than [`MOST_PROBLEMS`] the first are placed.
     pub fn diagnose(&self, problems: &[SceneProblem]) -> Vec<Diagnostic> {
         let table = DeTable::parse_recoverable(&self.text).0;
         let mut all: Vec<Diagnostic> = problems

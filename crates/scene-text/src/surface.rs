@@ -1,4 +1,4 @@
-//! Surfaces of triangles: read from STL files, welded, and what they are: openings, orientation, inside.
+//! Surfaces of triangles: read from STL files, welded, and their properties: openings, orientation, inside.
 //!
 //! ```
 //! let text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\

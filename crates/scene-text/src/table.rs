@@ -66,7 +66,7 @@ fn without_echoes(mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
 /// Deepest nesting that the reader of TOML takes.
 const DEEPEST: usize = 80;
 
-/// Where a text is nested too deeply: the reader reports it without a place.
+/// Place at which a text is nested too deeply: the reader reports it without a place.
 fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
     if !message.contains("recursion") {
         return 0..0;

@@ -8,8 +8,8 @@ use crate::diagnostic::line_and_column;
 /// Longest scene file, bytes.
 pub const FILE_BYTES: usize = 4 << 20;
 
-/// Whether a path is that of an open file of this process: `/dev/stdin`, or `<(command)` of a shell. Opening
-/// another pipe would wait for its writer, for ever if there is none.
+/// True if a path is that of an open file of this process: `/dev/stdin`, or `<(command)` of a shell. Opening another
+/// pipe would wait for its writer, for ever if there is none.
 fn is_given(path: &Path) -> bool {
     let open = ["/dev/stdin", "/dev/fd", "/proc/self/fd"];
     open.iter().any(|p| path.starts_with(p))

@@ -28,7 +28,7 @@ pub enum Order<'a> {
 pub struct Cholesky {
     symbolic: SymbolicCholesky<u32>,
     factor: Vec<f64>,
-    /// Memory of a solve: the unknowns in the order of elimination, and what supernodes sum.
+    /// Memory of a solve: the unknowns in the order of elimination, and the sums of supernodes.
     room: [Vec<f64>; 2],
     stack: MemBuffer,
 }

@@ -64,7 +64,7 @@ impl Cutter<'_> {
         upper.iter().for_each(|u| self.side[*u as usize] = mark);
         part.iter().for_each(|u| self.side[*u as usize] = mark + 1);
         self.mark += 1;
-        let between = self.between(&part, mark);
+        let between = self.separator(&part, mark);
         between.iter().for_each(|u| self.side[*u as usize] = 0);
         let inside = |u: &u32| self.side[*u as usize] != 0;
         let [lower, upper] = [part, upper].map(|half| half.into_iter().filter(inside).collect());
@@ -74,7 +74,7 @@ impl Cutter<'_> {
     }
 
     /// The fewest unknowns without which nothing joins the lower half to the upper one of a mark, ascending.
-    fn between(&mut self, lower: &[u32], mark: u32) -> Vec<u32> {
+    fn separator(&mut self, lower: &[u32], mark: u32) -> Vec<u32> {
         let (starts, list) = (&self.neighbours.0, &self.neighbours.1);
         let (mut left, mut right, mut joins) = (Vec::new(), Vec::new(), Joins::default());
         for &u in lower {

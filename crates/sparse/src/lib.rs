@@ -4,7 +4,7 @@
 //! * [`Cholesky`]: A = L Lᵀ by faer, in an [`Order`] of elimination that is kept while only values change;
 //!   [`nested_dissection`] makes one from places.
 //! * [`conjugate_gradient`]: iterations from a first guess.
-//! * [`SparseError`]: what cannot be solved.
+//! * [`SparseError`]: systems that cannot be solved.
 #![doc = include_str!("../README.md")]
 
 mod cholesky;

@@ -44,7 +44,7 @@ impl UpperTriangle {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Whether there are no unknowns.
+    /// True if there are no unknowns.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -36,7 +36,7 @@ impl<'a> Node<'a> {
         self.values[j * rows..][..rows].split_at(self.width)
     }
 
-    /// Finds the unknowns of the node, and takes what they do to those below off the right side.
+    /// Finds the unknowns of the node, and subtracts their effect on those below from the right side.
     fn forward(&self, x: &mut [f64], sums: &mut [f64]) {
         let own = &mut x[self.begin..][..self.width];
         for j in 0..self.width {

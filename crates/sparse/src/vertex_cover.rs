@@ -17,7 +17,7 @@ impl Joins {
         &self.list[self.starts[left as usize] as usize..self.starts[left as usize + 1] as usize]
     }
 
-    /// Whether each end on the left, and on the right of which there are `right`, is in a smallest cover.
+    /// Marks of the ends on the left, and on the right of which there are `right`, that are in a smallest cover.
     /// Source: König 1931, from a largest matching by augmenting paths.
     pub fn cover(&self, right: usize) -> [Vec<bool>; 2] {
         let left = self.starts.len() - 1;

@@ -8,7 +8,7 @@ use crate::limits::{MOST_PAIRS, MOST_PERIODS};
 
 /// A refused wall, motion or kernel.
 ///
-/// `wall` and `other` are names; points, edges and triangles count from 0 as in what was given, edge k of a triangle going
+/// `wall` and `other` are names; points, edges and triangles count from 0 as in the input, edge k of a triangle going
 /// from its corner k to the next. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -354,7 +354,7 @@ fn remedy(met: &Option<Box<str>>) -> String {
     }
 }
 
-/// Where something is, m.
+/// A position, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place(pub Box<[f64]>);
 

@@ -1,4 +1,4 @@
-//! Walls as lines and triangles: meshed, joined, moved, and what is near or inside them.
+//! Walls as lines and triangles: meshed, joined, moved, and queries for places near or inside them.
 
 #[cfg(feature = "plugins")]
 pub(crate) mod beds;

@@ -6,7 +6,7 @@
 //! |---|---|---|
 //! | how a wall is drawn | [`Polyline`]; [`thin_plate`] outlines a plate | [`Surface`]: points and triangles |
 //! | cut at the particle spacing, checked, joined, [moved](Pose), with an inside | [`Mesh<2>`] | [`Mesh<3>`] |
-//! | finds what is near a point | [`Grid<2>`] | [`Grid<3>`] |
+//! | finds elements near a point | [`Grid<2>`] | [`Grid<3>`] |
 //! | γ and ∇γ in closed form for any piecewise polynomial kernel | [`Renormalisation2d`] | [`Renormalisation3d`] |
 //!
 //! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins

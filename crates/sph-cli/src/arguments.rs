@@ -99,7 +99,7 @@ way it faces. Writes nothing but the picture.
 
 Exit codes: 0 the scene is good, 2 it is not.")]
     Check(CheckArguments),
-    /// Show what a scene is made of: plugins, columns, stages, limits of the time step
+    /// Show the parts of a scene: plugins, columns, stages, limits of the time step
     #[command(after_help = "\
 Example:
   sph explain dam-break-koshizuka
@@ -151,7 +151,7 @@ that differs it has the largest difference with time, particle and place. Writes
 
 Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
     Compare(CompareArguments),
-    /// Draw what a run did not: streamlines, profiles along a line, tracks of particles
+    /// Draw results that a run has not drawn: streamlines, profiles along a line, tracks of particles
     #[command(after_help = "\
 Examples:
   sph draw streamlines results/cavity --out cavity.png
@@ -198,7 +198,7 @@ Examples:
 }
 
 impl Command {
-    /// Whether results and errors go to stdout as JSON.
+    /// True if results and errors go to stdout as JSON.
     pub fn json(&self) -> bool {
         match self {
             Command::Run(a) => a.json,
@@ -243,7 +243,7 @@ pub struct RunArguments {
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub threads: Option<u16>,
-    /// Divide the particles between so many ranks within this process: same results, for trying out what `mpirun` does
+    /// Divide the particles between so many ranks within this process: same results, as a trial of `mpirun`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub ranks: Option<u16>,
     /// Go on from the checkpoint in the folder of the results
@@ -252,7 +252,8 @@ pub struct RunArguments {
     /// Begin with the particles and the time of another run of the same bodies: its folder or checkpoint
     #[arg(long, value_name = "DIR", conflicts_with = "resume")]
     pub from: Option<PathBuf>,
-    /// With --resume: go on although the scene or --set has changed since the checkpoint, for instance to mend what failed
+    /// With --resume: go on although the scene or --set has changed since the checkpoint, for instance to mend a
+    /// failure
     #[arg(long, requires = "resume")]
     pub changed: bool,
     /// Print summary.json on stdout; diagnostics as a JSON array if there are any
@@ -319,7 +320,7 @@ pub struct CheckArguments {
 pub struct ExplainArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Also what each of so many machines would own, and what they would send each other
+    /// Also the share of each of so many machines, and their messages
     #[arg(long, value_name = "N")]
     pub ranks: Option<std::num::NonZeroUsize>,
     /// Print the result, or the diagnostics as an array, as JSON on stdout

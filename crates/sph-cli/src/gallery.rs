@@ -47,7 +47,7 @@ pub struct Entry {
     pub shows: String,
     /// References and errors, Markdown.
     pub measured: Option<String>,
-    /// The moment of the picture, and what differs from the shipped scene in it.
+    /// The moment of the picture, and its differences from the shipped scene.
     pub picture: String,
 }
 

@@ -35,7 +35,7 @@ pub fn flag() -> Arc<AtomicBool> {
     raised
 }
 
-/// A file longer than `ulimit -f` allows is a disk that is full, and no reason to die without a word.
+/// A file longer than `ulimit -f` allows is reported as a full disk; by default the process ends without a message.
 #[cfg(unix)]
 fn too_long() {
     use signal_hook::{consts::SIGXFSZ, flag};
@@ -61,7 +61,7 @@ fn terminated(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether SIGHUP is not ignored, as `nohup` has it. Where that is not known, it keeps its effect.
+/// True if SIGHUP is known to have an effect: `nohup` ignores it.
 #[cfg(unix)]
 fn told_of_hang_up() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

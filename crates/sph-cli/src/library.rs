@@ -1,4 +1,4 @@
-//! The commands as functions: they write the files that the commands write, print nothing, and return what is printed.
+//! The commands as functions: they write the files that the commands write, print nothing, and return the printed text.
 //!
 //! ```no_run
 //! use sph_cli::library::{Request, check, open};
@@ -24,7 +24,7 @@ pub use crate::commands::check::output as check;
 pub use crate::commands::compare::output as compare;
 pub use crate::commands::explain::output as explain;
 pub use crate::commands::study::Studied;
-pub use crate::scene_file::{AnyScene, Opened};
+pub use crate::scene_file::{AnyScene, OpenScene};
 pub use crate::terminal::output::{CommandOutput, Ended};
 pub use crate::terminal::trouble::Trouble;
 /// A scene of particles.
@@ -67,7 +67,7 @@ pub enum Begin {
 ///
 /// # Errors
 /// Mistakes of the scene with their places, or that there is none.
-pub fn open(scene: &str, request: &Request) -> Result<Opened, Trouble> {
+pub fn open(scene: &str, request: &Request) -> Result<OpenScene, Trouble> {
     scene_file::open(&request.scene_arguments(scene))
 }
 
@@ -75,7 +75,7 @@ pub fn open(scene: &str, request: &Request) -> Result<Opened, Trouble> {
 ///
 /// # Errors
 /// Mistakes of the scene with their places.
-pub fn open_text(text: &str, file: &str, request: &Request) -> Result<Opened, Trouble> {
+pub fn open_text(text: &str, file: &str, request: &Request) -> Result<OpenScene, Trouble> {
     scene_file::open_text(text, file, &request.scene_arguments(file))
 }
 
@@ -84,7 +84,7 @@ pub fn open_text(text: &str, file: &str, request: &Request) -> Result<Opened, Tr
 /// # Errors
 /// A folder that cannot be used, a scene that cannot be assembled, a run that failed.
 pub fn run(
-    opened: &Opened,
+    opened: &OpenScene,
     request: &Request,
     (out, threads, begin): (Option<PathBuf>, Option<u16>, Begin),
     observer: &mut Watch<'_>,
@@ -147,8 +147,8 @@ pub struct StudyOptions {
     pub threads: Option<u16>,
     /// Patterns of the names of the variants that are wanted; none for all.
     pub only: Vec<String>,
-    /// Whether finished variants run again.
+    /// True if finished variants run again.
     pub fresh: bool,
-    /// Whether it is silent.
+    /// True if it is silent.
     pub quiet: bool,
 }

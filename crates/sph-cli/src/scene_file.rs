@@ -57,12 +57,12 @@ impl AnyScene {
 }
 
 /// A scene ready for its solver, and the folder its data were unpacked to.
-pub struct Opened {
+pub struct OpenScene {
     /// The scene with its text.
     pub scene: AnyScene,
     /// Name without folder and extension.
     pub stem: String,
-    /// What messages call it: its file, or its name if it is compiled in.
+    /// Name in messages: its file, or its name if it is compiled in.
     pub shown: String,
     /// Kept until the scene is done with.
     _unpacked: Option<Scratch>,
@@ -91,11 +91,11 @@ pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
 }
 
 /// Reads the scene, by its path or by the name of a shipped one.
-pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
+pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
     let found = located(Path::new(&arguments.scene), &arguments.scene).map_err(Trouble::Usage)?;
-    Ok(Opened {
+    Ok(OpenScene {
         scene: read(Source::new(&found.text, &found.file, &overrides).allowing(allowed))?,
         stem: found.name,
         shown: found.shown,
@@ -104,10 +104,10 @@ pub fn open(arguments: &SceneArguments) -> Result<Opened, Trouble> {
 }
 
 /// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
-pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<Opened, Trouble> {
+pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
-    Ok(Opened {
+    Ok(OpenScene {
         scene: read(Source::new(text, file, &overrides).allowing(allowed))?,
         stem: stem(Path::new(file)).to_string(),
         shown: file.to_string(),
@@ -116,7 +116,7 @@ pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<O
 }
 
 /// A scene's text, found but not yet read as one; its data disappear with it.
-pub struct Found {
+pub struct SceneSource {
     /// Name, text and file.
     pub scene: SceneText,
     _unpacked: Option<Scratch>,
@@ -124,10 +124,10 @@ pub struct Found {
 
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
 /// allowed one, or by the name of a shipped one.
-pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<Found, String> {
+pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<SceneSource, String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
     let found = located(&path, scene)?;
-    Ok(Found {
+    Ok(SceneSource {
         scene: SceneText {
             method: method(&found.text, &found.shown),
             name: found.name,
@@ -180,7 +180,7 @@ fn located(path: &Path, scene: &str) -> Result<Located, String> {
     })
 }
 
-/// What computes the scene of a text in a study; the name is for messages.
+/// Method that computes the scene of a text in a study; the name is for messages.
 #[must_use]
 pub fn method(text: &str, name: &str) -> &'static dyn Method {
     let table = Source::new(text, name, &[]).table();

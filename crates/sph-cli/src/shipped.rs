@@ -98,7 +98,7 @@ pub fn data_of(text: &str) -> impl Iterator<Item = (&'static str, &'static [u8])
     DATA.iter().filter(mentioned).copied()
 }
 
-/// Writes a compiled-in scene's data below a folder; returns what was written.
+/// Writes a compiled-in scene's data below a folder; returns the written files.
 ///
 /// # Errors
 /// The reason of the system, with the file.

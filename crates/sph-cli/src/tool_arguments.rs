@@ -154,14 +154,14 @@ pub struct ManArguments {
     pub out: Option<PathBuf>,
 }
 
-/// What `sph draw` draws.
+/// Drawings of `sph draw`.
 #[derive(Debug, Subcommand)]
 pub enum DrawCommand {
     /// Lines along the velocity of one moment, over a field
     Streamlines(StreamlineArguments),
     /// A field along a straight line, at one time or at several
     Profile(ProfileArguments),
-    /// Where single particles have been
+    /// Paths of single particles
     Tracks(TrackArguments),
 }
 
@@ -192,10 +192,10 @@ pub struct StreamlineArguments {
 pub struct ProfileArguments {
     /// Folder of the results of a run
     pub results: PathBuf,
-    /// Where the line starts, m
+    /// Start of the line, m
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
     pub from: String,
-    /// Where it ends, m
+    /// End of the line, m
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
     pub to: String,
     /// The field, of a vector its length, or a component: velocity.x
@@ -233,7 +233,7 @@ pub struct TrackArguments {
         conflicts_with = "count"
     )]
     pub near: Vec<String>,
-    /// How many particles, evenly spread over the identities
+    /// Number of particles, evenly spread over the identities
     #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub count: u32,
     /// Field of the last frame that gives the colours

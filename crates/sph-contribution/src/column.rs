@@ -37,7 +37,7 @@ pub struct OwnColumn<const D: usize> {
     pub field: AnyField,
     /// Its values at the start.
     pub initial: Initial<D>,
-    /// Whether particles that come in may begin with positive values alone.
+    /// True if particles that come in may begin with positive values alone.
     pub positive: bool,
 }
 

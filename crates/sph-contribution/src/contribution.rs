@@ -18,19 +18,19 @@ pub struct Setting<'a, const D: usize> {
     pub soils: &'a [bool],
     /// The scalar that the formulation integrates for the density, with its rate.
     pub density: Evolved,
-    /// Whether densities are sums over positions, which every motion of particles changes.
+    /// True if densities are sums over positions, which every motion of particles changes.
     pub summed: bool,
-    /// Whether pressure is that of the end of the step, which no density that a step adds can overshoot.
+    /// True if pressure is that of the end of the step, which no density that a step adds can overshoot.
     pub pressure_ahead: bool,
     /// The Courant number C of c Δt ≤ C h, for speeds of sound and elastic waves.
     pub courant: f64,
     /// C of νΔt ≤ C h².
     pub viscous: f64,
-    /// Whether a step has one kick and one drift, both over all of it.
+    /// True if a step has one kick and one drift, both over all of it.
     pub kicks_once: bool,
-    /// Whether a solve for friction may hold soils beyond their strength.
+    /// True if a solve for friction may hold soils beyond their strength.
     pub delayed_yield: bool,
-    /// Whether the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
+    /// True if the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
     pub carried: bool,
     /// A wall that moves, if there is one.
     pub moving_wall: Option<&'a str>,

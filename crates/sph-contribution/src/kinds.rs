@@ -39,7 +39,7 @@ pub fn parts<const D: usize>(plugins: &Plugins) -> Vec<Part<D>> {
     each.flat_map(|c| c.parts::<D>(plugins)).collect()
 }
 
-/// Whether plugins of a kind contribute to flows.
+/// True if plugins of a kind contribute to flows.
 pub fn contributes(kind: &str) -> bool {
     let mut all = inventory::iter::<Contributor>.into_iter();
     all.any(|contributor| contributor.kind == kind)

@@ -13,8 +13,8 @@
 //!   kinds for it. [`parts`] are the contributions of a scene.
 //! * [`integrators`] advance a flow by kicks, drifts and evaluations.
 //!
-//! What a contribution remembers from step to step belongs into its columns, not into its own fields: only
-//! columns are rolled back when a step fails, and only they are in checkpoints.
+//! State of a contribution from step to step belongs into its columns, not into its own fields: columns alone are rolled
+//! back when a step fails, and they alone are in checkpoints.
 #![doc = include_str!("../README.md")]
 
 mod column;

@@ -6,8 +6,9 @@ use sph_core::Vect;
 
 /// A particle that comes into the flow at the end of a step.
 ///
-/// Its density is that of the equation of state's pressure there; what a formulation integrates follows from it. Densities that are sums
-/// get its mass at once: let a particle in with little of it, or where no particle is near.
+/// Its density is that of the equation of state's pressure there; the quantity that a formulation integrates follows
+/// from it. Densities that are sums get its mass at once: let a particle in with little of it, or where no particle is
+/// near.
 #[derive(Clone, Debug)]
 pub struct Newborn<const D: usize> {
     /// Position, m.

@@ -28,7 +28,7 @@ pub struct Offer<const D: usize> {
     pub terms: Terms<D>,
     /// Terms that leave a column for hooks; left out unless a hook or gate reads it and nothing else reads it before.
     pub riding: Vec<(AnyField, Box<dyn Interaction<D>>)>,
-    /// Whether a term changes the density, with [`Rates::scalar`](sph_neighbours::Rates).
+    /// True if a term changes the density, with [`Rates::scalar`](sph_neighbours::Rates).
     pub changes_density: bool,
     /// Columns to compute, although no stage, term or hook reads them.
     pub goals: Vec<AnyField>,
@@ -43,7 +43,7 @@ pub struct Offer<const D: usize> {
     pub inner_bounds: Vec<String>,
     /// Work within a step.
     pub hooks: Vec<Box<dyn StepHook<D>>>,
-    /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
+    /// True if hooks before a drift read density, volume, pressure and γ of the present positions.
     pub fresh_state: bool,
     /// Forces that hooks take out of the sweep, for measurements of forces.
     pub outside: Vec<OutsideForce<D>>,
@@ -51,7 +51,7 @@ pub struct Offer<const D: usize> {
     pub gates: Vec<Box<dyn Gate<D>>>,
     /// Energy stored in particles.
     pub stored: Vec<Box<dyn StoredEnergy<D>>>,
-    /// Whether the pores of soils are full of a fluid that bears a part of their weight; for remarks.
+    /// True if the pores of soils are full of a fluid that bears a part of their weight; for remarks.
     pub saturated: bool,
     /// Advice for a run in which a term makes a particle too fast.
     pub remedy: Option<String>,

@@ -23,17 +23,17 @@ pub struct PluginInForce {
 
 /// The plugins that a scene names, and the defaults of kinds of which it names none.
 ///
-/// Every call builds a plugin anew. What is wrong with names and parameters is collected.
+/// Every call builds a plugin anew. Faults of names and parameters are collected.
 pub struct Plugins {
     choices: Vec<PluginChoice>,
     phases: Vec<Vec<PluginChoice>>,
     /// Names of the columns that outputs show and probes measure.
     pub shown: Vec<String>,
-    found: RefCell<Found>,
+    found: RefCell<PluginReport>,
 }
 
 #[derive(Default)]
-struct Found {
+struct PluginReport {
     problems: Vec<SceneProblem>,
     in_force: Vec<PluginInForce>,
 }
@@ -49,7 +49,7 @@ impl Plugins {
         }
     }
 
-    /// Whether the scene names a plugin of a kind.
+    /// True if the scene names a plugin of a kind.
     pub fn names(&self, kind: &str) -> bool {
         self.choices.iter().any(|choice| choice.kind == kind)
     }
@@ -100,7 +100,7 @@ impl Plugins {
                 Some(made)
             }
             Err(error) => {
-                let new = choice.blame(&error).into_iter();
+                let new = choice.scene_problems(&error).into_iter();
                 let new: Vec<_> = new.filter(|p| !found.problems.contains(p)).collect();
                 found.problems.extend(new);
                 None
@@ -114,7 +114,7 @@ impl Plugins {
     /// Everything that was wrong with names and parameters; if nothing was, tables of plugins that the scene has no use
     /// for.
     pub fn in_force(self) -> Result<Vec<PluginInForce>, Vec<SceneProblem>> {
-        let Found {
+        let PluginReport {
             mut problems,
             mut in_force,
         } = self.found.into_inner();

@@ -1,6 +1,6 @@
 //! Errors of a contribution that cannot be part of a scene.
 
-/// A key of a scene, and what is wrong with it there.
+/// A key of a scene, and its fault there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
     /// The kind whose plugin's table has the key.

@@ -12,7 +12,7 @@ pub struct LevelGrid {
     pub cell: [f64; 2],
     /// Number of places along x and y.
     pub count: [usize; 2],
-    /// Whether the place after the last one is the first, a period on.
+    /// Axes along which the place after the last one is the first, a period on.
     pub periodic: [bool; 2],
 }
 
@@ -23,7 +23,7 @@ impl LevelGrid {
         self.count[0] * self.count[1]
     }
 
-    /// Whether there is no place.
+    /// True if there is no place.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -111,7 +111,7 @@ impl LevelGrid {
         ]
     }
 
-    /// Whether a position, m, is between places, or at the first or the last ones.
+    /// True if a position, m, is between places, or at the first or the last ones.
     #[must_use]
     pub fn has(&self, at: [f64; 2]) -> bool {
         (0..2).filter(|k| self.count[*k] > 1).all(|k| {
@@ -136,7 +136,7 @@ impl LevelGrid {
 pub struct Bed {
     /// Numbers of the walls that follow it; the bed's own one is the first.
     pub walls: Vec<u32>,
-    /// Where its levels are known.
+    /// Grid of the known levels.
     pub grid: LevelGrid,
     /// Levels z₀ at the start, m.
     pub drawn: Vec<f64>,
@@ -156,7 +156,7 @@ pub struct Bed {
     pub shear: Vec<[f64; 2]>,
     /// Volume of grains, without pores, that moves along the bed per width and time along x and y, m²/s.
     pub transport: Vec<[f64; 2]>,
-    /// Volume of grains that came through the places with held levels since the start, less what went, m³ (m² in two
+    /// Volume of grains that came through the places with held levels since the start, less the outflow, m³ (m² in two
     /// dimensions), without pores.
     pub fed: f64,
     /// Volume of grains that slid since the start.
@@ -211,7 +211,7 @@ impl Bed {
         self.grid.mean(&self.lift, at) * self.share(height)
     }
 
-    /// Whether a point of the walls that was drawn somewhere follows the bed.
+    /// True if a point of the walls that was drawn somewhere follows the bed.
     #[must_use]
     pub fn moves<const D: usize>(&self, drawn: &[f64; D]) -> bool {
         let at = horizontal(drawn);
@@ -256,7 +256,8 @@ impl Bed {
         all
     }
 
-    /// Takes what [`numbers`](Self::numbers) gave; the rest of the numbers, or none if there are too few or impossible ones.
+    /// Takes the values of [`numbers`](Self::numbers); the rest of the numbers, or none if there are too few or
+    /// impossible ones.
     #[must_use]
     pub fn put<'a>(&mut self, numbers: &'a [f64]) -> Option<&'a [f64]> {
         let count = self.lift.len();

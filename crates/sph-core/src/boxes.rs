@@ -36,7 +36,7 @@ impl<const D: usize> BoxTree<D> {
         Self::by_middles(boxes, |[low, high], _, axis| low[axis] + high[axis])
     }
 
-    /// The tree of boxes that are halved by what is said of a box, its number and an axis.
+    /// The tree of boxes that are halved by a value of a box, its number and an axis.
     pub fn by_middles(
         boxes: Vec<Corners<D>>,
         middle: impl Fn(&Corners<D>, usize, usize) -> f64,
@@ -125,7 +125,7 @@ impl<const D: usize> BoxTree<D> {
         self.descend(2 * node + 2, right, query, found)
     }
 
-    /// Of what the boxes are around, the nearest to a point: its squared distance, as is said of a number, and its number;
+    /// Content nearest to a point: its squared distance, as given for a number, and its number;
     /// none if all are as far as `within2`.
     pub fn nearest(
         &self,

@@ -88,7 +88,7 @@ pub struct Rotation<const D: usize> {
 }
 
 impl Course {
-    /// Whether it is a course at all: finite, with positive periods and ascending instants.
+    /// True if it is a course at all: finite, with positive periods and ascending instants.
     pub fn is_sound(&self) -> bool {
         match self {
             Self::Steady { speed } => speed.is_finite(),
@@ -117,7 +117,7 @@ impl Course {
         }
     }
 
-    /// Whether it ever leaves 0.
+    /// True if it ever leaves 0.
     pub fn moves(&self) -> bool {
         match self {
             Self::Steady { speed } | Self::Ramp { speed, .. } => *speed != 0.0,

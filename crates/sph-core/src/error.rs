@@ -3,7 +3,7 @@
 use scene_text::SceneProblem;
 use thiserror::Error;
 
-/// A column that is not what its reader takes it for.
+/// A column of another kind than its reader expects.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FieldError {
@@ -95,7 +95,7 @@ pub enum RegistryError {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// A column is not what its reader takes it for.
+    /// A column is of another kind than its reader expects.
     #[error(transparent)]
     Field(#[from] FieldError),
     /// A value left its bounds or is not a number.

@@ -40,7 +40,7 @@ pub trait System {
     /// # Errors
     /// If a column is missing.
     fn keep(&mut self) -> Result<(), StepError>;
-    /// Puts back what was kept last; rates stay as they are.
+    /// Puts back the state that was kept last; rates stay as they are.
     ///
     /// # Errors
     /// If a column is missing.

@@ -32,8 +32,7 @@ pub struct Index;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tensor;
 
-/// One symmetric tensor in space per particle, whatever D (a stress in plane strain has a component
-/// out of the plane).
+/// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SymmetricTensor;
 
@@ -58,7 +57,7 @@ impl<const D: usize> Column<D> {
         each_column!(self, items => items.len())
     }
 
-    /// Whether there is no entry.
+    /// True if there is no entry.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

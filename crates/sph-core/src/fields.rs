@@ -65,7 +65,7 @@ pub const CARRIED_STRESS: Field<SymmetricTensor> = Field::new(
     "Pa",
     "deviatoric elastic stress that acts (xx, yy, zz, xy, yz, xz)",
 );
-/// Shear modulus of what acts, for the strain of the step to come.
+/// Shear modulus of the acting material, for the strain of the step to come.
 pub const ELASTIC_STIFFNESS: Field<Scalar> = Field::new(
     "elastic_stiffness",
     "Pa",
@@ -77,7 +77,7 @@ pub const ELASTIC_DISPLACEMENT: Field<Vector> = Field::new(
     "m",
     "way of an elastic material since it was last liquid",
 );
-/// What turns have made of the remembered stress since the material was last liquid: ∫(ωτ − τω)dt.
+/// Contribution of rotations to the remembered stress since the material was last liquid: ∫(ωτ − τω)dt.
 pub const STRESS_ROTATION: Field<SymmetricTensor> = Field::new(
     "stress_rotation",
     "Pa",
@@ -95,13 +95,13 @@ pub const SOLID_FRACTION: Field<Scalar> = Field::new(
     "1",
     "share 1 − ζ of the elastic force in a material that blends",
 );
-/// What the yield stress leaves of an elastic force.
+/// Factor of an elastic force by the yield stress.
 pub const YIELD_FACTOR: Field<Scalar> = Field::new(
     "yield_factor",
     "1",
     "min(1, τ_y/|τ|): what the yield stress leaves of an elastic force",
 );
-/// What makes the plain velocity gradient exact, and its adjoint the force of a stress.
+/// Correction that makes the plain velocity gradient exact, and its adjoint the force of a stress.
 pub const STRESS_CORRECTION: Field<Tensor> = Field::new(
     "stress_correction",
     "1",
@@ -131,7 +131,7 @@ pub const SCALE_RATE: Field<Scalar> = Field::new(
     "1/s",
     "rate of ln s at a fixed place by the motion of walls",
 );
-/// K = γρ − mΣθw: what the density sum does not see of the initial state.
+/// K = γρ − mΣθw: the part of the initial state that the density sum does not see.
 pub const DENSITY_CONSTANT: Field<Scalar> = Field::new(
     "density_constant",
     "kg/m³",
@@ -157,7 +157,7 @@ pub const VOLUME_RATE: Field<Scalar> = Field::new(
     "m^d/s",
     "rate of change of the volume, from density diffusion",
 );
-/// What moves particles besides their velocity, to keep their arrangement even.
+/// Velocity of particles besides that of the flow, which keeps their arrangement even.
 pub const SHIFT_VELOCITY: Field<Vector> = Field::new(
     "shift_velocity",
     "m/s",
@@ -169,7 +169,7 @@ pub const MEAN_ACCELERATION: Field<Vector> = Field::new(
     "m/s²",
     "acceleration, averaged over the time in which sound passes some smoothing lengths",
 );
-/// How much of a particle's neighbourhood is empty, by its arrangement.
+/// Empty fraction of a particle's neighbourhood, by its arrangement.
 pub const VOID_FRACTION: Field<Scalar> = Field::new(
     "void_fraction",
     "1",

@@ -10,7 +10,7 @@ impl<const D: usize> Store<D> {
         self.born
     }
 
-    /// Sets what has been born so far.
+    /// Sets the counts of inserted particles.
     pub fn set_inserted(&mut self, born: Inserted) {
         self.born = born;
     }

@@ -124,7 +124,7 @@ impl PluginKind {
         self
     }
 
-    /// Whether its plugins stand in a table of the scene's own, `[KIND.PLUGIN]`.
+    /// True if its plugins stand in a table of the scene's own, `[KIND.PLUGIN]`.
     pub fn has_table(&self) -> bool {
         matches!(self.place, Place::One | Place::Any)
     }

@@ -1,5 +1,4 @@
-//! The shared vocabulary of the workspace: what a field, a plugin, a stage and an error are.
-//! There is no physics here.
+//! The shared vocabulary of the workspace: fields, plugins, stages and errors. There is no physics here.
 //!
 //! * [`Field`] and [`Store`]: one column per field, allocated only when a stage or term declared it.
 //! * [`contract!`] and [`plugin`]: how a crate offers plugins of a kind, with typed
@@ -114,6 +113,6 @@ pub mod reexport {
     pub use toml;
 }
 
-/// A vector of D components, SI units of whatever it holds.
+/// A vector of D components, SI units of its quantity.
 #[cfg(feature = "plugins")]
 pub type Vect<const D: usize> = nalgebra::SVector<f64, D>;

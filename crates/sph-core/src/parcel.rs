@@ -49,7 +49,7 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    /// Overwrites the entries of these slots with what [`pack`](Self::pack) made of a store with the same columns.
+    /// Overwrites the entries of these slots with the result of [`pack`](Self::pack) of a store with the same columns.
     ///
     /// # Errors
     /// If the message has another length.

@@ -32,7 +32,7 @@ impl PluginChoice {
     }
 
     /// Turns the refusal of a registry or plugin into problems of the scene.
-    pub fn blame(&self, error: &RegistryError) -> Vec<SceneProblem> {
+    pub fn scene_problems(&self, error: &RegistryError) -> Vec<SceneProblem> {
         match error {
             RegistryError::Parameters(problems) => problems
                 .iter()

@@ -80,7 +80,7 @@ impl<E: Contract> Default for Registry<E> {
 }
 
 impl<E: Contract> Registry<E> {
-    /// No plugin at all; nothing global is looked at.
+    /// No plugin at all; global registrations are ignored.
     pub fn new() -> Self {
         Registry {
             entries: Vec::new(),
@@ -119,7 +119,7 @@ impl<E: Contract> Registry<E> {
     /// The plugin of that name.
     ///
     /// # Errors
-    /// If there is none; the message lists what there is and the nearest name.
+    /// If there is none; the message lists the known names and the nearest one.
     pub fn find(&self, name: &str) -> Result<&'static E, RegistryError> {
         let names = || self.entries.iter().map(|e| e.info().name);
         let found = self.entries.iter().find(|e| e.info().name == name);
@@ -137,7 +137,7 @@ impl<E: Contract> Registry<E> {
     }
 }
 
-/// A kind of plugin, its plugins built by one call whatever they are: in D dimensions, or in none of their own.
+/// A kind of plugin, its plugins built by one call of any dimension: of D, or of none of their own.
 pub trait Makes<const D: usize>: Contract {
     /// Description of a plugin of the kind.
     type Made: ?Sized;

@@ -56,7 +56,7 @@ impl<const D: usize> Store<D> {
         &self.taken
     }
 
-    /// Sets what has been taken out so far.
+    /// Sets the counts of removed particles.
     pub fn set_removed(&mut self, taken: Vec<Removed>) {
         self.taken = taken;
     }

@@ -1,4 +1,4 @@
-//! Copies of what a store remembers, to go back to.
+//! Copies of the memory of a store, to go back to.
 
 use crate::field::Column;
 use crate::{Field, FieldError, Inserted, Kind, Removed, Role, Store};

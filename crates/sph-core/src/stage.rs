@@ -1,4 +1,4 @@
-//! Stages: what a piece of work reads and writes, and the work itself.
+//! Stages: the reads and writes of a piece of work, and the work itself.
 
 use crate::field::AnyField;
 use crate::{Field, Kind, StepError};
@@ -19,10 +19,9 @@ pub struct Access {
     pub where_there: Vec<AnyField>,
     /// Columns that it writes and begins with the next time: they carry history.
     pub remembers: Vec<AnyField>,
-    /// Whether the stage walks over neighbours (a sweep).
+    /// True if the stage walks over neighbours (a sweep).
     pub sweep: bool,
-    /// How often it goes from particles to their neighbours, if more than once: 2 if it takes sums over neighbours of
-    /// what it has summed itself.
+    /// Passes from particles to their neighbours, if more than one: 2 if it takes sums over neighbours of its own sums.
     pub rings: usize,
 }
 
@@ -134,7 +133,7 @@ pub trait Stage<C>: Declares + Send {
     fn needs_all(&self) -> Option<&'static str> {
         None
     }
-    /// Whether it may run for some of the particles, and then for the others, by the context.
+    /// True if it may run for some of the particles, and then for the others, by the context.
     fn halves(&self) -> bool {
         false
     }

@@ -31,12 +31,12 @@ pub struct Store<const D: usize> {
     /// Particles born.
     pub(crate) born: Inserted,
     pub(crate) watch: Watch,
-    pub(crate) spare: Spare<D>,
+    pub(crate) spare: SortBuffers<D>,
 }
 
 /// A column of each kind to sort into: allocated when particles of such a column are first sorted.
 #[derive(Default)]
-pub(crate) struct Spare<const D: usize> {
+pub(crate) struct SortBuffers<const D: usize> {
     scalar: Vec<f64>,
     vector: Vec<Vect<D>>,
     index: Vec<u32>,
@@ -62,12 +62,12 @@ impl<const D: usize> Store<D> {
             taken: Vec::new(),
             born: Inserted::default(),
             watch: Watch::default(),
-            spare: Spare::default(),
+            spare: SortBuffers::default(),
         }
     }
 
-    /// Holds what follows to the columns of all that is `declared`, in builds with debug assertions alone; several may be
-    /// at work within each other.
+    /// Holds the following work to the columns of all that is `declared`, in builds with debug assertions alone;
+    /// several may be at work within each other.
     pub fn watch<'a>(&self, declared: impl IntoIterator<Item = &'a Access>) {
         if cfg!(debug_assertions) {
             self.watch.begin(declared);
@@ -115,7 +115,7 @@ impl<const D: usize> Store<D> {
         self.len = len;
     }
 
-    /// Whether there is no particle.
+    /// True if there is no particle.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -139,7 +139,7 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    /// Whether a column of that name is allocated.
+    /// True if a column of that name is allocated.
     pub fn has(&self, name: &str) -> bool {
         self.entries.iter().any(|e| e.name == name)
     }

@@ -10,7 +10,7 @@ use crate::Vect;
 
 /// A symmetric 3 × 3 tensor: xx, yy, zz, xy, yz, xz.
 ///
-/// Plane problems use it as well: what happens in the plane leaves a component out of it.
+/// Plane problems use it as well: a motion in the plane leaves a component out of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Symmetric(pub [f64; 6]);
 

@@ -4,27 +4,27 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::{Access, AnyField, fields};
 
-/// The works in progress, the innermost last, with what they touched.
+/// The works in progress, the innermost last, with the columns that they touched.
 #[derive(Default)]
-pub(crate) struct Watch(Mutex<AtWork>);
+pub(crate) struct Watch(Mutex<WorksInProgress>);
 
 #[derive(Default)]
-struct AtWork {
+struct WorksInProgress {
     /// The works in progress, and behind them the buffers of earlier ones.
-    all: Vec<Watched>,
+    all: Vec<AccessRecord>,
     /// Number of works in progress.
     depth: usize,
 }
 
 #[derive(Default)]
-struct Watched {
+struct AccessRecord {
     reads: Vec<&'static str>,
     writes: Vec<&'static str>,
     undeclared: Vec<String>,
 }
 
 impl Watch {
-    fn at_work(&self) -> MutexGuard<'_, AtWork> {
+    fn at_work(&self) -> MutexGuard<'_, WorksInProgress> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -34,7 +34,7 @@ impl Watch {
         let place = at_work.depth;
         at_work.depth += 1;
         if at_work.all.len() == place {
-            at_work.all.push(Watched::default());
+            at_work.all.push(AccessRecord::default());
         }
         let own = &mut at_work.all[place];
         own.reads.clear();
@@ -68,18 +68,18 @@ impl Watch {
     }
 }
 
-impl AtWork {
-    fn innermost(&mut self) -> Option<&mut Watched> {
+impl WorksInProgress {
+    fn innermost(&mut self) -> Option<&mut AccessRecord> {
         self.all[..self.depth].last_mut()
     }
 }
 
-impl Watched {
+impl AccessRecord {
     fn allow(&mut self, access: &Access) {
         let name = |field: &AnyField| field.name;
         let reads = [&access.here, &access.neighbours, &access.where_there];
         self.reads.extend(reads.into_iter().flatten().map(name));
-        // Every walk over neighbours reads their places, and what walls cut off.
+        // Every walk over neighbours reads their places, and the part that walls cut off.
         if access.sweep {
             let always = [
                 fields::POSITION.name,

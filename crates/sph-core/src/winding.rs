@@ -6,13 +6,13 @@ use std::f64::consts::PI;
 const FAR: f64 = 4.0;
 /// Triangles of a cluster that is not divided.
 const FEW: usize = 8;
-/// Triangles at which the side that a surface faces is asked for, at most.
+/// Largest number of triangles at which the side of a surface is sampled.
 const ASKED: usize = 256;
 
-/// How often a surface winds around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one
-/// from behind its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an
-/// open or torn one it is less, and varies. Jacobson, Kavan & Sorkine-Hornung (2013); distant clusters as dipoles,
-/// Barill et al. (2018).
+/// Winding number of a surface around a point: w(x) = Σ Ω/4π over its triangles, Ω the solid angle in which x sees one
+/// from behind its normal. 1 within a closed surface that faces outwards, −1 if it faces inwards, 0 outside; of an open
+/// or torn one it is less, and varies. Jacobson, Kavan & Sorkine-Hornung (2013); distant clusters as dipoles, Barill et
+/// al. (2018).
 #[derive(Clone, Debug)]
 pub struct Winding {
     triangles: Vec<[[f64; 3]; 3]>,
@@ -107,7 +107,7 @@ impl Winding {
         sum / (4.0 * PI)
     }
 
-    /// Which way a surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
+    /// Side that a surface faces, from ½, outwards, to −½, inwards; near 0 there is no inside.
     ///
     /// The area's mean of the winding number between the two sides of the surface, which is ±½ of a closed one and
     /// less of an open one, since its opening is seen from everywhere.
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn it_is_one_inside_and_the_share_of_the_sphere_that_is_left_in_an_open_one() {
-        // What a dipole leaves out is of second order in the radius of a cluster over its distance.
+        // The error of a dipole is of second order in the radius of a cluster over its distance.
         let dipole = FAR.powi(-2);
         let whole = Winding::new(ball(40, 0));
         for (x, w) in [

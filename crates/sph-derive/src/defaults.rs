@@ -32,7 +32,7 @@ impl Defaults {
     /// # Errors
     /// Unknown words.
     pub fn prepare(&mut self, field: &mut Field, prefix: &str) -> syn::Result<Option<TokenStream>> {
-        let parameter = Parameter::taken(&mut field.attrs)?;
+        let parameter = Parameter::take_from(&mut field.attrs)?;
         if let Some(schema) = parameter.schema() {
             field.attrs.push(parse_quote!(#schema));
         }

@@ -13,7 +13,7 @@
 //!
 //! Both attributes derive `Clone`, `Debug`, `Deserialize` and `JsonSchema`, deny unknown keys, and derive `Copy` for
 //! plain numbers. Where every field has a default or is an `Option`, the type has `Default`. A plugin with a field that
-//! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. What an author derives as well is
+//! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. A trait that an author derives is
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
 mod attributes;
@@ -47,7 +47,7 @@ pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
 
 /// A table of parameters, or a choice between variants in kebab case, that is a part of a plugin or of a scene.
 ///
-/// A field says `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`,
+/// A field takes `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`,
 /// `above` and `below` (bounds that are not reached), `min_items`, `max_items`, `quantity`, `examples`, `source`. Its doc
 /// comment is its meaning.
 ///
@@ -58,8 +58,8 @@ pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
     expanded(parse_macro_input!(item as DeriveInput), &root.0, None)
 }
 
-/// The type that [`macro@plugin`] makes, without scenes: what it derives of the standard library, and its `Default`.
-/// For crates whose plugins are a feature: the same attributes with the feature and without it.
+/// The type that [`macro@plugin`] makes, without scenes: its derives of the standard library, and its `Default`. For
+/// crates whose plugins are a feature: the same attributes with the feature and without it.
 #[proc_macro_attribute]
 pub fn plain_plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
     parse_macro_input!(arguments as registration::Registration);

@@ -2,7 +2,7 @@
 
 use syn::{GenericArgument, PathArguments, Type};
 
-/// Whether a type is a number, a truth, or an array or `Option` of one.
+/// True if a type is a number, a truth, or an array or `Option` of one.
 pub fn is_number(of: &Type) -> bool {
     const NUMBERS: [&str; 8] = ["f64", "bool", "usize", "u64", "u32", "u8", "i64", "i32"];
     match of {

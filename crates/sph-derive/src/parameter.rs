@@ -39,7 +39,7 @@ pub struct Parameter {
 
 impl Parameter {
     /// Those of the attribute `parameter`, which is taken out of the list; none without it.
-    pub fn taken(attributes: &mut Vec<Attribute>) -> syn::Result<Self> {
+    pub fn take_from(attributes: &mut Vec<Attribute>) -> syn::Result<Self> {
         let Some(place) = attributes
             .iter()
             .position(|a| a.path().is_ident("parameter"))
@@ -94,7 +94,7 @@ fn unknown(word: &Ident) -> Error {
     )
 }
 
-/// What follows a colon, up to the next comma.
+/// Tokens after a colon, up to the next comma.
 pub fn value(word: &Ident, input: ParseStream<'_>) -> syn::Result<TokenStream> {
     let missing = |at| Error::new(at, format!("expected a value: `{word}: …`"));
     input.parse::<Token![:]>().map_err(|e| missing(e.span()))?;
@@ -108,7 +108,7 @@ pub fn value(word: &Ident, input: ParseStream<'_>) -> syn::Result<TokenStream> {
     }
 }
 
-/// A text becomes whatever text the field holds.
+/// A text becomes the text type of the field.
 fn owned(value: TokenStream) -> TokenStream {
     match syn::parse2::<syn::LitStr>(value.clone()) {
         Ok(text) => quote!(#text.into()),

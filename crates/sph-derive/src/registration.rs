@@ -31,7 +31,7 @@ impl Parse for Form {
     }
 }
 
-/// What a plugin is registered as.
+/// Arguments of a plugin's registration.
 pub struct Registration {
     entry: Path,
     /// Nothing for a kind without a dimension of its own.
@@ -125,14 +125,14 @@ impl Registration {
         let described = forms.and_then(<[Form]>::first).map_or(own.clone(), of);
         let build = match forms {
             None => {
-                let made = self.made(&own);
+                let made = self.constructor(&own);
                 quote!(build: #made)
             }
             Some(forms) => {
                 let form =
                     |digits| match forms.iter().find(|f| f.dimension.base10_digits() == digits) {
                         Some(form) => {
-                            let made = self.made(&of(form));
+                            let made = self.constructor(&of(form));
                             quote!(::core::option::Option::Some(#made))
                         }
                         None => quote!(::core::option::Option::None),
@@ -160,7 +160,7 @@ impl Registration {
     }
 
     /// A function from a table of parameters to the plugin.
-    fn made(&self, parameters: &TokenStream) -> TokenStream {
+    fn constructor(&self, parameters: &TokenStream) -> TokenStream {
         let read = quote!(::sph_core::typed::<#parameters>(table)?);
         let made = match &self.within {
             Some(within) => quote!((#within)(#read)),

@@ -30,8 +30,8 @@ impl Parse for Root {
     }
 }
 
-/// A type whose words have been read, and what goes with it.
-struct Read {
+/// A type whose words have been read, and its further attributes.
+struct AnnotatedType {
     item: DeriveInput,
     derives: Vec<&'static str>,
     /// Words for `serde`.
@@ -42,7 +42,7 @@ struct Read {
 }
 
 /// A plugin that keeps more than its parameters is no value to copy or to print.
-fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
+fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
     let derived = words(&item.attrs, "derive");
     let said = words(&item.attrs, "serde");
     let plain = item.generics.params.is_empty() && is_plain(&item.data);
@@ -63,7 +63,7 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
-    Ok(Read {
+    Ok(AnnotatedType {
         item,
         derives,
         serde,
@@ -72,12 +72,12 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<Read> {
     })
 }
 
-/// The type with what its attribute says.
+/// The type with the words of its attribute.
 ///
 /// # Errors
 /// Unknown words; a union; fields without names.
 pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Result<TokenStream> {
-    let Read {
+    let AnnotatedType {
         item,
         derives,
         serde,
@@ -103,7 +103,7 @@ pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Re
 /// # Errors
 /// As [`expand`].
 pub fn plain(item: DeriveInput, is_plugin: bool) -> syn::Result<TokenStream> {
-    let Read {
+    let AnnotatedType {
         mut item,
         derives,
         defaults,
@@ -227,7 +227,7 @@ fn of_choice(
     Ok(())
 }
 
-/// Whether values are nothing but numbers.
+/// True if values are nothing but numbers.
 fn is_plain(data: &Data) -> bool {
     let plain = |fields: &Fields| fields.iter().all(|field| is_number(&field.ty));
     match data {

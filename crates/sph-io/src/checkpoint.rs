@@ -78,7 +78,7 @@ impl Checkpoint {
 }
 
 impl ColumnData {
-    /// How many numbers there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::F64(v) => v.len(),
@@ -87,7 +87,7 @@ impl ColumnData {
         }
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -110,7 +110,7 @@ impl ColumnData {
     }
 }
 
-/// Which check a damaged or foreign file failed.
+/// Failed check of a damaged or foreign file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointFault {
@@ -144,7 +144,7 @@ pub enum CheckpointFault {
     HeaderChecksum {
         /// Checksum stored.
         expected: u32,
-        /// Checksum of what is there.
+        /// Checksum of the contents.
         found: u32,
     },
     /// Bytes of the file have changed.
@@ -152,7 +152,7 @@ pub enum CheckpointFault {
     Checksum {
         /// Checksum stored.
         expected: u32,
-        /// Checksum of what is there.
+        /// Checksum of the contents.
         found: u32,
     },
 }

@@ -67,12 +67,12 @@ pub enum IoError {
         /// The reason of the operating system.
         source: io::Error,
     },
-    /// What has been read is not what is needed.
+    /// The file is not of the form that is needed.
     #[error("{}: {problem}", path.display())]
     Unfit {
         /// The file.
         path: PathBuf,
-        /// What was expected, and what was found.
+        /// The expected form, and that of the file.
         problem: String,
     },
     /// The data handed over do not fit together; nothing was written.
@@ -80,7 +80,7 @@ pub enum IoError {
     Input {
         /// The file that was to be written.
         path: PathBuf,
-        /// What does not fit, naming the field or column.
+        /// The contradiction, naming the field or column.
         problem: String,
     },
     /// A value cannot be expressed as JSON.
@@ -98,7 +98,7 @@ pub enum IoError {
         path: PathBuf,
         /// Line number, from 1.
         line: usize,
-        /// What is wrong there, naming the column.
+        /// The fault, naming the column.
         problem: String,
     },
     /// A series on disk ends before the place where it is to be continued.
@@ -109,19 +109,19 @@ pub enum IoError {
     TooShort {
         /// The file.
         path: PathBuf,
-        /// What is counted: `bytes` or `output times`.
+        /// Unit of the count: `bytes` or `output times`.
         what: &'static str,
         /// The length recorded when the run was interrupted.
         expected: u64,
         /// The length found.
         found: u64,
     },
-    /// A file that is to be continued is not what this crate writes.
+    /// A file that is to be continued is not of the form that this crate writes.
     #[error("cannot continue {}: {problem}", path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         problem: String,
     },
     /// A checkpoint is damaged or not a checkpoint.
@@ -129,7 +129,7 @@ pub enum IoError {
     Checkpoint {
         /// The file.
         path: PathBuf,
-        /// Which check failed.
+        /// The failed check.
         fault: CheckpointFault,
     },
 }
@@ -181,7 +181,7 @@ impl IoError {
     }
 }
 
-/// Whether `error` means that the disk, the quota or what `ulimit -f` leaves is full.
+/// True if `error` means that the disk, the quota or the limit of `ulimit -f` is exhausted.
 pub(crate) fn is_full(error: &io::Error) -> bool {
     use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull, WriteZero};
     matches!(

@@ -18,7 +18,7 @@
 //!
 //! Three promises hold for all of them.
 //!
-//! **No half file.** What is rewritten (lists, checkpoints, pictures,
+//! **No half file.** A file that is rewritten (lists, checkpoints, pictures,
 //! summaries, grids) is written under a temporary name and renamed
 //! ([`write_atomic`]); what grows (tables) grows by whole rows. A full disk or
 //! a killed process costs the last output, never the ones before.
@@ -31,7 +31,7 @@
 //!
 //! **No anonymous error.** Every failure is an [`IoError`] that names the file;
 //! damaged checkpoints name the check that failed ([`CheckpointFault`]), bad tables
-//! which line and column. [`writable`] asks for trouble before the run rather
+//! which line and column. [`writable`] reports trouble before the run rather
 //! than after it.
 //!
 //! All quantities are in SI units. Vectors of planar scenes are padded with a
@@ -67,7 +67,7 @@ pub use files::series::SeriesWriter;
 pub use files::summary::write_json;
 pub use files::table::{Table, TableColumn, read_columns, read_table};
 pub use paraview::frame::{Cells, FieldData, FieldValues, Frame, Location, Piece};
-pub use paraview::pvd::{Listed, PvdSeries, list_pvd};
+pub use paraview::pvd::{PvdSeries, SeriesEntry, list_pvd};
 pub use paraview::pvtu::{read_piece, write_share};
 pub use paraview::vtu::write_vtu;
 pub use paraview::vtu_read::read_vtu;

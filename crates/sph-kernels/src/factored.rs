@@ -13,7 +13,7 @@ pub(crate) struct Piece {
     pub(crate) until: f64,
     /// Order of the root at the support.
     pub(crate) root: usize,
-    /// Where s is 0.
+    /// Zero of s.
     pub(crate) origin: f64,
     /// Ascending coefficients of p, at least one.
     pub(crate) coefficients: Vec<f64>,

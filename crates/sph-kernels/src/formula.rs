@@ -95,9 +95,9 @@ impl<const K: usize, const N: usize, const DIVIDED: bool> Formula for Selection<
 
 /// Any number of pieces and coefficients: the same arithmetic with loops inside.
 #[derive(Clone, Debug)]
-pub(crate) struct General(pub(crate) Pieces);
+pub(crate) struct AnyPieces(pub(crate) Pieces);
 
-impl Formula for General {
+impl Formula for AnyPieces {
     fn at(&self, q: f64) -> f64 {
         let Pieces { list, divided_from } = &self.0;
         let Some(piece) = list.iter().find(|piece| q < piece.until || q.is_nan()) else {
@@ -161,13 +161,13 @@ mod tests {
         let f = factored::value(wendland.shape(), 1.0);
         assert_close(
             &Product::<8, 4>::from_pieces(&f).expect("its form"),
-            &General(f),
+            &AnyPieces(f),
             2.0,
         );
         let g = factored::factor(spline.shape(), 1.0);
         assert_close(
             &Selection::<3, 5, true>::from_pieces(&g).expect("its form"),
-            &General(g),
+            &AnyPieces(g),
             3.0,
         );
     }
@@ -191,7 +191,7 @@ mod tests {
             breaks: vec![0.0, 1.0],
             pieces: vec![vec![1.0, -1.0]],
         };
-        let factor = General(factored::factor(&hat, 1.0));
+        let factor = AnyPieces(factored::factor(&hat, 1.0));
         assert_eq!((factor.at(0.0), factor.at(0.5)), (-1.0 / SMALLEST_Q, -2.0));
     }
 }

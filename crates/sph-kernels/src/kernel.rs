@@ -36,7 +36,7 @@ pub trait Kernel: Send + Sync + Debug {
     /// Name in scene files, lower case with hyphens.
     fn name(&self) -> &str;
 
-    /// Where the kernel comes from: paper, equation, DOI.
+    /// Source of the kernel: paper, equation, DOI.
     fn source(&self) -> &str;
 
     /// Support radius over h.

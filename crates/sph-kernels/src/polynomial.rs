@@ -47,7 +47,7 @@ impl PiecewisePolynomial {
         terms.fold(0.0, |sum, n| sum * q + n as f64 * piece[n])
     }
 
-    /// `Ok` if breaks and pieces fit the definition of the type, else what is wrong.
+    /// `Ok` if breaks and pieces fit the definition of the type, else the fault.
     pub fn check(&self) -> Result<(), String> {
         let (breaks, pieces) = (&self.breaks, &self.pieces);
         if pieces.is_empty() || breaks.len() != pieces.len() + 1 {

@@ -1,7 +1,7 @@
 //! The sampler of piecewise polynomial kernels: slices in vector instructions.
 
 use crate::factored;
-use crate::formula::{Formula, General, Product, Selection};
+use crate::formula::{AnyPieces, Formula, Product, Selection};
 use crate::lanes::{Body, Lane, dispatch};
 use crate::sampler::assert_smoothing_length;
 use crate::{PiecewisePolynomial, Sampler};
@@ -52,8 +52,8 @@ pub fn polynomial_sampler(
     }
     Box::new(PolynomialSampler {
         range,
-        value: General(value),
-        factor: General(factor),
+        value: AnyPieces(value),
+        factor: AnyPieces(factor),
     })
 }
 
@@ -136,7 +136,7 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     }
 }
 
-/// A formula over a slice; whatever the width of the lanes, the compiler fills them.
+/// A formula over a slice; the compiler fills lanes of any width.
 struct Loop<'a, F> {
     range: &'a Range,
     formula: &'a F,

@@ -21,7 +21,7 @@ use crate::interface_limit::shortest_wave;
 /// A pressure against the rate of compression, that is a bulk viscosity ζ = α ρ₀ c h. Symbols: h smoothing length (m),
 /// c speed of sound of the phase at rest (m/s), D{u} divergence of the velocity (1/s), α number. Divergence and force
 /// are adjoint, so that between particles it takes Σ V q²/ζ from the motion and never gives. A wave of sound of the
-/// wave number k loses the share ½ α h c k² of its amplitude in a second; what is free of divergence it leaves alone.
+/// wave number k loses the share ½ α h c k² of its amplitude in a second; a flow free of divergence is left alone.
 /// q is no tension where there is no pressure: a splash tears. Conserves momentum between particles, and angular
 /// momentum. The sound of a heavy phase moves the light particles next to it: what resists there may not be more than
 /// these can take within a step, so that rows within a support of a lighter phase are damped as that phase is.

@@ -3,7 +3,7 @@
 use sph_core::{Evolved, StepError, fields, plugin};
 use sph_neighbours::{Interaction, World};
 
-use crate::divergence::{Divergence, TheirVolume};
+use crate::divergence::{Divergence, NeighbourVolume};
 use crate::gradient::{PressureGradient, SumOfPressures};
 use crate::volume::VolumeStage;
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
@@ -38,7 +38,7 @@ impl<const D: usize> Formulation<D> for ColagrossiLandrini {
         PressureGradient::boxed(SumOfPressures)
     }
     fn divergence(&self) -> Box<dyn Interaction<D>> {
-        Divergence::boxed(TheirVolume)
+        Divergence::boxed(NeighbourVolume)
     }
     fn rebase(&self, _world: &mut World<D>) -> Result<(), StepError> {
         Ok(())

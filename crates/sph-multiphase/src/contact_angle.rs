@@ -22,7 +22,7 @@ pub struct ContactAngle {
 }
 
 impl ContactAngle {
-    /// Whether there are such a phase and such walls.
+    /// Checks that there are such a phase and such walls.
     ///
     /// # Errors
     /// The key that names none.

@@ -6,7 +6,7 @@ use sph_neighbours::{Interaction, World};
 
 use crate::PressureStage;
 
-/// How density diffusion reaches what a formulation integrates.
+/// Density diffusion in the terms of a formulation.
 #[derive(Clone, Copy)]
 pub struct Diffused {
     /// The integrated scalar and its rate.
@@ -44,7 +44,7 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
         self.divergence()
     }
-    /// Whether its sums follow walls that scale the kernel.
+    /// True if its sums follow walls that scale the kernel.
     fn is_scaled(&self) -> bool {
         true
     }
@@ -69,7 +69,7 @@ pub struct Acting<const D: usize> {
     pub state: PressureStage,
     /// −D lnρ/Dt by motion, 1/s, as [`Formulation::dilatation`].
     pub dilatation: Box<dyn Interaction<D>>,
-    /// Whether the scene names what free surfaces are; [`FREE_SURFACE`](crate::FREE_SURFACE) is then there.
+    /// True if the scene chooses a finder of free surfaces; [`FREE_SURFACE`](crate::FREE_SURFACE) is then there.
     pub surfaces: bool,
 }
 

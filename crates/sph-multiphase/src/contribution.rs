@@ -16,7 +16,7 @@ struct Compressible<const D: usize> {
     formulation: Box<dyn Formulation<D>>,
     /// The pressure scheme; without one the equations of state give the pressure.
     scheme: Option<Box<dyn PressureScheme<D>>>,
-    /// Whether the scene names what free surfaces are.
+    /// True if the scene chooses a finder of free surfaces.
     surfaces: bool,
 }
 

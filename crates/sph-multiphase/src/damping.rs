@@ -1,4 +1,4 @@
-//! Velocities that die away: fluids that are to settle, and sponges that waves do not come back from.
+//! Decay of velocities: for fluids that are to settle, and sponges that absorb waves.
 //!
 //! * [`Rayleigh`] is the plugin, `[damping.rayleigh]`; [`Zone`] is where it acts.
 //! * [`DampingEntry`] is the kind, for plugins of other crates.

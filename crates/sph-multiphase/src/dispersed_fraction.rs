@@ -3,7 +3,7 @@
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
 use sph_neighbours::{Around, Values, World, walk_into};
 
-/// How far a light particle is without its like: 1 alone, 0 where its phase has half of the support or more.
+/// Isolation of a light particle from its phase: 1 alone, 0 where its phase has half of the support or more.
 ///
 /// χ_a = max(0, 1 − 2φ_a), φ_a = Σ_{b ≠ a, of the phase of a} V_b w_ab / (1 − V_a w(0)). Walls are none of its
 /// phase. A flat interface half a spacing away leaves φ = 0.64 in two dimensions with h = 2 δr, and χ = 0.
@@ -15,7 +15,7 @@ pub const DISPERSED_FRACTION: Field<Scalar> = Field::new(
 
 /// [`DISPERSED_FRACTION`] of all phases but the heaviest, which has 0; 0 as well where there is nothing to rub on.
 pub(crate) struct DispersedFraction {
-    /// Whether a phase is lighter than another.
+    /// Marks of phases that are lighter than another.
     pub light: Vec<bool>,
 }
 

@@ -37,9 +37,9 @@ impl DivergenceWeight for OwnVolume {
 /// W = V_a and W/V_s = 1: −D lnρ_a/Dt of the density sum ρ = (K + mΣθw)/γ with constant K, to rounding. It differs from
 /// [`OwnVolume`] where elements of walls have another volume than the particle.
 #[derive(Clone, Copy, Debug)]
-pub struct OfTheSum;
+pub struct SumVolume;
 
-impl DivergenceWeight for OfTheSum {
+impl DivergenceWeight for SumVolume {
     const NAME: &'static str = "rate of the density sum";
     #[inline(always)]
     fn weight<L: Lane>(self, volume: L, _: L, _: L, _: L) -> L {
@@ -53,9 +53,9 @@ impl DivergenceWeight for OfTheSum {
 
 /// W = V_b: belongs to [`ColagrossiLandrini`](crate::ColagrossiLandrini), Ghaïtanellis 2017, Eq. 3.4.
 #[derive(Clone, Copy, Debug)]
-pub struct TheirVolume;
+pub struct NeighbourVolume;
 
-impl DivergenceWeight for TheirVolume {
+impl DivergenceWeight for NeighbourVolume {
     const NAME: &'static str = "Colagrossi–Landrini divergence";
     #[inline(always)]
     fn weight<L: Lane>(self, _: L, _: L, there: L, _: L) -> L {

@@ -24,7 +24,7 @@ pub struct PairState<L = f64> {
 pub trait PairPressure: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
-    /// Whether P_ab looks at the densities.
+    /// True if P_ab reads the densities.
     const DENSITY: bool;
     /// P_ab = P_ba, Pa m^2d.
     fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
 use sph_neighbours::{Interaction, World, kernel_sums};
 
-use crate::divergence::{Divergence, OfTheSum, OwnVolume};
+use crate::divergence::{Divergence, OwnVolume, SumVolume};
 use crate::gradient::{PressureGradient, SquaredVolumes};
 use crate::{Diffused, Formulation, FormulationEntry};
 use sph_contribution::Stages;
@@ -46,7 +46,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
     }
 
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
-        Divergence::boxed(OfTheSum)
+        Divergence::boxed(SumVolume)
     }
 
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {

@@ -18,15 +18,15 @@ use crate::{InterfaceEntry, offer_interface};
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
 /// is not of the heaviest phase, with v = α χ c̄ (unlike phases only) + β min(h |u_ab·r_ab|/r², c̄) (closing pairs only).
 ///
-/// Symbols: c̄ mean of the reference speeds of sound (m/s); χ the larger [`DISPERSED_FRACTION`] of the two: 1 for a light
-/// particle alone among heavy ones, 0 for one at a closed interface, which is left to the viscosities of the phases.
-/// A light particle caught in a heavy fluid follows every unevenness of the pressure there, and a soft gas that is
-/// squeezed out leaves with up to five times its speed of sound. α takes the motion of light particles towards and away from heavy
-/// neighbours back at a rate of 3.5 α χ c̄/h (in 2D, Wendland C2); β stops what would run through the light
-/// phase faster than sound. Walls stand in for the heaviest phase. Conserves momentum and angular momentum between
-/// particles, never adds energy. With χ = 1 everywhere it would be a viscosity of the order of α c̄ h/8 times the
-/// density of the light phase, which holds the front of a dam break back. In one of air and water (842:1) 2 and 2
-/// keep the air below four times the largest speed of the water (30 spacings to its depth).
+/// Symbols: c̄ mean of the reference speeds of sound (m/s); χ the larger [`DISPERSED_FRACTION`] of the two: 1 for a
+/// light particle alone among heavy ones, 0 for one at a closed interface, which is left to the viscosities of the
+/// phases. A light particle caught in a heavy fluid follows every unevenness of the pressure there, and a soft gas that
+/// is squeezed out leaves with up to five times its speed of sound. α takes the motion of light particles towards and
+/// away from heavy neighbours back at a rate of 3.5 α χ c̄/h (in 2D, Wendland C2); β stops particles that would run
+/// through the light phase faster than sound. Walls stand in for the heaviest phase. Conserves momentum and angular
+/// momentum between particles, never adds energy. With χ = 1 everywhere it would be a viscosity of the order of α c̄
+/// h/8 times the density of the light phase, which holds the front of a dam break back. In one of air and water (842:1)
+/// 2 and 2 keep the air below four times the largest speed of the water (30 spacings to its depth).
 ///
 /// Source: Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, Eq. 4.1–4.2; the choice of pairs, χ, α for
 /// separating pairs too, the bound of β's part and the wall part are ours.
@@ -193,7 +193,7 @@ impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
 }
 
 impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
-    /// Without 1/γ: what one particle gets, another loses.
+    /// Without 1/γ: the gain of one particle is the loss of another.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.own::<f64>(Particles::one(at.particle));

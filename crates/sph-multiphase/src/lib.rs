@@ -1,16 +1,16 @@
 //! Density between particles of several phases, and the action of its pressure.
 //!
-//! * [`Formulation`] is a kind of plugin, what density is and which pressure gradient belongs to it: [`HuAdams`],
+//! * [`Formulation`] is a kind of plugin, the definition of the density, and its pressure gradient: [`HuAdams`],
 //!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
 //! * [`InterfaceEntry`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
 //! * [`PressureStage`] applies the equations of state.
-//! * [`SurfaceEntry`] is a kind of plugin, what free surfaces are: [`ConeTest`].
+//! * [`SurfaceEntry`] is a kind of plugin, the definition of free surfaces: [`ConeTest`].
 //! * [`AcousticDamper`] takes sound away.
-//! * [`damping`]: velocities that die away, everywhere or in sponges.
+//! * [`damping`]: decay of velocities, everywhere or in sponges.
 //! * [`diffusion`] of density against noise, and of particles against gaps.
-//! * [`linear`]: sparse systems on the neighbour graph and what solves them.
+//! * [`linear`]: sparse systems on the neighbour graph and their solvers.
 //! * [`viscosity`]: viscous operators, solved for or not, and viscosities of eddies.
 #![doc = include_str!("../README.md")]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
@@ -55,7 +55,7 @@ pub use contract::{
 };
 pub use dilatation::Dilatation;
 pub use dispersed_fraction::DISPERSED_FRACTION;
-pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, OwnVolume, TheirVolume};
+pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, NeighbourVolume, OwnVolume};
 pub use gradient::{
     BetweenParticles, PairPressure, PairState, PressureGradient, SquaredVolumes, SumOfPressures,
 };

@@ -1,4 +1,4 @@
-//! Sparse symmetric systems on the neighbour graph, and what solves them.
+//! Sparse symmetric systems on the neighbour graph, and their solvers.
 //!
 //! * [`Matrix`]: rows of particles, scalar or d × d entries, put together from the neighbour lists by an [`Assembly`].
 //! * [`Operator`]: what a solver needs of a system; a [`Matrix`] is one, a product without a matrix may be another.
@@ -56,7 +56,7 @@ pub use jacobi::Jacobi;
 pub use krylov::Tolerance;
 pub use low_rank::LowRank;
 pub use matrix::{Diagonal, Entries, Matrix, Pattern, Values};
-pub use memory::{Keeps, Memories, Memory};
+pub use memory::{Memories, Memory, MemoryOwner};
 pub use operator::Operator;
 pub use particle_matrix::ParticleMatrix;
 pub use precondition::Preconditioner;

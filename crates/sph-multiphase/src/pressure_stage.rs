@@ -30,7 +30,7 @@ impl Declares for PressureStage {
 }
 
 impl PressureStage {
-    /// Whether some law reads the strain rate.
+    /// True if some law reads the strain rate.
     fn sheared(&self) -> bool {
         self.laws.iter().any(|law| law.needs_strain_rate())
     }

@@ -78,7 +78,7 @@ impl<const D: usize, R: Repulsion> PairSum<D> for BoundRepulsion<'_, R> {
 }
 
 impl<const D: usize, R: Repulsion> BoundTerm<D> for BoundRepulsion<'_, R> {
-    /// Without 1/γ: what one particle gets, another loses.
+    /// Without 1/γ: the gain of one particle is the loss of another.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let inverse_mass = 1.0 / self.mass[at.particle];

@@ -260,7 +260,7 @@ impl<const D: usize> PairSum<D> for BoundSurfaceTension<'_, D> {
 }
 
 impl<const D: usize> BoundTerm<D> for BoundSurfaceTension<'_, D> {
-    /// Without 1/γ: what one particle gets, another loses.
+    /// Without 1/γ: the gain of one particle is the loss of another.
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.acceleration += Vect::from(sum) * (1.0 / self.mass[at.particle]);

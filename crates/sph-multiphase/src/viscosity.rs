@@ -33,7 +33,7 @@ pub use friction::{Across, Choice, OnLattice, PairFriction, PairOperator, Viscou
 pub use friction_operator::{FrictionEntry, FrictionOperator};
 pub use friction_system::FrictionSystem;
 pub use hu_adams_viscosity::HuAdamsViscosity;
-pub use implicit::{ImplicitViscosity, Lagged};
+pub use implicit::{ImplicitViscosity, PicardUpdates};
 pub use interface_distance::INTERFACE_DISTANCE;
 pub use krimi_viscosity::{KrimiViscosity, Strength};
 pub use monaghan_gingold::MonaghanGingold;

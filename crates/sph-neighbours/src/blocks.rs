@@ -11,8 +11,8 @@ pub fn each_block<T: Send>(all: &mut [T], size: usize, work: &(dyn Fn(usize, &mu
     blocks.for_each(|(number, block)| work(number, block));
 }
 
-/// Joins what `of` makes of the indices below `count`, a range of at most `size` at a time; `join` must not depend on the
-/// order.
+/// Joins the results of `of` for the indices below `count`, a range of at most `size` at a time; `join` must not depend
+/// on the order.
 pub fn joined<A: Copy + Send + Sync>(
     count: usize,
     size: usize,

@@ -10,7 +10,7 @@ use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::scaling::Scaling;
 use crate::separation::{Distances, grow};
-use crate::{Blocked, ContactRow, Contacts, Domain, Neighbourhood, Row, Scratch};
+use crate::{ContactRow, Contacts, Domain, HiddenPairs, Neighbourhood, Row, Scratch};
 
 /// A few particles that follow each other, with distances and kernel gradients for all possible neighbours.
 pub struct Cluster<'a, const D: usize> {
@@ -21,13 +21,13 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) inverse_renormalisation: [f64; MOST],
     /// Square of the support radius, m².
     pub(crate) limit: f64,
-    /// Where walls scale the kernel.
+    /// Scaling of the kernel by walls.
     pub(crate) scaling: Option<&'a Scaling<'a, D>>,
-    /// Whether some of its pairs are scaled.
+    /// True if some of its pairs are scaled.
     pub(crate) scaled: bool,
-    /// Whether any member sees a wall.
+    /// True if a wall is within reach of any member.
     pub(crate) beside: bool,
-    /// Whether images across periodic faces may be nearer.
+    /// True if images across periodic faces may be nearer.
     pub(crate) wraps: bool,
     pub(crate) buffers: &'a mut Buffers<D>,
 }
@@ -50,7 +50,7 @@ pub(crate) struct Buffers<const D: usize> {
     free: [Scratch<D>; MOST],
     /// Sums of the members.
     pub sums: crate::particles::Rows,
-    /// Whether `free` is of the cluster at hand.
+    /// True if `free` is of the cluster at hand.
     rows: bool,
 }
 
@@ -78,7 +78,7 @@ impl<const D: usize> Buffers<D> {
         members: Members<'_>,
         positions: &[Vect<D>],
         domain: Option<&Domain<D>>,
-        hidden: &Blocked,
+        hidden: &HiddenPairs,
         kernel: &K,
     ) {
         dispatch_at(

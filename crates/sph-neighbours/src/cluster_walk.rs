@@ -1,4 +1,4 @@
-//! Walks over clusters that make rows of matrices, and what else is no sum.
+//! Walks over clusters that make rows of matrices, and other results that are no sums.
 
 use std::ops::Range;
 
@@ -45,12 +45,12 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
     }
 
     /// Calls `visit` with the clusters of a block in the order of their particles.
-    pub fn each(&self, block: usize, mut visit: impl FnMut(&mut Cluster<'_, D>)) {
+    pub fn for_each_cluster(&self, block: usize, mut visit: impl FnMut(&mut Cluster<'_, D>)) {
         self.each_wanted(block, &mut visit, |_| true, |visit, c| visit(c), |_, _| ());
     }
 
-    /// The same with what is at hand; where no member is `wanted` no neighbours are searched, and `others` gets the
-    /// members.
+    /// The same with the scratch memory at hand; where no member is `wanted` no neighbours are searched, and `others`
+    /// gets the members.
     pub fn each_wanted<S>(
         &self,
         block: usize,
@@ -97,7 +97,7 @@ impl<const D: usize> Cluster<'_, D> {
     pub fn numbers<const M: usize, P: PairNumbers<D, M>>(&self, pairs: &P, out: &mut Vec<f64>) {
         let needed = self.candidates().len() * M * self.lanes();
         grow(out, needed);
-        let body = SideBySide {
+        let body = ClusterInLanes {
             pairs,
             cluster: self,
             out: &mut out[..needed],
@@ -106,18 +106,20 @@ impl<const D: usize> Cluster<'_, D> {
     }
 }
 
-struct SideBySide<'a, 'c, const D: usize, const M: usize, P> {
+struct ClusterInLanes<'a, 'c, const D: usize, const M: usize, P> {
     pairs: &'a P,
     cluster: &'a Cluster<'c, D>,
     out: &'a mut [f64],
 }
 
-impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body for SideBySide<'_, '_, D, M, P> {
+impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body
+    for ClusterInLanes<'_, '_, D, M, P>
+{
     type Output = ();
 
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let SideBySide {
+        let ClusterInLanes {
             pairs,
             cluster,
             out,

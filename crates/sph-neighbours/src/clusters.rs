@@ -101,7 +101,7 @@ impl Clusters {
                     block.starts.push(used as u32);
                     continue;
                 }
-                let near = Near {
+                let near = CandidateSearch {
                     own: &targets[first..first + count],
                     points,
                     grid,
@@ -180,7 +180,7 @@ impl Clusters {
         self.len
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -253,7 +253,7 @@ impl Block {
 }
 
 /// Looks for the candidates of one cluster.
-struct Near<'a, const D: usize> {
+struct CandidateSearch<'a, const D: usize> {
     own: &'a [Vect<D>],
     points: &'a [Vect<D>],
     grid: &'a CellGrid<D>,
@@ -265,7 +265,7 @@ struct Near<'a, const D: usize> {
     ranges: &'a mut Vec<Range<usize>>,
 }
 
-impl<const D: usize> Body for Near<'_, D> {
+impl<const D: usize> Body for CandidateSearch<'_, D> {
     /// Number of filled slots.
     type Output = usize;
 

@@ -5,11 +5,11 @@ use sph_core::{AnyField, StepError, Store, Vect};
 /// The ranks between which a flow is divided, as work sees them that needs more than the particles at hand. All ranks call the
 /// same methods in the same order.
 pub trait Communicator<const D: usize>: Send + Sync {
-    /// Whether each particle is one's own, and not a copy of another's.
+    /// Marks of own particles; the others are copies.
     fn own(&self, free: &Store<D>) -> Vec<bool>;
 
-    /// Whether no sum over a particle's neighbours is needed here, because its owner sends it; `None` if all are
-    /// needed.
+    /// Marks of particles that need no sum over neighbours here, because their owner sends it; `None` if all need
+    /// theirs.
     fn idle(&self, free: &Store<D>) -> Option<Vec<bool>>;
 
     /// Replaces each value by the largest of all ranks.

@@ -24,7 +24,7 @@ struct Run<const D: usize> {
     to: u32,
 }
 
-/// Contacts of some particles, one behind the other. What the elements of one plane share is there once.
+/// Contacts of some particles, one behind the other. Common values of the elements of one plane are stored once.
 #[derive(Clone, Debug, Default)]
 pub struct ContactBlock<const D: usize> {
     runs: Vec<Run<D>>,
@@ -141,7 +141,7 @@ impl<'a, const D: usize> ContactRow<'a, D> {
             .sum()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
@@ -224,13 +224,13 @@ pub struct Contacts<const D: usize> {
     /// Particles that have contacts, ascending.
     pub particles: Vec<u32>,
     /// For every free particle where its contacts are.
-    places: Vec<Place>,
+    places: Vec<ContactRange>,
     blocks: Vec<ContactBlock<D>>,
 }
 
 /// Planes of a block; none where a particle sees no wall.
 #[derive(Clone, Copy, Debug, Default)]
-struct Place {
+struct ContactRange {
     block: u32,
     from: u32,
     to: u32,
@@ -255,7 +255,7 @@ impl<const D: usize> Contacts<D> {
             .flat_map(|&p| self.of_particle(p as usize))
     }
 
-    /// Whether no particle has any.
+    /// True if no particle has any.
     pub fn is_empty(&self) -> bool {
         self.particles.is_empty()
     }
@@ -263,14 +263,14 @@ impl<const D: usize> Contacts<D> {
     /// Bytes that all contacts need; buffers may hold more.
     pub fn bytes(&self) -> usize {
         let blocks = self.blocks.iter().map(ContactBlock::bytes).sum::<usize>();
-        blocks + size_of::<Place>() * self.places.len() + 4 * self.particles.len()
+        blocks + size_of::<ContactRange>() * self.places.len() + 4 * self.particles.len()
     }
 
     /// Clears the contacts, so that `particles` free ones have none, and hands out the blocks for new ones.
     pub fn take_blocks(&mut self, particles: usize) -> Vec<ContactBlock<D>> {
         self.particles.clear();
         self.places.clear();
-        self.places.resize(particles, Place::default());
+        self.places.resize(particles, ContactRange::default());
         std::mem::take(&mut self.blocks)
     }
 
@@ -285,7 +285,7 @@ impl<const D: usize> Contacts<D> {
             return;
         }
         self.particles.push(particle);
-        self.places[particle as usize] = Place {
+        self.places[particle as usize] = ContactRange {
             block: block as u32,
             from: planes.start,
             to: planes.end,

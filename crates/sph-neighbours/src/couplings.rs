@@ -30,13 +30,13 @@ impl Kinds {
 /// A quarter to a half of the memory of a matrix of blocks, which they replace where only products are needed.
 #[derive(Clone, Debug, Default)]
 pub struct Couplings {
-    pub(crate) blocks: Vec<Kept>,
+    pub(crate) blocks: Vec<BlockCouplings>,
     pub(crate) kinds: Kinds,
 }
 
 /// Those of the particles of a block.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Kept {
+pub(crate) struct BlockCouplings {
     pub groups: Vec<Group>,
     pub columns: Vec<u32>,
     pub numbers: Vec<f64>,
@@ -52,14 +52,14 @@ pub(crate) struct Group {
     pub count: u32,
     /// The end of its columns.
     pub to: u32,
-    /// Whether images across periodic faces may be nearer.
+    /// True if images across periodic faces may be nearer.
     pub wraps: bool,
 }
 
 impl Couplings {
     /// Bytes held for them.
     pub fn bytes(&self) -> usize {
-        let of = |kept: &Kept| {
+        let of = |kept: &BlockCouplings| {
             size_of_val(&kept.groups[..])
                 + size_of_val(&kept.columns[..])
                 + size_of_val(&kept.numbers[..])
@@ -179,7 +179,7 @@ impl<const D: usize> CouplingsAt<'_, D> {
                         true => numbers[stride - lanes + lane],
                         false => 0.0,
                     };
-                    // Not "≠": what is not a number has to be seen.
+                    // Not "≠": NaN has to be kept.
                     if even == 0.0 && along == 0.0 {
                         continue;
                     }

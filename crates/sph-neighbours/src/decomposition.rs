@@ -4,7 +4,7 @@
 //!   [`Cuts`] are the same as planes in space, found by ranks that hold a part each.
 //! * [`Halo`] counts the ghosts: particles of others that a rank needs because they are within reach of its own.
 //! * [`exchanges`] gives the columns that ghosts must get before each stage, from the columns that stages declare.
-//! * [`Transport`] is what ranks need to talk to each other; [`Thread`] is one that is a thread of this process.
+//! * [`Transport`] is the interface for messages between ranks; [`Thread`] is one that is a thread of this process.
 //! * [`Parts`] is a rank's part of a flow: it moves particles between ranks, gives ghosts the results of their owners,
 //!   and gathers the whole.
 //!
@@ -28,7 +28,7 @@ mod transport;
 
 pub use bisect::{DecompositionError, bisect};
 pub use cuts::{CutError, Cuts};
-pub use error::{Divided, PartError};
+pub use error::{PartError, RankParticles};
 pub use exchange::{Exchange, exchanges};
 pub use halo::Halo;
 pub use owner::OWNER;

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields};
 
 use crate::World;
 
-/// The place at which a wall looks at the fluid before it.
+/// The place at which a wall measures the depth of the fluid before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthGauge<const D: usize> {
     /// A point of its face, m; the lowest one that leans.
@@ -32,7 +32,7 @@ impl<const D: usize> DepthGauge<D> {
             side < from || side > to
         };
         match !aside && q < 1.0 {
-            // What has come behind the face belongs to it.
+            // Fluid that has come behind the face belongs to it.
             true => (1.0 - q.max(0.0)).powi(2) * (1.0 + 2.0 * q.max(0.0)),
             false => 0.0,
         }

@@ -1,4 +1,4 @@
-//! The box the flow lives in, and which of its directions are periodic.
+//! The box of the flow, and its periodic directions.
 
 use sph_core::Vect;
 use sph_kernels::lanes::Lane;
@@ -30,7 +30,7 @@ impl<const D: usize> Domain<D> {
         self.upper[axis] - self.lower[axis]
     }
 
-    /// Whether any axis is periodic.
+    /// True if any axis is periodic.
     pub fn any_periodic(&self) -> bool {
         self.periodic.iter().any(|p| *p)
     }
@@ -92,7 +92,7 @@ impl<const D: usize> Domain<D> {
         x
     }
 
-    /// Whether an image across a periodic face may be nearer than `reach`.
+    /// True if an image across a periodic face may be nearer than `reach`.
     #[inline(always)]
     pub fn near_periodic_face(&self, x: &Vect<D>, reach: f64) -> bool {
         (0..D).any(|axis| {
@@ -101,7 +101,7 @@ impl<const D: usize> Domain<D> {
         })
     }
 
-    /// Whether the position is inside along the axes that are not periodic.
+    /// True if the position is inside along the axes that are not periodic.
     pub fn contains(&self, x: &Vect<D>) -> bool {
         (0..D).all(|a| self.periodic[a] || (x[a] >= self.lower[a] && x[a] <= self.upper[a]))
     }
@@ -146,7 +146,7 @@ mod tests {
         }
     }
 
-    /// The upper face is the lower one, also for what rounding puts on it.
+    /// The upper face is the lower one, also for positions that rounding puts on it.
     #[test]
     fn a_place_is_wrapped_to_the_one_that_it_is() {
         let channel = channel();

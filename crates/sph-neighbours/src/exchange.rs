@@ -9,7 +9,7 @@ pub trait Words: Sized {
     /// Writes the numbers behind others.
     fn write(&self, to: &mut Vec<u64>);
 
-    /// Reads what was written.
+    /// Reads the written numbers.
     fn read(from: &[u64]) -> Self;
 }
 
@@ -96,8 +96,8 @@ impl<const D: usize> World<D> {
         }
     }
 
-    /// Gives copies what work with this access has summed over the neighbours of their owners. All else they work out
-    /// themselves.
+    /// Gives copies the sums of work with this access over the neighbours of their owners. The rest is computed for
+    /// copies, too.
     ///
     /// # Errors
     /// As [`largest`](Self::largest).

@@ -46,7 +46,7 @@ pub fn facing_forces<const D: usize>(
     }
     let elements = &world.walls.elements;
     let owned = world.owned_elements()?;
-    // Of the pressure of one of the two, which one rank knows.
+    // From the pressure of one of the two, which one rank has.
     let part = |facing: &Facing, pressure: f64| {
         let ([s, t], [to_t, to_s]) = (facing.pair, facing.parts);
         let half = -0.5 * pressure;
@@ -172,7 +172,7 @@ impl<const D: usize, N: PartialEq> Reach<D, N> {
         Reach(all)
     }
 
-    /// Whether a place is within a radius of the box of a wall of another number, by the box alone.
+    /// True if a place is within a radius of the box of a wall of another number, by the box alone.
     fn others_near(&self, x: &Vect<D>, own: N, radius: f64, domain: &Domain<D>) -> bool {
         let near = |[low, high]: &[Vect<D>; 2]| {
             let along = |k: usize| x[k] > low[k] - radius && x[k] < high[k] + radius;
@@ -182,7 +182,7 @@ impl<const D: usize, N: PartialEq> Reach<D, N> {
     }
 }
 
-/// Whether two elements have a corner at the same place.
+/// True if two elements have a corner at the same place.
 fn are_joined<const D: usize>(world: &World<D>, first: usize, second: usize) -> bool {
     let (elements, points) = (&world.walls.elements, &world.walls.points.position);
     let [first, second] = [first, second].map(|e| elements.corners[e].map(|c| points[c as usize]));

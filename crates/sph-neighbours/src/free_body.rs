@@ -28,7 +28,7 @@ pub struct FreeBody<const D: usize> {
 }
 
 impl<const D: usize> FreeBody<D> {
-    /// Whether a wall is one of its pieces.
+    /// True if a wall is one of its pieces.
     pub fn is(&self, wall: usize) -> bool {
         self.walls.contains(&(wall as u32))
     }

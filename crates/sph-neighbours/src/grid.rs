@@ -190,7 +190,7 @@ impl<const D: usize> CellGrid<D> {
         }
     }
 
-    /// Whether the points came in this order.
+    /// True if the points came in this order.
     pub fn is_sorted(&self) -> bool {
         self.sorted
     }

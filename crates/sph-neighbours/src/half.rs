@@ -2,12 +2,12 @@
 
 use crate::{CHUNK, Clusters};
 
-/// Particles for which a sweep is to sum; what it has summed for the others stays.
+/// Particles for which a sweep is to sum; its sums for the others stay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SweepHalf {
-    /// Whether each particle, or one of its cluster, is sent to others.
+    /// Marks of particles that are sent to others, or that are in a cluster with one.
     edge: Vec<bool>,
-    /// Whether the others are asked for.
+    /// True if the other half is requested.
     inner: bool,
 }
 
@@ -33,14 +33,14 @@ impl SweepHalf {
         }
     }
 
-    /// Whether a particle is asked for.
+    /// True if a particle is requested.
     #[inline]
     pub fn includes(&self, particle: usize) -> bool {
         self.edge[particle] != self.inner
     }
 }
 
-/// Whether a particle is needed: all are outside of halves.
+/// True if a particle is needed: all are outside of halves.
 #[inline]
 pub fn is_wanted(half: Option<&SweepHalf>, particle: usize) -> bool {
     half.is_none_or(|half| half.includes(particle))

@@ -2,18 +2,18 @@
 
 use crate::members::Members;
 
-/// Sorted pairs of indices; a row holds what an index does not see.
+/// Sorted pairs of indices; a row holds the indices that its own does not see.
 #[derive(Clone, Debug, Default)]
-pub struct Blocked {
+pub struct HiddenPairs {
     pairs: Vec<[u32; 2]>,
 }
 
-impl Blocked {
+impl HiddenPairs {
     /// Of pairs in any order.
     pub fn from_pairs(mut pairs: Vec<[u32; 2]>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();
-        Blocked { pairs }
+        HiddenPairs { pairs }
     }
 
     /// All pairs, ascending.
@@ -21,7 +21,7 @@ impl Blocked {
         &self.pairs
     }
 
-    /// Whether all see each other.
+    /// True if all see each other.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.pairs.is_empty()
@@ -35,7 +35,7 @@ impl Blocked {
             .map(|[_, j]| *j)
     }
 
-    /// Whether an index does not see another.
+    /// True if an index does not see another.
     #[inline(always)]
     pub fn has(&self, index: usize, other: u32) -> bool {
         !self.is_empty() && self.pairs.binary_search(&[index as u32, other]).is_ok()
@@ -60,13 +60,13 @@ impl Blocked {
 #[derive(Clone, Debug, Default)]
 pub struct Hidden {
     /// Free particles from free particles, both ways.
-    pub particles: Blocked,
+    pub particles: HiddenPairs,
     /// Wall points from free particles.
-    pub points: Blocked,
+    pub points: HiddenPairs,
     /// Free particles from wall points.
-    pub at_points: Blocked,
+    pub at_points: HiddenPairs,
     /// Free particles from elements.
-    pub at_elements: Blocked,
+    pub at_elements: HiddenPairs,
 }
 
 #[cfg(test)]
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn a_row_holds_whom_an_index_does_not_see() {
-        let blocked = Blocked::from_pairs(vec![[4, 2], [1, 9], [4, 0], [4, 2]]);
+        let blocked = HiddenPairs::from_pairs(vec![[4, 2], [1, 9], [4, 0], [4, 2]]);
         let row = |i: usize| blocked.row(i).collect::<Vec<_>>();
         assert_eq!([row(1), row(2), row(4)], [vec![9], vec![], vec![0, 2]]);
         assert!(blocked.has(4, 0) && !blocked.has(0, 4));

@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect};
 use sph_kernels::lanes::{Body, Lane, MOST, dispatch_at, dot};
 
 use crate::cluster::Cluster;
-use crate::couplings::{Couplings, Group, Kept, Kinds};
+use crate::couplings::{BlockCouplings, Couplings, Group, Kinds};
 use crate::lane_vector::{minus, vector};
 use crate::separation::places;
 use crate::{CHUNK, ClusterWalk, World};
@@ -29,8 +29,8 @@ pub struct Tally<const D: usize> {
 }
 
 /// Couplings of the clusters of a block.
-pub struct Keeper<'a> {
-    kept: &'a mut Kept,
+pub struct CouplingWriter<'a> {
+    kept: &'a mut BlockCouplings,
     kinds: Kinds,
     /// For code that finds couplings: α, β and their norm for every candidate, one number per lane each.
     pub numbers: &'a mut Vec<f64>,
@@ -40,7 +40,7 @@ pub struct Keeper<'a> {
 pub type Rows<'a, A, B, C> = (&'a mut [A], &'a mut [B], &'a mut [C]);
 
 impl Couplings {
-    /// Finds them anew. `cluster` hands those of a cluster to the [`Keeper`]; `rows` has room for what else it finds, three places per
+    /// Finds them anew. `cluster` hands those of a cluster to the [`CouplingWriter`]; `rows` has space for further results, three places per
     /// particle.
     ///
     /// # Errors
@@ -50,11 +50,12 @@ impl Couplings {
         world: &World<D>,
         kinds: Kinds,
         rows: Rows<'_, A, B, C>,
-        cluster: impl Fn(&mut Cluster<'_, D>, &mut Keeper<'_>, Rows<'_, A, B, C>) + Sync,
+        cluster: impl Fn(&mut Cluster<'_, D>, &mut CouplingWriter<'_>, Rows<'_, A, B, C>) + Sync,
     ) -> Result<(), StepError> {
         let walk = ClusterWalk::new(world)?;
         self.kinds = kinds;
-        self.blocks.resize_with(walk.blocks(), Kept::default);
+        self.blocks
+            .resize_with(walk.blocks(), BlockCouplings::default);
         let (a, b, c) = rows;
         let rows = a.par_chunks_mut(CHUNK).zip(b.par_chunks_mut(CHUNK));
         let rows = rows.zip(c.par_chunks_mut(CHUNK));
@@ -66,12 +67,12 @@ impl Couplings {
                 kept.groups.clear();
                 kept.columns.clear();
                 kept.numbers.clear();
-                walk.each(block, |members| {
+                walk.for_each_cluster(block, |members| {
                     let own = members.members();
                     let first = own.start - block * CHUNK;
                     let own = first..first + own.len();
                     let rows = (&mut a[own.clone()], &mut b[own.clone()], &mut c[own]);
-                    let mut keeper = Keeper {
+                    let mut keeper = CouplingWriter {
                         kept: &mut *kept,
                         kinds,
                         numbers: &mut *numbers,
@@ -83,7 +84,7 @@ impl Couplings {
     }
 }
 
-impl Keeper<'_> {
+impl CouplingWriter<'_> {
     /// Keeps the numbers of a cluster times `factor`, without the weak ones.
     pub fn keep<const D: usize>(
         &mut self,
@@ -118,7 +119,7 @@ struct Split<'a, 'c, const D: usize> {
     factor: f64,
     weak: Option<Weak<'a, D>>,
     kinds: Kinds,
-    kept: &'a mut Kept,
+    kept: &'a mut BlockCouplings,
 }
 
 impl<const D: usize> Body for Split<'_, '_, D> {
@@ -166,7 +167,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             let mut softness = zero;
             if let Some(weak) = weak {
                 let there = L::splat(weak.limit[j]);
-                // Of what is not a number nothing is positive: it is kept, and seen by the solver.
+                // No comparison with NaN is true: it is kept, and seen by the solver.
                 softness = (limit - there).where_positive(there, limit) - norm;
                 if zero.any_less(softness) {
                     let soft = [

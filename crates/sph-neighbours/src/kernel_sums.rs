@@ -14,11 +14,11 @@ use crate::particles::{Particles, Rows, make_room as room_for};
 use crate::scaling::Scaling;
 use crate::separation::Distances;
 use crate::sweep::wrapping;
-use crate::{Blocked, Clusters, Domain, WallPoints, World};
+use crate::{Clusters, Domain, HiddenPairs, WallPoints, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
 ///
-/// Since it looks at all distances, it also leaves the list without its skin in
+/// Since it computes all distances, it also leaves the list without its skin in
 /// [`Lists::pruned`](crate::Lists::pruned) for the sweeps that follow at the same positions.
 ///
 /// # Errors
@@ -141,8 +141,8 @@ impl Body for Total<'_> {
     }
 }
 
-/// Leaves in `out` what `of` makes of the sums over the free particles around every target: those behind Shepard means at
-/// walls. The particles of the sum's own values are the targets; pairs carry kernel values and no gradients.
+/// Leaves in `out` the results of `of` for the sums over the free particles around every target: those behind Shepard
+/// means at walls. The particles of the sum's own values are the targets; pairs carry kernel values and no gradients.
 ///
 /// Each sums its particles in the order of their indices, whatever the number of lanes; `hidden` has the pairs that are
 /// left out.
@@ -152,7 +152,7 @@ impl Body for Total<'_> {
 pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     world: &World<D>,
     targets: &[Vect<D>],
-    (list, hidden): (&Clusters, &Blocked),
+    (list, hidden): (&Clusters, &HiddenPairs),
     sum: &S,
     out: &mut Vec<R>,
     of: impl Fn(usize, S::Sum<f64>) -> R + Sync,
@@ -224,7 +224,7 @@ struct TargetPoints<'a, const D: usize> {
 impl<const D: usize> TargetPoints<'_, D> {
     /// With a branch for the domain in the loop lanes would be taken apart: it is `WRAPS`, decided before.
     #[inline(always)]
-    fn apart<L: Lane, const WRAPS: bool>(&self, x: &[L; D], particle: u32) -> [L; D] {
+    fn separation<L: Lane, const WRAPS: bool>(&self, x: &[L; D], particle: u32) -> [L; D] {
         let apart = minus(x, &self.positions[particle as usize]);
         match self.domain {
             Some(domain) if WRAPS => domain.nearest_images(apart),
@@ -263,7 +263,7 @@ impl<const D: usize> DistancesAround<'_, D> {
         let limit = L::splat(self.limit);
         let mut n = 0;
         for &j in self.members.candidates {
-            let apart = around.apart::<L, WRAPS>(&x, j);
+            let apart = around.separation::<L, WRAPS>(&x, j);
             let distance2 = dot(&apart, &apart);
             self.inside[n] = j;
             distance2.store(&mut self.out[n * L::N..]);
@@ -305,7 +305,7 @@ impl<const D: usize, S: PairSum<D>> SumAround<'_, D, S> {
         let zero = L::splat(0.0);
         let values = self.values.chunks_exact(L::N);
         for (&j, w) in self.inside.iter().zip(values) {
-            let separation = self.around.apart::<L, WRAPS>(&x, j);
+            let separation = self.around.separation::<L, WRAPS>(&x, j);
             let pair = LanePair {
                 separation,
                 distance2: dot(&separation, &separation),

@@ -2,7 +2,7 @@
 //!
 //! * [`CellGrid`] sorts points by cell; [`NeighbourList`] keeps, per particle, the candidates
 //!   within the support plus a skin, and stays valid until a particle moved half the skin.
-//! * [`World`] is what a stage sees: the columns of the free particles, the wall points and
+//! * [`World`] is the input of a stage: the columns of the free particles, the wall points and
 //!   elements, the lists, the kernel.
 //! * A [`PairTerm`] sums over pairs ([`PairSum`]), its formula written once for lanes; [`Interaction`] is the object-safe
 //!   form, called once per cluster of particles and never per pair.
@@ -83,9 +83,9 @@ pub use facing::facing_forces;
 pub use free_body::FreeBody;
 pub use grid::{CellGrid, Extent};
 pub use half::{SweepHalf, is_wanted};
-pub use hidden::{Blocked, Hidden};
+pub use hidden::{Hidden, HiddenPairs};
 pub use inverse::trusted_inverse;
-pub use keep_couplings::{Keeper, Rows as CouplingRows, Tally, Weak};
+pub use keep_couplings::{CouplingWriter, Rows as CouplingRows, Tally, Weak};
 pub use kernel_sums::{kernel_sums, shepard};
 pub use kernels::KernelEntry;
 pub use lane_pair::{LanePair, Pair};

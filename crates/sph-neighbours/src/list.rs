@@ -25,8 +25,8 @@ impl Block {
     }
 }
 
-/// Puts candidates into a buffer that is at most a quarter too large: vectors that grow by doubling would be by half, in the
-/// mean, and lists are most of what a run needs.
+/// Puts candidates into a buffer that is at most a quarter too large: vectors that grow by doubling would be by half,
+/// in the mean, and lists are most of a run's memory.
 pub(crate) fn keep_all(held: &mut Vec<u32>, candidates: &[u32]) {
     let (needed, room) = (candidates.len(), held.capacity());
     if needed > room || needed + needed / 4 < room {
@@ -129,7 +129,7 @@ impl NeighbourList {
         self.len
     }
 
-    /// Whether there is no target.
+    /// True if there is no target.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

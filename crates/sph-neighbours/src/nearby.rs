@@ -8,7 +8,7 @@ use crate::World;
 /// Numbers of neighbours of particles, added up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearby {
-    /// Particles that were looked at.
+    /// Particles in the count.
     pub particles: u64,
     /// Their neighbours within the support, wall points included.
     pub neighbours: u64,

@@ -9,12 +9,12 @@ use crate::World;
 pub struct Owned(Option<Vec<bool>>);
 
 impl Owned {
-    /// Whether there are no copies.
+    /// True if there are no copies.
     pub fn all(&self) -> bool {
         self.0.is_none()
     }
 
-    /// Whether a particle counts.
+    /// True if a particle counts.
     #[inline]
     pub fn has(&self, particle: usize) -> bool {
         self.0.as_ref().is_none_or(|own| own[particle])
@@ -80,7 +80,7 @@ pub struct OwnedElements<'a, const D: usize> {
 }
 
 impl<const D: usize> OwnedElements<'_, D> {
-    /// Whether an element counts; where there are copies, none without a particle within a support.
+    /// True if an element counts; where there are copies, none without a particle within a support.
     pub fn has(&self, element: usize) -> bool {
         let centre = &self.world.walls.elements.centre[element];
         self.has_around(centre, || self.world.lists.of_elements.candidates(element))

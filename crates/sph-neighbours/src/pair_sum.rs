@@ -10,9 +10,9 @@ use crate::particles::{Particles, Rows, make_room};
 ///
 /// A pair beyond the support, where F = 0 and w = 0, has to add exactly zero.
 pub trait PairSum<const D: usize>: Sync {
-    /// Whether pairs carry kernel values.
+    /// True if pairs carry kernel values.
     const VALUES: bool = false;
-    /// Whether walls that scale the kernel do so in this sum: w is s_a s_b w there, γ is 1, and no elements are seen.
+    /// True if walls that scale the kernel do so in this sum: w is s_a s_b w there, γ is 1, and no elements are seen.
     const SCALED: bool = false;
     /// Own values of `L::N` particles.
     type Own<L: Lane>: Copy;
@@ -28,8 +28,8 @@ pub trait PairSum<const D: usize>: Sync {
         pair: &LanePair<D, L>,
         sum: &mut Self::Sum<L>,
     );
-    /// Adds what the slope of s makes of a pair, which carries s_a s_b w; called beside [`pair`](Self::pair) where walls
-    /// scale some pair of a cluster.
+    /// Adds the part of a pair by the slope of s, which carries s_a s_b w; called beside [`pair`](Self::pair) where
+    /// walls scale some pair of a cluster.
     #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
@@ -48,16 +48,16 @@ pub(crate) fn sum_cluster<const D: usize, S: PairSum<D>>(
     rows: &mut Rows,
 ) {
     make_room(rows, S::Sum::<f64>::NUMBERS);
-    dispatch_at(cluster.width, OfCluster { sum, cluster, rows });
+    dispatch_at(cluster.width, ClusterPairSum { sum, cluster, rows });
 }
 
-struct OfCluster<'a, 'c, const D: usize, S> {
+struct ClusterPairSum<'a, 'c, const D: usize, S> {
     sum: &'a S,
     cluster: &'a Cluster<'c, D>,
     rows: &'a mut Rows,
 }
 
-impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
+impl<const D: usize, S: PairSum<D>> Body for ClusterPairSum<'_, '_, D, S> {
     type Output = ();
 
     #[inline(always)]
@@ -69,7 +69,7 @@ impl<const D: usize, S: PairSum<D>> Body for OfCluster<'_, '_, D, S> {
     }
 }
 
-impl<const D: usize, S: PairSum<D>> OfCluster<'_, '_, D, S> {
+impl<const D: usize, S: PairSum<D>> ClusterPairSum<'_, '_, D, S> {
     #[inline(always)]
     fn add_up<L: Lane, const SCALED: bool>(self) {
         let members = self.cluster.members;

@@ -1,4 +1,4 @@
-//! Particles side by side, and what is summed for them.
+//! Particles in lanes, and their sums.
 
 use sph_core::Vect;
 use sph_kernels::lanes::{Lane, MOST};

@@ -9,7 +9,7 @@ pub struct Rates<const D: usize> {
     pub acceleration: Vect<D>,
     /// Rate of the scalar that the formulation evolves (density diffusion), its unit per s.
     pub scalar: f64,
-    /// Rates of further scalars, each where [`World::slot`](crate::World::slot) says, their units per s.
+    /// Rates of further scalars, each in its [`World::slot`](crate::World::slot), their units per s.
     pub more: [f64; TRANSPORTED],
 }
 

@@ -9,9 +9,9 @@ use crate::{Interaction, WallForce, WallPart, World, cross, wall_parts};
 ///
 /// It costs a sweep over the particles that see a wanted wall, nothing for the others.
 ///
-/// The walls' part of an acceleration is the whole less what the other particles would contribute
-/// with γ = 1, which is equal and opposite between two particles and leaves no momentum; [`wall_parts`] says which wall
-/// has how much of it. [`facing_forces`] are added.
+/// The walls' part of an acceleration is the whole less the contribution of the other particles with γ = 1, which is
+/// equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the part of each wall.
+/// [`facing_forces`] are added.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -60,7 +60,7 @@ pub fn reactions<const D: usize>(
     for part in wall_parts(world, terms, sees)? {
         let mut both = [0.0; 6];
         both[..D].copy_from_slice(part.force.as_slice());
-        let place = beside(world, &positions[part.particle as usize], &part);
+        let place = image_beside_wall(world, &positions[part.particle as usize], &part);
         both[3..].copy_from_slice(&cross(&place, &part.force));
         parts[part.wall as usize].push(both);
     }
@@ -79,7 +79,7 @@ pub fn reactions<const D: usize>(
 }
 
 /// The image of a particle that is beside the wall on which it acts, m.
-fn beside<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> Vect<D> {
+fn image_beside_wall<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> Vect<D> {
     if !world.domain.periodic.contains(&true) {
         return *x;
     }

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::Sampler;
 
-use crate::{Blocked, ContactRow, Domain, Scaling, WallScale};
+use crate::{ContactRow, Domain, HiddenPairs, Scaling, WallScale};
 
 /// Pairs of one particle with one set of sources, inside the support only.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub struct Neighbourhood<'a, const D: usize> {
     pub contacts: ContactRow<'a, D>,
     /// 1/γ, 1 away from walls.
     pub inverse_renormalisation: f64,
-    /// Where walls scale the kernel.
+    /// Scaling of the kernel by walls.
     pub scaling: Option<&'a Scaling<'a, D>>,
 }
 
@@ -208,7 +208,7 @@ impl<const D: usize> Scratch<D> {
 
     /// Takes out the sources that a particle does not see.
     #[inline(always)]
-    pub(crate) fn hide(&mut self, hidden: &Blocked, particle: usize) {
+    pub(crate) fn hide(&mut self, hidden: &HiddenPairs, particle: usize) {
         if hidden.is_empty() {
             return;
         }

@@ -21,7 +21,7 @@ pub struct Scaling<'a, const D: usize> {
 enum SlopeOf<'a, const D: usize> {
     /// Of all walls, at every particle.
     All(&'a [Vect<D>]),
-    /// Of some walls, at the particle that is looked at.
+    /// Of some walls, at the particle in hand.
     Some(Vect<D>),
 }
 
@@ -35,7 +35,7 @@ impl<'a, const D: usize> Scaling<'a, D> {
         })
     }
 
-    /// Whether some of the pairs of a cluster are scaled.
+    /// True if some of the pairs of a cluster are scaled.
     pub(crate) fn acts(&self, members: Members<'_>) -> bool {
         let mut candidates = members.candidates.iter();
         candidates.any(|j| self.scale[*j as usize] != 1.0)
@@ -81,7 +81,7 @@ impl<'a, const D: usize> Scaling<'a, D> {
 /// Values of a particle near walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]
 pub struct WallScale<const D: usize> {
-    /// w̃_aa = s_a² w(0), 1/m^d: what the particle adds to its own sum.
+    /// w̃_aa = s_a² w(0), 1/m^d: the particle's part in its own sum.
     pub own_value: f64,
     /// ∇ ln s, 1/m; that of one wall in sums for this wall.
     pub slope: Vect<D>,

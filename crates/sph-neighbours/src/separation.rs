@@ -8,7 +8,7 @@ use crate::lane_vector::minus;
 use crate::members::Members;
 use crate::particles::Particles;
 
-/// The places of some points, one in each lane; the last one fills what is left over.
+/// The places of some points, one in each lane; the last one fills the rest.
 #[inline(always)]
 pub(crate) fn places<const D: usize, L: Lane>(points: &[Vect<D>]) -> [L; D] {
     Particles::first(points.len()).vectors(points)

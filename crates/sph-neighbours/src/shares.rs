@@ -11,7 +11,7 @@ pub struct TermShare<const D: usize> {
     pub name: String,
     /// Its rates.
     pub rates: Rates<D>,
-    /// The part that walls have in them: the whole less what the other particles would contribute with γ = 1.
+    /// The part that walls have in them: the whole less the contribution of the other particles with γ = 1.
     pub of_walls: Rates<D>,
 }
 

@@ -40,7 +40,7 @@ impl<const D: usize> World<D> {
 }
 
 impl<const D: usize> Space<D> {
-    /// Whether all rows are here.
+    /// True if all rows are here.
     pub fn is_whole(&self) -> bool {
         self.communicator.is_none()
     }
@@ -101,7 +101,7 @@ impl<const D: usize> Space<D> {
         }
     }
 
-    /// Whether it holds for all particles with rows.
+    /// True if it holds for all particles with rows.
     pub fn all(&self, holds: bool) -> bool {
         match &self.communicator {
             None => holds,

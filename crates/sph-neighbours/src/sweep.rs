@@ -51,7 +51,7 @@ pub struct Sums<'a, const D: usize> {
     pub more: &'a mut [[f64; TRANSPORTED]],
 }
 
-/// As [`interactions`], with further scalars, for terms of which it is known what they have [`declared`].
+/// As [`interactions`], with further scalars, for terms that have [`declared`] their columns.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -74,7 +74,7 @@ pub fn all_sums<const D: usize>(
     )
 }
 
-/// Lends all terms as one to `with`, each held to what it declares while it looks its columns up.
+/// Passes all terms as one to `with`, each held to its declaration while it looks its columns up.
 ///
 /// Every term is on the stack of the one before it, so that no step allocates memory.
 pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
@@ -97,7 +97,7 @@ pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
         world.free.unwatch(|| term.name())?;
         match before {
             None => with_all(world, others, rest, Some(bound), with),
-            Some(before) => with_all(world, others, rest, Some(&Both(before, bound)), with),
+            Some(before) => with_all(world, others, rest, Some(&TermChain(before, bound)), with),
         }
     });
     match looked_up {
@@ -115,9 +115,9 @@ impl<const D: usize> RowTerm<D> for NoTerms {
 }
 
 /// A term after those before it.
-struct Both<'a, const D: usize>(&'a dyn RowTerm<D>, &'a dyn RowTerm<D>);
+struct TermChain<'a, const D: usize>(&'a dyn RowTerm<D>, &'a dyn RowTerm<D>);
 
-impl<const D: usize> RowTerm<D> for Both<'_, D> {
+impl<const D: usize> RowTerm<D> for TermChain<'_, D> {
     fn row(&self, neighbourhood: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         self.0.row(neighbourhood, rates);
         self.1.row(neighbourhood, rates);
@@ -278,7 +278,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         self.lists.of_block(block)
     }
 
-    /// Adds what a term gives the particles of a block, in clusters where anyone is `wanted`.
+    /// Adds a term's rates to the particles of a block, in clusters with a `wanted` particle.
     fn block<T: RowTerm<D> + ?Sized>(
         &self,
         term: &T,
@@ -312,7 +312,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         }
     }
 
-    /// A cluster with all that its terms look at.
+    /// A cluster with all inputs of its terms.
     pub fn measured<'b>(
         &'b self,
         buffers: &'b mut Buffers<D>,

@@ -1,4 +1,4 @@
-//! Pair terms: what they sum over free neighbours is written once, for lanes; walls are added one by one.
+//! Pair terms: their sum over free neighbours is written once, for lanes; walls are added one by one.
 
 use sph_core::{Access, StepError, contract};
 use sph_kernels::lanes::InLanes;

@@ -82,7 +82,7 @@ pub struct Around<'a, const D: usize> {
     pub wall: &'a [f64],
 }
 
-/// Whether a walk evaluates the kernel itself, besides its gradient.
+/// Kernel values of a walk: ∇w alone, or also w.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
     /// ∇w only.

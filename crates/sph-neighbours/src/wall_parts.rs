@@ -85,7 +85,7 @@ pub fn wall_parts<const D: usize>(
 
 /// The walls before the members of a cluster, one by one.
 struct SeparateWalls<const D: usize> {
-    near: Vec<Near>,
+    near: Vec<WallMember>,
     /// Of members that see several walls.
     pieces: Vec<Piece<D>>,
     /// Accelerations of every member by all terms, with all walls, and without any and with γ = 1.
@@ -95,7 +95,7 @@ struct SeparateWalls<const D: usize> {
 }
 
 /// A member of a cluster that sees walls.
-struct Near {
+struct WallMember {
     member: usize,
     particle: usize,
     /// The only wall that it sees.
@@ -175,7 +175,7 @@ impl<const D: usize> SeparateWalls<D> {
                     None
                 }
             };
-            self.near.push(Near {
+            self.near.push(WallMember {
                 member,
                 particle,
                 only,
@@ -214,7 +214,7 @@ impl<const D: usize> SeparateWalls<D> {
         sum(&mut without, term, &mut self.bare);
     }
 
-    /// Each wall has what its own points and elements add. (1 − γ) a is shared as the walls' own 1 − γ are.
+    /// Each wall has the part of its own points and elements. (1 − γ) a is shared as the walls' own 1 − γ are.
     fn leave(&self, mass: &[f64], parts: &mut Vec<WallPart<D>>) {
         for near in &self.near {
             let at = |rates: &[Rates<D>]| rates[near.member].acceleration;

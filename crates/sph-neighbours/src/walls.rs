@@ -1,6 +1,6 @@
-//! The walls as the pair loop sees them: points with a share of fluid, and elements.
+//! Walls in the pair loop: points with a share of fluid, and elements.
 //!
-//! Which points and elements there are, and what they carry, is the wall plugin's business.
+//! The wall plugin makes the points and elements and sets their values.
 
 use sph_core::Vect;
 use sph_core::bed::Bed;
@@ -34,18 +34,18 @@ pub struct WallPoints<const D: usize> {
     /// Number of the first points that are corners of elements alone, without any fluid of their own: they are in no
     /// list and in no sum.
     pub corners: usize,
-    /// Whether the points behind the corners are the ports of open faces: masses that grow until a particle is born, and
-    /// that are in no density sum.
+    /// True if the points behind the corners are the ports of open faces: masses that grow until a particle is born,
+    /// and that are in no density sum.
     pub ports: bool,
 }
 
 impl<const D: usize> WallPoints<D> {
-    /// Whether there are points that take part in sums.
+    /// True if there are points that take part in sums.
     pub fn in_sums(&self) -> bool {
         self.position.len() > self.corners
     }
 
-    /// Whether these points carry rows of fluid that stand at the wall.
+    /// True if these points carry rows of fluid that stand at the wall.
     pub fn in_density(&self) -> bool {
         self.in_sums() && !self.ports
     }
@@ -72,9 +72,9 @@ pub struct Elements<const D: usize> {
     pub friction_factor: Vec<f64>,
     /// Slip length, m; empty where no wall slips partly.
     pub slip: Vec<f64>,
-    /// Whether the friction is that of a wall function; empty where no wall has one.
+    /// Marks of elements with the friction of a wall function; empty where no wall has one.
     pub wall_function: Vec<bool>,
-    /// Whether fluid passes there; empty where there are no open faces.
+    /// Marks of elements that fluid passes; empty where there are no open faces.
     pub open: Vec<bool>,
     /// Friction of soils; empty where no wall has a coefficient.
     pub coulomb: Vec<Coulomb>,
@@ -89,7 +89,7 @@ pub struct Elements<const D: usize> {
 pub struct Coulomb {
     /// Coefficient of friction μ; 0 where there is none.
     pub coefficient: f64,
-    /// Whether the friction is that of the source instead of μ times the force on the wall.
+    /// True if the friction is that of the source instead of μ times the force on the wall.
     pub literal: bool,
 }
 
@@ -175,7 +175,7 @@ pub struct WallSet<const D: usize> {
     pub elements: Elements<D>,
     /// Contacts of particles with elements.
     pub contacts: Contacts<D>,
-    /// Whether the walls scale the kernel.
+    /// True if the walls scale the kernel.
     pub scales: bool,
     /// ∇ ln s of every particle by wall, where walls scale the kernel.
     pub slopes: Slopes<D>,
@@ -195,7 +195,7 @@ pub struct WallSet<const D: usize> {
 }
 
 impl<const D: usize> WallSet<D> {
-    /// Whether there is neither point nor element.
+    /// True if there is neither point nor element.
     pub fn is_empty(&self) -> bool {
         self.points.position.is_empty() && self.elements.centre.is_empty()
     }

@@ -16,7 +16,7 @@ use crate::{
 pub struct Lists<const D: usize> {
     /// Free particles around clusters of free particles, skin included.
     pub free: Clusters,
-    /// The same without the skin, at the present positions; filled by a sweep that looks at all
+    /// The same without the skin, at the present positions; filled by a sweep that computes all
     /// distances anyway ([`kernel_sums`](crate::kernel_sums)), `None` once a particle has moved.
     pub pruned: Option<Clusters>,
     pub(crate) spare: Clusters,
@@ -96,7 +96,7 @@ impl<const D: usize> World<D> {
         found.ok_or(FieldError::Missing(rate.name))
     }
 
-    /// Whether the walls scale the kernel.
+    /// True if the walls scale the kernel.
     pub fn scales(&self) -> bool {
         self.walls.scales
     }
@@ -114,7 +114,7 @@ impl<const D: usize> World<D> {
         self.kernel.support_radius() * (1.0 + self.skin)
     }
 
-    /// Whether a particle moved so far that the lists may miss a pair.
+    /// True if a particle moved so far that the lists may miss a pair.
     ///
     /// # Errors
     /// If there is no position column.

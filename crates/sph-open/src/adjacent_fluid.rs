@@ -2,12 +2,12 @@
 
 use sph_core::Vect;
 
-use crate::Inside;
+use crate::FluidMean;
 
 /// The fluid in front of an element.
 pub(crate) struct AdjacentFluid<const D: usize> {
-    pub inside: Inside<D>,
-    /// How far before it that mean stands, m.
+    pub inside: FluidMean<D>,
+    /// Distance of that mean before the face, m.
     pub reach: f64,
     pub row: Vect<D>,
     pub mix: Vec<f64>,

@@ -3,7 +3,7 @@
 use sph_core::{StepError, Vect};
 use sph_neighbours::{Words, World};
 
-use crate::Inside;
+use crate::FluidMean;
 use crate::adjacent_fluid::AdjacentFluid;
 use crate::faces::Faces;
 
@@ -32,7 +32,7 @@ impl<const D: usize> Words for AdjacentFluid<D> {
         let real = |k: usize| f64::from_bits(from[k]);
         let vector = |n: usize| Vect::from_fn(|k, _| real(9 + n * D + k));
         AdjacentFluid {
-            inside: Inside {
+            inside: FluidMean {
                 wet: from[0] != 0,
                 pressure: real(1),
                 impedance: real(2),
@@ -52,7 +52,7 @@ impl<const D: usize> Words for AdjacentFluid<D> {
 }
 
 impl<const D: usize> Faces<D> {
-    /// The means of all [elements](sph_neighbours::OwnedElements), each looked at where it counts.
+    /// The means of all [elements](sph_neighbours::OwnedElements), each where it counts.
     pub(crate) fn agreed(
         &self,
         world: &World<D>,
@@ -73,10 +73,10 @@ impl<const D: usize> Faces<D> {
             false => (0.0, Vect::zeros()),
         };
         AdjacentFluid {
-            inside: Inside {
+            inside: FluidMean {
                 mean,
                 mean_pressure,
-                ..Inside::nothing()
+                ..FluidMean::nothing()
             },
             reach: 0.0,
             lacks: 0.0,

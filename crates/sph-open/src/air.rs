@@ -28,7 +28,7 @@ impl<const D: usize> Faces<D> {
         for k in own.clone() {
             let [aim, faster] = self.speeds(k);
             let (measure, filled) = (self.places[k].measure, self.inside[k].filled);
-            // Where the law has shared out its volume among what is filled, nothing is to spare.
+            // Where the law has shared out its volume among the filled elements, there is no rest.
             if self.outside[k].share == Some(1.0) {
                 spare -= measure * (1.0 - filled) * aim;
             }
@@ -40,7 +40,7 @@ impl<const D: usize> Faces<D> {
             self.outside[k].velocity = self.places[k].normal * normal;
             self.outside[k].share = None;
             // A jet has no rows: a port beside it would stand in for fluid that is not there.
-            self.lacking[k] *= 1.0 - self.alone(k);
+            self.lacking[k] *= 1.0 - self.isolation(k);
         }
     }
 
@@ -51,11 +51,12 @@ impl<const D: usize> Faces<D> {
         let along = |u: &Vect<D>| u.dot(&self.places[k].normal);
         let aim = along(&self.outside[k].velocity);
         let faster = (aim - along(&self.inside[k].velocity)).max(0.0);
-        [aim, faster * self.alone(k)]
+        [aim, faster * self.isolation(k)]
     }
 
-    /// How far water before an element goes as if it were alone: 1 from a [share](BESIDE) of dry elements around it on.
-    fn alone(&self, k: usize) -> f64 {
+    /// Degree to which water before an element moves as if it were alone: 1 from a [share](BESIDE) of dry elements
+    /// around it on.
+    fn isolation(&self, k: usize) -> f64 {
         let around = self.smooth[k].iter();
         let [dry, whole] = around.fold([0.0, 0.0], |[dry, whole], (j, w)| {
             [dry + w * (1.0 - self.inside[*j as usize].filled), whole + w]
@@ -63,8 +64,8 @@ impl<const D: usize> Faces<D> {
         (dry / (BESIDE * whole)).min(1.0)
     }
 
-    /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of what
-    /// comes faster that takes the place of air.
+    /// Velocity along the normal with which an element lets out where the face draws air, m/s; `part` is the share of
+    /// faster inflow that takes the place of air.
     fn idling(&self, k: usize, part: f64) -> f64 {
         let inside = &self.inside[k];
         let within = inside.velocity.dot(&self.places[k].normal);

@@ -6,17 +6,17 @@ use serde_json::{Value as Json, json};
 
 use crate::faces::Faces;
 
-/// How long a port keeps an error of its mass, over the time in which a row passes.
+/// Time over which a port keeps an error of its mass, over the time in which a row passes.
 ///
 /// The flux of the law and that of the particles differ by the smoothing of the mean before the face; the difference is
 /// let go instead of gathering at the port.
 const ROWS: f64 = 5.0;
 
-/// Difference between what has passed a face and the requested volume without a warning, over the latter.
+/// Largest difference between the passed and the requested volume without a warning, over the latter.
 const BORNE: f64 = 0.005;
 
 impl<const D: usize> Faces<D> {
-    /// Ports grow by what comes in and fade by what goes out in `dt` seconds.
+    /// Ports grow by the inflow and fade by the outflow in `dt` seconds.
     ///
     /// Through an element that has fluid before a part of it, this part passes. A port is to hold what the row before it
     /// [lacks](crate::faces::as_share); what it has beyond that goes with what passes, and all of it where the fluid has gone.
@@ -83,13 +83,13 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Whether no fluid is before any of some elements.
+    /// True if no fluid is before any of some elements.
     fn is_dry(&self, mut own: Range<usize>) -> bool {
         own.all(|k| !self.inside[k].wet)
     }
 
-    /// By face and phase: mass that entered, left and is held, kg; and what is missing of entered − left − (born − died) −
-    /// held, which is rounding. By face where its law requests a volume: this and what has passed, m³ at the reference
+    /// By face and phase: mass that entered, left and is held, kg; and the error entered − left − (born − died) − held,
+    /// which is rounding. By face where its law requests a volume: this and the passed volume, m³ at the reference
     /// density.
     pub fn budget(&self, phases: &[String]) -> Json {
         let count = self.whole.len();
@@ -120,7 +120,7 @@ impl<const D: usize> Faces<D> {
             }
             let asked = self.asked.get(f).is_some_and(Option::is_some);
             if let Some(volumes) = self.memory.volumes.get(f).filter(|_| asked) {
-                let [asked, passed] = volumes.both();
+                let [asked, passed] = volumes.volumes();
                 let volumes = json!({ "asked_volume": asked, "passed_volume": passed });
                 all.insert(face.name.clone(), volumes);
             }
@@ -150,7 +150,7 @@ impl<const D: usize> Faces<D> {
                 "`{name}` is dry, {first}: nothing passes where no fluid is before a face"
             ));
         }
-        let [asked, passed] = volumes.both();
+        let [asked, passed] = volumes.volumes();
         let more = passed / asked - 1.0;
         if more.is_nan() || more.abs() <= BORNE {
             return None;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use sph_core::Vect;
 use sph_neighbours::WallSet;
 
-use crate::Place;
+use crate::FaceElement;
 
 /// Normals and areas that differ relatively by less are the same.
 const SAME: f64 = 1e-6;
@@ -17,7 +17,7 @@ const SAME: f64 = 1e-6;
 pub(crate) struct Cell<const D: usize> {
     /// Elements of the walls.
     pub elements: Vec<u32>,
-    pub place: Place<D>,
+    pub place: FaceElement<D>,
 }
 
 /// The elements of a face, in the order of the walls'.
@@ -53,7 +53,7 @@ fn cell<const D: usize>(walls: &WallSet<D>, own: Vec<u32>) -> Cell<D> {
             own.iter().map(one).sum::<Vect<D>>() / measure
         }
     };
-    let place = Place {
+    let place = FaceElement {
         centre,
         normal: elements.normal[own[0] as usize],
         measure,

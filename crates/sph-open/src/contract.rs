@@ -6,15 +6,15 @@ use sph_core::{Vect, contract};
 
 /// An element of an open face.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<const D: usize> {
+pub struct FaceElement<const D: usize> {
     /// Centre, m.
     pub centre: Vect<D>,
     /// Unit normal into the fluid.
     pub normal: Vect<D>,
     /// Length or area, m^(d−1).
     pub measure: f64,
-    /// How far along the face its centre is, 0 to 1: in two dimensions from the first corner of the drawing, in three along the
-    /// first axis in a [rectangle](Self::rectangle).
+    /// Coordinate of its centre along the face, 0 to 1: in two dimensions from the first corner of the drawing, in
+    /// three along the first axis in a [rectangle](Self::rectangle).
     pub along: f64,
     /// The same along the second axis in a rectangle; ½ elsewhere.
     pub across: f64,
@@ -25,14 +25,14 @@ pub struct Place<const D: usize> {
 
 /// The fluid in front of an element, as a mean over its support.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inside<const D: usize> {
-    /// Whether there is enough fluid for a mean.
+pub struct FluidMean<const D: usize> {
+    /// True if there is enough fluid for a mean.
     pub wet: bool,
     /// Pressure at the element, over that of the reference density, Pa.
     pub pressure: f64,
     /// Share of the element that has fluid before it.
     pub filled: f64,
-    /// Velocity, m/s; of what little there is, where it is not wet.
+    /// Velocity, m/s; of the little fluid there is, where it is not wet.
     pub velocity: Vect<D>,
     /// ρc, kg/(m² s).
     pub impedance: f64,
@@ -44,10 +44,10 @@ pub struct Inside<const D: usize> {
     pub mean_pressure: f64,
 }
 
-impl<const D: usize> Inside<D> {
+impl<const D: usize> FluidMean<D> {
     /// The mean where there is no fluid.
     pub(crate) fn nothing() -> Self {
-        Inside {
+        FluidMean {
             wet: false,
             pressure: 0.0,
             filled: 0.0,
@@ -62,24 +62,24 @@ impl<const D: usize> Inside<D> {
 
 /// Values of the face for the fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outside<const D: usize> {
+pub struct FaceValues<const D: usize> {
     /// Velocity with which fluid passes, m/s.
     pub velocity: Vect<D>,
     /// Pressure, over that of the reference density, Pa; of no account where the velocity is imposed.
     pub pressure: f64,
-    /// Whether the velocity is imposed, and the pressure follows from the characteristic that leaves the fluid:
+    /// True if the velocity is imposed, and the pressure follows from the characteristic that leaves the fluid:
     /// p = p_i + ρc (u − u_i), with the mean of u over the support for u. If not, fluid passes with its own velocity,
-    /// changed by what `velocity` differs from that inside.
+    /// changed by the difference of `velocity` from that inside.
     pub imposed: bool,
-    /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Fluid that goes
-    /// out passes no more than what has fluid before it, unless the share is 1.
+    /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Outflow
+    /// passes at most the part with fluid before it, unless the share is 1.
     pub share: Option<f64>,
 }
 
-impl<const D: usize> Outside<D> {
+impl<const D: usize> FaceValues<D> {
     /// Values where there is no fluid: nothing passes.
     pub fn dry() -> Self {
-        Outside {
+        FaceValues {
             velocity: Vect::zeros(),
             pressure: 0.0,
             imposed: true,
@@ -124,7 +124,7 @@ impl<const D: usize> Moment<D> {
     }
 }
 
-/// A key of a law's table, and what is wrong with it.
+/// A key of a law's table, and its fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenRefusal {
     /// The key in the table; the table itself, if empty.
@@ -152,7 +152,7 @@ pub struct Entering {
     pub values: BTreeMap<String, f64>,
 }
 
-/// The law of an open face. It has no memory: what it needs of the past is in [`Inside::mean`].
+/// The law of an open face. It has no memory: the past of the flow is in [`FluidMean::mean`].
 pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Checks its table against the scene.
     ///
@@ -163,39 +163,39 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     ///
     /// # Errors
     /// The key that does not fit.
-    fn fit(&self, _places: &[Place<D>]) -> Result<(), OpenRefusal> {
+    fn fit(&self, _places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         Ok(())
     }
     /// The fluid that comes in.
     fn entering(&self) -> Entering {
         Entering::default()
     }
-    /// Whether fluid can leave by it where more comes in elsewhere.
+    /// True if fluid can leave by it where more comes in elsewhere.
     fn lets_out(&self) -> bool;
-    /// Whether rows that pass are kept even by slow pressures, as those that stay are. It makes a barrier of some per cent of the
-    /// pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
+    /// True if rows that pass are kept even by slow pressures, as those that stay are. This makes a barrier of some per
+    /// cent of the pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
     fn keeps_rows_even(&self) -> bool {
         false
     }
-    /// Volume into the fluid per time that it requests at the reference density, m³/s, whatever is in front of the
+    /// Volume into the fluid per time that it requests at the reference density, m³/s, for any fluid in front of the
     /// face; none where the velocity follows. The velocities of such a law are those at the reference density, too.
-    fn asked(&self, _places: &[Place<D>], _time: f64) -> Option<f64> {
+    fn asked(&self, _places: &[FaceElement<D>], _time: f64) -> Option<f64> {
         None
     }
-    /// Time of the [means](Inside::mean) of velocity and pressure, s, if it does.
+    /// Time of the [means](FluidMean::mean) of velocity and pressure, s, if it does.
     fn memory(&self) -> Option<f64> {
         None
     }
     /// Velocity and pressure of every element, in their order.
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>>;
+    ) -> Vec<FaceValues<D>>;
 }
 
 contract!(
     /// The law of an open face that a wall may name.
-    pub OpenBoundaryEntry, "open-boundary", InWall, "what the fluid meets where it passes a wall", OpenBoundary<D>
+    pub OpenBoundaryEntry, "open-boundary", InWall, "the condition at a wall that fluid passes", OpenBoundary<D>
 );

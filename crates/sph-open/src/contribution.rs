@@ -9,21 +9,21 @@ use sph_rheology::state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
 use crate::memory::Memory;
-use crate::passing::Passing;
+use crate::passing::FacePassing;
 use crate::walls::OpenWalls;
 use crate::{Entering, OpenBoundary, OpenRefusal};
 
-/// Parts of the run at the ends of which the course of a law is looked at.
+/// Parts of the run at the ends of which the course of a law is checked.
 const COURSE: usize = 4096;
 
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {
     faces: SharedFaces<D>,
-    /// Whether the formulation sums densities.
+    /// True if the formulation sums densities.
     summed: bool,
 }
 
-/// Opens faces in the walls of a scene: the treatment of all of them, and what lets mass through.
+/// Opens faces in the walls of a scene: the treatment of all of them, and the passage of mass.
 ///
 /// `given` are the names of the walls with their laws; `phases` are the names of the phases; `summed` is whether
 /// densities are sums over positions.
@@ -98,7 +98,7 @@ impl<const D: usize> OpenBoundaries<D> {
     pub fn in_front(&self, distance: f64) -> Vec<(String, Vect<D>)> {
         let faces = lock(&self.faces);
         let all = faces.places.iter().zip(&faces.face_of);
-        let place = |(place, face): (&crate::Place<D>, &usize)| {
+        let place = |(place, face): (&crate::FaceElement<D>, &usize)| {
             let x = place.centre + place.normal * distance;
             (faces.faces[*face].name.clone(), x)
         };
@@ -122,7 +122,7 @@ impl<const D: usize> OpenBoundaries<D> {
         all.map(|f| (f.name.clone(), f.law.entering())).collect()
     }
 
-    /// Whether fluid can leave by any of them.
+    /// True if fluid can leave by any of them.
     pub fn let_out(&self) -> bool {
         lock(&self.faces).faces.iter().any(|f| f.law.lets_out())
     }
@@ -170,7 +170,7 @@ impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
                 "open faces let mass through once per step: take `[integrator.symplectic-euler]`",
             ));
         }
-        let passing = Passing {
+        let passing = FacePassing {
             faces: self.faces.clone(),
             summed: self.summed,
             phases: setting.phases.to_vec(),

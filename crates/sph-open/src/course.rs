@@ -2,8 +2,8 @@
 
 use crate::{OpenRefusal, OpenSetting};
 
-/// Straight lines between points of a table; what is beyond its ends is that of the end.
-pub(crate) fn between(table: &[[f64; 2]], x: f64) -> f64 {
+/// Straight lines between points of a table; beyond its ends the value is that of the end.
+pub(crate) fn interpolated(table: &[[f64; 2]], x: f64) -> f64 {
     let after = table.partition_point(|[at, _]| *at <= x);
     match (after.checked_sub(1).map(|k| table[k]), table.get(after)) {
         (Some([a, f]), Some([b, g])) => f + (g - f) * (x - a) / (b - a),
@@ -29,7 +29,9 @@ pub(crate) type FactorTable = Option<Vec<[f64; 2]>>;
 
 /// The factor at a time.
 pub(crate) fn factor(course: &FactorTable, time: f64) -> f64 {
-    course.as_ref().map_or(1.0, |table| between(table, time))
+    course
+        .as_ref()
+        .map_or(1.0, |table| interpolated(table, time))
 }
 
 /// The least and the largest of a value over its course.
@@ -72,7 +74,7 @@ mod tests {
     fn tables_are_straight_between_their_points_and_stay_beyond() {
         let table = [[0.0, 1.0], [2.0, 3.0]];
         assert_eq!(
-            [-1.0, 0.0, 0.5, 2.0, 9.0].map(|x| between(&table, x)),
+            [-1.0, 0.0, 0.5, 2.0, 9.0].map(|x| interpolated(&table, x)),
             [1.0, 1.0, 1.5, 3.0, 3.0]
         );
     }

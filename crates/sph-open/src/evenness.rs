@@ -1,4 +1,4 @@
-//! The pressure of a face, taken out of what an uneven arrangement of particles makes of it.
+//! The pressure of a face, freed from the error of an uneven arrangement of particles.
 
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{Around, Values, World, walk_into};

@@ -9,12 +9,12 @@ use crate::faces::{CLOSED, Faces, LATE};
 /// A particle is born when a port has this share of its mass: its half row has come in by then.
 const RIPE: f64 = 0.5;
 
-/// How near to others, over the spacing, a particle is born at most: where a velocity is imposed, which pushes its mass in, and
-/// where the face yields and lets in what has room. Ours: from 0.85 on a channel behind a velocity loses its profile (0.66 %
-/// with 0.9, 0.33 % with 0.8 and less), and below 0.9 still water stirs itself.
+/// Least distance of a new particle to others, over the spacing: where a velocity is imposed, which pushes its mass in,
+/// and where the face yields and its inflow follows the free volume. Ours: from 0.85 on a channel behind a velocity
+/// loses its profile (0.66 % with 0.9, 0.33 % with 0.8 and less), and below 0.9 still water stirs itself.
 const NEAREST: [f64; 2] = [0.8, 0.9];
 
-/// How far from the face, over the spacing, particles are born at least: on the fluid's side whatever is rounded.
+/// Least distance of a new particle from the face, over the spacing: on the fluid's side under any rounding.
 const IN_FRONT: f64 = 1e-6;
 
 /// A particle behind a face.
@@ -23,7 +23,7 @@ struct PassedParticle<const D: usize> {
     face: usize,
     phase: usize,
     mass: f64,
-    /// How far, m.
+    /// Distance, m.
     depth: f64,
     ports: [(usize, Vect<D>); 2],
 }
@@ -220,8 +220,8 @@ impl<const D: usize> Faces<D> {
         Some([first, second.unwrap_or(first)])
     }
 
-    /// How far before the face, over the spacing, a particle is to be born at a port with fluid that comes in, if it is time:
-    /// the port has the mass for it, and the nearest particle has gone far enough.
+    /// Distance of a new particle before the face, over the spacing, at a port with inflow, if it is due: the port has
+    /// the mass for it, and the nearest particle has gone far enough.
     ///
     /// A particle born too near to others is too dense for the space it has, which the density does not show (it does
     /// not jump):
@@ -244,7 +244,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Particles that ports have the mass for, where it is time.
-    pub fn ripe(&mut self) -> Vec<Newborn<D>> {
+    pub fn due_particles(&mut self) -> Vec<Newborn<D>> {
         if !self.due {
             return Vec::new();
         }

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 use crate::adjacent_fluid::AdjacentFluid;
 use crate::faces::{Faces, as_share};
 use crate::row::Row;
-use crate::{Inside, Moment, Place};
+use crate::{FaceElement, FluidMean, Moment};
 
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
 const WET: f64 = 0.15;
@@ -31,7 +31,7 @@ impl<const D: usize> Faces<D> {
             .enumerate()
             .with_min_len(BATCH)
             .for_each_init(Scratch::default, |room, (k, seen)| {
-                self.before(world, &columns, k, room, seen);
+                self.means_before(world, &columns, k, room, seen);
             });
         let looked = self.agreed(world, looked)?;
         for (k, seen) in looked.iter().enumerate() {
@@ -78,7 +78,7 @@ impl<const D: usize> Faces<D> {
     /// A mean that stands a distance d before the face sees a wave d/c too early. It is delayed by this time,
     /// y' = (x − y) c/d, with the end of the step. Velocities are those of half a step ago, as all are kicked once in a
     /// step, and are delayed by as much less.
-    fn arriving(&self, k: usize, seen: &AdjacentFluid<D>) -> Inside<D> {
+    fn arriving(&self, k: usize, seen: &AdjacentFluid<D>) -> FluidMean<D> {
         let mut inside = seen.inside;
         let dt = self.memory.dt;
         if inside.wet && dt > 0.0 {
@@ -122,7 +122,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Means over the fluid before an element.
-    fn before(
+    fn means_before(
         &self,
         world: &World<D>,
         columns: &Columns<'_, D>,
@@ -161,7 +161,7 @@ impl<const D: usize> Faces<D> {
             let weights = [vw, columns.volume[j]];
             row.add(&place.normal, apart, self.spacing, weights, velocity);
         }
-        // Sound of one phase says nothing of the pressure of another beside it, which may be a thousand times as heavy.
+        // Sound of one phase does not carry the pressure of another beside it, which may be a thousand times as heavy.
         let q = self.before_all(k, mix);
         let (of_phase, filled) = (sums[q], mix[q]);
         let (mut p, mut u, mut z, mut rho) = (0.0, Vect::zeros(), 0.0, 0.0);
@@ -176,7 +176,7 @@ impl<const D: usize> Faces<D> {
             true => self.memory.mean[k],
             false => (p, u),
         };
-        seen.inside = Inside {
+        seen.inside = FluidMean {
             wet: filling >= WET,
             pressure: p,
             filled: (row.volume() / (FULL * self.stands[k])).min(1.0),
@@ -265,7 +265,7 @@ impl<const D: usize> Scratch<D> {
         &mut self,
         world: &World<D>,
         position: &[Vect<D>],
-        place: &Place<D>,
+        place: &FaceElement<D>,
         candidates: &[u32],
     ) {
         self.near.clear();

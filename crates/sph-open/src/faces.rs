@@ -1,4 +1,4 @@
-//! The open faces of a scene: their elements, what is in front of them, what they do.
+//! The open faces of a scene: their elements, the fluid in front of them, their values.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -11,17 +11,17 @@ use crate::adjacent_fluid::AdjacentFluid;
 use crate::cells::cells;
 use crate::memory::Memory;
 use crate::row::near;
-use crate::{Inside, OpenBoundary, Outside, Place};
+use crate::{FaceElement, FaceValues, FluidMean, OpenBoundary};
 
-/// How late births and deaths may be, as a share of a row: lists are built anew where particles come or go, and the rows that
-/// pass meanwhile wait for each other.
+/// Largest delay of insertion and removal, as a share of a row: lists are built anew where particles come or go, and
+/// the rows that pass meanwhile wait for each other.
 pub(crate) const LATE: f64 = 0.2;
 
-/// Where a row is so far away that it is the last one: from here on a port does not stand in for the next. Ours: with ½ the
-/// level before an outlet is higher by up to 3 %.
+/// Distance of a row from which it is the last one: from here on a port does not stand in for the next. Ours: with ½
+/// the level before an outlet is higher by up to 3 %.
 const LAST: f64 = 0.75;
 
-/// The share θ of a particle with which a port takes part in sums, from what the row before it lacks.
+/// The share θ of a particle with which a port takes part in sums, from the deficit of the row before it.
 ///
 /// With rows at φ δr, (φ + 1) δr, … from the face the trapezoidal rule lacks θ = φ − ½ there (Euler & Maclaurin), −½ to ½
 /// as one row after the other comes nearer and passes, and a little more while one waits for its birth. A row farther away
@@ -36,7 +36,7 @@ pub(crate) fn as_share(lacks: f64) -> f64 {
     }
 }
 
-/// Least density of what passes, over the reference density of its phase.
+/// Least density of passing fluid, over the reference density of its phase.
 const THINNEST: f64 = 0.5;
 
 /// An element that is not open.
@@ -70,15 +70,15 @@ pub(crate) struct Faces<const D: usize> {
     pub elements: Vec<Vec<u32>>,
     /// The number in `elements` of an element of the walls, or [`CLOSED`].
     pub open: Vec<u32>,
-    pub places: Vec<Place<D>>,
+    pub places: Vec<FaceElement<D>>,
     pub face_of: Vec<usize>,
-    /// For every element those of its face near it, with their share in a mean over the support of what is the same along the
-    /// normal.
+    /// For every element those of its face near it, with their share in a mean over the support of a quantity that is
+    /// constant along the normal.
     pub smooth: Vec<Vec<(u32, f64)>>,
-    pub inside: Vec<Inside<D>>,
+    pub inside: Vec<FluidMean<D>>,
     /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
     pub present: Vec<Vect<D>>,
-    pub outside: Vec<Outside<D>>,
+    pub outside: Vec<FaceValues<D>>,
     /// Volume per time that the law of every face [requests](OpenBoundary::asked), m³/s.
     pub asked: Vec<Option<f64>>,
     /// Velocity of the row of particles in front of every element, m/s.
@@ -87,7 +87,7 @@ pub(crate) struct Faces<const D: usize> {
     pub mix: Vec<f64>,
     /// Weight of the row before every element where the face is full.
     pub full: Vec<f64>,
-    /// Volume that [stands](crate::row::stands) before every element where the face is full, m^d.
+    /// Volume that [stands](crate::row::row_weight) before every element where the face is full, m^d.
     pub stands: Vec<f64>,
     /// Share of a whole particle at the port of every element in that weight.
     pub at_port: Vec<f64>,
@@ -105,7 +105,7 @@ pub(crate) struct Faces<const D: usize> {
     pub before: Vec<f64>,
     /// The means before the elements, to be filled again.
     pub looked: Vec<AdjacentFluid<D>>,
-    /// Whether particles come and go at the end of this step.
+    /// True if particles come and go at the end of this step.
     pub due: bool,
 }
 
@@ -139,22 +139,22 @@ impl<const D: usize> Faces<D> {
         }
         walls.elements.open = self.open.iter().map(|k| *k != CLOSED).collect();
         self.smooth = (0..self.places.len())
-            .map(|k| self.around(k, kernel))
+            .map(|k| self.mean_weights(k, kernel))
             .collect();
         self.full = (0..self.places.len())
             .map(|k| self.when_full(k, kernel))
             .collect();
         self.stands = (0..self.places.len())
-            .map(|k| self.stand(k, kernel))
+            .map(|k| self.standing_volume(k, kernel))
             .collect();
         self.at_port = (0..self.places.len())
             .map(|k| self.at_port(k, kernel))
             .collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
-        self.inside = vec![Inside::nothing(); ports];
+        self.inside = vec![FluidMean::nothing(); ports];
         self.present = vec![Vect::zeros(); ports];
-        self.outside = vec![Outside::dry(); ports];
+        self.outside = vec![FaceValues::dry(); ports];
         self.asked = vec![None; self.faces.len()];
         self.rows = vec![Vect::zeros(); ports];
         self.lacks = vec![0.0; ports];
@@ -168,7 +168,7 @@ impl<const D: usize> Faces<D> {
 
     /// Weights of the mean of a velocity that is given on the face, as the fluid's own is taken: over rows of particles in front
     /// of it.
-    fn around(&self, k: usize, kernel: &dyn Sampler) -> Vec<(u32, f64)> {
+    fn mean_weights(&self, k: usize, kernel: &dyn Sampler) -> Vec<(u32, f64)> {
         let own = self.faces[self.face_of[k]].elements.clone();
         let all = own.map(|j| (j as u32, self.rows_before(k, j, kernel)));
         all.filter(|(_, w)| *w > 0.0).collect()
@@ -198,8 +198,8 @@ impl<const D: usize> Faces<D> {
         own.map(one).sum::<f64>() * self.spacing
     }
 
-    /// Volume that [stands](crate::row::stands) before an element where its face is full, m^d.
-    fn stand(&self, k: usize, kernel: &dyn Sampler) -> f64 {
+    /// Volume that [stands](crate::row::row_weight) before an element where its face is full, m^d.
+    fn standing_volume(&self, k: usize, kernel: &dyn Sampler) -> f64 {
         let own = self.faces[self.face_of[k]].elements.clone();
         let one = |j: usize| {
             let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
@@ -250,7 +250,7 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// The phase that comes in at an element: the face's, or most of what is in front of it.
+    /// The phase that comes in at an element: the face's, or the largest one in front of it.
     pub fn phase(&self, element: usize) -> usize {
         let phases = self.whole.len();
         let mix = &self.mix[element * phases..(element + 1) * phases];
@@ -259,7 +259,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// The phase whose sound arrives at an element before which the phases have these shares: that which comes in, or
-    /// most of what is there if it is not.
+    /// the largest one there.
     pub fn before_all(&self, element: usize, mix: &[f64]) -> usize {
         let own = self.faces[self.face_of[element]].phase.map(|q| q as usize);
         own.filter(|q| mix[*q] > 0.0).unwrap_or_else(|| most(mix))
@@ -270,7 +270,7 @@ impl<const D: usize> Faces<D> {
         self.backgrounds[phase]
     }
 
-    /// Density at an element of what passes there, kg/m³.
+    /// Density of the fluid that passes at an element, kg/m³.
     pub fn density(&self, element: usize, phase: usize) -> f64 {
         self.density_at(self.outside[element].pressure, phase)
     }
@@ -283,8 +283,8 @@ impl<const D: usize> Faces<D> {
         density.max(THINNEST * law.reference().density)
     }
 
-    /// The velocity with which fluid passes an element, m/s: what is imposed, or that of the row in front of it and what the law
-    /// adds.
+    /// The velocity with which fluid passes an element, m/s: the imposed one, or that of the row in front of it plus
+    /// the law's addend.
     pub fn through(&self, element: usize) -> Vect<D> {
         let outside = &self.outside[element];
         match outside.imposed {
@@ -293,7 +293,7 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Whether a place behind a face is that of a particle that waits to leave.
+    /// True if a place behind a face is that of a particle that waits to leave.
     pub fn waits(&self, place: &Vect<D>) -> bool {
         self.places.iter().any(|face| {
             let apart = place - face.centre;

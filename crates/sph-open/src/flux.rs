@@ -14,18 +14,18 @@ pub const OPEN_FLUX: Field<Scalar> = Field::new(
 );
 
 impl<const D: usize> Faces<D> {
-    /// Advances the density constants by what passes in `dt` seconds.
+    /// Advances the density constants by the fluid that passes in `dt` seconds.
     ///
     /// γ_a dρ_a/dt = m_a Σ_b θ_b u_ab·∇w_ab − ρ_a Σ_s u_as·∇γ_as with the velocity of the fluid at the face for u_s and
     /// u_v: a uniform flow changes nothing. With ρ_a = (K_a + m_a Σ w)/γ_a over particles alone,
     ///
     ///   dK_a/dt = ρ_a Σ_s u_s·∇γ_as + m_a Σ_v θ_v (u_a − u_v)·∇w_av.
     ///
-    /// Where a velocity is not imposed, u_s is that of the row in front of the element, changed by what the law adds to the mean
-    /// before the face: the mean over the support has not the profile of the flow.
+    /// Where a velocity is not imposed, u_s is that of the row in front of the element, changed by the difference of
+    /// the law from the mean before the face: the mean over the support has not the profile of the flow.
     ///
-    /// The first sum is what γ gains as the particle goes; it is advanced to second order (Adams & Bashforth), since what
-    /// a step misses of it stays.
+    /// The first sum is what γ gains as the particle goes; it is advanced to second order (Adams & Bashforth), since
+    /// the error of a step stays.
     pub fn advance_densities(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         let mut last = world.free.take(OPEN_FLUX)?;

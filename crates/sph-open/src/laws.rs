@@ -14,31 +14,34 @@ pub use velocity_inlet::VelocityInlet;
 
 use sph_core::Vect;
 
-use crate::{Inside, OpenRefusal, OpenSetting, Outside, Place};
+use crate::{FaceElement, FaceValues, FluidMean, OpenRefusal, OpenSetting};
 
 /// A velocity that is imposed along the normal.
-pub(crate) fn imposed_velocity<const D: usize>(place: &Place<D>, normal: f64) -> Outside<D> {
-    Outside {
+pub(crate) fn imposed_velocity<const D: usize>(
+    place: &FaceElement<D>,
+    normal: f64,
+) -> FaceValues<D> {
+    FaceValues {
         velocity: place.normal * normal,
-        ..Outside::dry()
+        ..FaceValues::dry()
     }
 }
 
-impl<const D: usize> Outside<D> {
+impl<const D: usize> FaceValues<D> {
     /// The fluid behind the face yields: it has a pressure p₀ and a velocity u₀, and another pressure where the fluid
     /// passes with another velocity,
     ///
     ///   p = p₀ − ζ (u_n − u₀ₙ),   u_n inwards,
     ///
-    /// ζ ≥ 0 in kg/(m² s). With the characteristic that leaves the fluid, p = p_i + ρc (u_n − u_i), both follow. ζ = 0 imposes
-    /// the pressure, ζ → ∞ the velocity, and ρc lets sound out. Fluid that leaves keeps its velocity along the face; what comes
-    /// in has that of u₀.
+    /// ζ ≥ 0 in kg/(m² s). With the characteristic that leaves the fluid, p = p_i + ρc (u_n − u_i), both follow. ζ = 0
+    /// imposes the pressure, ζ → ∞ the velocity, and ρc lets sound out. Fluid that leaves keeps its velocity along the
+    /// face; inflow has that of u₀.
     ///
     /// Above a surface there is no pressure, and the element goes with the water below it: one at rest would be a wall to
     /// those that see it, all within a support of the surface.
     pub fn yielding(
-        place: &Place<D>,
-        inside: &Inside<D>,
+        place: &FaceElement<D>,
+        inside: &FluidMean<D>,
         pressure: f64,
         velocity: Vect<D>,
         impedance: f64,
@@ -46,7 +49,7 @@ impl<const D: usize> Outside<D> {
         let n = place.normal;
         let within = inside.velocity.dot(&n);
         if !inside.wet {
-            return Outside {
+            return FaceValues {
                 velocity: inside.velocity - n * within.max(0.0),
                 pressure: 0.0,
                 imposed: false,
@@ -61,7 +64,7 @@ impl<const D: usize> Outside<D> {
             true => inside.velocity - n * within,
             false => velocity - n * aim,
         };
-        Outside {
+        FaceValues {
             velocity: along + n * normal,
             pressure: pressure - impedance * (normal - aim),
             imposed: false,
@@ -70,13 +73,13 @@ impl<const D: usize> Outside<D> {
     }
 }
 
-/// A pressure that is imposed; what comes in has no velocity along the face.
+/// A pressure that is imposed; inflow has no velocity along the face.
 pub(crate) fn imposed_pressure<const D: usize>(
-    place: &Place<D>,
-    inside: &Inside<D>,
+    place: &FaceElement<D>,
+    inside: &FluidMean<D>,
     pressure: f64,
-) -> Outside<D> {
-    Outside::yielding(place, inside, pressure, Vect::zeros(), 0.0)
+) -> FaceValues<D> {
+    FaceValues::yielding(place, inside, pressure, Vect::zeros(), 0.0)
 }
 
 impl OpenSetting<'_> {

@@ -1,7 +1,7 @@
 //! Open faces: fluid comes in and goes out through semi-analytical walls, `[wall.NAME.open-boundary.PLUGIN]`.
 //!
-//! * [`OpenBoundary`] is the law of a face: from the fluid in front of it ([`Inside`]) to what passes and which pressure
-//!   acts ([`Outside`]). Built in: [`VelocityInlet`], [`FlowRate`], [`Pressure`], [`Level`], [`Outflow`].
+//! * [`OpenBoundary`] is the law of a face: from the fluid in front of it ([`FluidMean`]) to what passes and which pressure
+//!   acts ([`FaceValues`]). Built in: [`VelocityInlet`], [`FlowRate`], [`Pressure`], [`Level`], [`Outflow`].
 //! * [`open`] puts the faces around the wall treatment of a scene, and gives the [`OpenBoundaries`] that let mass through.
 //! * [`waves`] makes waves by paddles and open faces, and measures reflected waves by gauges.
 #![doc = include_str!("../README.md")]
@@ -28,8 +28,8 @@ mod walls;
 pub mod waves;
 
 pub use contract::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place,
+    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
+    OpenRefusal, OpenSetting,
 };
 pub use contribution::{OpenBoundaries, open};
 pub use flux::OPEN_FLUX;

@@ -45,7 +45,7 @@ pub(crate) struct Volumes {
 
 impl Volumes {
     /// The requested and the passed volume, m³.
-    pub fn both(&self) -> [f64; 2] {
+    pub fn volumes(&self) -> [f64; 2] {
         [self.asked, self.passed].map(|sum| sum.value())
     }
 }
@@ -90,7 +90,7 @@ impl<const D: usize> Memory<D> {
         }
     }
 
-    /// How many numbers there are.
+    /// Number of values.
     pub fn count(&self) -> usize {
         let of_faces = PER_TOTAL * self.totals.len() + PER_FACE * self.volumes.len();
         self.mass.len() + (2 * (D + 1) + 2) * self.mean.len() + of_faces + 1
@@ -119,7 +119,7 @@ impl<const D: usize> Memory<D> {
         to.push(self.dt);
     }
 
-    /// Takes what [`numbers`](Self::numbers) gave; returns whether it could.
+    /// Takes the values of [`numbers`](Self::numbers); returns whether it could.
     pub fn put_back(&mut self, from: &[f64]) -> bool {
         if from.len() != self.count() || from.iter().any(|x| !x.is_finite()) {
             return false;

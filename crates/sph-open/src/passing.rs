@@ -11,14 +11,14 @@ const NAME: &str = "open boundaries";
 
 /// Lets mass through.
 #[derive(Clone)]
-pub(crate) struct Passing<const D: usize> {
+pub(crate) struct FacePassing<const D: usize> {
     pub faces: SharedFaces<D>,
-    /// Whether densities are sums, which change with particles that come and go.
+    /// True if densities are sums, which change with particles that come and go.
     pub summed: bool,
     pub phases: Vec<String>,
 }
 
-impl<const D: usize> Passing<D> {
+impl<const D: usize> FacePassing<D> {
     fn columns(&self) -> Access {
         let access = Access::none()
             .both(fields::POSITION)
@@ -41,7 +41,7 @@ impl<const D: usize> Passing<D> {
     }
 }
 
-impl<const D: usize> StepHook<D> for Passing<D> {
+impl<const D: usize> StepHook<D> for FacePassing<D> {
     fn name(&self) -> String {
         NAME.into()
     }
@@ -79,7 +79,7 @@ impl<const D: usize> StepHook<D> for Passing<D> {
     }
 }
 
-impl<const D: usize> Gate<D> for Passing<D> {
+impl<const D: usize> Gate<D> for FacePassing<D> {
     fn name(&self) -> String {
         NAME.into()
     }
@@ -108,7 +108,7 @@ impl<const D: usize> Gate<D> for Passing<D> {
 
     fn births(&mut self, world: &mut World<D>, _dt: f64) -> Result<Vec<Newborn<D>>, StepError> {
         let mut faces = lock(&self.faces);
-        let born = faces.ripe();
+        let born = faces.due_particles();
         let places: Vec<Vect<D>> = born.iter().map(|b| b.position).collect();
         even_out(world, &places, -1.0)?;
         world.walls.passed = faces.passed(&world.walls);

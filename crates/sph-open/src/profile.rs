@@ -2,10 +2,10 @@
 
 use sph_core::{parameters, rectangular_duct};
 
-use crate::course::{between, check_table};
-use crate::{OpenRefusal, OpenSetting, Place};
+use crate::course::{check_table, interpolated};
+use crate::{FaceElement, OpenRefusal, OpenSetting};
 
-/// How a velocity is shared out along a face, as factors of it.
+/// Distribution of a velocity along a face, as factors of it.
 ///
 /// In two dimensions s goes from 0 to 1 from the first corner of the drawing. In three the face is a plane rectangle with its
 /// sides along axes of space: s goes from 0 to 1 along the first of them, x before y before z, and t along the second.
@@ -34,7 +34,7 @@ fn polynomial(c: &[f64], x: f64) -> f64 {
 
 impl Profile {
     /// The factor at a place.
-    pub fn at<const D: usize>(&self, place: &Place<D>) -> f64 {
+    pub fn at<const D: usize>(&self, place: &FaceElement<D>) -> f64 {
         let (s, t) = (place.along, place.across);
         match self {
             Profile::Uniform => 1.0,
@@ -51,7 +51,7 @@ impl Profile {
                 let rows: Vec<f64> = c.iter().map(|c| polynomial(c, t)).collect();
                 polynomial(&rows, s)
             }
-            Profile::Table(table) => between(table, s),
+            Profile::Table(table) => interpolated(table, s),
         }
     }
 
@@ -64,7 +64,7 @@ impl Profile {
                 let rows: Vec<f64> = c.iter().map(|c| polynomial(c, t)).collect();
                 polynomial(&rows, s)
             }
-            Profile::Table(table) => between(table, s),
+            Profile::Table(table) => interpolated(table, s),
         };
         let (along, across) = match self {
             Profile::Surface(_) => (100, 100),
@@ -76,7 +76,7 @@ impl Profile {
             .fold(0.0, f64::max)
     }
 
-    /// Refuses what is no profile in the dimension of the scene.
+    /// Refuses a profile of another dimension than the scene's.
     pub(crate) fn check(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         let refused = |why: &str| Err(OpenRefusal::at_key("profile", why));
         match self {
@@ -103,7 +103,7 @@ impl Profile {
     }
 
     /// Refuses faces along which it has no coordinates.
-    pub(crate) fn fit<const D: usize>(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
+    pub(crate) fn fit<const D: usize>(&self, places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         let flat = D == 2 || places.iter().all(|place| place.rectangle.is_some());
         match self {
             Profile::Uniform => Ok(()),
@@ -122,8 +122,8 @@ mod tests {
     use super::*;
     use sph_core::Vect;
 
-    fn place<const D: usize>(along: f64, across: f64, sides: [f64; 2]) -> Place<D> {
-        Place {
+    fn place<const D: usize>(along: f64, across: f64, sides: [f64; 2]) -> FaceElement<D> {
+        FaceElement {
             centre: Vect::zeros(),
             normal: Vect::zeros(),
             measure: 1.0,

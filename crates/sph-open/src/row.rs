@@ -12,7 +12,7 @@ pub(crate) struct Row<const D: usize> {
     across: [f64; 3],
     /// Σ w u, Σ w t u and Σ w s u.
     velocities: [Vect<D>; 3],
-    /// Volume of those that [stand](stands) before the place.
+    /// Volume of those that [stand](row_weight) before the place.
     volume: f64,
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn near(squared: f64, spacing: f64) -> f64 {
 
 /// Share of particles at a distance before a face in the wetted part of the face: a hat from 0 to 2 δr. Over
 /// rows that are δr apart it sums up to 1 wherever the first of them is, so that a row that has gone a way is no dry face.
-pub(crate) fn stands(distance: f64, spacing: f64) -> f64 {
+pub(crate) fn row_weight(distance: f64, spacing: f64) -> f64 {
     (1.0 - (distance / spacing - 1.0).abs()).max(0.0)
 }
 
@@ -54,7 +54,7 @@ impl<const D: usize> Row<D> {
         let height = -apart.dot(n);
         let along = apart + n * height;
         let beside = near(along.norm_squared(), spacing);
-        self.volume += volume * beside * stands(height, spacing);
+        self.volume += volume * beside * row_weight(height, spacing);
         let w = share * beside;
         let [t, s] = coordinates(n, &along);
         let all = self.weights.iter_mut().zip([w, w * t, w * t * t]);

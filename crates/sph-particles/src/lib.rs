@@ -15,7 +15,7 @@ pub mod setup;
 mod subject;
 
 pub use failure::error::{Failure, RunError};
-pub use failure::findings::{Findings, Share, Sighting, Suspect};
+pub use failure::findings::{Findings, ParticleRecord, Share, Suspect};
 pub use results::scene_picture::draw_scene;
 pub use results::summary::{Drift, ErrorEntry, RankShare, Summary};
 pub use running::identity::{identity, marks};

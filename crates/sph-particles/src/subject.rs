@@ -1,4 +1,4 @@
-//! Scenes of particles as what can be run.
+//! Scenes of particles as subjects of runs.
 
 use std::sync::Arc;
 
@@ -98,7 +98,7 @@ fn known(error: &RunError) -> Json {
     known
 }
 
-/// Whether an error means that a checkpoint is of no use.
+/// True if an error means that a checkpoint is of no use.
 fn cannot_resume(error: &RunError) -> bool {
     match error {
         RunError::Resume { .. } => true,

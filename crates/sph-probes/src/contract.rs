@@ -41,8 +41,8 @@ pub struct ProbeScene<'a> {
 pub struct Needs<'a> {
     /// The wall whose force it reads.
     pub force_on: Option<&'a str>,
-    /// Neighbour lists, contacts, or what walls carry besides forces, and not columns alone: where a flow is divided, one
-    /// process computes these.
+    /// Neighbour lists, contacts, or columns of walls besides forces, and not columns of particles alone: where a flow
+    /// is divided, one process computes these.
     pub around: bool,
     /// The displacement of the particles.
     pub displacement: bool,
@@ -61,7 +61,7 @@ pub trait Curves<const D: usize> {
     /// # Errors
     /// If a column of the flow is missing.
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError>;
-    /// Which of these columns is drawn, `pictures/NAME_0003.png`, as a map over the first two.
+    /// Column that is drawn, `pictures/NAME_0003.png`, as a map over the first two.
     fn drawn_column(&self) -> Option<usize> {
         None
     }
@@ -87,7 +87,7 @@ pub trait Probe<const D: usize>: Send {
     /// Learns the scene.
     ///
     /// # Errors
-    /// If the probe names a phase that is not in the scene: what is wrong with its key `phase`.
+    /// If the probe names a phase that is not in the scene: the fault of its key `phase`.
     fn prepare(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
         Ok(())
     }
@@ -111,7 +111,7 @@ pub trait Probe<const D: usize>: Send {
     ///
     /// # Errors
     /// If they are not what the probe compares with: what is wrong with them.
-    fn learn(&mut self, _rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, _rows: Vec<[f64; 2]>) -> Result<(), String> {
         Ok(())
     }
     /// Their values now; NaN where there is nothing to measure.
@@ -123,7 +123,7 @@ pub trait Probe<const D: usize>: Send {
 
 contract!(
     /// A probe that a scene may name.
-    pub ProbeEntry, "probe", Probe, "what is measured over time", Probe<D>
+    pub ProbeEntry, "probe", Probe, "a measurement over time", Probe<D>
 );
 
 /// An analytical flow.

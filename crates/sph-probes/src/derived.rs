@@ -39,12 +39,12 @@ const OF_GRADIENTS: [&str; 5] = [
     "shear_stress",
 ];
 
-/// Whether a field of that name needs the gradient of the velocity.
+/// True if a field of that name needs the gradient of the velocity.
 pub fn needs_gradient(name: &str) -> bool {
     OF_GRADIENTS.contains(&name)
 }
 
-/// What is made from what.
+/// Derived quantities and their formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Derived {
     Speed,
@@ -71,14 +71,14 @@ pub fn derived_stages<const D: usize>(shown: &[String]) -> Vec<Box<dyn Stage<Wor
         .iter()
         .filter(|(_, name)| shown.iter().any(|s| s == name));
     wanted
-        .map(|(what, _)| Box::new(OnRequest::<D>(*what)) as Box<dyn Stage<World<D>>>)
+        .map(|(what, _)| Box::new(DerivedStage::<D>(*what)) as Box<dyn Stage<World<D>>>)
         .collect()
 }
 
 /// The stage of one field.
-struct OnRequest<const D: usize>(Derived);
+struct DerivedStage<const D: usize>(Derived);
 
-impl<const D: usize> OnRequest<D> {
+impl<const D: usize> DerivedStage<D> {
     fn written(&self) -> AnyField {
         match (self.0, D) {
             (Derived::Speed, _) => SPEED.any(),
@@ -90,7 +90,7 @@ impl<const D: usize> OnRequest<D> {
     }
 }
 
-impl<const D: usize> Declares for OnRequest<D> {
+impl<const D: usize> Declares for DerivedStage<D> {
     fn name(&self) -> String {
         self.written().name.replace('_', " ")
     }
@@ -109,7 +109,7 @@ impl<const D: usize> Declares for OnRequest<D> {
     }
 }
 
-impl<const D: usize> Stage<World<D>> for OnRequest<D> {
+impl<const D: usize> Stage<World<D>> for DerivedStage<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let free = &mut world.free;
         let gradients = |world: &sph_core::Store<D>, f: fn(&SMatrix<f64, D, D>) -> f64| {

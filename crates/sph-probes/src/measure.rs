@@ -7,7 +7,7 @@ mod quantity;
 mod reduction;
 
 pub(crate) use conditions::QuantityBounds;
-pub(crate) use plan::{Measured, Plan, PlannedColumn, Preset};
+pub(crate) use plan::{MeasuringProbe, Plan, PlannedColumn, Preset};
 pub use plugin::{Reduction, Statistic, Weight, quantile, reduced};
 pub(crate) use quantity::Quantity;
 pub(crate) use reduction::Reduce;

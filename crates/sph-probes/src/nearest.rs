@@ -5,13 +5,13 @@ use sph_core::Vect;
 /// Places in a binary tree: the middle one along an axis, those before it, those behind it; the axes take turns.
 ///
 /// No crate does it for less: 40 lines, and any dimension.
-pub(crate) struct Nearest<const D: usize>(Vec<Vect<D>>);
+pub(crate) struct PlaceTree<const D: usize>(Vec<Vect<D>>);
 
-impl<const D: usize> Nearest<D> {
+impl<const D: usize> PlaceTree<D> {
     /// Sorts places.
     pub fn new(mut places: Vec<Vect<D>>) -> Self {
         sort(&mut places, 0);
-        Nearest(places)
+        PlaceTree(places)
     }
 
     /// The distance to the nearest one, m; infinite if there is none.
@@ -69,14 +69,14 @@ mod tests {
         };
         let mut place = || Vect::<3>::from_fn(|_, _| random());
         let places: Vec<_> = (0..500).map(|_| place()).collect();
-        let tree = Nearest::new(places.clone());
+        let tree = PlaceTree::new(places.clone());
         for _ in 0..200 {
             let x = place() * 2.0;
             let all = places.iter().map(|p| (p - x).norm_squared());
             assert_eq!(tree.distance(&x), all.fold(f64::INFINITY, f64::min).sqrt());
         }
         assert_eq!(
-            Nearest::<2>::new(Vec::new()).distance(&Vect::zeros()),
+            PlaceTree::<2>::new(Vec::new()).distance(&Vect::zeros()),
             f64::INFINITY
         );
     }

@@ -77,8 +77,8 @@ pub fn rms_over_range(differences: &[f64], reference: &[f64]) -> f64 {
     mean.sqrt() / (high - low)
 }
 
-/// How much time each sample of a series stands for: half the gaps on both sides. A reference may
-/// be denser in some places; with these weights every moment counts alike.
+/// Time weight of each sample of a series: half the gaps on both sides. A reference may be denser in some places; with
+/// these weights every moment counts alike.
 pub fn time_weights(times: &[f64]) -> Vec<f64> {
     let last = times.len().saturating_sub(1);
     let width = |k: usize| 0.5 * (times[(k + 1).min(last)] - times[k.saturating_sub(1)]).abs();

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_core::{Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::{Around, Values, World, walk, walk_some};
 
-use crate::nearest::Nearest;
+use crate::nearest::PlaceTree;
 
 /// Distance to the nearest free surface, m.
 pub const SURFACE_DISTANCE: Field<Scalar> = Field::new(
@@ -37,7 +37,7 @@ pub fn surface_distance<const D: usize>(world: &World<D>) -> Result<Vec<f64>, St
     let positions = world.free.get(fields::POSITION)?;
     let surface = at_surface(world)?;
     let found = positions.iter().zip(&surface).filter(|(_, s)| **s);
-    let tree = Nearest::new(found.flat_map(|(x, _)| images(world, *x)).collect());
+    let tree = PlaceTree::new(found.flat_map(|(x, _)| images(world, *x)).collect());
     let half = 0.5 * world.spacing;
     let distance = |x: &Vect<D>| match tree.distance(x) {
         far if far.is_infinite() => f64::NAN,
@@ -63,7 +63,7 @@ fn images<const D: usize>(world: &World<D>, x: Vect<D>) -> Vec<Vect<D>> {
     all
 }
 
-/// Whether each particle is at a free surface.
+/// Marks of particles at a free surface.
 fn at_surface<const D: usize>(world: &World<D>) -> Result<Vec<bool>, StepError> {
     let outward = outward(world)?;
     let reach = CONE * world.spacing;

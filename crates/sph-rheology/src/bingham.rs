@@ -22,9 +22,8 @@ pub struct Bingham {
     /// Yield stress τ_y.
     #[parameter(unit: "Pa", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.5")]
     pub yield_stress: f64,
-    /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
-    /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
-    /// (`ratio`).
+    /// Limit of the viscosity at rest: a table `papanastasiou` (with `stress_growth`), `bi-viscosity`
+    /// (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio` (`ratio`).
     pub regularisation: Regularisation,
 }
 

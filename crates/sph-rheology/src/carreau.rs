@@ -28,7 +28,7 @@ pub struct Carreau {
     /// Exponent n of the power law in between.
     #[parameter(unit: "1", above: 0.0, max: 1.0, source: "Carreau 1972")]
     pub exponent: f64,
-    /// How sharply the plateau ends, a.
+    /// Sharpness of the plateau's end, a.
     #[parameter(default: 2.0, unit: "1", above: 0.0, source: "Yasuda et al. 1981")]
     pub sharpness: f64,
 }

@@ -32,7 +32,7 @@ impl Inputs<'_> {
     }
 }
 
-/// What yielding leaves of the two forces of a law with an elastic part.
+/// Factors of the two forces of a law with an elastic part, by yielding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yielding {
     /// Share of the viscous force in a blend: ζ, 1 for a law that does not blend.
@@ -41,7 +41,7 @@ pub struct Yielding {
     pub solid: f64,
     /// min(1, τ_y/|τ|): what the yield stress leaves of a stress that was not cut.
     pub held: f64,
-    /// Whether the material is liquid and loses its memory.
+    /// True if the material is liquid and loses its memory.
     pub forgets: bool,
 }
 
@@ -57,7 +57,7 @@ impl Yielding {
 
 /// A constitutive law: an effective viscosity η in τ = 2 η D, an elastic part, or both.
 pub trait Rheology: Send + Sync + std::fmt::Debug {
-    /// What the law reads.
+    /// Inputs of the law.
     fn needs(&self) -> Needs;
     /// The viscosity if it is one number for all times and places, Pa s. Then no viscosity
     /// column is allocated.
@@ -94,15 +94,15 @@ pub trait Elastic: Send + Sync {
     /// The stress that acts, from the remembered one: (1 − ζ)τ for a law that blends with a
     /// viscous part.
     fn carried(&self, inputs: &Inputs<'_>, stress: &[Symmetric], carried: &mut [Symmetric]);
-    /// Whether a viscous liquid takes the place of the solid where it yields.
+    /// True if a viscous liquid takes the place of the solid where it yields.
     fn blends(&self) -> bool {
         false
     }
-    /// Whether its viscosity damps the solid too, which is known where stresses are blended.
+    /// True if its viscosity damps the solid too, which is known where stresses are blended.
     fn damps(&self) -> bool {
         false
     }
-    /// How a batch yields, from a remembered stress that need not be cut.
+    /// Yielding of a batch, from a remembered stress that need not be cut.
     fn yielding(&self, _inputs: &Inputs<'_>, _stress: &[Symmetric], yielding: &mut [Yielding]) {
         yielding.fill(Yielding::NONE);
     }

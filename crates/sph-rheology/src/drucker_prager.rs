@@ -123,7 +123,7 @@ impl DruckerPrager {
     }
 }
 
-/// What does not depend on the particle: M, K, η_y.
+/// Constants of the law, the same for every particle: M, K, η_y.
 struct YieldConstants {
     slope: f64,
     constant: f64,
@@ -155,7 +155,7 @@ impl YieldConstants {
     }
 }
 
-/// Whether an entry is liquid: from x = 1 on, and a stress that is zero down to [`SOLID_AGAIN`].
+/// True if an entry is liquid: from x = 1 on, and a stress that is zero down to [`SOLID_AGAIN`].
 fn liquid(x: f64, stress: &Symmetric) -> bool {
     match *stress == Symmetric::ZERO {
         true => x >= SOLID_AGAIN,

@@ -31,9 +31,8 @@ pub struct HerschelBulkley {
     /// Yield stress τ_y.
     #[parameter(unit: "Pa", min: 0.0, source: "Herschel & Bulkley 1926")]
     pub yield_stress: f64,
-    /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
-    /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
-    /// (`ratio`).
+    /// Limit of the viscosity at rest: a table `papanastasiou` (with `stress_growth`), `bi-viscosity`
+    /// (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio` (`ratio`).
     pub regularisation: Regularisation,
     /// Bound of the viscosity from below.
     #[parameter(default, unit: "Pa s", min: 0.0, source: "ours")]

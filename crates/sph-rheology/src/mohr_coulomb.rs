@@ -33,9 +33,8 @@ pub struct MohrCoulomb {
     /// Cohesion c.
     #[parameter(default, unit: "Pa", min: 0.0, source: "Krimi et al. 2018, Eq. 21")]
     pub cohesion: f64,
-    /// How the viscosity stays finite at rest: a table `papanastasiou` (with `stress_growth`),
-    /// `bi-viscosity` (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio`
-    /// (`ratio`).
+    /// Limit of the viscosity at rest: a table `papanastasiou` (with `stress_growth`), `bi-viscosity`
+    /// (`largest_viscosity`), `bercovier-engelman` (`strain_rate`) or `ratio` (`ratio`).
     pub regularisation: Regularisation,
 }
 

@@ -55,8 +55,8 @@ pub struct MuI {
     /// Drag coefficient C_D of a grain in that fluid.
     #[parameter(default, unit: "1", min: 0.0, source: "Ghaïtanellis 2017, Eq. 4.16–4.23")]
     pub drag_coefficient: f64,
-    /// How the viscosity stays finite at rest: a table `chauchat-medale` (with `strain_rate`),
-    /// `papanastasiou` (`stress_growth`) or `minatti-paris` (`yield_stress`, `stress_growth`).
+    /// Limit of the viscosity at rest: a table `chauchat-medale` (with `strain_rate`), `papanastasiou`
+    /// (`stress_growth`) or `minatti-paris` (`yield_stress`, `stress_growth`).
     pub regularisation: MuIRegularisation,
     /// Bound of the viscosity from above; none if left out.
     #[parameter(unit: "Pa s", above: 0.0, source: "ours")]

@@ -10,7 +10,7 @@ use crate::lock;
 use crate::model::{Model, ModelTime, Poll, RunCounters, Status};
 use crate::observer::{Command, Progress, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
-use crate::schedule::{Due, Schedule};
+use crate::schedule::{DueOutputs, Schedule};
 
 /// Runs a model; it is at its start, or goes on from the checkpoint of its folder.
 ///
@@ -78,7 +78,7 @@ impl Opened {
             None => None,
             Some(outlay) => {
                 let path = folder.join(SERIES);
-                // First what may be refused: a changed scene may measure other columns.
+                // First the steps that may be refused: a changed scene may measure other columns.
                 let series = match goes_on {
                     false => SeriesWriter::create(path, model.columns())?,
                     true => SeriesWriter::open_truncated(path, books.series, model.columns())?,
@@ -103,7 +103,7 @@ impl Opened {
         })
     }
 
-    /// Steps the model to the end, and writes what is due; the wall-clock time counts from `started`.
+    /// Steps the model to the end, and writes the outputs that are due; the wall-clock time counts from `started`.
     ///
     /// # Errors
     /// Files that cannot be written, what goes wrong in the model.
@@ -120,19 +120,19 @@ impl Opened {
             schedule,
             started,
         };
-        match driver.go(model, observer)? {
+        match driver.drive_to_end(model, observer)? {
             Ok(status) => {
                 let film = driver.opened.files.as_ref().map(|f| f.frames.film());
                 let film = film.unwrap_or(Ok(())).map_err(M::Error::from);
                 model.agree(Poll::Written(film))?;
-                let summary = model.conclude(Ok(status), driver.books(), observer)?;
+                let summary = model.conclude(Ok(status), driver.counters(), observer)?;
                 driver.write_summary::<M>(summary.as_ref())?;
                 Ok(summary)
             }
             Err(mut error) => {
-                let summary = model.conclude(Err(&mut error), driver.books(), observer);
+                let summary = model.conclude(Err(&mut error), driver.counters(), observer);
                 let told = summary.and_then(|summary| driver.write_summary::<M>(summary.as_ref()));
-                // The failure itself matters more than what could not be written about it.
+                // The failure itself matters more than an error of writing about it.
                 if let Err(problem) = told {
                     observer.message(&format!("the summary could not be written: {problem}"));
                 }
@@ -152,7 +152,7 @@ struct Driver<'a> {
 
 impl Driver<'_> {
     /// The books as they are now.
-    fn books(&mut self) -> &RunCounters {
+    fn counters(&mut self) -> &RunCounters {
         let books = &mut self.opened.books;
         books.wall_seconds = self.before + self.started.elapsed().as_secs_f64();
         books
@@ -163,8 +163,8 @@ impl Driver<'_> {
         Ok(written.unwrap_or(Ok(()))?)
     }
 
-    /// How the run ended; a file that cannot be written is no end of it.
-    fn go<M: Model>(
+    /// Outcome of the run; a file that cannot be written does not end it.
+    fn drive_to_end<M: Model>(
         &mut self,
         model: &mut M,
         observer: &mut Watch<'_>,
@@ -202,7 +202,7 @@ impl Driver<'_> {
                 let written = self.write(model, due, observer);
                 self.opened.books.output_seconds += begun.elapsed().as_secs_f64();
                 model.agree(Poll::Written(written))?;
-                // What was seen is judged.
+                // The gathered findings are judged.
                 if let Err(error) = model.advance(now.time, observer) {
                     return Ok(Err(error));
                 }
@@ -232,14 +232,14 @@ impl Driver<'_> {
             particles: now.size,
         });
         let most = self.schedule.max_wall;
-        let late = most.is_some_and(|most| self.books().wall_seconds > most);
+        let late = most.is_some_and(|most| self.counters().wall_seconds > most);
         command == Command::Stop || late
     }
 
     fn write<M: Model>(
         &mut self,
         model: &mut M,
-        due: Due,
+        due: DueOutputs,
         observer: &mut Watch<'_>,
     ) -> Result<(), M::Error> {
         let time = self.opened.books.time;
@@ -271,6 +271,6 @@ impl Driver<'_> {
 
     fn save<M: Model>(&mut self, model: &mut M) -> Result<(), M::Error> {
         let checkpoint = self.opened.folder.join(CHECKPOINT);
-        model.save(self.books(), &checkpoint)
+        model.save(self.counters(), &checkpoint)
     }
 }

@@ -8,18 +8,18 @@ use sph_io::{ColourRanges, Frame, IoError, Piece, PvdSeries};
 pub const BAD_STATE: &str = "bad_state.vtu";
 /// A picture of that state.
 pub const BAD_STATE_PICTURE: &str = "bad_state.png";
-/// A picture of what is around the place at fault.
+/// A picture of the surroundings of the place at fault.
 pub const BAD_STATE_NEAR: &str = "bad_state_near.png";
 
 /// Folders of numbered files.
 const FOLDERS: [&str; 3] = ["pictures", "fields", "curves"];
 
-/// Which files a run's fields go to; by default those for ParaView.
+/// Files of a run's fields; by default those for ParaView.
 #[derive(Clone, Debug)]
 pub struct Outlay {
-    /// Whether files for ParaView are written.
+    /// True if files for ParaView are written.
     pub vtk: bool,
-    /// Names of what has pictures, of which films are made.
+    /// Names of quantities with pictures, of which films are made.
     pub pictures: Vec<String>,
     /// Digits of the number in the name of a picture.
     pub digits: usize,
@@ -105,7 +105,7 @@ impl Frames {
         list.write_among(&frame, ranks).map(|_| ())
     }
 
-    /// Whether there are files for ParaView.
+    /// True if there are files for ParaView.
     pub fn lists(&self) -> bool {
         self.list.is_some()
     }

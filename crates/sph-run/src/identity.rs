@@ -9,7 +9,7 @@ pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// All that the results of a run depend on, except the folder and the number of threads.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
-    /// Text of the scene and what was put on top.
+    /// Text of the scene and of its overrides.
     pub scene: String,
     /// Version of the program; none in checkpoints of before it was kept.
     #[serde(default)]
@@ -19,7 +19,7 @@ pub struct Identity {
     pub files: Vec<FileMark>,
 }
 
-/// A file and what was in it.
+/// A file and its contents.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileMark {
     /// Dotted path of the key that names it.
@@ -64,7 +64,7 @@ impl Identity {
     }
 }
 
-/// The files that are not what they were.
+/// The files that have changed.
 fn changed(before: &[FileMark], now: &[FileMark]) -> Vec<String> {
     let differs = |mark: &&FileMark| {
         let then = before.iter().find(|b| b.key == mark.key);

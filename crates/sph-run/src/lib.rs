@@ -6,7 +6,7 @@
 //!
 //! * [`run()`]: a whole run.
 //! * [`Opened`]: the same in two parts, for a model whose processes must agree in between.
-//! * [`Subject`]: a scene that can be run, of whatever [`Method`]: what studies vary.
+//! * [`Subject`]: a scene that can be run, of whatever [`Method`]: the subject of studies.
 //! * [`save_state()`], [`SavedState`]: a checkpoint of any state with `serde`.
 
 mod drive;

@@ -9,7 +9,7 @@ use crate::frames::Frames;
 use crate::observer::Watch;
 use crate::options::Start;
 
-/// A state that advances in time, with what there is to see of it.
+/// A state that advances in time, with its outputs.
 ///
 /// Where several processes compute one flow together, each has a model and a driver of its own: they are asked the same
 /// in the same order, and one of them alone has files.
@@ -20,7 +20,7 @@ pub trait Model {
     type Summary: Serialize;
 
     /// Puts the model where the run begins: by the scene, or at a checkpoint; `own` is that of the run's folder.
-    /// Gives what was counted until there.
+    /// Returns the counts until there.
     ///
     /// # Errors
     /// A checkpoint that cannot be read, or is of another run.
@@ -32,7 +32,7 @@ pub trait Model {
     ) -> Result<RunCounters, Self::Error>;
 
     /// One step that does not go beyond a time (s), repeated by the model. At a time that is reached nothing
-    /// moves: the state is made ready to be looked at, and judged.
+    /// moves: the state is prepared for outputs, and judged.
     ///
     /// # Errors
     /// An error that ends the run.
@@ -98,16 +98,16 @@ pub struct ModelTime {
     pub dt: f64,
     /// Bound that limited it.
     pub limiter: &'static str,
-    /// Particles, grains, or what else the model counts.
+    /// Particles, grains, or other items of the model.
     pub size: usize,
 }
 
 /// A question to all processes of a run.
 #[derive(Debug)]
 pub enum Poll<E> {
-    /// Whether what was due has been written.
+    /// Outcome of writing the files that were due.
     Written(Result<(), E>),
-    /// Whether this one stops.
+    /// True to stop.
     Stop(bool),
 }
 
@@ -145,7 +145,7 @@ pub struct RunCounters {
     pub colours: ColourRanges,
     /// Wall-clock time, s.
     pub wall_seconds: f64,
-    /// Wall-clock time of what was written since the run began or went on, s.
+    /// Wall-clock time of the writing since the run began or went on, s.
     #[serde(skip)]
     pub output_seconds: f64,
 }

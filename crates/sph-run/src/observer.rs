@@ -13,7 +13,7 @@ pub struct Progress {
     pub dt: f64,
     /// Bound that limited it.
     pub limiter: &'static str,
-    /// Particles, grains, or what else the model counts.
+    /// Particles, grains, or other items of the model.
     pub particles: usize,
 }
 

@@ -61,12 +61,12 @@ pub enum Start {
     Resumed,
     /// The same, although the scene, its overrides, its files or the program are not those of the checkpoint.
     Changed,
-    /// With the particles and the time of a checkpoint of another run of the same bodies, whatever its other settings.
+    /// With the particles and the time of a checkpoint of another run of the same bodies, with any other settings.
     From(PathBuf),
 }
 
 impl Start {
-    /// Whether the run's own files are gone on with.
+    /// True if the run's own files are gone on with.
     pub fn goes_on(&self) -> bool {
         matches!(self, Start::Resumed | Start::Changed)
     }

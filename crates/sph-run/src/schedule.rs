@@ -10,13 +10,13 @@ pub struct Schedule<'a> {
     pub rows: f64,
     /// The first output of fields after a time, s.
     pub next_output: Box<dyn Fn(f64) -> Option<f64> + Sync + 'a>,
-    /// Whether steps end where fields are due.
+    /// True if steps end where fields are due.
     pub hits_outputs: bool,
     /// Simulated time between checkpoints, s.
     pub checkpoints: f64,
     /// Largest number of steps.
     pub max_steps: Option<u64>,
-    /// How a run with that many steps has ended.
+    /// Outcome of a run with that many steps.
     pub capped: Status,
     /// Wall-clock time after which the run stops with a checkpoint, s.
     pub max_wall: Option<f64>,
@@ -24,7 +24,7 @@ pub struct Schedule<'a> {
 
 /// Outputs that are due.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Due {
+pub(crate) struct DueOutputs {
     /// A row of the series.
     pub row: bool,
     /// Fields.
@@ -33,7 +33,7 @@ pub(crate) struct Due {
     pub checkpoint: bool,
 }
 
-impl Due {
+impl DueOutputs {
     pub fn any(self) -> bool {
         self.row || self.output || self.checkpoint
     }
@@ -68,9 +68,9 @@ impl Schedule<'_> {
     }
 
     /// Outputs that are due at a time, s.
-    pub(crate) fn due(&self, time: f64, books: &RunCounters) -> Due {
+    pub(crate) fn due(&self, time: f64, books: &RunCounters) -> DueOutputs {
         let written = books.last_row == Some(time);
-        Due {
+        DueOutputs {
             row: !written && (time >= books.rows as f64 * self.rows || time >= self.end),
             output: books.next_output.is_some_and(|t| time >= t),
             checkpoint: over(time, self.checkpoints) > books.checkpoints || time >= self.end,

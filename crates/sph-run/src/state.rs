@@ -60,7 +60,7 @@ impl SavedState {
     /// The state.
     ///
     /// # Errors
-    /// Why it is none.
+    /// The fault of the state.
     pub fn state<T: DeserializeOwned>(&self) -> Result<T, String> {
         let words = self.words.as_ref().ok_or("it holds no state")?;
         let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();

@@ -1,4 +1,4 @@
-//! Scenes that can be run, whatever computes them.
+//! Scenes that can be run, by any method.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -82,7 +82,7 @@ impl Ended {
     }
 }
 
-/// Whether a file is no checkpoint that can be read.
+/// True if a file is no checkpoint that can be read.
 pub fn unusable(error: &IoError) -> bool {
     use IoError::{Checkpoint, Malformed, Read, TooShort};
     matches!(

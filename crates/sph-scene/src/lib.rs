@@ -55,7 +55,7 @@ mod tables;
 pub use drawings::drawing::DrawingError;
 pub use filling::disorder::{SplitMix, disturb, noise};
 pub use filling::estimate::estimate;
-pub use filling::fill::{Filled, fill};
+pub use filling::fill::{BodyParticles, fill};
 pub use filling::nodes::Offset;
 pub use geometry::course::Courses;
 pub use geometry::level::LevelSurface;

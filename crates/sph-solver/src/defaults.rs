@@ -3,7 +3,7 @@
 /// Skin of the neighbour lists as a share of the support radius.
 pub const SKIN: f64 = 0.1;
 
-/// Kind and name of what a scene without one is advised to take.
+/// Kind and name of the plugin that is advised for a scene without one.
 const SUGGESTIONS: [(&str, &str); 2] = [
     ("smoother", "brezzi-pitkaranta"),
     ("implicit-viscosity", "backward-euler"),
@@ -22,7 +22,7 @@ pub const SOUND_DAMPING: &str = "`[damping.acoustic]`";
 /// Relaxes densities at former surfaces.
 pub const SURFACE: &str = "`[surface.cone-test]`";
 
-/// The table of what a scene without a plugin of a kind is advised to take.
+/// The table of plugins that are advised for a scene without one of a kind.
 pub fn suggested(kind: &str) -> Option<String> {
     let found = SUGGESTIONS.iter().find(|(k, _)| *k == kind);
     found.map(|(kind, name)| format!("`[{kind}.{name}]`"))

@@ -1,4 +1,4 @@
-//! Laws by name, sheared alone: what a rheometer would measure.
+//! Laws by name, sheared alone: the measurement of a rheometer.
 
 use sph_core::{Registry, RegistryError};
 use sph_rheology::RheologyEntry;

@@ -7,4 +7,4 @@ pub(crate) mod transported;
 
 pub use assembly::{FlowInputs, joined};
 pub use choices::{Choices, own_accounts, plugins, shown};
-pub use planning::{Planned, Planning, SharedTerms};
+pub use planning::{Planning, SharedTerms, StagePlan};

@@ -1,6 +1,6 @@
 //! Studies: which error a choice reaches in which time.
 //!
-//! A study file names a scene, what is varied and the error that is judged. The way of a study:
+//! A study file names a scene, the variation and the error that is judged. The way of a study:
 //! 1. [`Study::read`] crosses or pairs its axes into variants, reads the scene of each, and finds
 //!    every mistake before anything runs; [`Study::assemble`] puts a variant's plugins together.
 //!    A scene is a [`Subject`](sph_run::Subject) of any [`Method`](sph_run::Method): a study has no physics.

@@ -34,7 +34,7 @@ pub struct Results {
     pub study: String,
     /// Title of the study.
     pub title: String,
-    /// What it shows.
+    /// Subject of the study.
     pub description: Option<String>,
     /// Name of the scene.
     pub scene: String,
@@ -48,9 +48,9 @@ pub struct Results {
     pub axes: Vec<String>,
     /// Key over which orders are computed.
     pub refinement: Option<String>,
-    /// Whether variants ran one by one.
+    /// True if variants ran one by one.
     pub serial: bool,
-    /// On what and by what this was last run.
+    /// Machine and program of the last run.
     #[serde(flatten)]
     pub origin: Origin,
     /// Range of each axis, of studies that go along axes until they break.

@@ -1,4 +1,4 @@
-//! Variants run one after the other, and what is kept of each.
+//! Variants run one after the other, and the records of each.
 
 pub mod cost;
 pub mod execute;

@@ -7,14 +7,15 @@ use sph_core::{Access, Axis, StepError, Work, fields, plugin};
 
 contribution_kind!(
     /// A control of the flow rate that a scene may name.
-    pub FlowControlEntry, "flow-control", One, "what holds the flow rate of a periodic flow", .works(Work::Others)
+    pub FlowControlEntry, "flow-control", One, "control of the flow rate of a periodic flow", .works(Work::Others)
 );
 
 /// After every kick all particles are pushed by U₀ − Σ m u/Σ m along an axis, so that the mean velocity is U₀: a body
 /// force that answers the friction on the walls at once, and is the same everywhere.
 ///
-/// The forces between particles sum to nothing, so that the mean of all particles has none of the noise that a slab's has,
-/// and there is no gain to choose. In a steady flow the push is what the walls take: measure it with `wall-force`.
+/// The forces between particles sum to nothing, so that the mean of all particles has none of the noise that a slab's
+/// has, and there is no gain to choose. In a steady flow the push equals the friction of the walls: measure it with
+/// `wall-force`.
 ///
 /// Source: Issa 2004, §3.1.3, Eq. 3.14–3.16, with the whole of the fluid for his slab and without his integrator.
 ///

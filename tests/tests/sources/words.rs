@@ -16,7 +16,7 @@ struct Words {
     texts: Advice,
     pages: Advice,
     starts: Advice,
-    modules: Advice,
+    rustdoc: Advice,
 }
 
 fn words() -> Words {
@@ -125,6 +125,23 @@ fn starts(lines: &[String], refused: &Advice) -> Vec<String> {
     found.collect()
 }
 
+/// Doc comments of a source that begin with a refused word, each with its line and its advice.
+fn openings(text: &str, refused: &Advice) -> Vec<String> {
+    let documents = |line: &&str| ["///", "//!"].iter().any(|m| line.starts_with(m));
+    let mut before = None;
+    let mut found = Vec::new();
+    for (k, line) in text.lines().map(str::trim_start).enumerate() {
+        let comment = Some(line).filter(documents);
+        let first = comment.and_then(|c| c[3..].split_whitespace().next());
+        let known = first.and_then(|word| refused.get_key_value(word));
+        if let (None, Some((word, advice))) = (before, known) {
+            found.push(format!("{}: begins with \"{word}\"; write {advice}", k + 1));
+        }
+        before = comment;
+    }
+    found
+}
+
 /// Calls a function with every source of the crates and its text.
 fn each_source(mut work: impl FnMut(&Path, &str)) {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
@@ -157,17 +174,9 @@ fn names_are_words_of_the_field() {
         if let Some(advice) = words.files.get(stem) {
             found.push(format!("{file}: the name of the file; write {advice}"));
         }
-        let first = text
-            .strip_prefix("//! ")
-            .and_then(|t| t.split_whitespace().next());
-        if let Some((word, advice)) = first.and_then(|word| words.modules.get_key_value(word)) {
-            found.push(format!("{file}:1: begins with \"{word}\"; write {advice}"));
-        }
-        found.extend(
-            names(text, &words.names)
-                .iter()
-                .map(|f| format!("{file}:{f}")),
-        );
+        let mut all = names(text, &words.names);
+        all.extend(openings(text, &words.rustdoc));
+        found.extend(all.iter().map(|f| format!("{file}:{f}")));
     });
     assert!(count > 500, "{count} sources");
     assert!(found.is_empty(), "{}", found.join("\n"));
@@ -229,6 +238,12 @@ fn refused_words_are_found_at_their_lines() {
     assert_eq!(
         lines(starts(&prose(page), &words.starts)),
         ["1: begins with \"What\""]
+    );
+    let code = "//! How it works.\n\nstruct A {\n    /// A length, and\n    /// Where it is.\n    a: f64,\n    \
+                /// Whether it is.\n    ///\n    /// What is more, it may not be.\n    b: bool, // What it is.\n}\n";
+    assert_eq!(
+        lines(openings(code, &words.rustdoc)),
+        ["1: begins with \"How\"", "7: begins with \"Whether\""]
     );
     assert_eq!(
         spoken("    let x = \"told by nobody\"; // nobody"),

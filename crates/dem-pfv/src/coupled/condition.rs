@@ -14,12 +14,13 @@ use crate::triangulation::Vertex;
 pub struct WallBoundary {
     /// The value given there.
     pub condition: FlowCondition,
-    /// Whether fluid sticks to the wall; otherwise it slides, as on a plane of symmetry.
+    /// True if fluid sticks to the wall; otherwise it slides, as on a plane of symmetry.
     pub sticks: bool,
 }
 
-/// What is given at a wall. Pressures are piezometric: zero everywhere in fluid at rest. Where two walls with pressures
-/// meet, the later one counts. The fluid pushes a wall with the pressure inside; a piston's stress is the total one.
+/// Condition of the flow at a wall. Pressures are piezometric: zero everywhere in fluid at rest. Where two walls with
+/// pressures meet, the later one counts. The fluid pushes a wall with the pressure inside; a piston's stress is the
+/// total one.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub enum FlowCondition {
     /// No flow: undrained.
@@ -131,7 +132,7 @@ impl WallBoundary {
         }
     }
 
-    /// Whether its values change while the clock runs.
+    /// True if its values change while the clock runs.
     pub(crate) fn varies(&self) -> bool {
         matches!(
             self.condition,
@@ -139,12 +140,12 @@ impl WallBoundary {
         )
     }
 
-    /// Whether both give a pressure, or neither does: then a change needs no new matrix.
+    /// True if both give a pressure, or neither does: then a change needs no new matrix.
     pub(crate) fn like(&self, other: &Self) -> bool {
         self.sticks == other.sticks && self.presses() == other.presses()
     }
 
-    /// Whether it gives a pressure.
+    /// True if it gives a pressure.
     fn presses(&self) -> bool {
         !matches!(
             self.condition,
@@ -152,8 +153,8 @@ impl WallBoundary {
         )
     }
 
-    /// Puts what is given at a time (s) into the conditions of the flow.
-    fn give(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
+    /// Sets the given values at a time (s) in the conditions of the flow.
+    fn apply_at(&self, boundary: &mut Boundary, pores: &PoreGeometry, wall: usize, time: f64) {
         match &self.condition {
             FlowCondition::Closed => {}
             FlowCondition::Pressure(p) => boundary.pressure(pores, wall, |_| Some(*p)),
@@ -181,7 +182,7 @@ impl WallBoundary {
 pub(crate) fn boundary(sides: &[WallBoundary], pores: &PoreGeometry, time: f64) -> Boundary {
     let mut boundary = Boundary::closed(pores);
     for (wall, side) in sides.iter().enumerate() {
-        side.give(&mut boundary, pores, wall, time);
+        side.apply_at(&mut boundary, pores, wall, time);
     }
     boundary
 }

@@ -24,7 +24,7 @@ pub enum CoupledError {
         "there are {meshes} meshes of triangles; fluid would flow through them, use plane walls"
     )]
     Meshes {
-        /// How many.
+        /// Number of meshes.
         meshes: usize,
     },
     /// The flow has no periodic rooms.
@@ -44,7 +44,7 @@ pub enum CoupledError {
     /// A number out of range.
     #[error("{what} is {value}; it must be {valid}")]
     BadNumber {
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,

@@ -93,7 +93,7 @@ fn silent(pores: &Pores) -> Boundary {
     boundary
 }
 
-/// Masses of what moves freely; infinite for what does not.
+/// Masses of free bodies; infinite for the others.
 struct Bodies {
     grains: Vec<f64>,
     walls: Vec<f64>,
@@ -167,7 +167,7 @@ impl Bodies {
         size
     }
 
-    /// Velocities become what drag takes from them per second.
+    /// Replaces velocities by their decrease per second by drag.
     fn apply(
         &self,
         places: &Places,

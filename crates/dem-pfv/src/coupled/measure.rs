@@ -61,14 +61,15 @@ impl CoupledSystem {
         self.grains.gravity * (solid - self.setup.fluid.density * fluid)
     }
 
-    /// Lets every step from now on measure what flows through walls.
+    /// Makes every further step measure the flow through walls.
     pub fn measure_inflow(&mut self) {
         self.inflows = Some(Vec::new());
     }
 
-    /// What flowed into the pores through a wall at the last step, m³/s, negative if out of them, what a moving wall makes
-    /// room for included: through all walls together, the rate of the box's volume and what the fluid stores. Where walls
-    /// with pressures meet, the later one counts. None before the first step after [`CoupledSystem::measure_inflow`].
+    /// Flow into the pores through a wall at the last step, m³/s, negative if out of them. The volume that a moving
+    /// wall frees counts: through all walls together, the rate of the box's volume and the storage of the fluid. Where
+    /// walls with pressures meet, the later one counts. None before the first step after
+    /// [`CoupledSystem::measure_inflow`].
     pub fn inflow(&self, wall: usize) -> Option<f64> {
         self.inflows.as_ref()?.get(wall).copied()
     }

@@ -20,7 +20,7 @@ impl Recorded {
     /// Pressure (Pa) at a place (m) and a time (s).
     pub fn pressure(&self, place: f64, time: f64) -> f64 {
         let width = self.places.len();
-        let (row, next, share) = between(&self.times, time);
+        let (row, next, share) = bracket(&self.times, time);
         let at = |row: usize| {
             let row = &self.pressures[row * width..][..width];
             interpolated(&self.places, row, place)
@@ -28,7 +28,7 @@ impl Recorded {
         at(row) + share * (at(next) - at(row))
     }
 
-    /// What is wrong with it.
+    /// The fault of the record, if there is one.
     pub fn problem(&self) -> Option<&'static str> {
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         let whole = self.places.len() * self.times.len();
@@ -52,12 +52,12 @@ impl Recorded {
 
 /// A value that is linear between places, constant beyond the ends.
 pub(crate) fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
-    let (here, next, share) = between(places, x);
+    let (here, next, share) = bracket(places, x);
     values[here] + share * (values[next] - values[here])
 }
 
 /// The two of ascending numbers between which x lies, and how far it is from the first to the second.
-fn between(numbers: &[f64], x: f64) -> (usize, usize, f64) {
+fn bracket(numbers: &[f64], x: f64) -> (usize, usize, f64) {
     let after = numbers.partition_point(|n| *n <= x);
     let last = numbers.len() - 1;
     match after {

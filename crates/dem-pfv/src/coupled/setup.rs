@@ -15,10 +15,10 @@ pub struct Fluid {
     pub density: f64,
     /// Bulk modulus K_f, Pa; none for a fluid that does not give way.
     pub bulk_modulus: Option<f64>,
-    /// Whether it shears between neighbours that slide past each other: Catalano 2012, Eqs. (6.29), (6.30).
+    /// True if it shears between neighbours that slide past each other: Catalano 2012, Eqs. (6.29), (6.30).
     #[serde(default)]
     pub shear: bool,
-    /// What it resists when the gap between neighbours changes; nothing beyond the pores' pressures if none.
+    /// Resistance to a change of the gap between neighbours; nothing beyond the pores' pressures if none.
     #[serde(default)]
     pub lubrication: Option<Lubrication>,
 }
@@ -109,7 +109,7 @@ impl Fluid {
 pub struct Remeshing {
     /// ε_RTRG; zero remeshes at every step, `None` by the number of steps only.
     pub strain: Option<f64>,
-    /// Steps after which it is done whatever the strain.
+    /// Steps after which it is done at any strain.
     pub most_steps: Option<u64>,
 }
 

@@ -26,7 +26,7 @@ pub struct CoupledSystem {
     pub(crate) law: Box<dyn Conductance>,
     pub(crate) pores: Pores,
     pub(crate) clock: Clock,
-    /// Whether contacts were found where the grains are now.
+    /// True if contacts were found where the grains are now.
     pub(crate) evaluated: bool,
     /// Flux into the pores through every wall at the last step, m³/s, if it is measured; none before the first.
     pub(crate) inflows: Option<Vec<f64>>,
@@ -195,7 +195,7 @@ impl CoupledSystem {
     /// λ_max Δt / 2 + ω_max² Δt² / 4 < 1
     /// ```
     ///
-    /// λ by power iterations once per mesh, plus a bound for what acts between neighbours, ω by a bound that is found anew every hundred steps. Walls that follow a
+    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found anew every hundred steps. Walls that follow a
     /// servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it moved alone and is too
     /// long by a factor of three to six for narrow gradings.
     ///
@@ -335,7 +335,7 @@ impl CoupledSystem {
         self.rebuild(Places::from_grains(&self.grains))
     }
 
-    /// Sets what is given at a wall. Another value costs nothing; another kind of condition makes a new matrix, another
+    /// Sets the condition at a wall. Another value costs nothing; another kind of condition makes a new matrix, another
     /// grip new throats.
     ///
     /// # Errors

@@ -23,7 +23,7 @@ impl Boundary {
     }
 
     /// Gives pressures (Pa) to the cells of a wall where `value` has one for the power centre (m), which lies on
-    /// the wall. What was given before is replaced there.
+    /// the wall. Earlier values are replaced there.
     pub fn pressure(
         &mut self,
         geometry: &PoreGeometry,

@@ -14,7 +14,7 @@ pub trait Conductance: Send + Sync {
     /// g µ (m⁴) with the flux q = g (p_i − p_j) / L. Zero closes a throat.
     fn conductance(&self, throat: &Throat) -> f64;
 
-    /// Whether the parameters make sense.
+    /// Checks the parameters.
     ///
     /// # Errors
     /// [`FlowError::BadParameter`] with the parameter and its value.

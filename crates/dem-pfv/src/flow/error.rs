@@ -26,7 +26,7 @@ pub enum FlowError {
     /// A list has not the length it should have.
     #[error("there are {given} {what}; {needed} are needed")]
     Length {
-        /// Of what.
+        /// Name of the list.
         what: &'static str,
         /// Given.
         given: usize,
@@ -64,7 +64,7 @@ pub enum FlowError {
     /// A number that must be positive is not.
     #[error("{what} is {value}; it must be positive and finite")]
     NotPositive {
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -107,7 +107,7 @@ pub enum FlowError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What it may be.
+        /// The valid range.
         valid: &'static str,
     },
 }

@@ -310,9 +310,9 @@ impl FlowSystem {
         Ok(right)
     }
 
-    /// Flux (m³/s) into the room through each cell with a given pressure, zero in others: what flows from it to others,
-    /// what it gains of volume and stores, less its source. With the sources they add up to the rates of all volumes and
-    /// what is stored. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
+    /// Flux (m³/s) into the room through each cell with a given pressure, zero in others: its flow to others, its gain
+    /// of volume and its storage, less its source. With the sources they add up to the rates of all volumes and the
+    /// storage. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
     pub fn influx(
         &self,
         boundary: &Boundary,
@@ -337,7 +337,7 @@ impl FlowSystem {
         given
     }
 
-    /// Flux (m³/s) into the room through a wall with given pressures: what flows from the pores on it to others.
+    /// Flux (m³/s) into the room through a wall with given pressures: the flow from the pores on it to others.
     pub fn inflow(&self, geometry: &PoreGeometry, wall: usize, pressures: &[f64]) -> f64 {
         let mut on_wall = vec![false; self.pores.len()];
         let wall = crate::triangulation::Vertex::Wall(wall);

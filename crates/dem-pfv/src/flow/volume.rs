@@ -1,4 +1,4 @@
-//! Volumes of cells and of what spheres fill of them.
+//! Volumes of cells and of the spheres in them.
 
 use nalgebra::Vector3;
 

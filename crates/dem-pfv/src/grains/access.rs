@@ -40,8 +40,8 @@ impl GrainSystem {
         Ok(())
     }
 
-    /// Replaces a contact law, as when the friction of the preparation gives way to that of the test. What
-    /// contacts remember stays.
+    /// Replaces a contact law, as when the friction of the preparation gives way to that of the test. The memory of
+    /// contacts stays.
     ///
     /// # Errors
     /// Parameters out of range; no law of that number.

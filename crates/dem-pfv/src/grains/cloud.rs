@@ -34,7 +34,7 @@ impl Cloud {
     }
 
     /// Centres (m) of spheres of these radii (m) in their order; the same for the same seed. Large ones are placed
-    /// first, so that small ones fill what is left.
+    /// first, so that small ones fill the gaps.
     ///
     /// # Errors
     /// Radii that are not positive; a sphere for which 20,000 random places were all taken, as happens from a porosity

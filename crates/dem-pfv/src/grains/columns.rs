@@ -64,7 +64,7 @@ impl Grains {
         }
     }
 
-    /// Whether all columns have the same length.
+    /// True if all columns have the same length.
     pub(crate) fn fits(&self) -> bool {
         let n = self.position.len();
         let vectors = [
@@ -83,12 +83,12 @@ impl Grains {
                 .all(|c| c.len() == n)
     }
 
-    /// How many there are.
+    /// Number of grains.
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }

@@ -24,7 +24,7 @@ pub enum GrainError {
     NotPositive {
         /// The grain.
         grain: usize,
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -34,7 +34,7 @@ pub enum GrainError {
     NotFinite {
         /// The grain.
         grain: usize,
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: [f64; 3],
@@ -152,7 +152,7 @@ pub enum GrainError {
     BadLaw {
         /// The law.
         law: &'static str,
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -167,14 +167,14 @@ pub enum GrainError {
     NoLaw {
         /// Wall, mesh, or grains.
         what: &'static str,
-        /// Which one.
+        /// Number of the item, as the setup counts.
         number: usize,
         /// The law that it names.
         law: usize,
         /// Laws given.
         laws: usize,
     },
-    /// A law remembers more numbers than there is room for.
+    /// The memory of a law exceeds the space of a contact.
     #[error("contact law {law} remembers {wanted} numbers per contact; there is room for {room}")]
     Memory {
         /// Its number.
@@ -187,7 +187,7 @@ pub enum GrainError {
     /// A number of the whole system is out of range.
     #[error("the {what} is {value}; it must be {valid}")]
     BadNumber {
-        /// Of what.
+        /// Name of the quantity.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -233,7 +233,7 @@ pub enum GrainError {
         "{what} did not end within {steps} steps: unbalanced force ratio {unbalanced}, mean stress {stress} Pa"
     )]
     NotReached {
-        /// Which.
+        /// Kind of the item.
         what: &'static str,
         /// Steps made.
         steps: u64,

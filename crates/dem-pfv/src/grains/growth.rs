@@ -2,7 +2,7 @@
 
 use crate::grains::{GrainError, GrainSystem, Unrest};
 
-/// Where growth ends.
+/// End of the growth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// At an isotropic stress, Pa, positive in compression.
@@ -19,7 +19,7 @@ pub enum Target {
 /// the method is named by Catalano 2012, ch. 2, without equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// Where it ends.
+    /// End of the growth.
     pub target: Target,
     /// Largest factor before the target was reached for the first time.
     pub fast: f64,
@@ -29,7 +29,7 @@ pub struct Growth {
     pub safety: f64,
     /// Unbalanced force ratio, and relative distance from the stress, at which it ends.
     pub tolerance: f64,
-    /// Steps after which it gives up.
+    /// Largest number of steps.
     pub most_steps: u64,
 }
 
@@ -52,7 +52,7 @@ impl Growth {
     /// Grows the grains of a system in its box; returns the number of steps.
     ///
     /// # Errors
-    /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; what a step may refuse.
+    /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; the refusals of a step.
     pub fn run(&self, system: &mut GrainSystem) -> Result<u64, GrainError> {
         let (what, value, fine) = match self.target {
             Target::Stress(stress) => ("stress", stress, stress > 0.0),
@@ -108,7 +108,7 @@ impl Growth {
 /// of grains that roll over a floor, is taken away.
 ///
 /// # Errors
-/// [`GrainError::NotSettled`] after `most_steps`; what a step may refuse.
+/// [`GrainError::NotSettled`] after `most_steps`; the refusals of a step.
 pub fn step_to_rest(
     system: &mut GrainSystem,
     safety: f64,

@@ -8,7 +8,7 @@ use crate::Entry;
 use crate::grains::{GrainError, Vector};
 use crate::registry::{built, entries};
 
-/// Largest number of values that a law remembers per contact.
+/// Largest number of values in the memory of a contact.
 pub const MEMORY: usize = 8;
 
 /// A contact of a grain, the first, with a second body: another grain, a wall or a triangle.
@@ -118,12 +118,12 @@ pub struct Stiffness {
     pub damping: f64,
 }
 
-/// A contact law: forces from overlaps, velocities and what is remembered of each contact.
+/// A contact law: forces from overlaps, velocities and the memory of each contact.
 ///
 /// One call answers many contacts, so that laws cost no virtual call per contact. The answer to a
 /// contact must depend on nothing but that contact: batches differ from one number of threads to another.
 pub trait ContactLaw: Debug + Send + Sync {
-    /// Whether the parameters make sense.
+    /// Checks the parameters.
     ///
     /// # Errors
     /// [`GrainError::BadLaw`] with the parameter and its value.

@@ -17,7 +17,7 @@ pub struct Grain {
     pub radius: f64,
     /// Density ρ_s, kg/m³.
     pub density: f64,
-    /// Whether it keeps its velocity whatever acts on it.
+    /// True if it keeps its velocity under any force.
     pub held: bool,
 }
 
@@ -48,7 +48,7 @@ impl Grain {
         self
     }
 
-    /// Names what is not a number a grain can have.
+    /// Names the first value that is impossible for a grain.
     pub(crate) fn check(&self, grain: usize) -> Result<(), GrainError> {
         for (what, value) in [("radius", self.radius), ("density", self.density)] {
             if !(value > 0.0 && value.is_finite()) {

@@ -8,7 +8,7 @@ use crate::grains::table::Table;
 use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, Wall};
 
 /// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
-/// meshes, and what contacts remember. For any serde format that keeps every bit of a number.
+/// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct State {
     grains: Grains,

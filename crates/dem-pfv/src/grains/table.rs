@@ -1,4 +1,4 @@
-//! The table of neighbours: pairs, grains at walls, grains at triangles, and what contacts remember.
+//! The table of neighbours: pairs, grains at walls, grains at triangles, and the memory of contacts.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ pub(crate) struct Slot {
     pub first: u32,
     /// A grain, or a triangle, or nothing at a wall.
     pub second: u32,
-    /// Whether they touch.
+    /// True if they touch.
     pub active: bool,
     pub overlap: f64,
     pub normal: Vector,
@@ -60,7 +60,7 @@ pub(crate) struct Table {
     /// Slots of each grain, twice their number plus the side.
     #[serde(skip)]
     entries: Vec<u32>,
-    /// Where everything was when the table was made.
+    /// Positions and shapes at the time the table was made.
     #[serde(skip)]
     then: PreviousState,
 }
@@ -104,7 +104,7 @@ impl Table {
         })
     }
 
-    /// Only what touches; enough to go on from.
+    /// The pairs in contact alone; enough to go on from.
     pub fn touching(&self) -> Self {
         let mut kept = Self::default();
         for part in 0..self.ends.len() {
@@ -115,7 +115,7 @@ impl Table {
         kept
     }
 
-    /// Whether something may have come near that is not in the table.
+    /// True if something may have come near that is not in the table.
     pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
         let (then, grains) = (&self.then, bodies.grains);
         if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {
@@ -144,7 +144,7 @@ impl Table {
             .any(left)
     }
 
-    /// Makes the table anew; what touches keeps its memory.
+    /// Makes the table anew; contacts keep their memory.
     pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
         let Bodies {
             grains,
@@ -182,7 +182,7 @@ impl Table {
         };
     }
 
-    /// Both tables are sorted, so one walk along them finds what is in both.
+    /// Both tables are sorted, so one walk along them finds the common entries.
     fn carry(&mut self, old: &[Slot], old_ends: &[usize]) {
         let mut from = 0;
         for (part, &to) in old_ends.iter().enumerate().take(self.ends.len()) {

@@ -22,7 +22,7 @@ pub(crate) struct View<'a> {
 }
 
 /// The support of a grain: a plane or a point of a triangle.
-struct Touched {
+struct ContactSupport {
     normal: Vector,
     overlap: f64,
     velocity: Vector,
@@ -40,7 +40,7 @@ impl View<'_> {
         sweep(slots, law, |slot| {
             let grain = slot.first as usize;
             let gap = wall.distance(&self.grains.position[grain]) - self.grains.radius[grain];
-            let surface = Touched {
+            let surface = ContactSupport {
                 normal: wall.normal,
                 overlap: -gap,
                 velocity: wall.velocity,
@@ -89,7 +89,7 @@ impl View<'_> {
         ))
     }
 
-    fn against(&self, slot: &Slot, surface: &Touched) -> Contact {
+    fn against(&self, slot: &Slot, surface: &ContactSupport) -> Contact {
         let a = slot.first as usize;
         let g = self.grains;
         let lever = g.radius[a] - 0.5 * surface.overlap;
@@ -181,7 +181,7 @@ impl View<'_> {
                     let [a, b, c] = mesh.corners(group[k].second as usize);
                     (b - a).cross(&(c - a)).normalize()
                 };
-                let surface = Touched {
+                let surface = ContactSupport {
                     normal,
                     overlap: radius - distance,
                     velocity: mesh.velocity_at(&point),
@@ -200,7 +200,7 @@ impl View<'_> {
     }
 }
 
-/// A grain that rolls or slides from one triangle to the next keeps what the contact remembers.
+/// The memory of a contact goes along with a grain that rolls or slides from one triangle to the next.
 fn hand_over(group: &mut [Slot], kept: &[(usize, Vector, f64)], at: &Vector) {
     for &(k, point, _) in kept {
         if group[k].active {

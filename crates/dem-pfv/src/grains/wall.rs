@@ -1,4 +1,4 @@
-//! Plane walls and what moves them.
+//! Plane walls and their motion.
 
 use serde::{Deserialize, Serialize};
 
@@ -164,7 +164,7 @@ impl Wall {
         }
     }
 
-    /// Whether its control needs the stiffness of its contacts.
+    /// True if its control needs the stiffness of its contacts.
     pub(crate) fn is_servo(&self) -> bool {
         matches!(self.control, Control::Stress { .. })
     }

@@ -31,7 +31,7 @@ pub struct Progress {
     pub colours: sph_io::ColourRanges,
     /// The last step, s.
     pub dt: f64,
-    /// Steps by what limited them.
+    /// Steps by their limits.
     pub limited: std::collections::BTreeMap<String, u64>,
     /// Wall-clock time so far, s. Kept beside the state, which has the same bits in equal runs.
     #[serde(skip)]
@@ -43,7 +43,7 @@ pub struct Progress {
 
 /// The state itself.
 #[derive(Debug, Deserialize, Serialize)]
-pub struct Kept {
+pub struct CheckpointState {
     /// The system.
     pub model: Saved,
     /// Reference values of measurements.
@@ -56,7 +56,7 @@ pub struct Kept {
 ///
 /// # Errors
 /// If it cannot be written.
-pub fn save(kept: &Kept, scene: &str, path: &Path) -> Result<(), DemError> {
+pub fn save(kept: &CheckpointState, scene: &str, path: &Path) -> Result<(), DemError> {
     let meta = serde_json::json!({
         "method": "grains",
         "scene": scene,
@@ -70,7 +70,7 @@ pub fn save(kept: &Kept, scene: &str, path: &Path) -> Result<(), DemError> {
 ///
 /// # Errors
 /// A file that cannot be read; one of another scene or of particles.
-pub fn load(scene: &str, changed: bool, path: &Path) -> Result<Kept, DemError> {
+pub fn load(scene: &str, changed: bool, path: &Path) -> Result<CheckpointState, DemError> {
     let saved = SavedState::load(path)?;
     let refused = |why: &str| DemError::Resume(format!("{}: {why}", path.display()));
     if saved.meta["method"] != "grains" {
@@ -81,7 +81,7 @@ pub fn load(scene: &str, changed: bool, path: &Path) -> Result<Kept, DemError> {
             "the scene has changed since; --changed goes on all the same, or start without --resume",
         ));
     }
-    let mut kept: Kept = saved.state().map_err(|e| refused(&e))?;
+    let mut kept: CheckpointState = saved.state().map_err(|e| refused(&e))?;
     let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
     kept.progress.wall_seconds = seconds("wall_seconds");
     kept.progress.preparation_seconds = seconds("preparation_seconds");

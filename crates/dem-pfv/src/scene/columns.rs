@@ -28,7 +28,7 @@ fn common(scene: &Scene) -> Vec<(&'static str, &'static str)> {
     all
 }
 
-/// Whether the box has six walls or periodic ends all the time.
+/// True if the box has six walls or periodic ends all the time.
 fn closed(scene: &Scene) -> bool {
     let removed = scene.wall.values().any(|w| w.removed);
     let Some(given) = &scene.r#box else {

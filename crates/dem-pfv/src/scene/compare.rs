@@ -21,7 +21,7 @@ pub struct Compared {
     pub value: Option<f64>,
     /// The measure: "rms", "relative".
     pub norm: String,
-    /// Against what.
+    /// Name of the reference.
     pub against: String,
     /// Rows compared.
     pub samples: usize,
@@ -171,7 +171,7 @@ fn scaled(
     Ok(relative(found, wanted, against, rows.len().min(1)))
 }
 
-/// How well values of one probe over those of another lie on a straight line.
+/// Fit of a straight line to values of one probe over those of another.
 fn line(along: &[(f64, f64)], values: &[(f64, f64)], probe: &str) -> Compared {
     let pairs: Vec<_> = along
         .iter()
@@ -187,7 +187,7 @@ fn line(along: &[(f64, f64)], values: &[(f64, f64)], probe: &str) -> Compared {
     }
 }
 
-/// Root mean square of what a probe differs from Terzaghi by, between two time factors.
+/// Root mean square of the difference between a probe and Terzaghi, between two time factors.
 fn terzaghi(
     loaded: &Loaded,
     origin: &Origin,

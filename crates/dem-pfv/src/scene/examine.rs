@@ -16,7 +16,7 @@ use crate::scene::tables::{Fluid, Scene};
 pub struct Examination {
     /// Title.
     pub scene: String,
-    /// What is computed: always "grains".
+    /// Method of computation: always "grains".
     pub method: &'static str,
     /// Grains; as expected where the start decides.
     pub grains: Option<usize>,
@@ -26,7 +26,7 @@ pub struct Examination {
     pub walls: Vec<String>,
     /// Surfaces of triangles.
     pub surfaces: Vec<String>,
-    /// Whether a fluid fills the pores.
+    /// True if a fluid fills the pores.
     pub coupled: bool,
     /// Kind, name and parameters of the plugins in force.
     pub plugins: Vec<PluginInForce>,

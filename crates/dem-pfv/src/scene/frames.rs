@@ -137,7 +137,7 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
     })
 }
 
-/// A line between the places of two pores, with what the throat between them lets through.
+/// A line between the places of two pores, with the conductance of the throat between them.
 fn throats(model: &Model) -> Option<Piece<'static>> {
     let system = model.wet()?;
     let places: Vec<[f64; 3]> = system
@@ -210,7 +210,7 @@ pub fn picture(
     Ok(picture.save(path)?)
 }
 
-/// Walls across x and z as lines around what there is.
+/// Walls across x and z as lines around the contents.
 fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
     let largest = system.grains.radius.iter().copied().fold(0.0, f64::max);
     let ends = |axis: usize| {

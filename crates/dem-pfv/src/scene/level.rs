@@ -5,8 +5,8 @@ use crate::grains::GrainSystem;
 /// Points along and across a mean radius.
 const POINTS_PER_RADIUS: f64 = 4.0;
 
-/// Mean height (m) of what looks at a bed from above, over a strip of a box along x or y: the upper surface of the grains,
-/// and the floor between them. It follows every motion of the uppermost grains without a jump.
+/// Mean height (m) of the top of a bed over a strip of a box along x or y: the upper surface of the grains, and the floor
+/// between them. It follows every motion of the uppermost grains without a jump.
 pub fn level(
     grains: &GrainSystem,
     [low, high]: [[f64; 3]; 2],
@@ -53,7 +53,7 @@ mod tests {
 
     use super::*;
 
-    /// A hemisphere on a floor stands out by 2/3 π R³ over the area, whatever its depth.
+    /// A hemisphere on a floor stands out by 2/3 π R³ over the area, at any depth.
     #[test]
     fn the_mean_height_of_a_ball_is_that_of_its_upper_half() {
         let (radius, depth) = (0.5, 0.7);

@@ -11,7 +11,7 @@ use crate::scene::names::planes;
 use crate::scene::origin::Origin;
 use crate::scene::tables::{Probe, Scene};
 
-/// Unit of what a probe measures.
+/// Unit of a probe's values.
 pub fn unit(probe: &Probe) -> &'static str {
     match probe {
         Probe::Stress { .. } | Probe::EffectiveStress { .. } | Probe::Deviator { .. } => "Pa",
@@ -152,7 +152,7 @@ fn sphere(radius: f64) -> f64 {
 }
 
 /// Volume of a sphere on the lower side of a plane, m³; `up` is the plane's distance from the centre.
-fn below(radius: f64, up: f64) -> f64 {
+fn cap_volume(radius: f64, up: f64) -> f64 {
     let h = (up + radius).clamp(0.0, 2.0 * radius);
     PI * h * h * (radius - h / 3.0)
 }
@@ -164,13 +164,13 @@ fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64
     let all = &grains.grains;
     let parts = all.position.iter().zip(&all.radius);
     let solid: f64 = parts
-        .map(|(x, r)| below(*r, to - x[axis]) - below(*r, from - x[axis]))
+        .map(|(x, r)| cap_volume(*r, to - x[axis]) - cap_volume(*r, from - x[axis]))
         .sum();
     Some(1.0 - solid / (area * (to - from)))
 }
 
-/// How far a deposit goes on along an axis from where it begins, m: to the first slice of two diameters that holds less
-/// than a layer of grains would with six tenths of its places taken.
+/// Length of a deposit along an axis, m: from its start to the first slice of two diameters that holds less than a layer
+/// of grains would with six tenths of its places taken.
 fn deposit(grains: &GrainSystem, axis: usize) -> f64 {
     let all = &grains.grains;
     let diameter = 2.0 * all.radius.iter().sum::<f64>() / all.len() as f64;

@@ -19,7 +19,7 @@ pub enum Model {
     Wet(Box<CoupledSystem>),
 }
 
-/// What must be kept of it.
+/// State of a run in a checkpoint.
 #[derive(Debug, Deserialize, Serialize)]
 pub enum Saved {
     /// Dry.
@@ -30,7 +30,7 @@ pub enum Saved {
 
 /// A step that was made.
 #[derive(Clone, Copy, Debug)]
-pub struct Made {
+pub struct StepOutcome {
     /// Its length, s.
     pub step: f64,
     /// Its limiter.
@@ -56,7 +56,7 @@ impl Load {
         p.stress + p.ramp * time + swing
     }
 
-    /// Whether it changes at all.
+    /// True if it changes at all.
     pub fn varies(&self) -> bool {
         self.piston.ramp != 0.0 || self.piston.amplitude != 0.0
     }
@@ -86,7 +86,7 @@ impl Model {
         }
     }
 
-    /// Lets every step measure what flows through walls, if there is a fluid.
+    /// Makes every step measure the flow through walls, if there is a fluid.
     pub fn measure_inflow(&mut self) {
         if let Self::Wet(system) = self {
             system.measure_inflow();
@@ -108,13 +108,13 @@ impl Model {
     /// One step of a share `safety` of the largest stable one, but not beyond `end` (s).
     ///
     /// # Errors
-    /// What went wrong, with the grain, the wall or the cell.
-    pub fn advance(&mut self, safety: f64, end: f64) -> Result<Made, Box<Failure>> {
+    /// The failure, with the grain, the wall or the cell.
+    pub fn advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, Box<Failure>> {
         let made = self.try_advance(safety, end);
         made.map_err(|error| Box::new(self.failure(error)))
     }
 
-    fn try_advance(&mut self, safety: f64, end: f64) -> Result<Made, CoupledError> {
+    fn try_advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, CoupledError> {
         let left = (end - self.grains().time).max(0.0);
         // The last step is shortened, but not to nothing.
         let cut = |step: f64| {
@@ -135,7 +135,7 @@ impl Model {
                 } else {
                     "contacts"
                 };
-                Ok(Made { step, limiter })
+                Ok(StepOutcome { step, limiter })
             }
             Self::Wet(system) => {
                 let limit = system.step_limit()?;
@@ -149,7 +149,7 @@ impl Model {
                 } else {
                     "drag"
                 };
-                Ok(Made { step, limiter })
+                Ok(StepOutcome { step, limiter })
             }
         }
     }
@@ -176,7 +176,7 @@ impl Model {
         }
     }
 
-    /// Goes on from what was kept, with the laws of the scene.
+    /// Goes on from a saved state, with the laws of the scene.
     ///
     /// # Errors
     /// A state whose parts do not fit together.

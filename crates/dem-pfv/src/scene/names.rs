@@ -10,7 +10,7 @@ pub fn axis_of(wall: usize) -> usize {
     wall / 2
 }
 
-/// Whether the box repeats itself along an axis.
+/// True if the box repeats itself along an axis.
 pub fn periodic(scene: &Scene, axis: usize) -> bool {
     let given = scene.r#box.iter().flat_map(|b| &b.periodic);
     given.map(|a: &Axis| a.number()).any(|a| a == axis)

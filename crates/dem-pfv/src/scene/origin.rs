@@ -6,7 +6,7 @@ use crate::grains::GrainSystem;
 use crate::scene::highest_point::highest;
 use crate::scene::tables::Scene;
 
-/// The state at the start of the run, and what was measured before it.
+/// The state at the start of the run, and the measurements before it.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Origin {
     /// Lengths of the box, m, if it is closed.

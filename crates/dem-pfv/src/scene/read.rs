@@ -28,7 +28,7 @@ pub struct Loaded {
     pub table: Table,
 }
 
-/// Whether a table is that of a scene of grains.
+/// True if a table is that of a scene of grains.
 pub fn is_grain_scene(table: &Table) -> bool {
     table.contains_key("grains")
 }
@@ -151,7 +151,7 @@ fn one<T: DeserializeOwned>(
 }
 
 impl Loaded {
-    /// Whether every file that the scene names is there, and those with loads hold what the scene takes from them.
+    /// Checks that every file of the scene exists, and that those with loads hold the columns of the scene.
     ///
     /// # Errors
     /// Those that are not, by their keys.

@@ -11,7 +11,7 @@ use sph_run::{
 
 use crate::coupled::CoupledError;
 use crate::scene::assemble::{Assembled, assemble, loads};
-use crate::scene::checkpoint::{self, Kept, Progress};
+use crate::scene::checkpoint::{self, CheckpointState, Progress};
 use crate::scene::columns::{headings, row};
 use crate::scene::compare;
 use crate::scene::culprits;
@@ -262,7 +262,7 @@ impl sph_run::Model for Running<'_> {
         progress.wall_seconds = books.wall_seconds;
         let progress = progress.clone();
         let parts = self.parts()?;
-        let kept = Kept {
+        let kept = CheckpointState {
             model: parts.model.save(),
             origin: parts.origin.clone(),
             progress,
@@ -289,7 +289,7 @@ impl sph_run::Model for Running<'_> {
 }
 
 impl Running<'_> {
-    /// The last state in files, and a picture with the grain at fault, whose name the failure learns.
+    /// The last state in files, and a picture with the grain at fault, which the failure then names.
     fn draw_the_bad_state(
         &self,
         failure: &mut Failure,
@@ -315,7 +315,7 @@ impl Running<'_> {
             let time = model.grains().time;
             Ok(sph_io::write_vtu(out.join(BAD_STATE), &piece, time)?)
         });
-        // The failure itself matters more than what could not be written about it.
+        // The failure itself matters more than an error of writing about it.
         for problem in [drawn, saved].into_iter().filter_map(Result::err) {
             observer.message(&format!("note: {problem}"));
         }

@@ -10,7 +10,7 @@ pub struct Scaling {
 
 #[derive(Debug)]
 struct Row {
-    /// Whether the row holds below the bound, or above it.
+    /// True for a bound from above, false for one from below.
     below: bool,
     bound: f64,
     factor: f64,

@@ -8,7 +8,7 @@ use crate::flow::conductances;
 use crate::grains::contact_laws;
 use crate::scene::tables::{Probe, Reference, Scene};
 
-/// The schema of what is the scene's own; tables of plugins, probes and references are open in it.
+/// The schema of the scene's own keys; tables of plugins, probes and references are open in it.
 pub(crate) fn of_scene() -> Json {
     schemars::schema_for!(Scene).to_value()
 }

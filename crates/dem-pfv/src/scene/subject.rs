@@ -1,4 +1,4 @@
-//! Scenes of grains as what can be run.
+//! Scenes of grains as subjects of runs.
 
 use std::sync::Arc;
 

@@ -15,7 +15,7 @@ pub struct Summary {
     pub schema_version: u32,
     /// Title.
     pub scene: String,
-    /// What is computed: always "grains".
+    /// Method of computation: always "grains".
     pub method: &'static str,
     /// The way it ended.
     pub status: Status,
@@ -47,7 +47,7 @@ pub struct Summary {
     pub threads: usize,
     /// Grains times steps over the wall-clock time of the steps, 1/s.
     pub grain_steps_per_second: f64,
-    /// Shares of the steps by what limited them.
+    /// Shares of the steps by their limits.
     pub dt_limiters: BTreeMap<String, f64>,
     /// Values measured before the run started.
     pub derived: BTreeMap<String, f64>,
@@ -62,7 +62,7 @@ pub struct Summary {
 pub struct PluginInForce {
     /// Kind: "contact-law" or "conductance".
     pub kind: String,
-    /// Whose it is: "grains", "box", "wall top".
+    /// Owner of the plugin: "grains", "box", "wall top".
     pub of: String,
     /// Name.
     pub name: String,

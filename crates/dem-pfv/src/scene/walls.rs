@@ -1,4 +1,4 @@
-//! The walls of a scene: where they are at rest, and what moves them.
+//! The walls of a scene: their places at rest, and their motion.
 
 use scene_text::unit_factor;
 

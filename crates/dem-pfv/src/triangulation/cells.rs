@@ -118,7 +118,7 @@ impl Triangulation {
         Self::finished(spheres, walls, &builder)
     }
 
-    /// Leaves out vacant places and what is behind the hull.
+    /// Leaves out vacant places and cells behind the hull.
     fn finished(
         spheres: &[Sphere],
         walls: &[Wall],
@@ -251,7 +251,7 @@ fn incidence(cells: &[Cell], spheres: usize, walls: usize) -> (Vec<usize>, Vec<u
     (first, incident)
 }
 
-/// Refuses what has no triangulation, before it is tried.
+/// Refuses spheres without a triangulation, before it is tried.
 fn checked(spheres: &[Sphere], walls: &[Wall], needed: usize) -> Result<(), TriangulationError> {
     if spheres.len() < needed {
         return Err(TriangulationError::TooFew {

@@ -151,7 +151,7 @@ impl Predicates {
         }
         let (mut value, mut total) = (0.0, 0.0);
         for i in 0..4 {
-            let (minor, bound) = determinant3(&without(&rows, i));
+            let (minor, bound) = determinant3(&minor(&rows, i));
             value += if i % 2 == 1 {
                 l[i] * minor
             } else {
@@ -239,7 +239,7 @@ fn coord(p: &[f64; 4]) -> Coord3D<f64> {
     }
 }
 
-fn without(rows: &[[f64; 3]; 4], i: usize) -> [[f64; 3]; 3] {
+fn minor(rows: &[[f64; 3]; 4], i: usize) -> [[f64; 3]; 3] {
     std::array::from_fn(|k| rows[if k < i { k } else { k + 1 }])
 }
 

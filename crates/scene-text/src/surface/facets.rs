@@ -19,7 +19,7 @@ impl Facets {
         Self::welded(read(path)?, &path.display().to_string())
     }
 
-    /// The same surface from the bytes of a file; `name` is what errors call it.
+    /// The same surface from the bytes of a file; `name` is its name in errors.
     ///
     /// # Errors
     /// If it is damaged, declares more than it holds, or holds no triangles.

@@ -88,7 +88,7 @@ pub fn parse(bytes: Vec<u8>, name: &str) -> Result<StlFile, String> {
     }
 }
 
-/// Whether the normal in the file and that of the corners' order point to different sides.
+/// True if the normal in the file and that of the corners' order point to different sides.
 fn contradicts(triangle: &Triangle, corners: &[[f64; 3]; 3]) -> bool {
     let [a, b, c] = corners;
     let normal = triangle.normal.0.map(f64::from);

@@ -38,7 +38,7 @@ impl Welder {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        let number = self.beside(&x).unwrap_or_else(|| {
+        let number = self.near_duplicate(&x).unwrap_or_else(|| {
             self.facets.points.push(x);
             let number = self.facets.points.len() as u32 - 1;
             if self.near > 0.0 {
@@ -55,7 +55,7 @@ impl Welder {
     }
 
     /// A point that is nearly at this place.
-    fn beside(&self, x: &[f64; 3]) -> Option<u32> {
+    fn near_duplicate(&self, x: &[f64; 3]) -> Option<u32> {
         if self.near <= 0.0 {
             return None;
         }

@@ -13,8 +13,8 @@ use crate::bodies::shape::{Solid, winding};
 use crate::bodies::spatial_vector::padded;
 use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch};
 
-/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but what a particle of the fluid
-/// does to them in one blow throws them: it has several times their mass.
+/// Least density of a body over that of the lightest fluid. Lighter ones are stable, but a blow of one particle of the
+/// fluid throws them: it has several times their mass.
 const LIGHTEST: f64 = 0.02;
 
 /// Speed that a contact stops within half a spacing, over the largest speed of sound.
@@ -22,8 +22,8 @@ const FASTEST: f64 = 10.0;
 
 /// A rigid body that floats, sinks and turns: Newton's and Euler's equations with the force of the fluid.
 ///
-/// The force is the reaction to what the wall does to the particles, so that momentum is conserved to rounding. Mass and
-/// inertia follow from the shape where a `density` is given.
+/// The force is the reaction to the force of the wall on the particles, so that momentum is conserved to rounding. Mass
+/// and inertia follow from the shape where a `density` is given.
 ///
 /// The pressure at a wall depends on its acceleration, and an acceleration that follows the force at once would make
 /// light bodies swing from step to step. It is let follow: (M + A*) (ã' − ã) = M (a − ã), with a the acceleration of
@@ -63,7 +63,7 @@ pub struct RigidBody {
     /// The time until which it goes on with the velocity that it has at the start, s: at rest if none is given.
     #[parameter(default, unit: "s", min: 0.0)]
     pub start: f64,
-    /// Times in which it moves as given, whatever pushes it: one after the other, from `start` on.
+    /// Times in which it moves as given, under any load: one after the other, from `start` on.
     #[parameter(default)]
     pub prescribed: Vec<Prescribed>,
     /// Springs and dampers on its degrees of freedom.
@@ -82,10 +82,13 @@ pub struct RigidBody {
     settled: Option<(Dynamics, Touch)>,
 }
 
-type Settled<T> = Result<T, MoverRefusal>;
+type MoverResult<T> = Result<T, MoverRefusal>;
 
 /// A vector of as many numbers as there are dimensions.
-fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Settled<Option<Vector3<f64>>> {
+fn vector<const D: usize>(
+    key: &str,
+    given: &Option<Vec<f64>>,
+) -> MoverResult<Option<Vector3<f64>>> {
     let Some(given) = given else {
         return Ok(None);
     };
@@ -101,7 +104,10 @@ fn numbers(key: &str, found: usize, expected: &str) -> MoverRefusal {
 
 impl RigidBody {
     /// Mass, centre and inertia.
-    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Weighed> {
+    fn weighed<const D: usize>(
+        &self,
+        setting: &MoverSetting<'_, D>,
+    ) -> MoverResult<MassProperties> {
         let solid = Solid::from_pieces(setting.pieces());
         let solid = solid.map_err(|e| MoverRefusal::at_key("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
@@ -148,7 +154,7 @@ impl RigidBody {
             }
             (None, None) => solid.inertia * density,
         };
-        Ok(Weighed {
+        Ok(MassProperties {
             mass,
             centre: centre.unwrap_or(solid.centre),
             inertia,
@@ -156,7 +162,7 @@ impl RigidBody {
         })
     }
 
-    fn freedoms<const D: usize>(&self) -> Settled<[bool; 6]> {
+    fn freedoms<const D: usize>(&self) -> MoverResult<[bool; 6]> {
         let there = Freedom::in_dimension(D);
         let names = || {
             there
@@ -195,7 +201,7 @@ impl RigidBody {
         Ok(free)
     }
 
-    fn moorings<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Settled<Vec<Mooring>> {
+    fn moorings<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> MoverResult<Vec<Mooring>> {
         let lines = self.line.iter().enumerate();
         lines
             .map(|(k, line)| Mooring::new(line, k, setting))
@@ -227,7 +233,7 @@ impl RigidBody {
     }
 }
 
-/// Whether fluid is drawn within a support of the wall: two boxes around both meet.
+/// True if fluid is drawn within a support of the wall: two boxes around both meet.
 fn beside_fluid<const D: usize>(setting: &MoverSetting<'_, D>) -> bool {
     let places: Vec<_> = setting.pieces().flat_map(corners).collect();
     let reach = 3.0 * setting.smoothing_length;
@@ -249,7 +255,7 @@ fn corners(drawing: &Drawing) -> Vec<Vector3<f64>> {
 }
 
 /// Refuses a body that holds a corner of another wall, or has one in it.
-fn apart<const D: usize>(setting: &MoverSetting<'_, D>) -> Settled<()> {
+fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> MoverResult<()> {
     let own = || setting.pieces();
     for other in setting.others() {
         let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
@@ -267,7 +273,7 @@ fn apart<const D: usize>(setting: &MoverSetting<'_, D>) -> Settled<()> {
 }
 
 /// Mass, centre and inertia of a body.
-struct Weighed {
+struct MassProperties {
     mass: f64,
     centre: Vector3<f64>,
     inertia: Matrix3<f64>,
@@ -275,7 +281,7 @@ struct Weighed {
 }
 
 /// The inertia that a scene gives.
-fn tensor<const D: usize>(given: &[f64]) -> Settled<Matrix3<f64>> {
+fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
     let tensor = match (D, given) {
         (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),
         (3, [x, y, z]) => Matrix3::from_diagonal(&Vector3::new(*x, *y, *z)),
@@ -301,14 +307,14 @@ fn tensor<const D: usize>(given: &[f64]) -> Settled<Matrix3<f64>> {
 }
 
 impl<const D: usize> Mover<D> for RigidBody {
-    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> MoverResult<()> {
         if !setting.flush {
             let why = "half a row of fluid clings to these walls and would be carried along: give `[walls.usaw]` the key \
                        `vertices = false`";
             return Err(MoverRefusal::at_key("", why));
         }
         let weighed = self.weighed(setting)?;
-        apart(setting)?;
+        check_separate(setting)?;
         let free = self.freedoms::<D>()?;
         let lines = self.moorings(setting)?;
         let centre = weighed.centre;

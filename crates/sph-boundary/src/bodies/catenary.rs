@@ -24,16 +24,16 @@ pub(crate) struct Catenary {
     pub axial: f64,
     /// Length L without tension, m.
     pub length: f64,
-    /// Whether there is a bed at the height of the anchor.
+    /// True if there is a bed at the height of the anchor.
     pub bed: bool,
 }
 
-/// How a line hangs.
+/// Shape and tension of a hanging line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hang {
     /// Horizontal tension H, N.
     pub across: f64,
-    /// Vertical tension V at the body, N: what it carries of the line.
+    /// Vertical tension V at the body, N: the weight of the line that it carries.
     pub up: f64,
     /// ∂(H, V)/∂(x, z), N/m.
     pub stiffness: [[f64; 2]; 2],
@@ -59,14 +59,14 @@ impl Catenary {
     }
 
     /// Length that lies on the bed, m.
-    fn lying(&self, up: f64) -> f64 {
+    fn length_on_bed(&self, up: f64) -> f64 {
         match self.bed {
             true => (self.length - up / self.weight).max(0.0),
             false => 0.0,
         }
     }
 
-    /// How it hangs with its end x beside and z above the anchor, m; below the bed counts as on it.
+    /// Shape of the line with its end x beside and z above the anchor, m; below the bed counts as on it.
     pub fn hang(&self, x: f64, z: f64) -> Hang {
         let z = if self.bed { z.max(0.0) } else { z };
         if let Some(slack) = self.slack(x, z) {
@@ -124,7 +124,7 @@ impl Catenary {
         let (w, axial) = (self.weight, self.axial);
         // z = V/w + V²/(2 EA w); written so that nothing cancels in stiff lines.
         let up = 2.0 * w * z / (1.0 + (1.0 + 2.0 * w * z / axial).sqrt());
-        let hangs = self.bed && up <= w * self.length && self.lying(up) >= x;
+        let hangs = self.bed && up <= w * self.length && self.length_on_bed(up) >= x;
         hangs.then(|| Hang {
             across: 0.0,
             up,
@@ -132,7 +132,7 @@ impl Catenary {
         })
     }
 
-    /// Where the search begins (Jonkman 2007, Eq. 2-39 and 2-40).
+    /// Start of the search (Jonkman 2007, Eq. 2-39 and 2-40).
     fn guess(&self, [x, z]: [f64; 2]) -> [f64; 2] {
         let (w, length) = (self.weight, self.length);
         let lambda = if x * x + z * z >= length * length {
@@ -153,7 +153,7 @@ impl Catenary {
             length,
             ..
         } = *self;
-        let (h, v, lies) = (across, up, self.lying(up));
+        let (h, v, lies) = (across, up, self.length_on_bed(up));
         // From where it leaves the bed, or from the anchor.
         let low = self.at_anchor(v);
         let [t, t_low] = [v, low].map(|v| h.hypot(v));
@@ -188,7 +188,7 @@ impl Catenary {
     /// Places of the line from the anchor to the end, (across, up) from the anchor, m.
     pub fn shape(&self, hang: &Hang, x: f64, pieces: usize) -> Vec<[f64; 2]> {
         let (w, axial, h) = (self.weight, self.axial, hang.across);
-        let lies = self.lying(hang.up);
+        let lies = self.length_on_bed(hang.up);
         let low = self.at_anchor(hang.up);
         let start = if h > 0.0 { lies * (1.0 + h / axial) } else { x };
         let t_low = h.hypot(low);

@@ -8,8 +8,8 @@ use crate::bodies::spatial_vector::padded;
 
 /// A line from a fixed place to a place of the body. It pulls with k (l − l₀) + c l̇ ≥ 0, and never pushes.
 ///
-/// With a `weight` it is a chain that hangs in a catenary, always at rest: k is then EA/l₀, and what it does not need lies
-/// on the bed at the height of its fixed end (Irvine 1981; Jonkman 2007).
+/// With a `weight` it is a chain that hangs in a catenary, always at rest: k is then EA/l₀, and the rest of its length
+/// lies on the bed at the height of its fixed end (Irvine 1981; Jonkman 2007).
 ///
 /// ```toml
 /// [[wall.buoy.mover.rigid-body.line]]
@@ -37,7 +37,7 @@ pub struct Line {
     /// Weight in the fluid per length, N/m (and per metre of depth in two dimensions): the line hangs.
     #[parameter(unit: "N/m", above: 0.0)]
     pub weight: Option<f64>,
-    /// Whether a line with a weight may lie on a bed at the height of its fixed end; yes if left out.
+    /// True if a line with a weight may lie on a bed at the height of its fixed end; yes if left out.
     pub bed: Option<bool>,
 }
 
@@ -47,7 +47,7 @@ impl Line {
     }
 }
 
-/// Whether a straight way goes through a wall; its ends may lie on one.
+/// True if a straight way goes through a wall; its ends may lie on one.
 pub(crate) fn crosses(from: Vector3<f64>, to: Vector3<f64>, wall: &Drawing) -> bool {
     let inner = |s: f64| (1e-9..=1.0 - 1e-9).contains(&s);
     match wall {

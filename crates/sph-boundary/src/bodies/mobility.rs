@@ -7,7 +7,7 @@ use crate::bodies::dynamics::Dynamics;
 use crate::bodies::spatial_vector::{blocks, rotation, solve};
 
 impl Dynamics {
-    /// The inverse of mass and inertia over what is free at a time.
+    /// The inverse of mass and inertia over the free degrees at a time.
     pub fn mobility<const D: usize>(&self, now: &RigidState<D>, time: f64) -> Matrix6<f64> {
         if time < self.start || self.prescribed.iter().any(|p| p.holds(time)) {
             return Matrix6::zeros();

@@ -24,8 +24,9 @@ pub struct Prescribed {
     /// When the body is free again, s.
     #[parameter(unit: "s", above: 0.0)]
     pub to: f64,
-    /// Times, s, each with the velocity of the centre, m/s, and the angular velocity then, rad/s: `[t, u_x, u_y, ω]` in two
-    /// dimensions, `[t, u_x, u_y, u_z, ω_x, ω_y, ω_z]` in three; straight between them. Without it the body keeps what it has.
+    /// Times, s, each with the velocity of the centre, m/s, and the angular velocity then, rad/s: `[t, u_x, u_y, ω]` in
+    /// two dimensions, `[t, u_x, u_y, u_z, ω_x, ω_y, ω_z]` in three; straight between them. Without it the body keeps
+    /// its velocity.
     #[parameter(default, examples: [[[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.1, 0.0]]])]
     pub course: Vec<Vec<f64>>,
 }
@@ -107,7 +108,7 @@ pub(crate) struct ImposedMotion {
 }
 
 impl Prescribed {
-    /// Whether a step from a time is its own.
+    /// True if a step from a time is one of its own.
     pub(crate) fn holds(&self, time: f64) -> bool {
         self.from <= time && time < self.to
     }

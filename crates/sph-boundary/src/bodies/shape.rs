@@ -1,4 +1,4 @@
-//! Volume, centre and inertia of what walls enclose.
+//! Volume, centre and inertia of the volume that walls enclose.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -19,7 +19,7 @@ pub struct Solid {
     pub inertia: Matrix3<f64>,
 }
 
-/// Why a wall is no solid.
+/// Reason that a wall is no solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoSolid {
     /// An open line or surface.
@@ -97,7 +97,8 @@ impl Solid {
     }
 }
 
-/// How often the pieces of one wall go round a place: 1 inside of a body, −1 inside of a vessel, 0 outside of both.
+/// Winding number of the pieces of one wall around a place: 1 inside of a body, −1 inside of a vessel, 0 outside of
+/// both.
 pub(crate) fn winding<'a>(pieces: impl IntoIterator<Item = &'a Drawing>, x: Vector3<f64>) -> f64 {
     let from = |p: &[f64]| padded(p) - x;
     let around = |piece: &Drawing| match piece {

@@ -1,4 +1,4 @@
-//! Walls that slide along each other or part: what one takes of the other's fluid.
+//! Walls that slide along each other or part: the part of the other's fluid that one takes.
 
 use rayon::prelude::*;
 use sph_core::Vect;
@@ -9,11 +9,11 @@ use crate::{NearElement, SeenElement};
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
 
-/// How far around a node elements are looked for, over the spacing: those within 2 spacings, and those that may come
+/// Radius of the search for elements around a node, over the spacing: those within 2 spacings, and those that may come
 /// there until the next search.
 const FAR: f64 = 2.8;
 
-/// Nodes near walls that move otherwise than their own, and what is left of their fluid.
+/// Nodes near walls that move otherwise than their own, and the rest of their fluid.
 ///
 /// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
 /// moves otherwise (a gate that stands on a floor, a piston that sweeps it) may take a part, which
@@ -24,14 +24,14 @@ const FAR: f64 = 2.8;
 #[derive(Debug, Default)]
 pub(crate) struct Cover<const D: usize> {
     /// Nodes within reach of other walls at the last search.
-    near: Vec<Surrounded<D>>,
+    near: Vec<NodeNeighbours<D>>,
     /// Positions of all nodes at the last search, m.
     searched_at: Vec<Vect<D>>,
 }
 
-/// A node and what may be near it until the next search.
+/// A node and the elements that may be near it until the next search.
 #[derive(Debug)]
-struct Surrounded<const D: usize> {
+struct NodeNeighbours<const D: usize> {
     node: usize,
     /// Elements of walls that move with it, and of others.
     own: Vec<NearElement<D>>,
@@ -54,22 +54,22 @@ impl<const D: usize> Cover<D> {
                 let all = mesh.near(x, FAR * spacing).into_iter();
                 let own = |n: &NearElement<D>| groups[mesh.wall_of(*n)] == *group;
                 let (own, others): (Vec<_>, Vec<_>) = all.partition(own);
-                let seen = seen(mesh, x, &others);
+                let seen = seen_elements(mesh, x, &others);
                 let found = SeenElement::signed_distance(&seen, [0.0; D], 2.0 * spacing);
-                found.map(|_| Surrounded { node, own, others })
+                found.map(|_| NodeNeighbours { node, own, others })
             };
             self.near = nodes.par_iter().enumerate().filter_map(near).collect();
             self.searched_at = nodes.iter().map(|(x, _)| *x).collect();
         }
-        let share = |near: &Surrounded<D>| {
+        let share = |near: &NodeNeighbours<D>| {
             let (x, _) = &nodes[near.node];
             (near.node, visible(mesh, near, x, spacing))
         };
         self.near.par_iter().map(share).collect()
     }
 
-    /// Whether a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may each
-    /// come nearer by 0.4.
+    /// True if a node may have come near since the search: from 2 spacings to where it is covered (7/6) two walls may
+    /// each come nearer by 0.4.
     fn outdated(&self, nodes: &[(Vect<D>, usize)], spacing: f64) -> bool {
         if self.searched_at.len() != nodes.len() {
             return true;
@@ -81,7 +81,7 @@ impl<const D: usize> Cover<D> {
 }
 
 /// Elements as seen from a point.
-fn seen<const D: usize, M: WallMesh<D>>(
+fn seen_elements<const D: usize, M: WallMesh<D>>(
     mesh: &M,
     x: &Vect<D>,
     near: &[NearElement<D>],
@@ -91,12 +91,12 @@ fn seen<const D: usize, M: WallMesh<D>>(
 
 fn visible<const D: usize, M: WallMesh<D>>(
     mesh: &M,
-    around: &Surrounded<D>,
+    around: &NodeNeighbours<D>,
     x: &Vect<D>,
     spacing: f64,
 ) -> f64 {
     let apart = 0.5 * spacing / f64::from(SAMPLES);
-    let mut others = seen(mesh, x, &around.others);
+    let mut others = seen_elements(mesh, x, &around.others);
     let Some(distance) = SeenElement::signed_distance(&others, [0.0; D], 2.0 * spacing) else {
         return 1.0;
     };
@@ -110,7 +110,7 @@ fn visible<const D: usize, M: WallMesh<D>>(
     let left = |d: f64| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing));
     // What is farther from the node than its wall by twice the radius of the ball is the nearest of no sample.
     let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
-    let mut own = seen(mesh, x, &around.own);
+    let mut own = seen_elements(mesh, x, &around.own);
     for (elements, reach) in [&mut own, &mut others].into_iter().zip(reach) {
         let (alone, far) = (std::slice::from_ref, reach + 0.5 * spacing);
         elements.retain(|e| SeenElement::signed_distance(alone(e), [0.0; D], far).is_some());

@@ -2,7 +2,7 @@
 
 use crate::{Polyline, Surface};
 
-/// How a wall is drawn.
+/// Geometry of a wall.
 #[derive(Clone, Debug)]
 pub enum Drawing {
     /// In two dimensions.

@@ -24,8 +24,8 @@ impl Walls<3> {
         })
     }
 
-    /// A corner of an image of a face relative to a point, m: bitwise what
-    /// [`Mesh::corners_from`](crate::Mesh::corners_from) gives.
+    /// A corner of an image of a face relative to a point, m: bitwise that of
+    /// [`Mesh::corners_from`](crate::Mesh::corners_from).
     #[inline(always)]
     pub(crate) fn seen(&self, corner: &Corner, image: [i8; 3], point: &Vect<3>) -> Vect<3> {
         let from = corner.position - point;
@@ -36,7 +36,8 @@ impl Walls<3> {
         from + Vect::from(self.mesh.domain.shift([shift(0), shift(1), shift(2)]))
     }
 
-    /// Adds what the faces of a row do to γ of a point, and pushes their contacts but for those of `hidden` shells.
+    /// Adds the integrals of the faces of a row to γ of a point, and pushes their contacts but for those of `hidden`
+    /// shells.
     pub(crate) fn see(
         &self,
         integrals: &Renormalisation3d,
@@ -102,8 +103,8 @@ impl Walls<3> {
     }
 }
 
-/// Where a row that begins with what is alike goes on with others. Steps of a fixed size are foreseen by the processor, those
-/// of a bisection are not.
+/// Index of the first entry of a row that is unlike the entries before it. Steps of a fixed size are foreseen by the
+/// processor, those of a bisection are not.
 #[inline(always)]
 fn first_other<T>(row: &[T], same: impl Fn(&T) -> bool) -> usize {
     const STEP: usize = 16;

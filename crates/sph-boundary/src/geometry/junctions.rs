@@ -15,7 +15,7 @@ type Piece = (usize, Polyline);
 struct End {
     piece: usize,
     place: [f64; 2],
-    /// Whether the line begins there: the fluid is then on the side of rising angles.
+    /// True if the line begins there: the fluid is then on the side of rising angles.
     begins: bool,
     /// Of the line, from the end on, rad.
     angle: f64,
@@ -118,7 +118,7 @@ fn cut(line: &Polyline, ends_at: impl Fn([f64; 2]) -> bool) -> Vec<Polyline> {
     bounds.windows(2).map(piece).collect()
 }
 
-/// Ends of open pieces, and what finds those at a place.
+/// Ends of open pieces, and the search for those at a place.
 struct Ends {
     all: Vec<End>,
     /// By end.

@@ -57,7 +57,7 @@ pub(crate) fn layers(
                 if beyond && walls.nearest(&p.into(), depth * (1.0 + 1e-6)).is_some() {
                     continue;
                 }
-                // A wall may lie across a periodic border; what closes through it has a place there already.
+                // A wall may lie across a periodic border; a line that closes through it has a place there already.
                 let seen = match inside_period(p) {
                     true => p,
                     false => domain.wrapped(p),

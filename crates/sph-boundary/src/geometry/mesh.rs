@@ -2,7 +2,7 @@
 //!
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
-//! * `closest`, `signed`, `grid`, `near`, `rows`: what is near a place;
+//! * `closest`, `signed`, `grid`, `near`, `rows`: elements near a place;
 //! * `rays`, `sides`, `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
@@ -23,8 +23,8 @@ pub(crate) use closest::angle;
 pub use closest::{Closest, Feature};
 pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
 pub use grid::Grid;
-pub(crate) use inside::{Outside, SAME_DISTANCE, SAME_HEIGHT};
-pub(crate) use motion::{Measured, bed_of};
+pub(crate) use inside::{RayQueries, SAME_DISTANCE, SAME_HEIGHT};
+pub(crate) use motion::{ElementMeasures, bed_of};
 pub use near_element::NearElement;
 pub(crate) use sides::Sides;
 pub use signed::SeenElement;

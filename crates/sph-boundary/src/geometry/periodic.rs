@@ -10,7 +10,7 @@ pub struct PeriodicBox<const D: usize = 2> {
     pub lower: [f64; D],
     /// Upper corner, m.
     pub upper: [f64; D],
-    /// Whether the two sides across an axis are the same place.
+    /// Axes along which the two sides are the same place.
     pub periodic: [bool; D],
 }
 

@@ -20,7 +20,7 @@ use crate::{
 };
 
 impl Walls<2> {
-    /// Where a segment keeps a particle off.
+    /// Plane at which a segment keeps a particle off.
     fn hindrance(
         &self,
         (x, behind): (&Vect<2>, &[(u32, u32)]),
@@ -32,7 +32,7 @@ impl Walls<2> {
         let shell = self.shells.shell_of(near.index());
         let turned = behind.iter().any(|(_, s)| *s == shell);
         let normal = Vect::from(segment.normal) * if turned { -1.0 } else { 1.0 };
-        // Only from the fluid's side: the far face of a plate is none of its business.
+        // Only from the fluid's side: the far face of a plate does not act.
         let height = -start.dot(&normal);
         if height <= 0.0 || height > reach {
             return None;

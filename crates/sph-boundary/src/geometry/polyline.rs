@@ -14,7 +14,7 @@ pub struct Polyline {
     pub name: String,
     /// Corners in the order of travel, m.
     pub points: Vec<[f64; 2]>,
-    /// Whether an edge leads from the last point back to the first.
+    /// True if an edge leads from the last point back to the first.
     pub closed: bool,
 }
 

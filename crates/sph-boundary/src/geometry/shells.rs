@@ -53,12 +53,12 @@ impl Shells {
         }
     }
 
-    /// Whether there is any.
+    /// True if there is any.
     pub fn any(&self) -> bool {
         !self.of.is_empty()
     }
 
-    /// Whether an element is at a free end.
+    /// True if an element is at a free end.
     pub fn is_rim(&self, element: usize) -> bool {
         self.rim.get(element).is_some_and(|rim| *rim)
     }
@@ -73,7 +73,7 @@ impl Shells {
 /// Σ Γ over each shell that a point sees.
 ///
 /// Γ_s is the part of the kernel in the shadow of an element, positive before it and negative behind it. Before a shell the
-/// sum is that of γ = θ − Σ Γ_s, θ = 1, whether or not the wall goes on: what is beyond a free end is in no shadow. Behind it
+/// sum is that of γ = θ − Σ Γ_s, θ = 1, whether or not the wall goes on: a place beyond a free end is in no shadow. Behind it
 /// the wall hides as much of the other side, so that
 ///
 /// ```text

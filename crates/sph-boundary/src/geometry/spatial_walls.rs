@@ -22,7 +22,7 @@ const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
 const SAME_PLANE: f64 = 1e-6;
 
 /// A triangle with its closest place, the vector there and its length.
-type Seen<'a> = (&'a NearElement<3>, Closest<3>, Vect<3>, f64);
+type NearTriangle<'a> = (&'a NearElement<3>, Closest<3>, Vect<3>, f64);
 
 impl WallMesh<3> for Walls<3> {
     type Integrals = Renormalisation3d;
@@ -170,7 +170,7 @@ impl WallMesh<3> for Walls<3> {
         for (near, closest, offset, distance) in &all {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:
             // on an edge that stands out, not where the plane beyond the rim is nearer.
-            let beyond = |other: &Seen| {
+            let beyond = |other: &NearTriangle| {
                 let normal = Vect::from(self.mesh.elements[other.0.index()].normal);
                 let apart = offset - other.2;
                 other.3 * EQUALLY_NEAR < *distance

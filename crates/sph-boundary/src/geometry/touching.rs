@@ -14,7 +14,7 @@ const SAME_LINE: f64 = 1e-6;
 /// Lines without the stretches on which two of them lie face to face, each with its number.
 ///
 /// Where a block stands on a floor neither the floor under it nor its own base meets any fluid:
-/// what is left is the boundary of the fluid, and the open ends join into one line. Lines are
+/// the rest is the boundary of the fluid, and the open ends join into one line. Lines are
 /// compared within a group (walls that move together); a line is not compared with itself, as a
 /// plate of no thickness lies on itself on purpose.
 ///

@@ -39,7 +39,7 @@ pub(crate) fn norm<const D: usize>(a: [f64; D]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// a / |a|; the zero vector stays what it is.
+/// a / |a|; the zero vector stays.
 pub(crate) fn unit<const D: usize>(a: [f64; D]) -> [f64; D] {
     let length = norm(a);
     if length > 0.0 {

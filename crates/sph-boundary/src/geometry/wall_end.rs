@@ -3,9 +3,9 @@
 /// An end of an open wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallEnd {
-    /// Where the direction of travel starts.
+    /// The start of the direction of travel.
     First,
-    /// Where it stops.
+    /// The end of the direction of travel.
     Last,
 }
 

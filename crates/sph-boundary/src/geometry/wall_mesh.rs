@@ -53,12 +53,12 @@ pub struct Hindrance<const D: usize> {
     pub wall: usize,
     /// The nearest place of the wall, as near as it is seen, m.
     pub place: Vect<D>,
-    /// Whole periods from the wall to what is seen of it, m.
+    /// Whole periods from the wall to its visible image, m.
     pub image: Vect<D>,
 }
 
-/// The walls of a scene as a mesh of elements of about the particle spacing: what the two dimensions have in common, and what
-/// each answers in its own way.
+/// The walls of a scene as a mesh of elements of about the particle spacing: the common queries of the two dimensions,
+/// and those with a method of each.
 pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'static {
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
@@ -85,13 +85,13 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         smoothing_length: f64,
     ) -> Result<Self::Integrals, BoundaryError>;
 
-    /// The mesh and what finds its elements.
+    /// The mesh and the search for its elements.
     fn walls(&self) -> &Walls<D>;
 
     /// Makes a face one contact, where that is cheaper.
     fn meet_whole_faces(&mut self) {}
 
-    /// Says what the beds are like that walls follow, from the next motion on.
+    /// Sets the levels of the beds that walls follow, from the next motion on.
     fn lay(&mut self, beds: &[Bed]);
 
     /// Moves every wall to its pose.
@@ -110,8 +110,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         rows: &mut Vec<NearElement<D>>,
     );
 
-    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. What is
-    /// hidden behind such a shell is no contact.
+    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. An
+    /// element hidden behind such a shell is no contact.
     fn gammas<'a>(
         &self,
         integrals: &Self::Integrals,
@@ -121,14 +121,14 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         found: &mut Gammas,
     );
 
-    /// Whether the way `by` from a point leads through an element.
+    /// True if the way `by` from a point leads through an element.
     fn is_crossed(&self, near: NearElement<D>, point: &Vect<D>, by: &Vect<D>) -> bool;
 
     /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
     /// is none. No element is nearer.
     fn clearance(&self, point: &Vect<D>, near: &[NearElement<D>]) -> f64;
 
-    /// Where the walls keep a particle off that is behind some shells, among the places nearer than `reach` metres.
+    /// Planes at which the walls keep off a particle behind some shells, among the places nearer than `reach` metres.
     fn hindrances(
         &self,
         of: (&Vect<D>, &[(u32, u32)]),
@@ -137,11 +137,10 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         hindrances: &mut Vec<Hindrance<D>>,
     );
 
-    /// Whether a point is on the fluid's side of all walls.
+    /// True if a point is on the fluid's side of all walls.
     fn contains(&self, point: &Vect<D>) -> bool;
 
-    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
-    /// walls.
+    /// Winding number of walls with free ends around a point, positive where they face it; none of closed walls.
     fn enclosed(&self, point: &Vect<D>) -> Option<f64>;
 
     /// Refuses points within a radius of the free end of an open wall.
@@ -211,7 +210,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     }
 
     /// γ at a point from all elements that may be within the support; those that are become
-    /// contacts. What else is in the row changes nothing.
+    /// contacts. Further elements of the row change nothing.
     fn gamma(
         &self,
         integrals: &Self::Integrals,

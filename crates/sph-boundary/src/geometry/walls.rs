@@ -1,4 +1,4 @@
-//! The walls of a scene, meshed, with what finds their elements.
+//! The walls of a scene, meshed, with the search for their elements.
 
 use std::sync::OnceLock;
 
@@ -15,7 +15,7 @@ pub struct Walls<const D: usize> {
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
-    /// Whether a face in space is one contact, of the element that is nearest, instead of one for each element.
+    /// True if a face in space is one contact, of the element that is nearest, instead of one for each element.
     pub(crate) whole_faces: bool,
 }
 

@@ -7,7 +7,7 @@ use crate::geometry::sets::Sets;
 /// A face at an edge, or a line at a corner.
 pub(crate) struct AdjacentFace {
     pub piece: usize,
-    /// Whether the fluid is on the side of rising angles.
+    /// True if the fluid is on the side of rising angles.
     pub with: bool,
     /// About the edge or corner, rad.
     pub angle: f64,

@@ -70,7 +70,7 @@ impl<const D: usize> GammaSum<D> {
 }
 
 impl GammaSum<2> {
-    /// Adds what one segment of a mesh contributes.
+    /// Adds the contribution of one segment of a mesh.
     #[inline]
     pub fn add(&mut self, integral: &SegmentIntegral, segment: usize, mesh: &Mesh<2>) {
         let segment = &mesh.elements[segment];
@@ -85,7 +85,7 @@ impl GammaSum<2> {
 }
 
 impl GammaSum<3> {
-    /// Adds what one facet with the inward unit normal contributes.
+    /// Adds the contribution of one facet with the inward unit normal.
     #[inline]
     pub fn add(&mut self, integral: &FacetIntegral, normal: [f64; 3]) {
         self.add_integrals(integral.gamma, integral.kernel, normal);

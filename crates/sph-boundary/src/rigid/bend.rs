@@ -33,7 +33,7 @@ impl Bend {
         }
     }
 
-    /// Whether it is one: as many lifts as places, which ascend.
+    /// True if it is one: as many lifts as places, which ascend.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let places = &self.places;

@@ -1,6 +1,6 @@
 //! Walls that grains make, as a scene describes them.
 
-/// A wall whose surface is a bed of grains: what it takes to lay its [`Bed`](sph_core::bed::Bed). Walls that stand in the
+/// A wall whose surface is a bed of grains: the data to lay its [`Bed`](sph_core::bed::Bed). Walls that stand in the
 /// bed have the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Erodible {
@@ -8,9 +8,9 @@ pub struct Erodible {
     pub wall: String,
     /// Distance of the places at which the level is known, m.
     pub cell: f64,
-    /// Where the bed begins along x and y, m; −∞ for as far as the wall goes.
+    /// Start of the bed along x and y, m; −∞ for as far as the wall goes.
     pub from: [f64; 2],
-    /// Where it ends, m; ∞ for as far as the wall goes.
+    /// End of the bed, m; ∞ for as far as the wall goes.
     pub to: [f64; 2],
     /// The level under which there are no grains, m; −∞ without.
     pub rock: f64,
@@ -19,7 +19,7 @@ pub struct Erodible {
 }
 
 impl Erodible {
-    /// Whether all its numbers are possible.
+    /// True if all its numbers are possible.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let positive = |x: f64| x > 0.0 && x.is_finite();

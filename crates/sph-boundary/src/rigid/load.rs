@@ -7,7 +7,7 @@ use crate::Drawing;
 /// Forces and moments that act on a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load<const D: usize> {
-    /// Force of the fluid, N (N/m in two dimensions): the reaction to what the wall does to the particles.
+    /// Force of the fluid, N (N/m in two dimensions): the reaction to the force of the wall on the particles.
     pub force: Vect<D>,
     /// Its moment about the origin, N m; only the last component in two dimensions.
     pub moment: [f64; 3],
@@ -17,7 +17,7 @@ pub struct Load<const D: usize> {
     pub contact_moment: [f64; 3],
     /// Depth of the fluid before the wall, m, for a mover that [looks](crate::Mover::looks); none if there is no fluid.
     pub depth: Option<f64>,
-    /// Gravity, m/s²; what it does to the wall is the mover's business.
+    /// Gravity, m/s²; the mover applies it to the wall.
     pub gravity: Vect<D>,
 }
 
@@ -34,13 +34,13 @@ impl<const D: usize> Load<D> {
         }
     }
 
-    /// Whether neither fluid nor contact acts.
+    /// True if neither fluid nor contact acts.
     pub fn is_weight(&self) -> bool {
         [self.force, self.contact_force] == [Vect::<D>::zeros(); 2]
     }
 }
 
-/// How a wall that its mover moves freely meets other walls.
+/// Contact law of a wall that its mover moves freely.
 ///
 /// Where two surfaces are nearer than a spacing, or than they were drawn, each area S of one pushes the other with
 /// N = S k δ, δ the missing distance, with e² of that while they part (Walton & Braun 1986), and rubs with
@@ -61,7 +61,7 @@ pub struct Touch {
     pub restitution: f64,
     /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
     pub friction: f64,
-    /// Whether the wall is too light for any fluid, so that a step in which fluid acts on it fails.
+    /// True if the wall is too light for any fluid, so that a step in which fluid acts on it fails.
     pub dry: bool,
 }
 
@@ -84,7 +84,7 @@ pub struct MoverSetting<'a, const D: usize> {
     pub sound_speed: f64,
     /// Gravity, m/s².
     pub gravity: Vect<D>,
-    /// Whether the particles begin at the wall, so that the reaction to the particles is the force on the wall; without
+    /// True if the particles begin at the wall, so that the reaction to the particles is the force on the wall; without
     /// it half a row of fluid clings to the wall.
     pub flush: bool,
 }
@@ -103,7 +103,7 @@ impl<'a, const D: usize> MoverSetting<'a, D> {
     }
 }
 
-/// Why a mover cannot move its wall: a key of its table, and what is wrong with it there.
+/// Refusal of a mover to move its wall: a key of its table, and the fault there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MoverRefusal {
     /// The key in its table; the table itself, if empty.

@@ -56,7 +56,7 @@ impl<const D: usize> RigidMotion<D> {
         }
     }
 
-    /// Whether the wall ever moves.
+    /// True if the wall ever moves.
     pub fn moves(&self) -> bool {
         let shifts = |t: &Translation<D>| t.course.moves() && t.along != [0.0; D];
         self.translations.iter().any(shifts)
@@ -64,7 +64,7 @@ impl<const D: usize> RigidMotion<D> {
             || self.bends()
     }
 
-    /// Whether the wall changes its shape.
+    /// True if the wall changes its shape.
     pub fn bends(&self) -> bool {
         self.bend.is_some() || self.bed.is_some()
     }
@@ -76,7 +76,7 @@ impl<const D: usize> RigidMotion<D> {
         all.filter_map(|course| Some(self.start + course.steepest()?))
     }
 
-    /// Whether all its numbers are finite and its courses sound.
+    /// True if all its numbers are finite and its courses sound.
     pub fn is_sound(&self) -> bool {
         let finite = |v: &[f64]| v.iter().all(|x| x.is_finite());
         let sound = |t: &Translation<D>| t.course.is_sound() && finite(&t.along);
@@ -98,7 +98,7 @@ impl<const D: usize> RigidMotion<D> {
         (time.min(self.stop) - self.start).max(0.0)
     }
 
-    /// Where the wall is at a time, from where it was drawn.
+    /// Position and orientation of the wall at a time, relative to the drawing.
     pub fn pose(&self, time: f64) -> Pose<D> {
         let t = self.elapsed(time);
         let mut pose = match &self.rotation {

@@ -6,23 +6,23 @@ use sph_neighbours::DepthGauge;
 
 use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
 
-/// Moves one wall. What it remembers is the wall's state alone: that is rolled back with the particles, and in
+/// Moves one wall. The wall's state is its whole memory: it is rolled back with the particles, and in
 /// checkpoints.
 pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
-    /// Learns how its wall is drawn and what is around it; called once, first of all.
+    /// Takes the geometry of its wall and of its surroundings; called once, first of all.
     ///
     /// # Errors
     /// The key of its table that does not fit the scene.
     fn prepare(&mut self, _setting: &MoverSetting<'_, D>) -> Result<(), MoverRefusal> {
         Ok(())
     }
-    /// How the wall meets others; none if nothing stops it. Its place among walls that touch is then in [`Load`].
+    /// Contact law of the wall; none if nothing stops it. Its place among walls that touch is then in [`Load`].
     fn touch(&self) -> Option<Touch> {
         None
     }
     /// The state at time 0.
     fn start(&self) -> RigidState<D>;
-    /// Whether it needs the force of the fluid on the wall; the force is then measured before every kick.
+    /// True if it needs the force of the fluid on the wall; the force is then measured before every kick.
     fn needs_forces(&self) -> bool {
         true
     }

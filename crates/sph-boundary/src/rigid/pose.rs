@@ -61,7 +61,7 @@ impl<const D: usize> Pose<D> {
         pose
     }
 
-    /// Whether there is a rotation.
+    /// True if there is a rotation.
     pub fn turns(&self) -> bool {
         self.rotation != identity()
     }

@@ -79,7 +79,7 @@ impl<const D: usize> RigidState<D> {
         })
     }
 
-    /// Where the centre is now, m.
+    /// Present centre, m.
     pub fn place(&self) -> Vect<D> {
         Vect::from(self.centre) + Vect::from(self.pose.translation)
     }
@@ -116,7 +116,7 @@ impl<const D: usize> RigidState<D> {
         all
     }
 
-    /// How many [`numbers`](Self::numbers) a state has.
+    /// Count of the [`numbers`](Self::numbers) of a state.
     pub const NUMBERS: usize = 5 * D + D * D + 18;
 
     /// From its numbers; none if there are not as many, or not finite ones.

@@ -27,7 +27,7 @@ pub(crate) struct FlatFace<const D: usize> {
 }
 
 impl<const D: usize> FlatFace<D> {
-    /// Whether an element is on its plane.
+    /// True if an element is on its plane.
     fn has(&self, element: &MeshElement<D>, size: f64) -> bool {
         let same = (element.normal - self.normal).norm() < SQUARE;
         same && (element.centre - self.place).dot(&self.normal).abs() < SQUARE * size

@@ -35,7 +35,7 @@ const MOST_NODES: usize = 20_000_000;
 pub(crate) struct ScaleMap<const D: usize> {
     grid: Grid<D>,
     coefficients: Vec<f64>,
-    /// Whether a cell, by its first node, has anything.
+    /// Marks of cells, by their first node, with anything.
     known: Vec<bool>,
     /// The curved wall that is nearest to every node; empty if there is one.
     nearest: Vec<u32>,
@@ -70,9 +70,9 @@ struct Lump<const D: usize> {
 struct Cells<const D: usize> {
     /// ln s of the flat faces.
     flat: Vec<f64>,
-    /// Whether the cell around a node is all fluid.
+    /// Marks of cells, by the node they surround, that are all fluid.
     whole: Vec<bool>,
-    /// Where the lumps of the cell around a node begin, and the end.
+    /// First lump of the cell around each node, and the end.
     first_lump: Vec<u32>,
     lumps: Vec<Lump<D>>,
     /// ln s of the flat faces at the lumps.
@@ -112,7 +112,7 @@ impl<const D: usize> ScaleMap<D> {
         let curved = elements.filter(|(_, curved)| **curved);
         let walls: BTreeSet<u32> = curved.map(|(e, _)| e.wall as u32).collect();
         let walls: Vec<u32> = walls.into_iter().collect();
-        let mut cells = Cells::around((&grid, [low, high]), of, walls.len() > 1);
+        let mut cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
         for sweep in 0..=SWEEPS {
             let sums = cells.sums(&grid, of.kernel, &correction);
@@ -188,7 +188,7 @@ struct NodeKind<const D: usize> {
 
 impl<const D: usize> Cells<D> {
     /// Of a grid around the box of the curved elements.
-    fn around<M: WallMesh<D>>(
+    fn from_elements<M: WallMesh<D>>(
         (grid, [low, high]): (&Grid<D>, [Vect<D>; 2]),
         of: &Mapping<'_, D, M>,
         several: bool,
@@ -324,7 +324,7 @@ fn near_node<const D: usize, M: WallMesh<D>>(
     several: bool,
 ) -> NodeKind<D> {
     let reach = (REACH + 0.5) * of.kernel.smoothing_length();
-    // The mesh knows places in the box.
+    // The mesh takes places in the box.
     let place = of.domain.wrapped(*x);
     let near = of.mesh.near(&place, reach);
     let curved = near.iter().filter(|n| of.curved[n.index()]);

@@ -2,7 +2,7 @@
 
 use sph_kernels::{Kernel, gauss_points};
 
-/// Where ln s is cut, over h: it is 4·10⁻⁵ there.
+/// Distance at which ln s is cut, over h: it is 4·10⁻⁵ there.
 pub(crate) const REACH: f64 = 3.0;
 /// From where on it is faded out, over h.
 const FADES: f64 = 2.5;
@@ -12,7 +12,7 @@ const CELLS: usize = 768;
 const PANELS: usize = 10;
 /// Panels of an integral along or across the wall.
 const ACROSS: usize = 10;
-/// Where s is 1 from, over the support.
+/// Distance from which s is 1, over the support.
 const END: f64 = 5.0;
 /// Sweeps of the iteration, in each of which the error is halved at least.
 const SWEEPS: usize = 60;

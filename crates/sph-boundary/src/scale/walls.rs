@@ -13,7 +13,7 @@ use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
 use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
 
-/// Size of the elements of faces, over h: the scale is that of faces, whatever pieces they have.
+/// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.
 const ELEMENT: f64 = 4.0;
 
 /// The scale of all walls.
@@ -32,7 +32,7 @@ struct Group<const D: usize, M> {
     wall: u32,
     /// Numbers of its walls.
     walls: Vec<u32>,
-    /// Where it was drawn.
+    /// The mesh as drawn.
     mesh: M,
     faces: Vec<FlatFace<D>>,
     map: Option<ScaleMap<D>>,

@@ -16,32 +16,32 @@ const GAP: f64 = 1.0;
 /// The same of walls that are drawn as near, or nearer.
 const LEAST_GAP: f64 = 0.5;
 
-/// How deep a place may be behind a surface to be pushed out of it, over the spacing.
+/// Greatest depth behind a surface from which a place is pushed out of it, over the spacing.
 pub(crate) const DEPTH: f64 = 1.0;
 
-/// How near surfaces are looked at, over the spacing: those that meet within a step, in which no wall goes farther than
-/// half a spacing.
+/// Range of the search for surfaces, over the spacing: those that meet within a step, in which no wall goes farther
+/// than half a spacing.
 const REACH: f64 = GAP + 1.0;
 
 /// A piece of a surface near another one.
-pub(crate) struct Near<const D: usize> {
+pub(crate) struct SurfacePair<const D: usize> {
     /// The groups of walls that are pushed along `away`, and against it.
     pub pair: [usize; 2],
     /// The walls themselves.
     pub walls: [usize; 2],
     pub place: Vect<D>,
-    /// Whole periods from the second wall to what the first one sees of it, m.
+    /// Whole periods from the second wall to its image that the first one sees, m.
     pub image: Vect<D>,
     pub away: Vect<D>,
     /// Distance of the surfaces, m; negative where one is behind the other.
     pub height: f64,
-    /// Whether the first wall is beside a corner or an edge, so that the direction changes as it goes on.
+    /// True if the first wall is beside a corner or an edge, so that the direction changes as it goes on.
     pub round: bool,
     /// Area that the place stands for, m^(D−1).
     pub area: f64,
 }
 
-impl<const D: usize> Near<D> {
+impl<const D: usize> SurfacePair<D> {
     /// The first wall goes a way, m, against the second: along the plane of an element or past a corner.
     pub fn go(&mut self, way: &Vect<D>) {
         if !self.round {
@@ -60,14 +60,14 @@ fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Where a body is.
+/// Bounds of a body.
 struct Extent<const D: usize> {
     low: Vect<D>,
     high: Vect<D>,
 }
 
 impl<const D: usize> Extent<D> {
-    fn around(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
+    fn bounds_of(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
         let none = Extent {
             low: Vect::repeat(f64::INFINITY),
             high: Vect::repeat(f64::NEG_INFINITY),
@@ -85,7 +85,7 @@ impl<const D: usize> Extent<D> {
         (self.low + self.high) * 0.5
     }
 
-    /// Whether a ball may reach into it.
+    /// True if a ball may reach into it.
     fn sees(&self, x: &Vect<D>, radius: f64, domain: &Domain<D>) -> bool {
         let apart = domain.nearest(x - self.centre());
         let half = (self.high - self.low) * 0.5;
@@ -111,14 +111,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         drawn.copied().unwrap_or(GAP * self.spacing)
     }
 
-    /// How each wall meets others.
+    /// Contact law of each wall.
     pub(crate) fn touches(&self) -> Vec<Option<Touch>> {
         let touch = |spec: &WallSpec<D>| spec.mover.as_ref().and_then(|m| m.touch());
         self.specs.iter().map(touch).collect()
     }
 
     /// All pieces of surfaces of which one moves freely and that may meet within a step.
-    pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<Near<D>> {
+    pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<SurfacePair<D>> {
         let nodes: Vec<MeshPoint<D>> = self.mesh.points().collect();
         let elements: Vec<MeshElement<D>> = self.mesh.elements().collect();
         let reach = REACH * self.spacing;
@@ -126,7 +126,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let free = (0..touches.len()).filter(|k| touches[*k].is_some() && self.groups[*k] == *k);
         for body in free {
             let own = nodes.iter().filter(|n| self.groups[n.wall] == body);
-            let extent = Extent::around(own.map(|n| n.position), reach);
+            let extent = Extent::bounds_of(own.map(|n| n.position), reach);
             let seen = |e: &&MeshElement<D>| {
                 let corners = e.corners.map(|c| nodes[c as usize].position);
                 let size = corners.map(|c| (c - e.centre).norm()).into_iter();
@@ -156,7 +156,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         node: &MeshPoint<D>,
         elements: &[&MeshElement<D>],
         nodes: &[MeshPoint<D>],
-        found: &mut Vec<Near<D>>,
+        found: &mut Vec<SurfacePair<D>>,
     ) {
         let mut nearest = BTreeMap::<usize, (f64, Vect<D>, &MeshElement<D>)>::new();
         let to = |c: u32| nodes[c as usize].position - node.position;
@@ -187,7 +187,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 true => there / -distance,
                 false => element.normal,
             };
-            found.push(Near {
+            found.push(SurfacePair {
                 pair: [self.groups[node.wall], group],
                 walls: [node.wall, element.wall],
                 place: node.position + there * 0.5,

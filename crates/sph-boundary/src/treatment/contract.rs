@@ -8,7 +8,7 @@ use sph_neighbours::{Coulomb, DepthGauge, Domain, WallSet, World};
 
 use crate::{BoundaryError, Drawing, Mover, RigidMotion};
 
-/// How the fluid meets a wall.
+/// Condition of the fluid at a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum WallCondition {
     /// The fluid sticks to the wall.
@@ -57,7 +57,7 @@ impl WallCondition {
 pub struct WallSpec<const D: usize> {
     /// Its line or surface; the name is the wall's.
     pub drawing: Drawing,
-    /// How the fluid meets it.
+    /// Condition of the fluid at the wall.
     pub condition: WallCondition,
     /// Velocity of the surface where the wall itself stays (a belt), m/s.
     pub surface_velocity: Vect<D>,
@@ -65,7 +65,7 @@ pub struct WallSpec<const D: usize> {
     pub motion: RigidMotion<D>,
     /// Its mover, with the force of the fluid.
     pub mover: Option<Arc<dyn Mover<D>>>,
-    /// Whether fluid passes it: it stops no particle.
+    /// True if fluid passes it: it stops no particle.
     pub open: bool,
 }
 
@@ -106,17 +106,16 @@ pub struct ThinWall<const D: usize> {
     pub least: f64,
     /// Particle spacing at which it would do as it is, m.
     pub spacing: f64,
-    /// Whether there is fluid on both sides.
+    /// True if there is fluid on both sides.
     pub wet: bool,
 }
 
 /// The shape of all walls of a scene; for checks and pictures, not for inner loops.
 pub trait WallShape<const D: usize> {
-    /// Whether a point is on the fluid's side of all walls.
+    /// True if a point is on the fluid's side of all walls.
     fn contains(&self, point: &Vect<D>) -> bool;
 
-    /// How far walls with free ends enclose a point: their winding number, positive where they face it; none of closed
-    /// walls.
+    /// Winding number of walls with free ends around a point, positive where they face it; none of closed walls.
     fn enclosed(&self, _point: &Vect<D>) -> Option<f64> {
         None
     }
@@ -127,7 +126,7 @@ pub trait WallShape<const D: usize> {
     /// Lower and upper corner of the box around all walls, m.
     fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
 
-    /// Whether any wall ends freely: what goes over its end is outside.
+    /// True if any wall ends freely: particles that pass its end are outside.
     fn ends_freely(&self) -> bool {
         false
     }
@@ -167,7 +166,7 @@ pub trait WallMotion<const D: usize> {
         dt: f64,
     ) -> Result<(), BoundaryError>;
 
-    /// Whether the mover of a wall, by its number, needs forces.
+    /// True if the mover of a wall, by its number, needs forces.
     fn needs_forces(&self, _wall: usize) -> bool {
         false
     }
@@ -196,8 +195,8 @@ pub trait WallMotion<const D: usize> {
 
 /// A treatment of all walls of a scene.
 pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
-    /// Where the first row of particles stands in front of a flat wall, in spacings beyond half
-    /// a spacing: 0 for rows at 1, 2, 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
+    /// Distance of the first row of particles from a flat wall, in spacings beyond half a spacing: 0 for rows at 1, 2,
+    /// 3 δr (the wall itself carries points), 0.5 for ½, 1½, ….
     fn lattice_offset(&self) -> f64;
 
     /// Sets up the walls at time 0.

@@ -24,7 +24,7 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Version of the near lists, moves and positions for which the contacts were found.
     found_for: (u64, u64, Vec<Vect<D>>),
     /// The last results, batch by batch; kept for their memory.
-    found: Vec<Found<M::Scratch>>,
+    found: Vec<BatchResults<M::Scratch>>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
     /// those on no plane's fluid side.
     clearance: Vec<f64>,
@@ -39,14 +39,14 @@ const BATCH: usize = 64;
 
 /// Results of a batch of particles.
 #[derive(Debug, Default)]
-struct Found<R> {
+struct BatchResults<R> {
     gammas: Gammas,
     clearance: Vec<f64>,
     /// Buffers of the integrals.
     room: R,
 }
 
-impl<R> Found<R> {
+impl<R> BatchResults<R> {
     fn clear(&mut self) {
         self.gammas.clear();
         self.clearance.clear();
@@ -120,7 +120,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         }
     }
 
-    /// Whether the contacts were found for these very positions of particles and walls.
+    /// True if the contacts were found for these very positions of particles and walls.
     fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
         let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
         let (version, moves, known) = &self.found_for;
@@ -145,7 +145,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     ) {
         let (near, mesh, integrals) = (&self.near, &self.outline.mesh, &self.integrals);
         let batches = near.particles.par_chunks(BATCH);
-        self.found.resize_with(batches.len(), Found::default);
+        self.found.resize_with(batches.len(), BatchResults::default);
         blocks.resize_with(batches.len(), ContactBlock::default);
         let all = self.found.par_iter_mut().zip(blocks).zip(batches);
         all.enumerate().for_each(|(b, ((found, contacts), batch))| {
@@ -159,7 +159,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             };
             let all = batch.iter().enumerate();
             let all = all.map(|(k, &p)| (&positions[p as usize], elements(k, p)));
-            let Found { gammas, room, .. } = found;
+            let BatchResults { gammas, room, .. } = found;
             mesh.gammas(integrals, all, room, contacts, gammas);
             let mut from = 0;
             for (k, ((_, end), particle)) in gammas.all.iter().zip(batch).enumerate() {
@@ -251,7 +251,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let mut renormalisation = world.free.take(fields::RENORMALISATION)?;
         renormalisation.fill(1.0);
         let positions = world.free.get(fields::POSITION)?;
-        // Wall functions and what is transported to walls read the contacts of every particle, and not in sums.
+        // Wall functions and scalars transported to walls read the contacts of every particle, and not in sums.
         let read = !(world.walls.elements.wall_function.is_empty() && world.transported.is_empty());
         let idle = match read {
             true => None,
@@ -290,7 +290,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let clearance = |place: usize| self.clearance.get(place).copied().unwrap_or(0.0);
         let (near, outline) = (&self.near, &self.outline);
         let struck = near.constrain((outline, least), (world, dt), clearance)?;
-        near.unveil(outline, &self.integrals, world, dt)?;
+        near.update_constants(outline, &self.integrals, world, dt)?;
         self.outline.struck = struck;
         Ok(())
     }

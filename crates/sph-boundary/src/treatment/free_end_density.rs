@@ -1,8 +1,8 @@
-//! Densities where particles come to see past a free end, or lose sight of what is there.
+//! Densities where particles come to see past a free end, or lose sight of the fluid there.
 
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
-use sph_neighbours::{Blocked, ContactBlock, World};
+use sph_neighbours::{ContactBlock, HiddenPairs, World};
 
 use crate::SeenElement;
 use crate::geometry::shells::Gammas;
@@ -10,7 +10,7 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 
-/// Where a particle will be at the end of a drift, seen from the wall near it.
+/// Position of a particle at the end of a drift, seen from the wall near it.
 struct DriftEnd<const D: usize> {
     /// Place in the near lists.
     place: u32,
@@ -20,8 +20,9 @@ struct DriftEnd<const D: usize> {
 }
 
 impl<const D: usize> NearLists<D> {
-    /// Changes the constants K of ρ = (K + m Σ w)/γ by what a drift changes of γ and of the sums in that walls hide less or
-    /// more: what comes into sight behind a free end may be water or nothing, and neither is a change of density.
+    /// Changes the constants K of ρ = (K + m Σ w)/γ by the change of γ and of the sums in a drift that is due to walls
+    /// hiding less or more: behind a free end water may come into sight, or nothing, and neither is a change of
+    /// density.
     ///
     /// ```text
     /// ΔK = ρ (Δγ − ∇γ·Δr) − m (Σ w of particles that come into gauge − Σ w of particles that go out of gauge)
@@ -29,7 +30,7 @@ impl<const D: usize> NearLists<D> {
     ///
     /// where ∇γ is that of the elements, the mean over the way. With the walls at rest and no particle near a free end
     /// or behind a wall nothing is asked.
-    pub fn unveil<M: WallMesh<D>>(
+    pub fn update_constants<M: WallMesh<D>>(
         &self,
         outline: &Outline<D, M>,
         integrals: &M::Integrals,
@@ -97,7 +98,7 @@ impl<const D: usize> NearLists<D> {
         let velocity = world.free.get(fields::VELOCITY)?;
         let shift = world.free.get(fields::SHIFT_VELOCITY).ok();
         let behind = self.behind.iter().map(|(place, _)| *place);
-        // What a row holds beyond the support depends on its history.
+        // The elements of a row beyond the support depend on its history.
         let near_rim = |place: &u32| {
             let (mesh, x) = (
                 &outline.mesh,
@@ -134,7 +135,7 @@ impl<const D: usize> NearLists<D> {
 }
 
 /// Calls `of` with all pairs that are in one of the two only: 1 if they lose sight of each other, −1 if they come into sight.
-fn each_change(now: &Blocked, there: &Blocked, mut of: impl FnMut(usize, usize, f64)) {
+fn each_change(now: &HiddenPairs, there: &HiddenPairs, mut of: impl FnMut(usize, usize, f64)) {
     for (some, others, sign) in [(now, there, -1.0), (there, now, 1.0)] {
         for &[i, j] in some.pairs() {
             if !others.has(i as usize, j) {

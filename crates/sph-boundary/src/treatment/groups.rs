@@ -21,7 +21,7 @@ pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
     groups
 }
 
-/// Whether a wall is a further piece of the one before it, of which there may be thousands.
+/// True if a wall is a further piece of the one before it, of which there may be thousands.
 pub(crate) fn is_piece<const D: usize>(walls: &[WallSpec<D>], k: usize) -> bool {
     k > 0 && walls[k].drawing.name() == walls[k - 1].drawing.name()
 }

@@ -20,7 +20,7 @@ pub(crate) const LEAST_CLEARANCE: f64 = 0.25;
 const TURNS: usize = 4;
 
 impl<const D: usize> NearLists<D> {
-    /// Takes from the velocities what would carry a particle into a wall within `dt`.
+    /// Removes the part of the velocities that would carry a particle into a wall within `dt`.
     ///
     /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
     /// d + Δt (u − u_w)·e falls below the `least` share of a spacing, the velocity along e is raised to
@@ -29,7 +29,7 @@ impl<const D: usize> NearLists<D> {
     /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
     ///
     /// `height` gives a lower bound of the distance of the particle at a place of `particles`
-    /// from any element in front of it, m; those out of danger are not looked at.
+    /// from any element in front of it, m; particles out of danger are skipped.
     ///
     /// Returns the mean forces on the walls over `dt`, by their numbers; none where no reader needs forces.
     pub fn constrain<M: WallMesh<D>>(
@@ -49,7 +49,7 @@ impl<const D: usize> NearLists<D> {
             least: least * world.spacing,
             dt,
         };
-        let mut changed: Vec<(usize, Corrected<D>)> = self
+        let mut changed: Vec<(usize, StoppedVelocity<D>)> = self
             .particles
             .par_iter()
             .enumerate()
@@ -84,12 +84,12 @@ impl<const D: usize> NearLists<D> {
 }
 
 /// Lets a body give way to the particles that it has stopped: all leave the plastic impact with one velocity along e,
-/// that of the body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than
-/// what it meets would be thrown.
+/// that of the body after it, (M + Σ m j jᵀ) Δv = −Σ m |Δu| j. As if it were infinitely heavy, a body lighter than its
+/// obstacle would be thrown.
 fn give_way<const D: usize>(
     body: &FreeBody<D>,
     world: &World<D>,
-    changed: &mut [(usize, Corrected<D>)],
+    changed: &mut [(usize, StoppedVelocity<D>)],
 ) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
@@ -138,7 +138,7 @@ fn give_way<const D: usize>(
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,
-    changed: &[(usize, Corrected<D>)],
+    changed: &[(usize, StoppedVelocity<D>)],
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let (mass, position) = (
@@ -170,9 +170,9 @@ fn blows<const D: usize, M: WallMesh<D>>(
     each.iter().enumerate().map(whole).collect()
 }
 
-/// The velocity of a particle that walls have stopped, and what each of them did to it, m/s, with the whole periods
-/// to the wall.
-struct Corrected<const D: usize> {
+/// The velocity of a particle that walls have stopped, and the change by each of them, m/s, with the whole periods to
+/// the wall.
+struct StoppedVelocity<const D: usize> {
     velocity: Vect<D>,
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
@@ -193,7 +193,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         here: (&Vect<D>, &[(u32, u32)]),
         u: Vect<D>,
         row: &[NearElement<D>],
-    ) -> Option<Corrected<D>> {
+    ) -> Option<StoppedVelocity<D>> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();
         mesh.hindrances(here, row, 4.0 * self.spacing, &mut hindrances);
@@ -202,7 +202,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
             return None;
         }
         let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
-        let mut new = Corrected {
+        let mut new = StoppedVelocity {
             velocity: u,
             pushes: Vec::new(),
         };
@@ -233,18 +233,18 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         let wall = hindrance.wall;
         let place = hindrance.place - hindrance.image;
         let movement = self.outline.movement(wall, &place);
-        // Its mean over the step: where a wall turns, what follows its velocity leaves it by ½ a Δt².
+        // Its mean over the step: where a wall turns, a point with its velocity leaves it by ½ a Δt².
         movement.velocity + movement.acceleration * (0.5 * self.dt)
     }
 
     /// The change of velocity by a hindrance.
     fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
         let least = self.least;
-        // What is missing of the velocity along e to end at the least clearance.
+        // The deficit of the velocity along e for an end at the least clearance.
         let missing = |e: &Vect<D>, distance: f64| {
             let allowed = ((least - distance) / self.dt).min(0.0);
             let missing = allowed - (u - wall).dot(e);
-            // Rounding of what was corrected already is no impact.
+            // Rounding of an earlier correction is no impact.
             (missing > 1e-12 * (u - wall).norm()).then_some(missing)
         };
         if let Some((e, distance)) = &hindrance.only_if {

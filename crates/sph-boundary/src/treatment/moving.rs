@@ -26,7 +26,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         specs.map(state).collect()
     }
 
-    /// Moves the mesh to what is prescribed at a time; returns whether anything moved.
+    /// Moves the mesh to the prescribed position at a time; returns whether anything moved.
     pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
         let states = self.states_at(time, &self.states);
         self.put(states, time)
@@ -43,7 +43,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let load = |k: usize| self.load(k, forces, gravity);
         let mut loads: Vec<_> = (0..self.specs.len()).map(load).collect();
         self.check_dry(&loads)?;
-        let mut states = self.met(&mut loads, gravity, [time, dt])?;
+        let mut states = self.free_states(&mut loads, gravity, [time, dt])?;
         self.compare(&mut states, bodies, dt);
         let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
         let moved = self.put(states, time + dt)?;
@@ -152,7 +152,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
     }
 
-    /// Whether the mover of a wall needs forces.
+    /// True if the mover of a wall needs forces.
     pub fn needs_forces(&self, wall: usize) -> bool {
         let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
         mover.is_some_and(|mover| mover.needs_forces())
@@ -167,7 +167,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.moved().filter_map(look).collect()
     }
 
-    /// Whether any mover needs forces.
+    /// True if any mover needs forces.
     pub fn any_needs_forces(&self) -> bool {
         (0..self.specs.len()).any(|wall| self.needs_forces(wall))
     }

@@ -9,10 +9,11 @@ use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
 
-/// How far beyond the reach of the neighbour lists elements are looked for, over the support: a row stands until particle
+/// Range of the search for elements beyond that of the neighbour lists, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.
 ///
-/// Longer rows cost every γ, which has to leave out what is beyond the support; shorter ones are looked for more often.
+/// Longer rows cost every γ, which has to leave out elements beyond the support; shorter ones are looked for more
+/// often.
 const SKIN: f64 = 0.3;
 
 /// Particles whose elements one task looks for.
@@ -21,8 +22,8 @@ const BATCH: usize = 256;
 /// Elements that may be within the support of a particle until the neighbour lists are rebuilt.
 ///
 /// Each particle has a row of its own, found for the place where it was then: after every build of the lists only those
-/// that moved farther than the skin since are looked up anew. What a row holds beyond the support depends on this history,
-/// and nothing that is made of it does.
+/// that moved farther than the skin since are looked up anew. The elements of a row beyond the support depend on this
+/// history, and no result does.
 #[derive(Debug, Default)]
 pub(crate) struct NearLists<const D: usize> {
     built_for: u64,
@@ -36,10 +37,10 @@ pub(crate) struct NearLists<const D: usize> {
     pub behind: Vec<(u32, u32)>,
     /// Of every particle.
     rows: Vec<Row<D>>,
-    /// Whose rows these are.
+    /// Identities of the particles of the rows.
     identities: Vec<u32>,
     elements: Vec<NearElement<D>>,
-    /// How far walls have moved at most, m: the sum over all builds.
+    /// Largest travel of a wall, m: the sum over all builds.
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
@@ -52,18 +53,18 @@ pub(crate) struct NearLists<const D: usize> {
 struct Scratch<const D: usize> {
     sorted: Vec<Row<D>>,
     stale: Vec<u32>,
-    found: Vec<Found<D>>,
+    found: Vec<TaskResults<D>>,
 }
 
 /// Results of one task.
 #[derive(Debug, Default)]
-struct Found<const D: usize> {
+struct TaskResults<const D: usize> {
     places: Vec<Vect<D>>,
     counts: Vec<u32>,
     elements: Vec<NearElement<D>>,
 }
 
-/// Where a particle's elements are, and where it was when they were found.
+/// Elements of a particle, and its position when they were found.
 #[derive(Clone, Copy, Debug)]
 struct Row<const D: usize> {
     place: Vect<D>,
@@ -84,7 +85,7 @@ impl<const D: usize> Row<D> {
         }
     }
 
-    /// Whether particle and walls may have come nearer by more than `skin` since it was found.
+    /// True if particle and walls may have come nearer by more than `skin` since it was found.
     fn is_stale(&self, place: &Vect<D>, travelled: f64, skin: f64) -> bool {
         let moved = (place - self.place).norm() + (travelled - self.travelled);
         moved.is_nan() || moved > skin
@@ -92,8 +93,8 @@ impl<const D: usize> Row<D> {
 }
 
 impl<const D: usize> NearLists<D> {
-    /// Finds what the lists that were built since lack, for particles and walls where the neighbour lists found them: rows
-    /// stand as long as these, wherever the walls move meanwhile.
+    /// Finds the elements that are missing in the lists built since, for particles and walls where the neighbour lists
+    /// found them: rows stand as long as these, wherever the walls move meanwhile.
     pub fn refresh<M: WallMesh<D>>(
         &mut self,
         outline: &mut Outline<D, M>,
@@ -166,7 +167,7 @@ impl<const D: usize> NearLists<D> {
         self.identities.extend_from_slice(identities);
     }
 
-    /// Looks up what is missing.
+    /// Looks up missing elements.
     fn search<M: WallMesh<D>>(&mut self, mesh: &M, positions: &[Vect<D>], radius: f64, skin: f64) {
         let travelled = self.travelled;
         let mut room = std::mem::take(&mut self.room);
@@ -180,10 +181,10 @@ impl<const D: usize> NearLists<D> {
         let batches = room.stale.par_chunks(BATCH);
         let tasks = batches.len();
         room.found
-            .resize_with(tasks.max(room.found.len()), Found::default);
+            .resize_with(tasks.max(room.found.len()), TaskResults::default);
         let found = &mut room.found[..tasks];
         batches.zip(&mut *found).for_each(|(batch, found)| {
-            let Found {
+            let TaskResults {
                 places,
                 counts,
                 elements,
@@ -230,7 +231,7 @@ impl<const D: usize> NearLists<D> {
         self.particles.extend(near.map(|(_, i)| i));
     }
 
-    /// Throws away what no row holds any more, where that is more than what the rows hold.
+    /// Discards elements that no row holds, where they are more than those in rows.
     fn make_room(&mut self, more: usize) {
         let held: usize = self.rows.iter().map(|row| row.count as usize).sum();
         if self.elements.len() <= 2 * held {

@@ -14,7 +14,7 @@ use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::kernel_reach::far_sight;
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
-/// How far queries look, over the support: also those of filling and of a generous skin.
+/// Range of queries, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
 
 /// The walls of a scene as a mesh, with the keys of each in the scene.
@@ -27,7 +27,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub listed: Vec<RigidState<D>>,
     /// The beds that walls follow: at present, and at the last build of the lists.
     pub beds: [Vec<Bed>; 2],
-    /// Whether `listed` are those of a build in an earlier process, not compared yet.
+    /// True if `listed` are those of a build in an earlier process, not compared yet.
     pub put_back: bool,
     /// Walls with the same number move together.
     pub groups: Vec<usize>,
@@ -123,17 +123,17 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.map(map).collect()
     }
 
-    /// Whether any wall changes its shape.
+    /// True if any wall changes its shape.
     pub fn bends(&self) -> bool {
         self.specs.iter().any(|s| s.motion.bends())
     }
 
-    /// How far queries of the mesh may look, m.
+    /// Largest range of queries of the mesh, m.
     pub fn farthest(&self) -> f64 {
         FARTHEST * self.support
     }
 
-    /// Whether any wall ever moves.
+    /// True if any wall ever moves.
     pub fn moves(&self) -> bool {
         self.specs
             .iter()
@@ -152,7 +152,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         visible.into_iter().map(share).collect()
     }
 
-    /// Where the walls are; empty where none ever moves.
+    /// Frames of the walls; empty where none ever moves.
     pub fn frames(&self) -> Vec<Frame<D>> {
         if !self.moves() {
             return Vec::new();
@@ -203,7 +203,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.flat_map(of_wall).collect()
     }
 
-    /// Whether any wall slips partly.
+    /// True if any wall slips partly.
     pub fn slips(&self) -> bool {
         self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
     }
@@ -270,7 +270,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 }
 
-/// Where a wall is at time 0.
+/// State of a wall at time 0.
 fn start<const D: usize>(spec: &WallSpec<D>) -> RigidState<D> {
     match &spec.mover {
         Some(mover) => mover.start(),
@@ -294,8 +294,8 @@ fn check_reach<const D: usize>(
     Ok(())
 }
 
-/// Shape and motion of walls by their outline; the treatment
-/// keeps it in `self.set_up`, whose `moved` places what the walls carry.
+/// Shape and motion of walls by their outline; the treatment keeps it in `self.set_up`, whose `moved` places the points
+/// and elements of the walls.
 macro_rules! shaped_by_outline {
     ($treatment:ident) => {
         impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {

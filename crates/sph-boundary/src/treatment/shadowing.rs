@@ -1,7 +1,7 @@
 //! Pairs of particles that walls with free ends hide from each other.
 
 use sph_core::Vect;
-use sph_neighbours::{Blocked, Hidden, World};
+use sph_neighbours::{Hidden, HiddenPairs, World};
 
 use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
@@ -42,10 +42,10 @@ impl<const D: usize> NearLists<D> {
             }
         }
         Hidden {
-            particles: Blocked::from_pairs(particles),
-            points: Blocked::from_pairs(points),
-            at_points: Blocked::from_pairs(at_points),
-            at_elements: Blocked::from_pairs(at_elements),
+            particles: HiddenPairs::from_pairs(particles),
+            points: HiddenPairs::from_pairs(points),
+            at_points: HiddenPairs::from_pairs(at_points),
+            at_elements: HiddenPairs::from_pairs(at_elements),
         }
     }
 

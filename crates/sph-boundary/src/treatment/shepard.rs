@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Lane, dot};
-use sph_neighbours::{Blocked, Clusters, LanePair, PairSum, Particles, World, shepard};
+use sph_neighbours::{Clusters, HiddenPairs, LanePair, PairSum, Particles, World, shepard};
 
 /// Means of the fluid at a place on the wall.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub(crate) fn wall_means<const D: usize>(
     world: &World<D>,
     targets: &[Vect<D>],
     accelerations: &[Vect<D>],
-    list: (&Clusters, &Blocked),
+    list: (&Clusters, &HiddenPairs),
     whole: f64,
     out: &mut Vec<WallMean>,
 ) -> Result<(), StepError> {

@@ -47,7 +47,7 @@ pub struct Symmetric<const D: usize, M: WallMesh<D>> {
     scales: Option<Scales<D, M>>,
 }
 
-/// The scale, and what was found of it last.
+/// The scale, and its last results.
 #[derive(Debug)]
 struct Scales<const D: usize, M> {
     walls: WallScales<D, M>,
@@ -56,7 +56,7 @@ struct Scales<const D: usize, M> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Symmetric<D, M> {
-    /// Whether any wall moves, so that s changes at a fixed place.
+    /// True if any wall moves, so that s changes at a fixed place.
     fn moves(&self) -> bool {
         self.set_up.as_ref().is_some_and(|s| s.outline.moves())
     }
@@ -86,7 +86,7 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
             let positions = world.free.get(fields::POSITION)?;
             for part in slopes.clone() {
                 let particle = part.particle as usize;
-                let place = beside(world, outline, &positions[particle], part.wall);
+                let place = nearest_image(world, outline, &positions[particle], part.wall);
                 let state = &outline.states[part.wall as usize];
                 rate[particle] -= part.slope.dot(&state.movement(place.into()).velocity);
             }
@@ -99,7 +99,7 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
 }
 
 /// The image of a place that is beside a wall, m.
-fn beside<const D: usize, M: WallMesh<D>>(
+fn nearest_image<const D: usize, M: WallMesh<D>>(
     world: &World<D>,
     outline: &Outline<D, M>,
     x: &Vect<D>,

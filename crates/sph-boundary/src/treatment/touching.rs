@@ -6,7 +6,7 @@ use sph_core::Vect;
 use sph_neighbours::{WallForce, cross};
 
 use crate::geometry::wall_mesh::WallMesh;
-use crate::treatment::contact::{DEPTH, Near};
+use crate::treatment::contact::{DEPTH, SurfacePair};
 use crate::treatment::contact_law::Law;
 use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, RigidState, Touch};
@@ -17,15 +17,15 @@ const SHARE: f64 = 0.5;
 const PARTS: f64 = 10.0;
 /// Most parts of a step.
 const MOST_PARTS: f64 = 20_000.0;
-/// How deep the weight of all bodies together presses a face into the gap, over the spacing.
+/// Depth to which the weight of all bodies together presses a face into the gap, over the spacing.
 const SINKS: f64 = 0.025;
-/// Share of the stiffness of the stiffest body that all contacts have, for what it may do to a light one in its way: it
+/// Share of the stiffness of the stiffest body that all contacts have, for its effect on a light one in its way: it
 /// stops a fortieth of the speed that the body's own contacts stop.
 const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
 /// All that touches within a step.
 pub(crate) struct Touching<const D: usize> {
-    near: Vec<Near<D>>,
+    near: Vec<SurfacePair<D>>,
     /// Of the pairs, and the number of that of each piece.
     laws: Vec<Law>,
     law_of: Vec<usize>,
@@ -86,7 +86,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let mut near = self.near_pairs(&touches);
         let velocities = self.closing(&self.states, &near);
         let mut velocity = velocities.iter();
-        // Twice the way of now, and a tenth of the spacing for what accelerates.
+        // Twice the way of the present velocity, and a tenth of the spacing for accelerations.
         near.retain(|n| {
             let parting = velocity.next().map_or(0.0, |v| v.dot(&n.away));
             n.height + 2.0 * dt * parting.min(0.0) - 0.1 * self.spacing < self.gap(n.pair)
@@ -102,7 +102,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let least = (weight / (SINKS * self.spacing)).max(OF_STIFFEST * stiffest);
         let mut pairs = BTreeMap::<[usize; 2], usize>::new();
         let (mut laws, mut gaps) = (Vec::new(), Vec::new());
-        let number = |n: &Near<D>| {
+        let number = |n: &SurfacePair<D>| {
             let [a, b] = n.pair;
             *pairs.entry([a.min(b), a.max(b)]).or_insert_with(|| {
                 gaps.push(self.gap(n.pair));
@@ -132,19 +132,19 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Velocities of the first of each pair against the second, m/s.
-    fn closing(&self, states: &[RigidState<D>], near: &[Near<D>]) -> Vec<Vect<D>> {
-        let one = |n: &Near<D>| {
+    fn closing(&self, states: &[RigidState<D>], near: &[SurfacePair<D>]) -> Vec<Vect<D>> {
+        let one = |n: &SurfacePair<D>| {
             let of = |k: usize, x: Vect<D>| self.movement_in(&states[k], k, &x).velocity;
             of(n.walls[0], n.place) - of(n.walls[1], n.place - n.image)
         };
         near.iter().map(one).collect()
     }
 
-    /// The states after a step with these loads, without contact; what touches is added to them.
+    /// The states after a step with these loads, without contact; contacts are added to the loads.
     ///
     /// # Errors
     /// A wall whose state is no number; walls that go through each other.
-    pub(crate) fn met(
+    pub(crate) fn free_states(
         &self,
         loads: &mut [Load<D>],
         gravity: Vect<D>,

@@ -10,7 +10,7 @@ use sph_particles::{draw_scene, examine_and_try};
 use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};
 use crate::number;
-use crate::scene_file::{AnyScene, Opened, open};
+use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::layout::{columns, remarks};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
@@ -46,7 +46,7 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
 }
 
 /// Draws the scene before any run.
-fn drawn<'a>(opened: &Opened, path: &'a Path) -> Result<&'a Path, Trouble> {
+fn drawn<'a>(opened: &OpenScene, path: &'a Path) -> Result<&'a Path, Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         let text = "--picture: grains have no place before they are prepared; `output.picture` of a run draws them";
         return Err(Trouble::usage(text));
@@ -56,7 +56,7 @@ fn drawn<'a>(opened: &Opened, path: &'a Path) -> Result<&'a Path, Trouble> {
 }
 
 /// Derived quantities of a scene, for a number of threads.
-pub fn output(opened: &Opened, threads: Option<usize>) -> Result<CommandOutput, Trouble> {
+pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutput, Trouble> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.unwrap_or(cores);
     let loaded = match &opened.scene {

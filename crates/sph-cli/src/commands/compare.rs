@@ -36,7 +36,7 @@ pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
     }
 }
 
-/// What differs between the results of two runs, and whether nothing does.
+/// Differences between the results of two runs; true if there is none.
 pub fn output(first: &Path, second: &Path) -> Result<(CommandOutput, bool), Trouble> {
     let found = compared(first, second)?;
     let same = found.remarks.is_empty() && found.columns.iter().all(|c| c.same);
@@ -109,7 +109,7 @@ impl Comparison {
         let mut common = 0;
         let mut remarks: Vec<(String, f64, usize)> = Vec::new();
         for one in &listed {
-            let same = |l: &&sph_io::Listed| l.time == one.time && l.name == one.name;
+            let same = |l: &&sph_io::SeriesEntry| l.time == one.time && l.name == one.name;
             let Some(twin) = other.iter().find(same) else {
                 continue;
             };

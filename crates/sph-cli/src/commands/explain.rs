@@ -8,7 +8,7 @@ use sph_solver::PluginInForce;
 use crate::arguments::ExplainArguments;
 use crate::commands::check::memory;
 use crate::commands::grains;
-use crate::scene_file::{AnyScene, Opened, open};
+use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::layout::{columns, columns_and_below, paragraph, parameters};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
@@ -16,7 +16,7 @@ use crate::terminal::trouble::Trouble;
 /// Machines that are listed.
 const SHOWN: usize = 16;
 
-/// Shows what a scene is made of.
+/// Shows the parts of a scene.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let mut told = output(&opened)?;
@@ -28,7 +28,7 @@ pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
 }
 
 /// Parts of a scene.
-pub fn output(opened: &Opened) -> Result<CommandOutput, Trouble> {
+pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
         AnyScene::Grains(loaded) => return grains::explain::output(loaded),
@@ -41,8 +41,8 @@ pub fn output(opened: &Opened) -> Result<CommandOutput, Trouble> {
     })
 }
 
-/// Adds what several machines would have and send.
-fn split(opened: &Opened, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
+/// Adds the shares and messages of several machines.
+fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         return Err(Trouble::usage(
             "--ranks splits scenes of particles, and this is one of grains",

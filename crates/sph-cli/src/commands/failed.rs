@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sph_particles::{Failure, Findings, Share, Sighting, Suspect};
+use sph_particles::{Failure, Findings, ParticleRecord, Share, Suspect};
 
 use crate::terminal::layout::{columns, remarks};
 
@@ -73,7 +73,7 @@ fn suspect(suspect: &Suspect) -> String {
     text
 }
 
-fn sighting(when: &str, seen: &Sighting) -> String {
+fn sighting(when: &str, seen: &ParticleRecord) -> String {
     let number = |x: &Option<f64>| x.map_or("not finite".into(), |x| format!("{x:.4e}"));
     let list = |v: &[Option<f64>]| v.iter().map(number).collect::<Vec<_>>().join(", ");
     let mut text = format!(

@@ -1,4 +1,4 @@
-//! The files of a run, with what they are for.
+//! The files of a run, with their purposes.
 
 use std::path::Path;
 

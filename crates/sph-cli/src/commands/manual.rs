@@ -9,7 +9,7 @@ use crate::terminal::console;
 use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::{CompletionArguments, ManArguments};
 
-/// Prints what a shell completes with.
+/// Prints the completions of a shell.
 pub fn completions(arguments: &CompletionArguments) -> Result<(), Trouble> {
     let mut script = Vec::new();
     let mut command = Arguments::command();

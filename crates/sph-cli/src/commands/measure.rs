@@ -23,7 +23,7 @@ struct QuantityBound<'a> {
 }
 
 /// The particles of a frame that count, with their weights.
-struct Counted {
+struct CountedParticles {
     values: Vec<f64>,
     weights: Option<Vec<f64>>,
     /// The weight of all particles of the phase.
@@ -70,7 +70,7 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
 }
 
 /// A row of the table: the time and all reductions.
-fn row(time: f64, counted: &Counted, arguments: &MeasureArguments) -> Vec<f64> {
+fn row(time: f64, counted: &CountedParticles, arguments: &MeasureArguments) -> Vec<f64> {
     let weights = counted.weights.as_deref();
     let reductions = arguments.reduce.iter();
     let reductions = reductions.map(|how| reduced(*how, &counted.values, weights, counted.whole));
@@ -154,7 +154,7 @@ fn counted(
     weight: Weight,
     phase: Option<usize>,
     bounds: &[QuantityBound<'_>],
-) -> Result<Counted, Trouble> {
+) -> Result<CountedParticles, Trouble> {
     let all = 0..column.values.len();
     let of_phase: Vec<usize> = match phase {
         None => all.collect(),
@@ -187,7 +187,7 @@ fn counted(
         Some(numbers.iter().map(|k| weights[*k]).collect())
     };
     let whole = of(&of_phase).map_or(of_phase.len() as f64, |all| all.iter().sum());
-    Ok(Counted {
+    Ok(CountedParticles {
         values: own.iter().map(|k| column.values[*k]).collect(),
         weights: of(&own),
         whole,

@@ -19,7 +19,7 @@ const UNITS: [f64; 2] = [20.0, 2.0];
 /// Shares of its own size by which a coordinate in single precision is rounded.
 const SINGLE: f64 = 6e-8;
 
-/// Whether the argument names a file of facets and no scene.
+/// True if the argument names a file of facets and no scene.
 pub fn is_mesh(argument: &str) -> bool {
     let ending = Path::new(argument).extension();
     ending.is_some_and(|e| e.eq_ignore_ascii_case("stl"))
@@ -51,7 +51,7 @@ pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
     Ok(CommandOutput { json, text })
 }
 
-/// Which way a surface faces once its facets are turned to face one way.
+/// Orientation of a surface, once its facets are turned to face one way.
 fn facing(facets: &Facets, topology: &Topology) -> &'static str {
     let aligned = facets.clone().turned(&topology.flipped);
     let found = match topology.openings.is_empty() {
@@ -69,7 +69,7 @@ fn place(x: &[f64; 3]) -> String {
     format!("({})", x.map(number::plain).join(", "))
 }
 
-/// A surface and what is known of it.
+/// A surface and its properties.
 struct Mesh {
     facets: Facets,
     topology: Topology,

@@ -116,7 +116,7 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
     copied(all.collect(), folder)
 }
 
-/// Copies files, by the names that the scene has for them, into a folder; returns what was not there before.
+/// Copies files, by the names that the scene has for them, into a folder; returns the new ones.
 fn copied(files: Vec<(String, PathBuf)>, folder: &Path) -> Result<Vec<PathBuf>, Trouble> {
     let mut copied = Vec::new();
     for (file, path) in files {

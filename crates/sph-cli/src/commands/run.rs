@@ -13,11 +13,11 @@ use crate::commands::interrupted::{failed_summary, going_on};
 use crate::commands::{grains, outcome};
 use crate::interrupt;
 use crate::ranks;
-use crate::scene_file::{AnyScene, Opened, open};
+use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::console;
 use crate::terminal::output::{CommandOutput, Ended};
 use crate::terminal::progress::Watcher;
-use crate::terminal::trouble::{Failing, Trouble};
+use crate::terminal::trouble::{ModelError, Trouble};
 
 /// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
@@ -42,7 +42,7 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
 }
 
 /// The folder of the results.
-pub fn folder(arguments: &RunArguments, opened: &Opened) -> PathBuf {
+pub fn folder(arguments: &RunArguments, opened: &OpenScene) -> PathBuf {
     let out = arguments.out.clone();
     out.unwrap_or_else(|| Path::new("results").join(&opened.stem))
 }
@@ -50,7 +50,7 @@ pub fn folder(arguments: &RunArguments, opened: &Opened) -> PathBuf {
 /// Runs an opened scene, of particles or of grains, without output of its own.
 pub fn execute(
     arguments: &RunArguments,
-    opened: &Opened,
+    opened: &OpenScene,
     observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
     let out = folder(arguments, opened);
@@ -193,12 +193,12 @@ fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), T
 }
 
 fn trouble(
-    error: impl Into<Failing>,
+    error: impl Into<ModelError>,
     arguments: &RunArguments,
     source: &Source,
     out: &Path,
 ) -> Trouble {
-    let told: Failing = error.into();
+    let told: ModelError = error.into();
     let left = told.ran.then(|| failed_summary(&out.join(SUMMARY)));
     let stands = told.remedy.filter(|_| out.join(CHECKPOINT).is_file());
     let again = stands.map(|why| {

@@ -11,7 +11,7 @@ use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, exe
 
 use crate::arguments::StudyArguments;
 use crate::interrupt;
-use crate::scene_file::{Found, allowed, find, overrides};
+use crate::scene_file::{SceneSource, allowed, find, overrides};
 use crate::shipped::{self, Content};
 use crate::terminal::console;
 use crate::terminal::layout::columns;
@@ -45,7 +45,7 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
 pub struct Studied {
     /// Its results.
     pub told: CommandOutput,
-    /// What is kept and how to go on, if it stopped before its end.
+    /// Kept results and the command to go on, if it stopped before its end.
     pub going_on: Option<String>,
 }
 
@@ -53,7 +53,7 @@ pub struct Studied {
 pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
-    let scenes: RefCell<Vec<Found>> = RefCell::default();
+    let scenes: RefCell<Vec<SceneSource>> = RefCell::default();
     let study = read(arguments, name, &scenes)?;
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
@@ -120,7 +120,7 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
 fn read(
     arguments: &StudyArguments,
     name: &str,
-    scenes: &RefCell<Vec<Found>>,
+    scenes: &RefCell<Vec<SceneSource>>,
 ) -> Result<Study, Trouble> {
     let set = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
@@ -151,7 +151,7 @@ fn read(
     })
 }
 
-/// Puts together what is to be run, so that every mistake is known before the first run.
+/// Collects the variants to run, so that every mistake is known before the first run.
 fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
     for (k, variant) in study.variants.iter().enumerate() {
         if watcher.has_to_run(k) {

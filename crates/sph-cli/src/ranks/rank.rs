@@ -45,7 +45,7 @@ impl MpiRank {
     }
 }
 
-/// What is sent of a message, piece by piece.
+/// Pieces of a message, in the order of sending.
 fn pieces(message: &[u8]) -> impl Iterator<Item = &[u8]> {
     let whole = message.len().is_multiple_of(PIECE);
     let last: Option<&[u8]> = whole.then_some(&[]);
@@ -99,7 +99,7 @@ impl Transport for MpiRank {
         Ok(())
     }
 
-    fn trade(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
+    fn all_to_all(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
         let mut all = vec![0; numbers.len()];
         world().all_to_all_into(numbers, &mut all[..]);
         Ok(all)

@@ -20,7 +20,7 @@ pub fn raw(bytes: &[u8]) {
     note(written);
 }
 
-/// Complains of what could not be written, once.
+/// Reports output that could not be written, once.
 fn note(written: std::io::Result<()>) {
     // `sph schema | head` closes the pipe: no reason to complain.
     if let Err(error) = written
@@ -31,10 +31,10 @@ fn note(written: std::io::Result<()>) {
     }
 }
 
-/// Whether output on stdout is incomplete.
+/// True if output on stdout is incomplete.
 static UNWRITTEN: AtomicBool = AtomicBool::new(false);
 
-/// Whether stdout took all output.
+/// True if stdout took all output.
 pub fn complete() -> bool {
     !UNWRITTEN.load(Ordering::Relaxed)
 }
@@ -55,7 +55,7 @@ pub fn json(value: &serde_json::Value) {
     out(&escaped(&format!("{value:#}")));
 }
 
-/// Whether stderr is read by a person.
+/// True if stderr is read by a person.
 pub fn terminal() -> bool {
     std::io::stderr().is_terminal()
 }

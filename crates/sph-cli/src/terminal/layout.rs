@@ -29,7 +29,7 @@ pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
     text
 }
 
-/// Rows as columns below their heads, and below each row what belongs to it.
+/// Rows as columns below their heads, and below each row its details.
 pub fn columns_and_below(
     indent: usize,
     heads: &[&str],

@@ -9,7 +9,7 @@ use crate::terminal::console;
 pub struct CommandOutput {
     /// For programs.
     pub json: Json,
-    /// For people: what the command prints.
+    /// For people: the printed text.
     pub text: String,
 }
 
@@ -27,6 +27,6 @@ impl CommandOutput {
 pub struct Ended {
     /// Its summary.
     pub told: CommandOutput,
-    /// Whether it stopped before its end: at which time, s, and step.
+    /// Time, s, and step of a stop before the end; none if it ran to the end.
     pub interrupted: Option<(f64, u64)>,
 }

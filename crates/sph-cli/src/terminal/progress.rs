@@ -20,7 +20,7 @@ pub struct Watcher {
     /// Said once the scene is known to be good.
     start: Option<String>,
     stop: Arc<AtomicBool>,
-    /// What is counted: "particle", "grain".
+    /// Noun of the counted things: "particle", "grain".
     noun: &'static str,
     every: Duration,
     told: Instant,
@@ -110,7 +110,7 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
         }
         _ => String::new(),
     };
-    // What is wanted most comes first: a narrow terminal cuts the end.
+    // The most frequent choice comes first: a narrow terminal cuts the end.
     format!(
         "t = {} of {} s{left}  Δt {:.1e} s ({})  {speed}  step {}",
         number::plain(progress.time),

@@ -20,7 +20,7 @@ pub struct Watcher {
     stop: Arc<AtomicBool>,
     every: Duration,
     /// Of every variant by name: the reported error, or the bounds it is judged by.
-    judged: BTreeMap<String, Judged>,
+    judged: BTreeMap<String, VariantReport>,
     /// Variants that are to be run or have been.
     total: usize,
     repetitions: usize,
@@ -31,24 +31,24 @@ pub struct Watcher {
 }
 
 /// The report of a finished variant.
-enum Judged {
+enum VariantReport {
     Error(String),
     Cost(Cost),
     Bounds(BTreeMap<String, [f64; 2]>),
 }
 
-impl Judged {
+impl VariantReport {
     fn sentence(&self, record: &Record) -> String {
         match self {
-            Judged::Error(name) => match record.error(name) {
+            VariantReport::Error(name) => match record.error(name) {
                 Some(error) => format!("{name} {}", number::plain(error)),
                 None => format!("no {name}"),
             },
-            Judged::Cost(cost) => {
+            VariantReport::Cost(cost) => {
                 let seconds = record.cost(*cost);
                 seconds.map_or(String::new(), |s| format!("{} {s:.2e} s", cost.name()))
             }
-            Judged::Bounds(bounds) => match verdict(record, bounds) {
+            VariantReport::Bounds(bounds) => match verdict(record, bounds) {
                 Some(found) if found.why.is_empty() => found.colour.name().to_string(),
                 Some(found) => format!("{}, {}", found.colour.name(), found.why),
                 None => record.status.name().to_string(),
@@ -57,12 +57,12 @@ impl Judged {
     }
 }
 
-fn judged(study: &Study, variant: &Variant) -> (String, Judged) {
+fn judged(study: &Study, variant: &Variant) -> (String, VariantReport) {
     let judged = match variant.rung {
-        Some(rung) => Judged::Bounds(study.ladders[rung.ladder].judge.clone()),
+        Some(rung) => VariantReport::Bounds(study.ladders[rung.ladder].judge.clone()),
         None => match (study.errors.first(), &study.file.scaling) {
-            (None, Some(scaling)) => Judged::Cost(scaling.cost),
-            (error, _) => Judged::Error(error.cloned().unwrap_or_default()),
+            (None, Some(scaling)) => VariantReport::Cost(scaling.cost),
+            (error, _) => VariantReport::Error(error.cloned().unwrap_or_default()),
         },
     };
     (variant.name.clone(), judged)
@@ -117,7 +117,7 @@ impl Watcher {
         watcher
     }
 
-    /// Whether a variant has to run.
+    /// True if a variant has to run.
     pub fn has_to_run(&self, k: usize) -> bool {
         self.open.get(k).copied().unwrap_or(false)
     }

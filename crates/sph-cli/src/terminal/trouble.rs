@@ -67,30 +67,30 @@ impl From<Refused> for Trouble {
 
 impl From<IoError> for Trouble {
     fn from(error: IoError) -> Self {
-        Failing::from(RunError::Io(error)).into()
+        ModelError::from(RunError::Io(error)).into()
     }
 }
 
 /// Text of an error of a model.
 #[derive(Default)]
-pub struct Failing {
+pub struct ModelError {
     /// Mistakes of the scene, if it is these.
     mistakes: Vec<SceneProblem>,
     error: String,
     more: String,
     code: u8,
-    /// Whether a step failed.
+    /// True if a step failed.
     pub ran: bool,
     /// First remedy where a file could not be written.
     pub remedy: Option<&'static str>,
 }
 
-impl From<RunError> for Failing {
+impl From<RunError> for ModelError {
     fn from(error: RunError) -> Self {
-        let mut told = Failing {
+        let mut told = ModelError {
             error: error.to_string(),
             code: 1,
-            ..Failing::default()
+            ..ModelError::default()
         };
         match error {
             RunError::Solver(SolverError::Scene(problems)) => told.mistakes = problems,
@@ -113,12 +113,12 @@ impl From<RunError> for Failing {
     }
 }
 
-impl From<DemError> for Failing {
+impl From<DemError> for ModelError {
     fn from(error: DemError) -> Self {
-        let mut told = Failing {
+        let mut told = ModelError {
             error: error.to_string(),
             code: error.exit_code(),
-            ..Failing::default()
+            ..ModelError::default()
         };
         match error {
             DemError::Scene(problems) => told.mistakes = problems,
@@ -140,8 +140,8 @@ impl From<DemError> for Failing {
     }
 }
 
-impl From<Failing> for Trouble {
-    fn from(told: Failing) -> Self {
+impl From<ModelError> for Trouble {
+    fn from(told: ModelError) -> Self {
         Trouble::Failed {
             error: told.error,
             more: told.more,
@@ -154,7 +154,7 @@ impl From<Failing> for Trouble {
 
 impl Trouble {
     /// Text of an error of a model, with places in the scene if the scene is at fault.
-    pub fn in_scene(error: impl Into<Failing>, source: &Source) -> Self {
+    pub fn in_scene(error: impl Into<ModelError>, source: &Source) -> Self {
         let told = error.into();
         match told.mistakes.is_empty() {
             true => told.into(),
@@ -203,7 +203,7 @@ impl Trouble {
             Trouble::Usage(message) => json!([{ "message": message }]),
             Trouble::Scene(all) => diagnostics::json(all),
             Trouble::Failed { error, summary, .. } => match summary {
-                // What was left, or else the error alone.
+                // The remaining text, or else the error alone.
                 Some(summary) => (**summary).clone(),
                 None => json!([{ "message": error }]),
             },
@@ -225,7 +225,7 @@ impl Trouble {
     }
 }
 
-/// Whether a checkpoint could not be read; one that could not be *written* leaves the one before.
+/// True if a checkpoint could not be read; one that could not be *written* leaves the one before.
 fn is_unreadable_checkpoint(error: &IoError) -> bool {
     let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
     read && error.path().extension().is_some_and(|e| e == "sph")

@@ -17,7 +17,7 @@ pub struct LimitCoefficients {
 pub trait Integrator: Send {
     /// Its stable shares of the time scales.
     fn coefficients(&self) -> LimitCoefficients;
-    /// Whether a step is one kick over all of it and then one drift over all of it.
+    /// True if a step is one kick over all of it and then one drift over all of it.
     fn kicks_once(&self) -> bool {
         false
     }

@@ -29,8 +29,8 @@ impl Checkpoint {
         let input = BufReader::with_capacity(CHUNK, file);
         let read = Source::new(input, length).checkpoint();
         read.map_err(|trouble| match trouble {
-            Trouble::Read(source) => IoError::read(path, source),
-            Trouble::Fault(fault) => IoError::Checkpoint {
+            ReadFault::Read(source) => IoError::read(path, source),
+            ReadFault::Fault(fault) => IoError::Checkpoint {
                 path: path.to_path_buf(),
                 fault,
             },
@@ -40,14 +40,14 @@ impl Checkpoint {
     /// Reads a checkpoint that is in memory.
     ///
     /// # Errors
-    /// Which check it failed.
+    /// The check that failed.
     pub fn from_bytes(bytes: &[u8]) -> std::result::Result<Self, Fault> {
         let found = bytes.len() as u64;
         let read = Source::new(bytes, found).checkpoint();
         read.map_err(|trouble| match trouble {
-            Trouble::Fault(fault) => fault,
+            ReadFault::Fault(fault) => fault,
             // Sizes are checked first, so that there is always enough to read.
-            Trouble::Read(_) => Fault::Length {
+            ReadFault::Read(_) => Fault::Length {
                 expected: PREFIX + SUFFIX,
                 found,
             },
@@ -55,25 +55,25 @@ impl Checkpoint {
     }
 }
 
-/// Why a checkpoint could not be read: the disk, or what is on it.
-enum Trouble {
+/// Reason that a checkpoint could not be read: the disk, or its contents.
+enum ReadFault {
     Read(io::Error),
     Fault(Fault),
 }
 
-impl From<io::Error> for Trouble {
+impl From<io::Error> for ReadFault {
     fn from(error: io::Error) -> Self {
         Self::Read(error)
     }
 }
 
-impl From<Fault> for Trouble {
+impl From<Fault> for ReadFault {
     fn from(fault: Fault) -> Self {
         Self::Fault(fault)
     }
 }
 
-/// The file and the checksum of what has been read of it.
+/// The file and the checksum of the part that has been read.
 struct Source<R> {
     input: R,
     sum: crc32fast::Hasher,
@@ -90,7 +90,7 @@ impl<R: Read> Source<R> {
         }
     }
 
-    fn checkpoint(mut self) -> std::result::Result<Checkpoint, Trouble> {
+    fn checkpoint(mut self) -> std::result::Result<Checkpoint, ReadFault> {
         let header = self.header()?;
         let mut columns = Vec::with_capacity(header.columns.len());
         for shape in header.columns {
@@ -108,7 +108,7 @@ impl<R: Read> Source<R> {
     }
 
     /// Everything before the columns; on return their sizes are known to fit.
-    fn header(&mut self) -> std::result::Result<Header<Value>, Trouble> {
+    fn header(&mut self) -> std::result::Result<Header<Value>, ReadFault> {
         let found = self.length;
         let least = PREFIX + SUFFIX;
         if found < MAGIC.len() as u64 || self.take()? != MAGIC {
@@ -150,7 +150,7 @@ impl<R: Read> Source<R> {
         Ok(header)
     }
 
-    fn column(&mut self, shape: Shape) -> std::result::Result<Column, Trouble> {
+    fn column(&mut self, shape: Shape) -> std::result::Result<Column, ReadFault> {
         let bytes = shape.bytes().unwrap_or(0);
         let data = match shape.kind {
             Kind::F64 => ColumnData::F64(self.numbers(bytes, f64::from_le_bytes)?),
@@ -198,7 +198,7 @@ impl<R: Read> Source<R> {
     }
 }
 
-/// Whether the columns take up exactly `room` bytes and are well formed.
+/// True if the columns take up exactly `room` bytes and are well formed.
 fn fits(columns: &[Shape], room: u64) -> std::result::Result<(), Fault> {
     let count = columns.len();
     if count > COLUMNS {

@@ -33,7 +33,7 @@ impl Checkpoint {
     }
 
     fn fill(&self, file: &mut AtomicFile, header: &[u8], total: u64) -> io::Result<()> {
-        let mut out = Summed {
+        let mut out = ChecksumWriter {
             out: file,
             sum: crc32fast::Hasher::new(),
         };
@@ -54,7 +54,7 @@ impl Checkpoint {
         out.put(&sum.to_le_bytes())
     }
 
-    /// The columns as the header describes them, or what does not fit.
+    /// The columns as the header describes them, or the contradiction.
     fn shapes(&self) -> std::result::Result<Vec<Shape>, String> {
         let mut shapes: Vec<Shape> = Vec::with_capacity(self.columns.len());
         for column in &self.columns {
@@ -86,12 +86,12 @@ impl Column {
 }
 
 /// Passes bytes on and keeps their checksum.
-struct Summed<'a> {
+struct ChecksumWriter<'a> {
     out: &'a mut AtomicFile,
     sum: crc32fast::Hasher,
 }
 
-impl Summed<'_> {
+impl ChecksumWriter<'_> {
     fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.sum.update(bytes);
         self.out.write_all(bytes)

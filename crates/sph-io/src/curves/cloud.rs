@@ -64,7 +64,7 @@ impl<'a> Cloud<'a> {
     }
 
     /// The points nearer to `x` than the radius of the fit, with r_j − x.
-    fn around(&self, x: [f64; 3]) -> impl Iterator<Item = (u32, [f64; 3])> {
+    fn neighbours(&self, x: [f64; 3]) -> impl Iterator<Item = (u32, [f64; 3])> {
         let reach = RADIUS * self.spacing;
         let apart = move |&j: &u32| {
             let r = self.points[j as usize];
@@ -81,7 +81,7 @@ impl<'a> Cloud<'a> {
         let mut matrix = Matrix4::<f64>::zeros();
         let mut near: Vec<(u32, f64, Vector4<f64>)> = Vec::new();
         let mut nearest = f64::INFINITY;
-        for (j, d) in self.around(x) {
+        for (j, d) in self.neighbours(x) {
             let r2 = square(&d);
             nearest = nearest.min(r2);
             let weight = (1.0 - r2 / (reach * reach)).powi(2);
@@ -94,7 +94,7 @@ impl<'a> Cloud<'a> {
         }
         let total = matrix[(0, 0)];
         if self.planar {
-            // z says nothing; its row is made one that does no harm.
+            // z has no information; its row becomes that of the unit matrix.
             matrix[(3, 3)] = total;
         }
         let spectrum = matrix.symmetric_eigenvalues();

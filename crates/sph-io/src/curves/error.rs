@@ -21,7 +21,7 @@ pub enum DrawError {
     NoField {
         /// The request.
         name: String,
-        /// What there is.
+        /// The known names.
         known: String,
     },
     /// A component that the field does not have.

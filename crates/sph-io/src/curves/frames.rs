@@ -25,7 +25,7 @@ pub struct Frames {
     pub spacing: f64,
 }
 
-/// Most frames that a range of colours looks at.
+/// Largest number of frames for a range of colours.
 const FRAMES: usize = 20;
 
 /// Particles whose nearest neighbour is looked for.
@@ -78,7 +78,7 @@ impl Frames {
     pub fn range(&self, field: &str) -> Result<Option<[f64; 2]>, DrawError> {
         let every = self.entries.len().div_ceil(FRAMES).max(1);
         let mut values = Vec::new();
-        // From the last one back, which is the one most asked for.
+        // From the last one back, which is the most frequent request.
         for entry in self.entries.iter().rev().step_by(every) {
             values.extend(self.read(entry)?.column(field)?.values);
         }

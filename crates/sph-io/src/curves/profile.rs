@@ -8,9 +8,9 @@ use crate::{Plot, Series};
 /// A straight line with points on it.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
-    /// Where it starts, m.
+    /// Start of the line, m.
     pub from: [f64; 3],
-    /// Where it ends, m.
+    /// End of the line, m.
     pub to: [f64; 3],
     /// Points on it, evenly spread with both ends; at least two.
     pub points: usize,

@@ -38,7 +38,7 @@ pub fn streamlines(
     let mut seeds: Vec<u32> = (0..cloud.points.len() as u32).collect();
     // The same on every machine: particles of one speed keep their order.
     seeds.sort_by(|a, b| speed(*b).total_cmp(&speed(*a)).then(a.cmp(b)));
-    let mut drawn = Drawn::new(apart);
+    let mut drawn = PointCells::new(apart);
     let mut lines = Vec::new();
     for seed in seeds {
         let start = cloud.points[seed as usize];
@@ -101,7 +101,7 @@ impl Flow<'_> {
     }
 
     /// The line through a place, against the flow and along it.
-    fn through(&self, start: [f64; 3], drawn: &Drawn, apart: f64) -> Vec<[f64; 3]> {
+    fn through(&self, start: [f64; 3], drawn: &PointCells, apart: f64) -> Vec<[f64; 3]> {
         let step = STEP * self.cloud.spacing;
         let (mut line, closed) = self.followed(start, step, drawn, apart);
         if closed {
@@ -119,12 +119,12 @@ impl Flow<'_> {
         &self,
         start: [f64; 3],
         step: f64,
-        drawn: &Drawn,
+        drawn: &PointCells,
         apart: f64,
     ) -> (Vec<[f64; 3]>, bool) {
         let mut line = vec![start];
         // Its own earlier points, of which the last ones are always near.
-        let mut own = Drawn::new(apart);
+        let mut own = PointCells::new(apart);
         let lag = (2.0 * apart / step.abs()).ceil() as usize;
         let home = |x: &[f64; 3]| square(&[0, 1, 2].map(|k| x[k] - start[k])).sqrt();
         let crowded = CROWDED * apart;
@@ -149,10 +149,10 @@ impl Flow<'_> {
 }
 
 /// Points of lines, sorted into cells.
-type Drawn = PlaceCells<[f64; 3]>;
+type PointCells = PlaceCells<[f64; 3]>;
 
-impl Drawn {
-    /// Whether a point is nearer than `reach`, which is at most a side of a cell.
+impl PointCells {
+    /// True if a point is nearer than `reach`, which is at most a side of a cell.
     fn near(&self, x: [f64; 3], reach: f64) -> bool {
         let apart = |p: &[f64; 3]| square(&[0, 1, 2].map(|k| p[k] - x[k]));
         self.around(x).any(|p| apart(p) < reach * reach)

@@ -10,7 +10,7 @@ use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
 use crate::files::folder::writable;
 
-/// Every tenth pixel is looked at for the 256 colours of a frame.
+/// Every tenth pixel counts for the 256 colours of a frame.
 const SPEED: i32 = 10;
 /// The last picture stands for so long, hundredths of a second.
 const LAST: u16 = 150;
@@ -84,8 +84,8 @@ pub fn write_gif(
     })
 }
 
-/// The bytes of a picture on a larger white one. Pictures are opaque, so that what is multiplied with opacity is what
-/// it was.
+/// The bytes of a picture on a larger white one. Pictures are opaque, so that multiplication with opacity changes
+/// nothing.
 fn on_white(map: &Pixmap, width: usize, height: usize) -> Vec<u8> {
     let mut pixels = vec![255; 4 * width * height];
     let row = 4 * map.width() as usize;

@@ -15,7 +15,7 @@ pub(crate) struct PlotAxis {
 }
 
 impl PlotAxis {
-    /// Where `value` is between the ends, from 0 to 1.
+    /// Position of `value` between the ends, from 0 to 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         if self.log {
             (value / self.lo).ln() / (self.hi / self.lo).ln()
@@ -155,7 +155,7 @@ pub(crate) fn crisp(x: f64) -> f64 {
     x.floor() + 0.5
 }
 
-/// Whether an axis can show `value`.
+/// True if an axis can show `value`.
 pub(crate) fn shown(value: f64, log: bool) -> bool {
     // Beyond these bounds a range may overflow.
     value.is_finite() && value.abs() < 1e150 && (!log || value > 1e-150)

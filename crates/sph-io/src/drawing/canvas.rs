@@ -36,7 +36,7 @@ impl Canvas {
         write_atomic(path, Durability::Process, |file| file.write_all(&png))
     }
 
-    /// A filled circle, leaving out what is not inside `clip`.
+    /// A filled circle, leaving out the part outside of `clip`.
     pub(crate) fn clipped_disc(&mut self, [x, y]: Spot, radius: f64, fill: Fill, clip: &Rect) {
         // A disc smaller than a pixel is a fainter pixel.
         let drawn = radius.max(0.6);

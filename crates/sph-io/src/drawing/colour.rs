@@ -18,9 +18,9 @@ impl Colour {
     pub(crate) const FAINT: Self = Self::hex(0xdddddd);
     /// Series in the background of a plot.
     pub(crate) const PALE: Self = Self::hex(0xc4c4c4);
-    /// What stands out in a plot, behind its lines.
+    /// Colour of highlights in a plot, behind its lines.
     pub(crate) const HIGHLIGHT: Self = Self::hex(0xffe08a);
-    /// What is pointed at.
+    /// Colour of rings around marked particles.
     pub(crate) const RING: Self = Self::hex(0xd0021b);
     /// Particles without a finite value.
     pub(crate) const MISSING: Self = Self::hex(0xff00ff);

@@ -12,7 +12,7 @@ pub(crate) struct ColourBar<'a> {
     range: [f64; 2],
     colours: ColourMap,
     label: &'a str,
-    /// Whether values lie below and above the range: pointed ends.
+    /// True for values below, and above, the range: pointed ends.
     beyond: [bool; 2],
     size: f64,
 }

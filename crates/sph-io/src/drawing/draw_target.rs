@@ -24,7 +24,7 @@ pub(crate) struct Fill {
     pub(crate) opacity: f64,
 }
 
-/// Which part of a text stands at its spot.
+/// Part of a text that stands at its spot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,

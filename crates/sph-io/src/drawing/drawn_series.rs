@@ -23,7 +23,7 @@ pub enum Style {
     Markers,
     /// Both line and markers.
     LineAndMarkers,
-    /// Grey line and dots behind all others, not in the legend: what the others are seen against.
+    /// Grey line and dots behind all others, not in the legend: the background of the others.
     Background,
     /// A broad pale line behind the others: which points stand out.
     Highlight,

@@ -11,7 +11,7 @@ struct Extent {
 }
 
 impl Extent {
-    fn around(spots: impl Iterator<Item = Spot>) -> Option<Self> {
+    fn from_spots(spots: impl Iterator<Item = Spot>) -> Option<Self> {
         // Beyond this a difference might not be finite.
         let sane = |s: &Spot| s.iter().all(|x| x.abs() < 1e150);
         let point = |at| Self { lo: at, hi: at };
@@ -53,8 +53,8 @@ pub(crate) fn window(
     walls: impl Iterator<Item = Spot>,
     diameter: f64,
 ) -> [[f64; 2]; 2] {
-    let points = Extent::around(points).map(|e| e.grown(diameter / 2.0));
-    let walls = Extent::around(walls);
+    let points = Extent::from_spots(points).map(|e| e.grown(diameter / 2.0));
+    let walls = Extent::from_spots(walls);
     let all = match (points, walls) {
         (Some(points), Some(walls)) => {
             let near = walls.grown(walls.largest_side() / 4.0 + diameter);

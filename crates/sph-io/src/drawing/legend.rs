@@ -22,7 +22,7 @@ impl<'a> Legend<'a> {
         let widths = named.iter().map(|m| text::width(&m.series.name, size));
         let width = widths.fold(0.0, f64::max) + 4.2 * size;
         let height = (1.45 * named.len() as f64 + 0.5) * size;
-        // Rather what is grey than what the legend names.
+        // Grey lines are covered rather than those in the legend.
         let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);
         let spots = [true, false].map(spots);
         let under = |place: &Rect, k: usize| spots[k].iter().filter(|&&s| place.holds(s)).count();
@@ -75,7 +75,7 @@ fn corners(frame: &Rect, width: f64, height: f64, gap: f64) -> [Rect; 4] {
     })
 }
 
-/// Spots along all series, close enough together to see what a box hides.
+/// Spots along all series, close enough together to find those that a box hides.
 fn visited<'a>(marks: impl Iterator<Item = &'a Mark<'a>>, axes: &Axes) -> Vec<Spot> {
     let step = axes.size;
     let mut spots = Vec::new();

@@ -5,7 +5,7 @@ use crate::drawing::colour::{Colour, SERIES};
 use crate::drawing::draw_target::{DrawTarget, Fill, Pen, Spot};
 use crate::drawing::drawn_series::{Series, Style};
 
-/// Points beyond which lines are thinned to what can be seen.
+/// Points beyond which lines are thinned to the visible ones.
 const MANY: usize = 4000;
 
 /// A series with its colour and shape.
@@ -27,13 +27,13 @@ impl<'a> Mark<'a> {
         }
     }
 
-    /// Whether it is drawn below the others.
+    /// True if it is drawn below the others.
     pub(crate) fn is_behind(&self) -> bool {
         let style = &self.series.style;
         matches!(style, Style::Band(_) | Style::Background | Style::Highlight)
     }
 
-    /// Whether it has a place in the legend.
+    /// True if it has a place in the legend.
     pub(crate) fn is_named(&self) -> bool {
         !self.series.name.is_empty() && self.series.style != Style::Background
     }

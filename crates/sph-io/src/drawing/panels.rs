@@ -11,7 +11,7 @@ const PANEL: [u32; 2] = [900, 720];
 /// Panels that fit into the largest picture.
 const MOST: usize = 9;
 
-/// Plots side by side, from left to right: what belongs together but has other axes.
+/// Plots side by side, from left to right: for related curves with other axes.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

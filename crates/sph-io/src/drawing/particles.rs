@@ -5,7 +5,7 @@ use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, SERIES};
 use crate::drawing::draw_target::Fill;
 use crate::drawing::picture::{Picture, View};
-use crate::drawing::relief::{Relief, seen};
+use crate::drawing::relief::{Relief, project};
 
 impl Picture<'_> {
     pub(crate) fn draw_particles(&self, canvas: &mut Canvas, axes: &Axes, [lo, hi]: [f64; 2]) {
@@ -49,7 +49,7 @@ impl Picture<'_> {
         let mut relief = Relief::within(axes);
         for (i, point) in self.points.iter().enumerate() {
             let diameter = self.diameters.get(i).copied().unwrap_or(self.diameter);
-            let ([x, y], depth) = seen(*point);
+            let ([x, y], depth) = project(*point);
             relief.particle(axes.spot(x, y), (depth, diameter), self.values[i]);
         }
         relief.draw(canvas, self.diameter, |value| self.colour_of(value, range));

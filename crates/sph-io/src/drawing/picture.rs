@@ -1,11 +1,10 @@
 //! A particle field as a PNG picture.
 //!
-//! Particles are discs of their own diameter, coloured by a field, between
-//! walls drawn as dark lines, with axes in metres and a colour bar. Discs of a
-//! few pixels are drawn up to √2 times larger, so that a full lattice shows its
-//! field and not the gaps between the discs. Spheres in 3D are seen along +y: what is
-//! drawn is the x–z plane, and of particles behind each other the one with the
-//! least y is on top; a fluid in 3D is seen from above and shows its surface.
+//! Particles are discs of their own diameter, coloured by a field, between walls drawn as dark lines, with axes in
+//! metres and a colour bar. Discs of a few pixels are drawn up to √2 times larger, so that a full lattice shows its
+//! field and not the gaps between the discs. Spheres in 3D are seen along +y: the drawing is the x–z plane, and of
+//! particles behind each other the one with the least y is on top; a fluid in 3D is seen from above and shows its
+//! surface.
 
 use std::path::Path;
 
@@ -21,7 +20,7 @@ use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
 use crate::error::{IoError, Result};
 
-/// Which plane is drawn.
+/// Plane of the drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
     /// x to the right, y upwards: 2D.
@@ -74,10 +73,10 @@ pub struct Picture<'a> {
     pub labels: &'a [([f64; 3], String)],
     /// Names where the values are 0, 1, …: they stand beside their colours in place of the colour bar.
     pub classes: &'a [String],
-    /// Which plane is drawn.
+    /// Plane of the drawing.
     pub view: View,
-    /// What is shown, as `[[left, right], [bottom, top]]` in metres; if absent,
-    /// the walls and the particles that are not far outside them.
+    /// Section of the plane, as `[[left, right], [bottom, top]]` in metres; if absent, the walls and the particles that
+    /// are not far outside them.
     pub window: Option<[[f64; 2]; 2]>,
     /// A place in metres that is ringed, if any.
     pub ring: Option<[f64; 3]>,
@@ -131,7 +130,7 @@ impl<'a> Picture<'a> {
         let width = self.width.clamp(*SIDES.start(), *SIDES.end());
         // At 1200 pixels letters of 20; never too small to read.
         let size = (f64::from(width) / 60.0).max(9.0);
-        let beyond = self.beyond(range);
+        let beyond = self.has_outliers(range);
         let bar = ColourBar::new(range, self.colours, self.label, beyond, size);
         let classes = ClassBar::new(self.classes, size);
         let room = match self.classes {
@@ -171,7 +170,7 @@ impl<'a> Picture<'a> {
         Ok(canvas)
     }
 
-    /// What does not fit together, in words.
+    /// The contradiction between parts, in words.
     fn check(&self) -> std::result::Result<(), String> {
         let (points, values) = (self.points.len(), self.values.len());
         if points != values {
@@ -359,8 +358,8 @@ impl<'a> Picture<'a> {
         widened(lo, hi)
     }
 
-    /// Whether values lie below and above the range.
-    fn beyond(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
+    /// True for values below, and above, the range.
+    fn has_outliers(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
         let any = |outside: &dyn Fn(f64) -> bool| self.values.iter().any(|&v| outside(v));
         [any(&|v| v < lo), any(&|v| v > hi)]
     }
@@ -369,7 +368,7 @@ impl<'a> Picture<'a> {
         match self.view {
             View::Plane => [x, y],
             View::Front => [x, z],
-            View::Above => relief::seen([x, y, z]).0,
+            View::Above => relief::project([x, y, z]).0,
         }
     }
 }

@@ -17,11 +17,11 @@ const SWOLLEN: f64 = 1.5;
 const PASSES: usize = 3;
 /// Direction to the light: to the right, upwards, away from the eye.
 const LIGHT: [f64; 3] = [-0.35, 0.75, -0.56];
-/// Brightness of what is turned away from the light.
+/// Brightness of surfaces turned away from the light.
 const DARK: f64 = 0.45;
 
 /// Place on the screen, and distance from it, m.
-pub(crate) fn seen([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
+pub(crate) fn project([x, y, z]: [f64; 3]) -> ([f64; 2], f64) {
     let ([ct, st], [ce, se]) = (TURN, TILT);
     let away = -st * x + ct * y;
     ([ct * x + st * y, se * away + ce * z], ce * away - se * z)
@@ -62,7 +62,7 @@ impl Relief {
         }
     }
 
-    /// Draws what is seen of particles of a diameter, in colours of their values.
+    /// Draws the visible surface of particles of a diameter, in colours of their values.
     pub(crate) fn draw(&mut self, on: &mut Canvas, diameter: f64, colour: impl Fn(f64) -> Colour) {
         let reach = (0.5 * diameter * self.scale).round().clamp(1.0, 12.0) as usize;
         for _ in 0..PASSES {
@@ -102,7 +102,7 @@ impl Relief {
         }
     }
 
-    /// Averages depths and values over `reach` pixels to all sides, of what is not further away by more than `step` m.
+    /// Averages depths and values over `reach` pixels to all sides, of those that are further away by at most `step` m.
     fn smooth(&mut self, reach: usize, step: f64) {
         for [right, down] in [[1, 0], [0, 1]] {
             let (depth, value) = (self.depth.clone(), self.value.clone());
@@ -136,7 +136,7 @@ impl Relief {
         }
     }
 
-    /// How bright the surface at a pixel is, from its slope; ridges before something far stay as they are.
+    /// Brightness of the surface at a pixel, from its slope; ridges before something far stay as they are.
     fn brightness(&self, [i, j]: [usize; 2], diameter: f64) -> f64 {
         let depth = |i: usize, j: usize| self.depth[j * self.width + i];
         let here = depth(i, j);
@@ -166,7 +166,7 @@ pub(crate) fn draw_compass(on: &mut Canvas, axes: &Axes) {
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let middle = Lettering::new(0.9 * size, Anchor::Middle);
     for (name, unit) in ["x", "y", "z"].into_iter().zip(units) {
-        let [right, up] = seen(unit).0;
+        let [right, up] = project(unit).0;
         let at = |r: f64| [origin[0] + r * size * right, origin[1] - r * size * up];
         on.line(&[origin, at(2.2)], pen);
         let [x, y] = at(2.9);

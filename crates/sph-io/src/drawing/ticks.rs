@@ -22,7 +22,7 @@ pub(crate) fn linear(lo: f64, hi: f64, wanted: usize) -> Ticks {
         (step, values.collect::<Vec<f64>>())
     };
     let (mut step, mut values) = marks(wanted);
-    // One number alone says nothing about the scale.
+    // One number alone shows no scale.
     for finer in 1..4 {
         if values.len() < 2 {
             (step, values) = marks(wanted + finer);

@@ -100,7 +100,7 @@ impl Write for AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if let Some(buffer) = self.file.take() {
-            // Not flushed: the content is given up.
+            // Not flushed: the content is discarded.
             drop(buffer.into_parts());
             let _ = fs::remove_file(&self.temporary);
         }
@@ -160,7 +160,7 @@ fn swept(folder: &Path) -> Result<(usize, Vec<PathBuf>)> {
     Ok((removed, below))
 }
 
-/// Whether `name` has the form `.NAME.PID-SERIAL.tmp`, or `.writable-PID` as earlier versions tried folders with.
+/// True if `name` has the form `.NAME.PID-SERIAL.tmp`, or `.writable-PID` as earlier versions tried folders with.
 fn is_temporary(name: &str) -> bool {
     let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
     if name.strip_prefix(".writable-").is_some_and(digits) {

@@ -1,12 +1,12 @@
 //! Texts from files, so that a terminal shows them and does not execute them.
 //!
-//! Escape sequences move the cursor, set titles and clear what stands there; marks of direction show a text in
+//! Escape sequences move the cursor, set titles and clear text; marks of direction show a text in
 //! another order than it has. Either may stand in a title, a key, a value or the name of a file.
 
 use std::borrow::Cow;
 
-/// Whether a terminal executes a character instead of showing it; line ends and tabs are left alone.
-fn obeyed(c: char) -> bool {
+/// True if a terminal executes a character instead of showing it; line ends and tabs are left alone.
+fn is_control(c: char) -> bool {
     let mark = matches!(c,
         // Marks, embeddings, overrides and isolates of direction (Unicode Standard Annex 9).
         '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
@@ -18,7 +18,7 @@ fn obeyed(c: char) -> bool {
 
 /// The text with a stand-in for every such character, of as many bytes, so that places in it stay right.
 pub fn clean(text: &str) -> Cow<'_, str> {
-    match text.contains(obeyed) {
+    match text.contains(is_control) {
         false => Cow::Borrowed(text),
         true => Cow::Owned(text.chars().flat_map(shown).collect()),
     }
@@ -26,12 +26,12 @@ pub fn clean(text: &str) -> Cow<'_, str> {
 
 /// A text of JSON with such characters as escapes: it is read back as it was.
 pub fn escaped(json: &str) -> Cow<'_, str> {
-    if !json.contains(obeyed) {
+    if !json.contains(is_control) {
         return Cow::Borrowed(json);
     }
     let mut text = String::with_capacity(json.len());
     for c in json.chars() {
-        match obeyed(c) {
+        match is_control(c) {
             true => c
                 .encode_utf16(&mut [0; 2])
                 .iter()
@@ -43,7 +43,7 @@ pub fn escaped(json: &str) -> Cow<'_, str> {
 }
 
 fn shown(c: char) -> impl Iterator<Item = char> {
-    let (stand_in, times) = match (obeyed(c), c.len_utf8()) {
+    let (stand_in, times) = match (is_control(c), c.len_utf8()) {
         (false, _) => (c, 1),
         (true, 1) => ('?', 1),
         (true, 2) => ('\u{bf}', 1),
@@ -61,14 +61,14 @@ mod tests {
     fn nothing_is_left_to_obey_and_no_place_moves() {
         let hostile = "a\u{1b}[2J\u{7}\rb\u{9b}1m\u{202e}c\u{2066}\u{e0041}d\u{7f}\n\te";
         let shown = clean(hostile);
-        assert!(!shown.contains(obeyed), "{shown:?}");
+        assert!(!shown.contains(is_control), "{shown:?}");
         assert_eq!(shown.len(), hostile.len());
         for letter in ['a', 'b', 'c', 'd', 'e', '\n', '\t'] {
             assert_eq!(shown.find(letter), hostile.find(letter));
         }
         let json = serde_json::json!([hostile]).to_string();
         let quiet = escaped(&json);
-        assert!(!quiet.contains(obeyed), "{quiet:?}");
+        assert!(!quiet.contains(is_control), "{quiet:?}");
         let back: Vec<String> = serde_json::from_str(&quiet).unwrap();
         assert_eq!(back, [hostile]);
         let plain = "η̃ = 1 Pa·s — ½ ≤ √2, 水";

@@ -9,10 +9,10 @@ use crate::error::{IoError, Result, is_full};
 /// Size of the test file in bytes: one block, so that a full disk shows.
 const BLOCK: usize = 4096;
 
-/// Refuses what is no plain file, or has more than `most` bytes, before it is opened.
+/// Refuses a path that is no plain file or has more than `most` bytes, before it is opened.
 ///
 /// # Errors
-/// What it is instead: a folder, a pipe, a file that is too long or not there.
+/// The kind of the file instead: a folder, a pipe, a file that is too long or not there.
 pub fn readable(path: impl AsRef<Path>, most: u64) -> Result<()> {
     let path = path.as_ref();
     let known = fs::metadata(path).map_err(|e| IoError::read(path, e))?;

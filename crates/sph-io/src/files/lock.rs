@@ -32,7 +32,7 @@ pub struct Holder {
 
 impl Holder {
     /// This process, now.
-    fn this() -> Self {
+    fn this_process() -> Self {
         let mut since = String::new();
         // A clock that is beyond the years of the format leaves it empty.
         let now = humantime::format_rfc3339_seconds(SystemTime::now());
@@ -121,7 +121,7 @@ impl FolderLock {
         self.before.as_ref()
     }
 
-    /// Whether others are locked out: some file systems have no locks.
+    /// True if others are locked out: some file systems have no locks.
     pub fn holds(&self) -> bool {
         self.file.is_some()
     }
@@ -160,7 +160,7 @@ fn opened(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Whether the open file is still the one of that name.
+/// True if the open file is still the one of that name.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -186,7 +186,7 @@ fn holder(file: &mut File) -> Option<Holder> {
 fn sign(file: &mut File) -> io::Result<()> {
     file.set_len(0)?;
     file.rewind()?;
-    serde_json::to_writer(&mut *file, &Holder::this())?;
+    serde_json::to_writer(&mut *file, &Holder::this_process())?;
     file.flush()
 }
 

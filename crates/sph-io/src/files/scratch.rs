@@ -9,7 +9,7 @@ use crate::error::{IoError, Result};
 use crate::files::lock::{FolderLock, left};
 
 /// A folder in the system's temporary place, of a name that cannot be guessed, for this user alone; it goes with
-/// its owner. What a killed process left is removed by the next one that makes such a folder.
+/// its owner. The folder of a killed process is removed by the next one that makes such a folder.
 #[derive(Debug)]
 pub struct Scratch {
     // Given back before the folder goes.
@@ -23,10 +23,10 @@ impl Scratch {
     /// # Errors
     /// If it cannot be made.
     pub fn new(prefix: &str) -> Result<Self> {
-        Self::within(&std::env::temp_dir(), prefix)
+        Self::create_in(&std::env::temp_dir(), prefix)
     }
 
-    fn within(place: &Path, prefix: &str) -> Result<Self> {
+    fn create_in(place: &Path, prefix: &str) -> Result<Self> {
         let failed = |source| IoError::CreateFolder {
             path: place.to_path_buf(),
             source,
@@ -55,7 +55,7 @@ impl Scratch {
         })
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -68,7 +68,7 @@ fn is_swept(error: &IoError, folder: &Path) -> bool {
     matches!(error, IoError::InUse { .. }) || !folder.exists()
 }
 
-/// Removes folders of the prefix whose process is dead; whatever cannot be removed stays.
+/// Removes folders of the prefix whose process is dead; folders that cannot be removed stay.
 ///
 /// A process may die between the making of its folder and that of the lock in it: an empty folder goes too. Its
 /// owner may live and be about to hold it; then it makes another.
@@ -94,7 +94,7 @@ fn sweep(place: &Path, prefix: &str, own: &Path) {
     }
 }
 
-/// Whether a folder belongs to the user to whom our own does.
+/// True if a folder has the same owner as our own.
 #[cfg(unix)]
 fn is_ours(path: &Path, own: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -126,9 +126,9 @@ mod tests {
         }
         fs::write(at(".sph-data-other").join("mine"), "kept").unwrap();
         fs::write(at("results").join(".lock"), "{}").unwrap();
-        let held = Scratch::within(place.path(), ".sph-data-").unwrap();
+        let held = Scratch::create_in(place.path(), ".sph-data-").unwrap();
         assert!(!dead.exists() && !died_at_once.exists());
-        let second = Scratch::within(place.path(), ".sph-data-").unwrap();
+        let second = Scratch::create_in(place.path(), ".sph-data-").unwrap();
         assert!(held.path() != second.path() && held.path().exists());
         assert!(at(".sph-data-other/mine").exists() && at("results/.lock").exists());
         let (first, second) = (held.path().to_path_buf(), {
@@ -147,7 +147,7 @@ mod tests {
             for _ in 0..4 {
                 scope.spawn(|| {
                     for _ in 0..200 {
-                        let made = Scratch::within(place.path(), ".sph-data-").unwrap();
+                        let made = Scratch::create_in(place.path(), ".sph-data-").unwrap();
                         fs::write(made.path().join("data"), "kept").unwrap();
                         std::thread::yield_now();
                         assert!(made.path().join("data").exists());
@@ -165,7 +165,7 @@ mod tests {
         let (place, victim) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         fs::write(victim.path().join(".lock"), "{}").unwrap();
         symlink(victim.path(), place.path().join(".sph-data-link")).unwrap();
-        let made = Scratch::within(place.path(), ".sph-data-").unwrap();
+        let made = Scratch::create_in(place.path(), ".sph-data-").unwrap();
         assert!(victim.path().join(".lock").exists());
         let mode = fs::metadata(made.path()).unwrap().permissions().mode();
         assert_eq!(mode & 0o077, 0, "{mode:o}");

@@ -19,7 +19,7 @@ pub struct SeriesWriter {
     position: u64,
 }
 
-/// Whether a pipe is there, which would wait for a reader, or a link, which may lead to files of other users.
+/// True if the path is a pipe, which would wait for a reader, or a link, which may lead to files of other users.
 fn leads_elsewhere(path: &Path) -> bool {
     let kind = std::fs::symlink_metadata(path).map(|known| known.file_type());
     kind.is_ok_and(|kind| {
@@ -65,8 +65,8 @@ impl SeriesWriter {
         Ok(series)
     }
 
-    /// Continues the series at the byte `offset` that [`position`](Self::position)
-    /// gave when the run was checkpointed; what follows is cut off.
+    /// Continues the series at the byte `offset` that [`position`](Self::position) gave when the run was checkpointed;
+    /// the rest is cut off.
     ///
     /// A file that is shorter, has no end of row there, or has other columns, is refused untouched.
     pub fn open_truncated<N: AsRef<str>, U: AsRef<str>>(

@@ -23,7 +23,7 @@ pub struct Table {
 pub struct TableColumn {
     /// Name without the unit.
     pub name: String,
-    /// What stood in brackets; empty if nothing did.
+    /// Text in brackets; empty if there was none.
     pub unit: String,
     /// One value per row.
     pub values: Vec<f64>,
@@ -76,7 +76,7 @@ pub fn read_columns(path: impl AsRef<Path>, names: &[&str]) -> Result<Table> {
 const COLUMNS: usize = 10_000;
 
 impl Table {
-    /// Reads all columns of a text; `name` is what errors call it.
+    /// Reads all columns of a text; `name` is its name in errors.
     ///
     /// # Errors
     /// The line and the column that hold no number.

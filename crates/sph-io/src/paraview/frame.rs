@@ -23,7 +23,7 @@ pub struct Piece<'a> {
     pub name: Cow<'a, str>,
     /// Positions in metres; in 2D the third coordinate is zero.
     pub points: Cow<'a, [[f64; 3]]>,
-    /// How the points are joined.
+    /// Connections of the points.
     pub cells: Cells<'a>,
     /// Columns at points or cells.
     pub fields: Vec<FieldData<'a>>,
@@ -79,7 +79,7 @@ pub enum FieldValues<'a> {
 }
 
 impl FieldValues<'_> {
-    /// How many numbers there are.
+    /// Number of values.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::F64(v) => v.len(),
@@ -164,7 +164,7 @@ impl<'a> FieldData<'a> {
 }
 
 impl Cells<'_> {
-    /// How many cells there are over `points` points.
+    /// Number of cells over `points` points.
     pub fn len(&self, points: usize) -> usize {
         match self.corners() {
             (_, 1, _) => points,
@@ -185,7 +185,7 @@ impl Cells<'_> {
 }
 
 impl Piece<'_> {
-    /// What does not fit together, in words; `Ok` if the piece can be written.
+    /// The contradiction between parts, in words; `Ok` if the piece can be written.
     pub(crate) fn check(&self) -> Result<(), String> {
         let points = self.points.len();
         let cells = self.cells.len(points);

@@ -11,7 +11,7 @@ pub(crate) fn beside(list: &Path, file: &str) -> Result<PathBuf> {
     let folder = folder.unwrap_or(Path::new("."));
     let within = |c| matches!(c, Component::Normal(_) | Component::CurDir);
     let named = Path::new(file).components().all(within);
-    // What is not there leads nowhere.
+    // A missing file leads nowhere.
     let real = (path.canonicalize(), folder.canonicalize());
     let leads = matches!(real, (Ok(real), Ok(folder)) if !real.starts_with(&folder));
     match named && !leads {

@@ -27,7 +27,7 @@ pub struct PvdSeries {
 
 /// A file of a series that has been written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Listed {
+pub struct SeriesEntry {
     /// Simulated time, s.
     pub time: f64,
     /// Name of the piece: `fluid`, `walls`.
@@ -40,13 +40,13 @@ pub struct Listed {
 ///
 /// # Errors
 /// If it cannot be read, is not one of [`PvdSeries`], or names a file outside its folder.
-pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<Listed>> {
+pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<SeriesEntry>> {
     let series = PvdSeries {
         path: path.as_ref().to_path_buf(),
         entries: Vec::new(),
     };
     let listed = |entry: Entry| {
-        Ok(Listed {
+        Ok(SeriesEntry {
             time: entry.time,
             name: entry.name,
             path: beside(&series.path, &entry.file)?,
@@ -66,8 +66,7 @@ struct Entry {
 }
 
 impl PvdSeries {
-    /// Starts a series at `path` (ending in `.pvd`); the first frame replaces
-    /// whatever list is there.
+    /// Starts a series at `path` (ending in `.pvd`); the first frame replaces an earlier list.
     pub fn create(path: impl AsRef<Path>) -> Result<Self> {
         let series = Self {
             path: path.as_ref().to_path_buf(),
@@ -168,8 +167,7 @@ impl PvdSeries {
         listed.map(|()| written)
     }
 
-    /// How many output times are listed; give it to [`open_at`](Self::open_at)
-    /// to continue from here.
+    /// Number of listed output times; give it to [`open_at`](Self::open_at) to continue from here.
     pub fn frames(&self) -> usize {
         distinct_times(&self.entries).len()
     }
@@ -202,7 +200,7 @@ impl PvdSeries {
         )
     }
 
-    /// Takes over what came not after `end`, and lists only that.
+    /// Takes over the entries up to `end`, and lists only that.
     fn keep(&mut self, mut found: Vec<Entry>, end: f64) -> Result<()> {
         let before = found.len();
         found.retain(|e| e.time <= end);

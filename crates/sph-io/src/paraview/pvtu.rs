@@ -49,7 +49,7 @@ fn share_name(name: &str, index: usize, rank: usize) -> String {
     format!("{name}_{index:06}_r{rank}.vtu")
 }
 
-/// Writes the list of the shares of a piece of points; `piece` has the arrays that all shares have, whatever is in them.
+/// Writes the list of the shares of a piece of points; `piece` has the arrays that all shares have, with any contents.
 pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize) -> Result<()> {
     let mut xml = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
@@ -132,12 +132,12 @@ fn joined(mut all: Piece<'static>, more: Piece<'static>) -> Option<Piece<'static
     }
     all.points.to_mut().extend_from_slice(&more.points);
     let fields = std::mem::take(&mut all.fields).into_iter();
-    let fields = fields.zip(more.fields).map(both);
+    let fields = fields.zip(more.fields).map(same_fields);
     all.fields = fields.collect::<Option<_>>()?;
     Some(all)
 }
 
-fn both((a, b): (FieldData<'static>, FieldData<'static>)) -> Option<FieldData<'static>> {
+fn same_fields((a, b): (FieldData<'static>, FieldData<'static>)) -> Option<FieldData<'static>> {
     if a.name != b.name || a.components != b.components || a.location != b.location {
         return None;
     }

@@ -1,4 +1,4 @@
-//! Reads back what [`write_vtu`](crate::write_vtu) wrote; it is no reader of all of VTK.
+//! Reads back files of [`write_vtu`](crate::write_vtu); it is no reader of all of VTK.
 
 use std::fs;
 use std::io::Read;
@@ -138,7 +138,7 @@ fn field(
             let words: Vec<u32> = words.iter().map(|w| u32::from_le_bytes(*w)).collect();
             FieldValues::U32(words.into())
         }
-        "Int64" => FieldValues::I64(whole(&array.bytes).into()),
+        "Int64" => FieldValues::I64(integers(&array.bytes).into()),
         _ => return Err("an array has a type of other programs"),
     };
     Ok(FieldData {
@@ -155,7 +155,7 @@ fn reals(bytes: &[u8]) -> Vec<f64> {
     words.iter().map(|w| f64::from_le_bytes(*w)).collect()
 }
 
-fn whole(bytes: &[u8]) -> Vec<i64> {
+fn integers(bytes: &[u8]) -> Vec<i64> {
     let (words, _) = bytes.as_chunks::<8>();
     words.iter().map(|w| i64::from_le_bytes(*w)).collect()
 }
@@ -165,7 +165,7 @@ fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> 
     let (Some(joined), Some(types)) = (get("connectivity"), get("types")) else {
         return Err("it has no cells");
     };
-    let joined: Vec<u32> = whole(&joined.bytes).iter().map(|i| *i as u32).collect();
+    let joined: Vec<u32> = integers(&joined.bytes).iter().map(|i| *i as u32).collect();
     Ok(match types.bytes.first() {
         None | Some(1) => Cells::Vertices,
         Some(3) => Cells::Segments(joined.as_chunks::<2>().0.to_vec().into()),

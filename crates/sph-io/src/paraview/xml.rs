@@ -34,7 +34,7 @@ pub(crate) fn unescape(text: &str) -> String {
         .replace("&amp;", "&")
 }
 
-/// The attributes of `tag`, which is what stands between `<Name` and `>`.
+/// The attributes of `tag`, which is the text between `<Name` and `>`.
 ///
 /// `None` if it is not a list of `name="value"`.
 pub(crate) fn attributes(tag: &str) -> Option<Vec<(&str, String)>> {

@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::lanes::{Lane, Lanes};
 
-/// How many numbers stand side by side.
+/// Number of lanes, which are computed side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Width {
-    /// 2: what every processor has.
+    /// 2: available on every processor.
     Two,
     /// 4: AVX2.
     Four,
@@ -29,8 +29,8 @@ impl Width {
 /// 0 for the widest there is, else the most lanes that are allowed.
 static ALLOWED: AtomicU8 = AtomicU8::new(0);
 
-/// Allows no more lanes than these from now on; `None` allows what the processor has. For tests: results do not depend
-/// on it, to the bit.
+/// Limits the lanes from here on; `None` allows all of the processor. For tests: results do not depend on it, to the
+/// bit.
 pub fn force_width(most: Option<Width>) {
     let most = most.map_or(0, |w| w.lanes() as u8);
     ALLOWED.store(most, Ordering::Relaxed);
@@ -46,9 +46,9 @@ pub fn width() -> Width {
     allowed.min(processor())
 }
 
-/// What is to be run with lanes of some width.
+/// Work to be run with lanes of some width.
 pub trait Body {
-    /// What it returns.
+    /// Result of the work.
     type Output;
     /// Runs it; `#[inline(always)]`, as is all that it calls.
     fn call<L: Lane>(self) -> Self::Output;
@@ -98,7 +98,7 @@ pub fn dispatch<B: Body>(body: B) -> B::Output {
 pub fn dispatch_at<B: Body>(width: Width, body: B) -> B::Output {
     #[cfg(target_arch = "x86_64")]
     match width.min(processor()) {
-        // SAFETY: `processor` says `Eight` and `Four` only where it found the instructions.
+        // SAFETY: `processor` returns `Eight` and `Four` only where it found the instructions.
         Width::Eight => return unsafe { with_avx512(body) },
         Width::Four => return unsafe { with_avx2(body) },
         Width::Two => {}

@@ -9,9 +9,9 @@ use crate::lanes::Lane;
 /// Below this over the larger of both sides atan is its series; from [`STEEP`] on it is taken from π/4.
 const FLAT: f64 = 7.0 / 16.0;
 const STEEP: f64 = 11.0 / 16.0;
-/// atan(1/2), and what its rounding leaves out.
+/// atan(1/2), and its rounding error.
 const ATAN_HALF: [f64; 2] = [4.636_476_090_008_061e-1, 2.269_877_745_296_169e-17];
-/// What the rounding of π/4 leaves out.
+/// Rounding error of π/4.
 const QUARTER_LOW: f64 = 3.061_616_997_868_383e-17;
 /// atan(t) = t − t³ Σ c_n t²ⁿ for |t| ≤ 7/16: Remez, error 2⁻⁵⁹ (fdlibm 5.3, s_atan.c).
 const ATAN: [f64; 11] = [
@@ -104,7 +104,7 @@ mod tests {
     use crate::lanes::{Body, Lanes, Width, dispatch_at};
 
     /// Units in the last place between two numbers.
-    fn apart(a: f64, b: f64) -> f64 {
+    fn ulps_between(a: f64, b: f64) -> f64 {
         let unit = f64::EPSILON * b.abs().max(f64::MIN_POSITIVE);
         (a - b).abs() / unit
     }
@@ -116,7 +116,7 @@ mod tests {
             let direction = f64::from(k) * 3.2e-5 - 3.1999;
             let size = 10f64.powi(k % 40 - 20);
             let (y, x) = (size * direction.sin(), size * direction.cos());
-            worst = worst.max(apart(atan2(y, x), y.atan2(x)));
+            worst = worst.max(ulps_between(atan2(y, x), y.atan2(x)));
         }
         assert!(worst <= 2.0, "{worst} units in the last place");
         for (y, x) in [
@@ -137,15 +137,15 @@ mod tests {
         let mut worst: f64 = 0.0;
         for k in 0..200_000 {
             let x = 1.000_37f64.powi(k - 100_000) * (1.0 + 1e-7 * f64::from(k % 1000));
-            worst = worst.max(apart(ln(x), x.ln()));
+            worst = worst.max(ulps_between(ln(x), x.ln()));
         }
         assert!(worst <= 1.0, "{worst} units in the last place");
         assert_eq!(ln(1.0), 0.0);
     }
 
-    struct Both<'a>(&'a [f64], &'a mut [f64]);
+    struct Elementwise<'a>(&'a [f64], &'a mut [f64]);
 
-    impl Body for Both<'_> {
+    impl Body for Elementwise<'_> {
         type Output = ();
         #[inline(always)]
         fn call<L: Lane>(self) {
@@ -162,7 +162,7 @@ mod tests {
         let alone: Vec<f64> = x.iter().map(|&x| ln(x) + atan2(x - 3.0, 1.5 - x)).collect();
         for width in [Width::Two, Width::Four, Width::Eight] {
             let mut together = vec![0.0; x.len()];
-            dispatch_at(width, Both(&x, &mut together));
+            dispatch_at(width, Elementwise(&x, &mut together));
             assert_eq!(together, alone, "{width:?}");
         }
         assert_eq!(<Lanes<2> as Lane>::N, 2);

@@ -9,7 +9,7 @@ use crate::lanes::{Lane, MOST};
 pub trait InLanes<L>: Copy {
     /// The same of one particle.
     type One: Copy;
-    /// How many numbers it is made of.
+    /// Count of its numbers.
     const NUMBERS: usize;
     /// Zero in all lanes.
     fn zero() -> Self;
@@ -18,7 +18,7 @@ pub trait InLanes<L>: Copy {
     /// # Panics
     /// If there are fewer rows.
     fn store(&self, rows: &mut [[f64; MOST]]);
-    /// What stands in a column of the rows.
+    /// Value in a column of the rows.
     ///
     /// # Panics
     /// If there are fewer rows.

@@ -16,7 +16,7 @@ pub trait Lane:
     + SubAssign
     + 'static
 {
-    /// How many.
+    /// Number of lanes.
     const N: usize;
     /// The same number in every lane.
     fn splat(x: f64) -> Self;
@@ -40,11 +40,11 @@ pub trait Lane:
     fn abs(self) -> Self;
     /// The larger of the two, as [`f64::max`].
     fn max(self, other: Self) -> Self;
-    /// `yes` where `self` > 0, else `no`; of what is not a number, `no`.
+    /// `yes` where `self` > 0, else `no`; of NaN, `no`.
     fn where_positive(self, yes: Self, no: Self) -> Self;
-    /// Whether any lane is less than that of `other`.
+    /// True if any lane is less than that of `other`.
     fn any_less(self, other: Self) -> bool;
-    /// Whether any lane is not 0; what is not a number is not.
+    /// True if any lane is not 0; NaN is not.
     fn any_nonzero(self) -> bool;
     /// m from 1/√2 to √2 and the whole number e of x = m 2ᵉ, for normal positive numbers.
     fn parts(self) -> (Self, Self);

@@ -10,11 +10,12 @@ use crate::damping::zone::Zone;
 
 contribution_kind!(
     /// Damping that a scene may name.
-    pub DampingEntry, "damping", Any, "what takes motion away: of a fluid that is to settle, of waves, of sound",
+    pub DampingEntry, "damping", Any, "damping of motion: of a fluid that is to settle, of waves, of sound",
     .works(Work::Damping)
 );
 
-/// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, whatever ΓΔt.
+/// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, for any
+/// ΓΔt.
 ///
 /// Γ is `rate` everywhere, or in `zones` with a share that grows smoothly ([`Zone`]; the largest where they overlap). It takes
 /// momentum out of the fluid that no wall takes up: for fluids that are to settle before something begins (`until`), and for
@@ -33,7 +34,7 @@ pub struct Rayleigh {
     /// Rate Γ.
     #[parameter(unit: "1/s", min: 0.0)]
     pub rate: f64,
-    /// Where; everywhere if left out.
+    /// Zones of the damping; everywhere if left out.
     #[parameter(default)]
     pub zones: Vec<Zone>,
     /// Velocity U that is left, by component; rest if left out.

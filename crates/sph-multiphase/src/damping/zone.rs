@@ -12,10 +12,10 @@ pub struct Zone {
     /// The axis along which it grows.
     #[parameter(default)]
     pub axis: Axis,
-    /// Where it begins.
+    /// Start of the zone.
     #[parameter(unit: "m")]
     pub from: f64,
-    /// Where it has grown; `to` may be less than `from`.
+    /// End of the growth; `to` may be less than `from`.
     #[parameter(unit: "m")]
     pub to: f64,
 }

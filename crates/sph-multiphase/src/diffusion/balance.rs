@@ -20,8 +20,8 @@ pub const PRESSURE_SLOPE: Field<Vector> = Field::new(
 /// diffused.
 const MEMORY: f64 = 40.0;
 
-/// Largest acceleration that counts, cτ⁻¹ times this: a flow that is not faster than a fifth of its sound has no larger one for
-/// long, and what an impact does within a few steps is sound. With c = 10 √(aH) it binds below H = 2h.
+/// Largest acceleration that counts, cτ⁻¹ times this: a flow that is not faster than a fifth of its sound has no larger
+/// one for long, and changes by an impact within a few steps are sound. With c = 10 √(aH) it binds below H = 2h.
 const SLOW: f64 = 0.2;
 
 /// The acceleration of particles by all terms but friction.

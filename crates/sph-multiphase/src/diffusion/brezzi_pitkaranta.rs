@@ -34,8 +34,8 @@ pub struct BrezziPitkaranta {
     #[parameter(default: 0.1, unit: "1", min: 0.0, max: 4.0,
         source: "Antuono et al. 2010; Ghaïtanellis 2017, Eq. 2.100: 0.4 Λ")]
     pub strength: f64,
-    /// Whether the pressure that accelerates the fluid is left alone, as that of gravity is. Left out: where all walls move, and
-    /// where the fluid falls without any.
+    /// True if the pressure that accelerates the fluid is left alone, as that of gravity is. If left out, so where all
+    /// walls move, and where the fluid falls without any.
     #[parameter(default, source: "ours")]
     pub accelerations: Option<bool>,
 }
@@ -77,7 +77,7 @@ impl BrezziPitkaranta {
 pub struct PressureDiffusion {
     /// δ/c, s/m.
     slowness: f64,
-    /// Whether the mean accelerations are known.
+    /// True if the mean accelerations are known.
     accelerated: bool,
 }
 

@@ -16,7 +16,7 @@ contribution_kind!(
 contribution_kind!(
     /// A shifting scheme that a scene may name. The last of its stages writes
     /// [`SHIFT_VELOCITY`](sph_core::fields::SHIFT_VELOCITY).
-    pub ShiftingEntry, "shifting", One, "what keeps particles evenly spread",
+    pub ShiftingEntry, "shifting", One, "shifts that keep particles evenly spread",
     .ordered(90).works(Work::Shifting)
 );
 
@@ -29,8 +29,8 @@ pub struct Smoothing<const D: usize> {
     /// Accelerations of which the term takes the mean, [`MEAN_ACCELERATION`](sph_core::fields::MEAN_ACCELERATION), if
     /// it does.
     pub accelerated: Option<Accelerated>,
-    /// Whether it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end of the
-    /// step.
+    /// True if it evens out pressures, and not densities: there is no bound on it where the pressure is that of the end
+    /// of the step.
     pub of_pressures: bool,
 }
 

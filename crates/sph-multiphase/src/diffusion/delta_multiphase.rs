@@ -43,14 +43,14 @@ pub struct DeltaMultiphase {
     /// Strength δ.
     #[parameter(default: 0.1, unit: "1", min: 0.0, max: 1.0, source: "Krimi et al. 2018: 0.1")]
     pub strength: f64,
-    /// Whether walls count.
+    /// True if walls count.
     #[parameter(default: true, source: "ours")]
     pub walls: bool,
     /// The gradient that is not diffused.
     #[parameter(default, source: "ours; literal: Krimi et al. 2018, Eq. 30")]
     pub balance: Balance,
-    /// Whether the hydrostatic balance has the mean acceleration A. Left out: where all walls move, and where the fluid falls
-    /// without any.
+    /// True if the hydrostatic balance has the mean acceleration A. If left out, so where all walls move, and where the
+    /// fluid falls without any.
     #[parameter(default, source: "ours")]
     pub accelerations: Option<bool>,
 }
@@ -178,7 +178,7 @@ pub struct BoundDelta<'a, const D: usize> {
 }
 
 impl<const D: usize> BoundDelta<'_, D> {
-    /// ∇p of what is left alone, Pa/m.
+    /// ∇p of the undiffused pressure, Pa/m.
     fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
         (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
     }

@@ -194,12 +194,12 @@ fn images<const D: usize>(
     sum
 }
 
-/// Least weight of an image that is looked at.
+/// Least weight of an image that counts.
 const FAINT: f64 = 1e-4;
 
 /// Limits of shifts near a free surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Held<const D: usize> {
+pub(crate) enum ShiftLimit<const D: usize> {
     /// Far from surfaces: nothing.
     No,
     /// Leave its distance from a surface with this normal.
@@ -208,13 +208,13 @@ pub(crate) enum Held<const D: usize> {
     Still,
 }
 
-impl<const D: usize> Held<D> {
+impl<const D: usize> ShiftLimit<D> {
     /// The admissible part of a shift.
     pub fn held(&self, shift: Vect<D>) -> Vect<D> {
         match self {
-            Held::No => shift,
-            Held::Along(normal) => shift - normal * normal.dot(&shift),
-            Held::Still => Vect::zeros(),
+            ShiftLimit::No => shift,
+            ShiftLimit::Along(normal) => shift - normal * normal.dot(&shift),
+            ShiftLimit::Still => Vect::zeros(),
         }
     }
 }
@@ -222,12 +222,12 @@ impl<const D: usize> Held<D> {
 /// Least length of the mean of the unit normals nearby; below it there is no single normal.
 const AGREE: f64 = 0.7;
 
-/// How particles near free surfaces are held; `None` where no support is less full than `surface`.
+/// Normals of particles held near free surfaces; `None` where no support is less full than `surface`.
 pub(crate) fn held_normals<const D: usize>(
     world: &World<D>,
     all: &[Evenness<D>],
     surface: f64,
-) -> Result<Option<Vec<Held<D>>>, StepError> {
+) -> Result<Option<Vec<ShiftLimit<D>>>, StepError> {
     let at_surface = |e: &Evenness<D>| e.filling < surface;
     if !all.par_iter().with_min_len(4096).any(at_surface) {
         return Ok(None);
@@ -260,13 +260,15 @@ pub(crate) fn held_normals<const D: usize>(
             let free = around.rows.free.index.iter().zip(around.free);
             free.for_each(|(&j, w)| add(j as usize, *w));
             match (weight > 0.0, sum.norm() >= AGREE * weight) {
-                (false, _) => Held::No,
-                (true, true) => Held::Along(sum.normalize()),
-                (true, false) => Held::Still,
+                (false, _) => ShiftLimit::No,
+                (true, true) => ShiftLimit::Along(sum.normalize()),
+                (true, false) => ShiftLimit::Still,
             }
         },
     )?;
     Ok(Some(
-        held.into_iter().map(|h| h.unwrap_or(Held::No)).collect(),
+        held.into_iter()
+            .map(|h| h.unwrap_or(ShiftLimit::No))
+            .collect(),
     ))
 }

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::diffusion::ShiftingEntry;
-use crate::diffusion::evenness::{Evenness, Held, evenness, held_normals};
+use crate::diffusion::evenness::{Evenness, ShiftLimit, evenness, held_normals};
 use crate::diffusion::shift_transport::ShiftTransport;
 use crate::diffusion::shifted_sum::ShiftedSum;
 
@@ -70,12 +70,11 @@ pub struct Fickian {
     /// Quantities that a shifted particle takes up where it goes.
     #[parameter(default: Transport::All, source: "Sun et al. 2019")]
     pub transport: Transport,
-    /// How fast the density that is taken up comes back to that of the arrangement, over the rate at which
-    /// this is rearranged.
+    /// Rate at which the transported density returns to that of the arrangement, over the rate of rearrangement.
     #[parameter(default: 0.5, unit: "1", min: 0.0, max: 10.0,
         source: "ours; 0.1 to 1 in channels and cavities at c = 10 to 40 U")]
     pub relaxation: f64,
-    /// Whether shifts keep along walls at rest, too, as they do where a wall moves: for curved walls.
+    /// True if shifts keep along walls at rest, too, as they do where a wall moves: for curved walls.
     #[parameter(default, source: "ours")]
     pub along_walls: bool,
 }
@@ -139,7 +138,7 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             // Drifts may sort particles between their halves: the shift must be sorted, too.
             .remembers(fields::SHIFT_VELOCITY)
             .writes(fields::VOID_FRACTION)
-            // Normals are sums over what has been summed at neighbours.
+            // Normals are sums over sums at neighbours.
             .rings(2)
     }
 }
@@ -181,10 +180,10 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
                 let phase = phase.map_or(0, |p| p[i] as usize);
                 let fastest = fastest[phase];
                 let diffusivity = (strength * h * sound[phase]).min(STABLE * h * h / world.dt);
-                *s = along(even, -diffusivity * even.push, limit * fastest);
+                *s = along_interface(even, -diffusivity * even.push, limit * fastest);
                 if let Some(normals) = &normals {
                     *s = normals[i].held(*s);
-                    if !matches!(normals[i], Held::No) {
+                    if !matches!(normals[i], ShiftLimit::No) {
                         *empty = 0.0;
                     }
                 }
@@ -203,7 +202,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
 }
 
 /// The shift along the interface between phases, not longer than `most`.
-fn along<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<D> {
+fn along_interface<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<D> {
     let tangential = match even.interface {
         Some(normal) => shift - normal * normal.dot(&shift),
         None => shift,
@@ -215,11 +214,11 @@ fn along<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<
     }
 }
 
-/// How fast the component along a wall's normal dies towards it: it is multiplied with exp(−h |∇γ|/0.05), of which 3 % are
-/// left a smoothing length before a flat wall and three quarters at one and a half.
+/// Decay of the component along a wall's normal towards the wall: it is multiplied with exp(−h |∇γ|/0.05), of which 3 %
+/// are left a smoothing length before a flat wall and three quarters at one and a half.
 const TOWARDS_WALLS: f64 = 0.05;
 
-/// Leaves out what leads towards walls or away from them.
+/// Removes the part towards walls or away from them.
 ///
 /// A density that takes no notice of shifts lets u = −s stand at a wall that no particle passes: fluid would flow through
 /// the wall, and the shift would bring its particles back.
@@ -233,7 +232,7 @@ fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vec
         *shift -= normal * (shift.dot(&normal) * (1.0 - left));
         whole += contact.gradient;
     }
-    // Of a curved wall the last elements turn what the first have left.
+    // Of a curved wall the last elements turn the result of the first.
     let size = whole.norm();
     if size > 0.0 {
         let normal = whole / size;
@@ -241,7 +240,7 @@ fn keep_along<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vec
     }
 }
 
-/// Leaves out what leads into a wall that is nearer than half a spacing.
+/// Removes the part into a wall that is nearer than half a spacing.
 fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<D>) {
     for contact in world.walls.contacts.of_particle(particle) {
         if contact.distance < 0.5 * world.spacing {

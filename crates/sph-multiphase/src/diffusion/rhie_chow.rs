@@ -12,9 +12,9 @@ use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:
 /// s_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b 2/(ρ_a + ρ_b) (p_b − p_a) ∇w_ab over free neighbours of all phases.
 ///
-/// The narrow Laplacian of the pressure less what its wide gradient resolves: it is that of noise, without the forces.
-/// A linear pressure that stays is left alone wherever it is and whatever bears it, beside walls and at surfaces too.
-/// One more walk over the neighbours.
+/// The narrow Laplacian of the pressure less the part that its wide gradient resolves: it is that of noise, without the
+/// forces. A linear pressure that stays is left alone wherever it is and whatever bears it, beside walls and at
+/// surfaces too. One more walk over the neighbours.
 ///
 /// The mean over time lets it diffuse sound of all lengths. Less the slope of the moment, as in the source, it leaves long
 /// waves alone, and walls feed those: a closed box of 1.2 m by 0.2 m has ten times its energy of flow after 3 s.
@@ -31,7 +31,7 @@ use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 /// [smoother.rhie-chow]
 /// strength = 0.1
 /// ```
-#[plugin(SmootherEntry [2, 3], "rhie-chow", "pressure diffusion less what the wide stencil resolves",
+#[plugin(SmootherEntry [2, 3], "rhie-chow", "pressure diffusion less the part that the wide stencil resolves",
     source: "Ghaïtanellis 2017, Eq. 2.96–2.98")]
 pub struct RhieChow {
     /// Strength δ: the diffusivity of the density over h c.

@@ -23,11 +23,11 @@ use sph_neighbours::{
 /// Source: Sun et al. 2019, with differences instead of products; the sum and the way back are ours.
 #[derive(Clone, Copy, Debug)]
 pub struct ShiftTransport {
-    /// Whether the velocity is taken up, besides the density.
+    /// True if the velocity is taken up, besides the density.
     pub velocity: bool,
     /// α.
     pub relaxation: f64,
-    /// Whether the density is a sum over positions.
+    /// True if the density is a sum over positions.
     pub summed: bool,
 }
 

@@ -9,13 +9,13 @@ use sph_neighbours::{CHUNK, Cluster, ClusterWalk, World};
 
 use crate::linear::{Entry, Pattern, Values};
 
-/// A matrix of a system of C components, the dimensions of space for velocities, one for a pressure; with its sources, and
-/// what it is put together from.
+/// A matrix of a system of C components, the dimensions of space for velocities, one for a pressure; with its sources,
+/// and its parts.
 ///
 /// It is kept from step to step for its memory: to ask for tens of megabytes anew in every step costs a tenth of it.
 #[derive(Clone, Debug)]
 pub struct Assembly<E, const C: usize> {
-    /// Where entries are; a matrix may share it.
+    /// Pattern of the entries; a matrix may share it.
     pub pattern: Arc<Pattern>,
     /// Their values.
     pub values: Values<E>,
@@ -155,7 +155,7 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
     ) -> Result<(), StepError> {
         let walk = ClusterWalk::new(world)?;
         self.fill_blocks([walk.blocks(), walk.particles()], |block, rows| {
-            walk.each(block, |members| cluster(members, rows));
+            walk.for_each_cluster(block, |members| cluster(members, rows));
         });
         Ok(())
     }

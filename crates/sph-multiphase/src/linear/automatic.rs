@@ -4,8 +4,8 @@ use sph_core::{Vect, plugin};
 
 use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
 use crate::linear::{
-    Cholesky, Diagonal, Keeps, LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner,
-    Report, SolveError, Tolerance,
+    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, Memories, MemoryOwner, Operator,
+    Preconditioner, Report, SolveError, Tolerance,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -54,13 +54,13 @@ const BLOCK_PATIENCE: usize = 25;
 const DIRECT_ROWS: usize = 200_000;
 
 /// Iterations in whose time a factorisation is done; `None` where it is not tried.
-fn patience<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
+fn iteration_limit<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
     let root = (rows as f64).sqrt().ceil() as usize;
     let most = if mixed { 2 * root } else { root };
     (D == 2 && rows <= DIRECT_ROWS).then_some(most)
 }
 
-/// Whether the diagonal alone preconditions.
+/// True if the diagonal alone preconditions.
 fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
     operator
         .stiffness()
@@ -69,7 +69,7 @@ fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
 
 impl<const D: usize> LinearSolver<D> for Automatic
 where
-    Memories: Keeps<D>,
+    Memories: MemoryOwner<D>,
 {
     fn solve(
         &mut self,
@@ -111,7 +111,7 @@ where
         };
         // Factors are of whole matrices.
         let whole = operator.is_whole();
-        let patience = patience::<D>(operator.rows(), mixed).filter(|_| whole);
+        let patience = iteration_limit::<D>(operator.rows(), mixed).filter(|_| whole);
         let mut spent = 0;
         for (k, &preconditioner) in stages.iter().enumerate() {
             let last = k + 1 == stages.len();
@@ -119,7 +119,7 @@ where
                 false => BLOCK_PATIENCE,
                 true => patience.unwrap_or(ITERATIONS),
             };
-            // What a stage reached is where the next one starts.
+            // Each stage starts from the result of the one before.
             let system = (operator, right, &mut *x);
             let memory = self.memories.memory();
             match iterate(preconditioner, within(iterations), memory, system) {

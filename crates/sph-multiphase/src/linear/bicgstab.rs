@@ -2,15 +2,15 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
 use crate::linear::vector::add;
 use crate::linear::{
     LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError,
 };
 
-/// BiCGSTAB (van der Vorst 1992), which needs no symmetry: what the thesis solves with. Two products
-/// per iteration; for these matrices conjugate gradients are faster.
+/// BiCGSTAB (van der Vorst 1992), which needs no symmetry: the solver of the thesis. Two products per iteration; for
+/// these matrices conjugate gradients are faster.
 ///
 /// ```toml
 /// [linear-solver.bicgstab]
@@ -25,7 +25,7 @@ pub struct Bicgstab {
     /// Relative residual |b − A x| / |b| at which it ends.
     #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
-    /// Iterations after which it gives up; the step is then tried again with half its length.
+    /// Largest number of iterations; a step that needs more is tried again with half its length.
     #[parameter(default: 2000, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
 }
@@ -48,7 +48,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             iterations: self.iterations,
         };
         let (mut history, mut factors) = (Vec::new(), Factors::default());
-        let mut watch = Watch::new(METHOD, tolerance, operator, right, &mut history)?;
+        let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let mut r = Vec::new();
         operator.residual(right, x, &mut r);
         if let Some(residual) = watch.reached(operator.norm(&r))? {

@@ -25,19 +25,19 @@ use crate::linear::{
     source: "faer 0.24; Davis 2006")]
 pub struct Cholesky {
     #[serde(skip)]
-    kept: Option<Kept>,
+    kept: Option<Workspace>,
 }
 
 impl Cholesky {
     /// Bytes of the factor that is kept; nothing before the first solve.
     pub fn bytes(&self) -> usize {
-        let numbers = |k: &Kept| k.factor.size() + k.upper.values.len();
+        let numbers = |k: &Workspace| k.factor.size() + k.upper.values.len();
         8 * self.kept.as_ref().map_or(0, numbers)
     }
 }
 
 /// Memory kept between solves.
-struct Kept {
+struct Workspace {
     pattern: Arc<Pattern>,
     blocks: bool,
     upper: UpperTriangle,
@@ -57,12 +57,12 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         right: &[Vect<D>],
         x: &mut [Vect<D>],
     ) -> Result<Report, SolveError> {
-        let matrix = operator.whole(METHOD)?;
+        let matrix = operator.whole_matrix(METHOD)?;
         if right.is_empty() {
             return Ok(report(0.0, 0));
         }
         let blocks = matches!(matrix.entries, Entries::Block(_));
-        let fits = |kept: &Kept| kept.blocks == blocks && kept.pattern == matrix.pattern;
+        let fits = |kept: &Workspace| kept.blocks == blocks && kept.pattern == matrix.pattern;
         if !self.kept.as_ref().is_some_and(fits) {
             self.kept = Some(analysed(matrix, blocks)?);
         }
@@ -118,10 +118,10 @@ fn no_memory(rows: usize) -> SolveError {
 }
 
 /// Order of elimination and shape of the factor.
-fn analysed<const D: usize>(matrix: &Matrix<D>, blocks: bool) -> Result<Kept, SolveError> {
+fn analysed<const D: usize>(matrix: &Matrix<D>, blocks: bool) -> Result<Workspace, SolveError> {
     let upper = shape(&matrix.pattern, if blocks { D } else { 1 });
     let factor = sparse::Cholesky::analyse(&upper, Order::MinimumDegree);
-    Ok(Kept {
+    Ok(Workspace {
         pattern: matrix.pattern.clone(),
         blocks,
         factor: factor.map_err(|_| no_memory(matrix.rows()))?,
@@ -129,7 +129,7 @@ fn analysed<const D: usize>(matrix: &Matrix<D>, blocks: bool) -> Result<Kept, So
     })
 }
 
-fn factorise(kept: &mut Kept, rows: usize) -> Result<(), SolveError> {
+fn factorise(kept: &mut Workspace, rows: usize) -> Result<(), SolveError> {
     if kept.upper.values.iter().any(|v| !v.is_finite()) {
         return Err(SolveError::NotFinite {
             method: METHOD.into(),
@@ -146,7 +146,7 @@ fn factorise(kept: &mut Kept, rows: usize) -> Result<(), SolveError> {
     })
 }
 
-fn solve<const D: usize>(kept: &mut Kept, right: &[Vect<D>], x: &mut [Vect<D>]) {
+fn solve<const D: usize>(kept: &mut Workspace, right: &[Vect<D>], x: &mut [Vect<D>]) {
     if kept.blocks {
         let solution = kept.factor.solve_columns(1, |r, _| right[r / D][r % D]);
         for (i, x) in x.iter_mut().enumerate() {

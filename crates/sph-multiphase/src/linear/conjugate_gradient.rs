@@ -2,12 +2,12 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::memory::Vectors;
 use crate::linear::vector::{add, scale_and_add};
 use crate::linear::{
-    Keeps, LinearSolver, LinearSolverEntry, Memories, Memory, Operator, Preconditioner, Report,
-    SolveError,
+    LinearSolver, LinearSolverEntry, Memories, Memory, MemoryOwner, Operator, Preconditioner,
+    Report, SolveError,
 };
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
@@ -30,7 +30,7 @@ pub struct ConjugateGradient {
     /// Relative residual |b − A x| / |b| at which it ends.
     #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
-    /// Iterations after which it gives up; the step is then tried again with half its length.
+    /// Largest number of iterations; a step that needs more is tried again with half its length.
     #[parameter(default: ITERATIONS, unit: "1", min: 1, source: "ours")]
     pub iterations: usize,
     /// Vectors and factors of solves before, kept for their memory.
@@ -38,7 +38,7 @@ pub struct ConjugateGradient {
     pub memories: Memories,
 }
 
-/// Iterations after which it gives up, by default.
+/// Default of the largest number of iterations.
 pub(crate) const ITERATIONS: usize = 2000;
 const METHOD: &str = "conjugate gradients";
 /// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
@@ -46,7 +46,7 @@ const PREPARE: usize = 3;
 
 impl<const D: usize> LinearSolver<D> for ConjugateGradient
 where
-    Memories: Keeps<D>,
+    Memories: MemoryOwner<D>,
 {
     fn solve(
         &mut self,
@@ -93,7 +93,7 @@ pub(crate) fn iterate<const D: usize>(
         factors,
         halves,
     } = memory;
-    let mut watch = Watch::new(METHOD, tolerance, operator, right, history)?;
+    let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, history)?;
     let Vectors {
         r,
         z,

@@ -13,7 +13,7 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     /// The same in half the memory, to seven digits.
     type Short: Copy + Send + Sync + std::fmt::Debug + 'static;
     /// s a, shortened.
-    fn short(&self, factor: f64) -> Self::Short;
+    fn to_single(&self, factor: f64) -> Self::Short;
     /// A shortened entry at full length.
     fn long(short: &Self::Short) -> Self;
     /// a v.
@@ -25,7 +25,7 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     /// s a.
     fn times(&self, factor: f64) -> Self;
     /// a b cᵀ.
-    fn between(&self, middle: &Self, right: &Self) -> Self;
+    fn triple_product(&self, middle: &Self, right: &Self) -> Self;
     /// aᵀ.
     fn transposed(&self) -> Self;
     /// a⁻¹ of a symmetric positive definite entry; nothing if it is not.
@@ -48,7 +48,7 @@ impl<const D: usize> Entry<D> for f64 {
     const ZERO: f64 = 0.0;
     type Short = f32;
     #[inline(always)]
-    fn short(&self, factor: f64) -> f32 {
+    fn to_single(&self, factor: f64) -> f32 {
         (self * factor) as f32
     }
     #[inline(always)]
@@ -72,7 +72,7 @@ impl<const D: usize> Entry<D> for f64 {
         self * factor
     }
     #[inline(always)]
-    fn between(&self, middle: &f64, right: &f64) -> f64 {
+    fn triple_product(&self, middle: &f64, right: &f64) -> f64 {
         self * middle * right
     }
     #[inline(always)]
@@ -113,7 +113,7 @@ impl<const D: usize> Entry<D> for Block<D> {
     const ZERO: Self = SMatrix::from_array_storage(nalgebra::ArrayStorage([[0.0; D]; D]));
     type Short = [[f32; D]; D];
     #[inline(always)]
-    fn short(&self, factor: f64) -> [[f32; D]; D] {
+    fn to_single(&self, factor: f64) -> [[f32; D]; D] {
         let mut short = [[0.0; D]; D];
         for c in 0..D {
             for r in 0..D {
@@ -162,7 +162,7 @@ impl<const D: usize> Entry<D> for Block<D> {
         self * factor
     }
     #[inline(always)]
-    fn between(&self, middle: &Self, right: &Self) -> Self {
+    fn triple_product(&self, middle: &Self, right: &Self) -> Self {
         self * middle * right.transpose()
     }
     #[inline(always)]

@@ -26,7 +26,7 @@ pub enum SolveError {
     NotPositive {
         /// The solver.
         method: String,
-        /// Where it was seen.
+        /// Row of the fault.
         row: usize,
     },
     /// A number is not finite.

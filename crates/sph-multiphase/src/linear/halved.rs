@@ -69,7 +69,7 @@ struct Parts<'a, E> {
 
 /// Some rows that follow each other.
 struct Part<E> {
-    /// Where the entries of each row begin: those left of the diagonal within the part, and those outside of it.
+    /// Start of the entries of each row: those left of the diagonal within the part, and those outside of it.
     starts: Vec<[u32; 2]>,
     /// Columns within the part, counted from its first row.
     inside: Vec<u16>,
@@ -89,7 +89,7 @@ impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
     {
         let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
         let count = pattern.len().div_ceil(rows);
-        parts.resize_with(count, Part::nothing);
+        parts.resize_with(count, Part::empty);
         parts.par_iter_mut().enumerate().for_each(|(k, part)| {
             let own = k * rows..((k + 1) * rows).min(pattern.len());
             part.refill(pattern, &values.others, own);
@@ -114,7 +114,7 @@ impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
 }
 
 impl<E: Copy> Part<E> {
-    fn nothing() -> Self {
+    fn empty() -> Self {
         Part {
             starts: Vec::new(),
             inside: Vec::new(),
@@ -131,7 +131,7 @@ impl<E: Copy> Part<E> {
         part.lower.clear();
         part.outside.clear();
         part.others.clear();
-        // Room for what there is: growing by doubles would keep half of it empty.
+        // Capacity of the present entries: growing by doubles would keep half of it empty.
         let room = pattern.starts[own.end] as usize - pattern.starts[own.start] as usize;
         part.starts.reserve_exact(own.len() + 1);
         part.inside.reserve_exact(room / 2);

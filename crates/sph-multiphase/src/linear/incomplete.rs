@@ -43,7 +43,7 @@ struct Part<E, S> {
 
 /// Rows of a part; their number fits into 16 bits.
 pub(crate) const PART: usize = 2048;
-/// By what share the diagonal is raised at the first failure; tenfold at every further one.
+/// Share by which the diagonal is raised at the first failure; tenfold at every further one.
 const RAISE: f64 = 1e-3;
 /// Failures after which the matrix is called indefinite.
 const ATTEMPTS: usize = 5;
@@ -65,7 +65,7 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
         let mut raise = 0.0;
         let mut row = 0;
         let count = pattern.len().div_ceil(PART);
-        self.parts.resize_with(count, Part::nothing);
+        self.parts.resize_with(count, Part::empty);
         for _ in 0..ATTEMPTS {
             let parts = self.parts.par_iter_mut().enumerate();
             let failed = parts.filter_map(|(k, part)| {
@@ -105,7 +105,7 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
 }
 
 impl<E: Copy, S: Copy> Part<E, S> {
-    fn nothing() -> Self {
+    fn empty() -> Self {
         Part {
             starts: Vec::new(),
             columns: Vec::new(),
@@ -139,7 +139,7 @@ impl<E: Copy, S: Copy> Part<E, S> {
         starts.clear();
         starts.push(0);
         columns.clear();
-        // Room for what there is: growing by doubles would keep half of it empty.
+        // Capacity of the present entries: growing by doubles would keep half of it empty.
         let room = pattern.row(rows.end - 1).end - pattern.row(from).start;
         columns.reserve_exact(room / 2);
         lower.clear();
@@ -166,13 +166,13 @@ impl<E: Copy, S: Copy> Part<E, S> {
                     let (ca, cb) = (columns[a], columns[b]);
                     if ca == cb {
                         let middle = &inverse_pivots[ca as usize];
-                        entry = entry.plus(&lower[a].between(middle, &lower[b]).times(-1.0));
+                        entry = entry.plus(&lower[a].triple_product(middle, &lower[b]).times(-1.0));
                     }
                     a += usize::from(ca <= cb);
                     b += usize::from(cb <= ca);
                 }
                 lower[k] = entry;
-                pivot = pivot.plus(&entry.between(&inverse_pivots[j], &entry).times(-1.0));
+                pivot = pivot.plus(&entry.triple_product(&inverse_pivots[j], &entry).times(-1.0));
             }
             inverse_pivots.push(pivot.inverted().ok_or(i)?);
             starts.push(columns.len() as u32);
@@ -181,7 +181,8 @@ impl<E: Copy, S: Copy> Part<E, S> {
         self.largest = largest;
         self.lower.clear();
         self.lower.reserve_exact(self.long.len());
-        self.lower.extend(self.long.iter().map(|l| l.short(factor)));
+        self.lower
+            .extend(self.long.iter().map(|l| l.to_single(factor)));
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 
-use crate::linear::krylov::{Tolerance, Watch};
+use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
 use crate::linear::{LinearSolver, Operator, Preconditioner, Report, SolveError};
 
@@ -14,7 +14,7 @@ use crate::linear::{LinearSolver, Operator, Preconditioner, Report, SolveError};
 pub struct Jacobi {
     /// Relative residual |b − A x| / |b| at which it ends.
     pub tolerance: f64,
-    /// Sweeps after which it gives up.
+    /// Largest number of sweeps.
     pub sweeps: usize,
 }
 
@@ -32,7 +32,7 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
             iterations: self.sweeps,
         };
         let (mut history, mut factors) = (Vec::new(), Factors::default());
-        let mut watch = Watch::new(METHOD, tolerance, operator, right, &mut history)?;
+        let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &mut factors)?;
         let mut r = Vec::new();
         let mut step = vec![Vect::zeros(); right.len()];

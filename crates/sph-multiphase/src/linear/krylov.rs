@@ -7,21 +7,21 @@ use crate::linear::{Operator, Report, SolveError};
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Relative residual |b − A x| / |b| asked for.
+    /// Target of the relative residual |b − A x| / |b|.
     pub residual: f64,
     /// Iterations allowed.
     pub iterations: usize,
 }
 
 /// The bookkeeping of one solve.
-pub(crate) struct Watch<'s> {
+pub(crate) struct SolveMonitor<'s> {
     method: &'static str,
     tolerance: Tolerance,
     scale: f64,
     history: &'s mut Vec<f64>,
 }
 
-impl<'s> Watch<'s> {
+impl<'s> SolveMonitor<'s> {
     /// # Errors
     /// If the right-hand side is not finite.
     pub fn new<const D: usize>(
@@ -34,7 +34,7 @@ impl<'s> Watch<'s> {
         let scale = operator.norm(right);
         history.clear();
         match scale.is_finite() {
-            true => Ok(Watch {
+            true => Ok(SolveMonitor {
                 method,
                 tolerance,
                 scale,

@@ -5,7 +5,7 @@ use sph_core::Vect;
 use crate::linear::vector::add;
 use crate::linear::{Diagonal, Matrix, Operator};
 
-/// A + s Σ g gᵀ with few vectors g, s = 1 or −1: what is left of unknowns that many rows share. A alone makes its
+/// A + s Σ g gᵀ with few vectors g, s = 1 or −1: the rest of unknowns that many rows share. A alone makes its
 /// preconditioner.
 pub struct LowRank<'a, const D: usize> {
     /// A.

@@ -39,7 +39,7 @@ impl Pattern {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Whether there is no row.
+    /// True if there is no row.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -116,7 +116,7 @@ impl<const D: usize> Default for Entries<D> {
 /// A symmetric matrix; both triangles are stored.
 #[derive(Clone, Debug, Default)]
 pub struct Matrix<const D: usize> {
-    /// Where entries are.
+    /// Pattern of the entries.
     pub pattern: Arc<Pattern>,
     /// Their values.
     pub entries: Entries<D>,
@@ -167,8 +167,8 @@ impl<const D: usize> Matrix<D> {
         }
     }
 
-    /// Largest ratio of what couples a row to others to what is left of its diagonal, Σ|a_ij|/(a_ii − Σ|a_ij|); of
-    /// blocks with the means of their diagonals.
+    /// Largest ratio of the couplings of a row to the rest of its diagonal, Σ|a_ij|/(a_ii − Σ|a_ij|); of blocks with
+    /// the means of their diagonals.
     pub fn stiffness(&self) -> f64 {
         match &self.entries {
             Entries::Scalar(values) => values.stiffness::<D>(&self.pattern),

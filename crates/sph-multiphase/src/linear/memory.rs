@@ -40,24 +40,24 @@ impl Clone for Memories {
 }
 
 /// The owner of the memory of solves for vectors of D components.
-pub trait Keeps<const D: usize> {
+pub trait MemoryOwner<const D: usize> {
     /// That memory.
     fn memory(&mut self) -> &mut Memory<D>;
 }
 
-impl Keeps<1> for Memories {
+impl MemoryOwner<1> for Memories {
     fn memory(&mut self) -> &mut Memory<1> {
         &mut self.one
     }
 }
 
-impl Keeps<2> for Memories {
+impl MemoryOwner<2> for Memories {
     fn memory(&mut self) -> &mut Memory<2> {
         &mut self.plane
     }
 }
 
-impl Keeps<3> for Memories {
+impl MemoryOwner<3> for Memories {
     fn memory(&mut self) -> &mut Memory<3> {
         &mut self.space
     }

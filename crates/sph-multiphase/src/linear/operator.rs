@@ -9,7 +9,7 @@ use crate::linear::{Diagonal, Halved, Halves, Matrix, SolveError};
 ///
 /// Rows are those of particles of one's own. Columns are the same particles and, after them, copies of particles
 /// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives copies the values
-/// of their owners, [`total`](Operator::total) adds what all owners of rows have summed. A [`Matrix`] has no copies.
+/// of their owners, [`total`](Operator::total) adds the sums of all owners of rows. A [`Matrix`] has no copies.
 pub trait Operator<const D: usize>: Sync {
     /// Rows: particles of one's own.
     fn rows(&self) -> usize;
@@ -22,7 +22,7 @@ pub trait Operator<const D: usize>: Sync {
     /// Gives the copies, x\[rows..columns\], the values of their owners.
     fn import(&self, _x: &mut [Vect<D>]) {}
 
-    /// The sum over the owners of all rows of what each has summed over its own; the same bits for all.
+    /// The sum over the owners of all rows of the sums that each has over its own; the same bits for all.
     fn total(&self, part: f64) -> f64 {
         part
     }
@@ -33,12 +33,12 @@ pub trait Operator<const D: usize>: Sync {
         self.total(inner(&x[..rows], &y[..rows]))
     }
 
-    /// Whether it holds for every part of a divided system; all must call it.
+    /// True if it holds for every part of a divided system; all must call it.
     fn all(&self, holds: bool) -> bool {
         holds
     }
 
-    /// Whether all rows and what couples them are here.
+    /// True if all rows and their couplings are here.
     fn is_whole(&self) -> bool {
         self.columns() == self.rows()
     }
@@ -57,14 +57,14 @@ pub trait Operator<const D: usize>: Sync {
         self.assembled().map(|matrix| matrix.entries.diagonal())
     }
 
-    /// Largest ratio of what couples a row to others to what is left of its diagonal, as
+    /// Largest ratio of the couplings of a row to the rest of its diagonal, as
     /// [`Matrix::stiffness`](crate::linear::Matrix::stiffness); none where it is not known.
     fn stiffness(&self) -> Option<f64> {
         self.assembled().map(Matrix::stiffness)
     }
 
     /// The entries between rows of one's own, for preconditioners and factorisations; none where no owner can write
-    /// them down, which may be done when it is asked for.
+    /// them down, which may be done on request.
     fn assembled(&self) -> Option<&Matrix<D>> {
         None
     }
@@ -99,7 +99,7 @@ impl<const D: usize> dyn Operator<D> + '_ {
     ///
     /// # Errors
     /// If it is not written down, or some of it is with the owners of copies.
-    pub(crate) fn whole(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
+    pub(crate) fn whole_matrix(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
         let whole = self.assembled().filter(|_| self.is_whole());
         whole.ok_or_else(|| SolveError::NotWhole {
             method: method.into(),

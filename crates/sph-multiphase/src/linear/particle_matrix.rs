@@ -53,7 +53,7 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
         }
     }
 
-    /// The matrix without what couples copies: its preconditioner reaches as far.
+    /// The matrix without couplings to copies: its preconditioner reaches as far.
     fn cut(&self) -> Matrix<1> {
         let mut pattern = Pattern {
             starts: vec![0],

@@ -43,7 +43,7 @@ pub(crate) struct Factors<const D: usize> {
 }
 
 impl Preconditioner {
-    /// Whether it is made of the entries of a matrix, and not of its diagonal alone.
+    /// True if it is made of the entries of a matrix, and not of its diagonal alone.
     pub fn factorises(self) -> bool {
         matches!(
             self,
@@ -131,15 +131,15 @@ impl<const D: usize> BoundPreconditioner<'_, D> {
     pub fn apply(&self, r: &[Vect<D>], z: &mut [Vect<D>]) {
         match self {
             BoundPreconditioner::Nothing => z.copy_from_slice(r),
-            BoundPreconditioner::Scalar(inverse) => each(inverse, r, z),
-            BoundPreconditioner::Block(inverse) => each(inverse, r, z),
+            BoundPreconditioner::Scalar(inverse) => apply_inverse(inverse, r, z),
+            BoundPreconditioner::Block(inverse) => apply_inverse(inverse, r, z),
             BoundPreconditioner::IncompleteScalar(factor) => factor.solve(r, z),
             BoundPreconditioner::IncompleteBlock(factor) => factor.solve(r, z),
         }
     }
 }
 
-fn each<const D: usize, E: Entry<D>>(inverse: &[E], r: &[Vect<D>], z: &mut [Vect<D>]) {
+fn apply_inverse<const D: usize, E: Entry<D>>(inverse: &[E], r: &[Vect<D>], z: &mut [Vect<D>]) {
     let rows = z.par_iter_mut().zip(r).zip(inverse);
     rows.with_min_len(ROWS)
         .for_each(|((z, r), d)| *z = d.apply(r));

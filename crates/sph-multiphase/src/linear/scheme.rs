@@ -2,7 +2,7 @@
 
 use sph_core::{contract, parameters, plugin};
 
-/// How often the viscosity follows the new velocity, where it depends on it.
+/// Convergence of the viscosity with the new velocity, where it depends on it.
 #[parameters]
 pub struct OuterIteration {
     /// Iterate until √(Σm|Δu|²/Σm(|u|² + Δt²|g|²)) is below this, with the driving acceleration g.
@@ -40,7 +40,7 @@ contract!(
     source: "Ghaïtanellis 2017, §5.1.1")]
 #[derive(Copy)]
 pub struct BackwardEuler {
-    /// Where the viscosity depends on the velocity: when it is good enough.
+    /// Convergence of the viscosity, where it depends on the velocity.
     #[parameter(default)]
     pub picard: OuterIteration,
 }
@@ -67,7 +67,7 @@ impl TimeScheme for BackwardEuler {
     source: "Crank & Nicolson 1947")]
 #[derive(Copy)]
 pub struct CrankNicolson {
-    /// Where the viscosity depends on the velocity: when it is good enough.
+    /// Convergence of the viscosity, where it depends on the velocity.
     #[parameter(default)]
     pub picard: OuterIteration,
 }

@@ -45,7 +45,7 @@ pub trait LinearSolver<const D: usize>: Send {
         self.solve(operator, right, x)
     }
 
-    /// Whether it needs the entries of an operator in any case, and not for products and the diagonal alone.
+    /// True if it needs the entries of an operator in any case, and not for products and the diagonal alone.
     fn needs_entries(&self, _operator: &dyn Operator<D>) -> bool {
         true
     }
@@ -53,7 +53,7 @@ pub trait LinearSolver<const D: usize>: Send {
 
 contract!(
     /// A linear solver that a scene may name.
-    pub LinearSolverEntry, "linear-solver", One, "what solves sparse systems", LinearSolver<D>,
+    pub LinearSolverEntry, "linear-solver", One, "the solver of sparse systems", LinearSolver<D>,
     .by_default("automatic").idle(
         "nothing in this scene is solved for: take this table out, or add `[implicit-viscosity.backward-euler]`"
     )

@@ -16,13 +16,14 @@ use crate::{Acting, PressureEntry, PressureScheme};
 ///
 /// Symbols: p(ρ) equation of state (Pa), c speed of sound (m/s), D{u} the rate at which the formulation's density falls
 /// (1/s), F = w'/r (1/m^(d+2)), Δt the last step (s). The system is symmetric and compressible: with cΔt ≪ h it is
-/// p(ρ), with cΔt ≫ h a projection. What deviates from the hydrostatic gradient has no flux into walls. Sound does not bound
+/// p(ρ), with cΔt ≫ h a projection. The deviation from the hydrostatic gradient has no flux into walls. Sound does not bound
 /// the step: Δt ≤ `courant` h/(|u| + √(|g|h)); sound faster than h/Δt is damped as by backward Euler.
 ///
-/// Where a scene has a free surface, `[surface.cone-test]` finds the particles at it: what their supports lack is
-/// at the pressure of their equation of state, between 0 and that of a row of water, ρ|g|δr. A scene with `hu-adams` and a
-/// surface that it does not name is refused at the first step. Other forces than gravity and pressure (friction, stresses,
-/// surface tension) are not in the prediction; pressure answers them through the density, one step later. First order in time.
+/// Where a scene has a free surface, `[surface.cone-test]` finds the particles at it: the missing part of their
+/// supports is at the pressure of their equation of state, between 0 and that of a row of water, ρ|g|δr. A scene with
+/// `hu-adams` and a surface that it does not name is refused at the first step. Other forces than gravity and pressure
+/// (friction, stresses, surface tension) are not in the prediction; pressure answers them through the density, one step
+/// later. First order in time.
 ///
 /// Source: after Kwatra et al. 2009 (semi-implicit compressible flow) and Cummins & Rudman 1999 (the one-ring sum); the form of
 /// gravity at walls, the surfaces and the step ours.

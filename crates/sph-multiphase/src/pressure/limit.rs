@@ -5,7 +5,7 @@ use sph_contribution::{Limiter, SoundLimit};
 use sph_core::{StepError, StepLimit, fields};
 use sph_neighbours::World;
 
-/// How much longer a step may be than the one before, which the pressure was solved for.
+/// Largest growth of a step over the one before, for which the pressure was solved.
 const GROWTH: f64 = 1.1;
 
 /// Δt ≤ C h/(|u|max + √(|g| h)), at the start that of sound and then a tenth more from step to step; √(|g| h) is the speed of the

@@ -101,7 +101,7 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
                 .map(|p| Vect::from([*p])),
         );
         self.state.run(world)?;
-        // Later a resumed run would be asked what one that went on was not.
+        // Later a resumed run would meet a check that an uninterrupted one did not.
         if !self.surfaces && world.time <= 0.0 {
             refuse_surfaces(world)?;
         }

@@ -1,4 +1,4 @@
-//! The system of the pressure: what couples particles, and what holds them.
+//! The system of the pressure: the couplings of particles, and their diagonal.
 
 use sph_core::{Pool, Vect};
 use sph_neighbours::{
@@ -34,7 +34,8 @@ pub(crate) struct Part {
     pub compliance: f64,
     /// Compliance times the pressure of the equation of state, less Δt γ V D{u}, m^d.
     pub source: f64,
-    /// Whether a free surface is within reach: what the support lacks besides walls is at the pressure `outside`.
+    /// True if a free surface is within reach: the missing part of the support, besides walls, is at the pressure
+    /// `outside`.
     pub open: bool,
     /// Pa.
     pub outside: f64,
@@ -43,7 +44,7 @@ pub(crate) struct Part {
 /// Numbers of a cluster for its rows.
 #[derive(Default)]
 pub(crate) struct ClusterCoefficients {
-    /// c and what it adds to the source, for every candidate, one number per lane each.
+    /// c and its part of the source, for every candidate, one number per lane each.
     numbers: Vec<f64>,
     /// Columns that are coupled to a row, and their c, one number per lane.
     columns: Vec<u32>,
@@ -51,7 +52,7 @@ pub(crate) struct ClusterCoefficients {
 }
 
 impl<const D: usize> Couplings<'_, D> {
-    /// Whether the row of a particle is not with another owner.
+    /// True if the row of a particle is not with another owner.
     pub fn is_own(&self, i: usize) -> bool {
         self.owned.has(i)
     }
@@ -72,7 +73,7 @@ impl<const D: usize> Couplings<'_, D> {
         let mut scratch = scratch_pool.acquire();
         let scratch = &mut *scratch;
         cluster.numbers(self, &mut scratch.numbers);
-        let (couplings, sources) = cluster.dispatch(SideBySide {
+        let (couplings, sources) = cluster.dispatch(ClusterSums {
             candidates: cluster.candidates(),
             scratch,
         });
@@ -94,8 +95,8 @@ impl<const D: usize> Couplings<'_, D> {
         }
     }
 
-    /// 1/γ: by it the gradient of the pressure grows beside walls, and nothing that moves a particle may be more than what is
-    /// solved for.
+    /// 1/γ: by it the gradient of the pressure grows beside walls, and nothing that moves a particle may exceed the
+    /// solution.
     #[inline(always)]
     fn growth(&self, i: usize) -> f64 {
         self.gamma.map_or(1.0, |gamma| 1.0 / gamma[i])
@@ -139,12 +140,12 @@ impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
 }
 
 /// Sums of the rows of a cluster.
-struct SideBySide<'a> {
+struct ClusterSums<'a> {
     candidates: &'a [u32],
     scratch: &'a mut ClusterCoefficients,
 }
 
-impl Body for SideBySide<'_> {
+impl Body for ClusterSums<'_> {
     /// Σc and sources.
     type Output = ([f64; MOST], [f64; MOST]);
 

@@ -4,14 +4,14 @@ use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
 use sph_neighbours::{Around, Values, World, walk_into};
 
-/// Where a particle is: [`Place`] as a number.
+/// Kind of a particle by its place: [`Place`] as a number.
 pub const FREE_SURFACE: Field<Scalar> = Field::new(
     "free_surface",
     "1",
     "0 in the fluid, 1 within reach of a free surface, 2 at one, 3 alone",
 );
 
-/// Where a particle is, by the arrangement around it.
+/// Place of a particle, by the arrangement around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Place {
     /// No free surface within the support.
@@ -51,12 +51,12 @@ const FULL: f64 = 0.95;
 /// less than half of its support is filled; alone, where its neighbours fill less of it than it does itself.
 ///
 /// Volumes are those of the lattice, δr^d, so that the test does not depend on densities. Walls count in ∇C as filled.
-/// Only particles whose support is filled to less than 0.95 are looked at, where the sum is known from γρ − K.
+/// Only particles whose support is filled to less than 0.95 are examined, where the sum is known from γρ − K.
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
 /// sheets and lone particles are ours.
 pub(super) struct FreeSurface {
-    /// Whether densities are K and a sum.
+    /// True if densities are K and a sum.
     sums: bool,
     /// Kept for its memory.
     places: Vec<Place>,
@@ -137,7 +137,7 @@ fn find<const D: usize>(
     Ok(())
 }
 
-/// Whether the support of a particle lacks fluid: (γρ − K)δr^d/(γm) < 0.95.
+/// Test whether the support of a particle lacks fluid: (γρ − K)δr^d/(γm) < 0.95.
 fn lacking<const D: usize>(
     world: &World<D>,
 ) -> Result<impl Fn(usize) -> bool + Sync + '_, StepError> {

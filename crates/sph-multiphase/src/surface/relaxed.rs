@@ -13,7 +13,7 @@ use super::cone::{FREE_SURFACE, FreeSurface, Place};
 
 contribution_kind!(
     /// A treatment of free surfaces that a scene may name.
-    pub SurfaceEntry, "surface", One, "where free surfaces are, and what densities there know of them",
+    pub SurfaceEntry, "surface", One, "free surfaces, and densities there",
     .absent("surfaces that densities remember if left out").works(Work::Surface)
 );
 
@@ -23,10 +23,10 @@ contribution_kind!(
 /// * no surface is within the support: K′ is K cut to ± ε ρ₀, for a full support lacks nothing;
 /// * the particle is at a surface: K′ is such that ρ is not below (1 − ε) ρ₀, for water there is not under tension; with
 ///   `no_pressure` K′ is such that ρ = ρ₀;
-/// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and flies like a stone;
+/// * the particle is alone: K′ is such that ρ = ρ₀, at once: it has no pressure and moves on a parabola;
 /// * an open face is within the support: K stays, unless the particle is at a surface or alone. Half of the row that passes the
 ///   face is in no sum, so K swings by ± 0.15 ρ₀ there; what is cut of it is mass that does not pass;
-/// * else K stays: what the kernel misses within reach of a surface is what it carries.
+/// * else K stays: the particle carries the part that the kernel misses within reach of a surface.
 ///
 /// Symbols: h smoothing length (m), c speed of sound of the phase at rest (m/s). Where a full support has K > 0, as many of
 /// the particles fill more space than they have volume: a fold closed on a gap. The loss of K lowers their pressure until
@@ -35,8 +35,8 @@ contribution_kind!(
 /// keeps that below ρU². ε has to be a share of the spread that is borne, for constants come to rest at its edge: with 0.01
 /// nearly all stay within 3 %, with 0.03 a few per cent of them stand just beyond.
 ///
-/// Meant for water that tears. It adds 3 to 20 % to a step: only particles whose support lacks fluid are looked at. Densities that
-/// follow a rate remember no surface: with other formulations nothing relaxes, and surfaces are found for other
+/// Meant for water that tears. It adds 3 to 20 % to a step: only particles whose support lacks fluid are examined. Densities that
+/// follow a rate have no memory of a surface: with other formulations nothing relaxes, and surfaces are found for other
 /// readers.
 ///
 /// Source: the cone test is of Marrone et al. 2010; relaxing K is ours.
@@ -55,8 +55,8 @@ pub struct ConeTest {
     /// ε: share of ρ₀ that the constant may have where no surface is near.
     #[parameter(default: 0.01, unit: "1", min: 0.0, max: 1.0, source: "ours: a third of the 3 % that are borne")]
     pub tolerance: f64,
-    /// Whether particles at a surface have no pressure over that of the reference density: the condition p = 0 of a free
-    /// surface, half a row too deep.
+    /// True if particles at a surface have no pressure over that of the reference density: the condition p = 0 of a
+    /// free surface, half a row too deep.
     #[parameter(default)]
     pub no_pressure: bool,
 }
@@ -78,7 +78,7 @@ impl<const D: usize> Contribution<D> for ConeTest {
     }
 }
 
-/// Whether densities are K and a sum.
+/// True if densities are K and a sum.
 fn are_sums<const D: usize>(setting: &Setting<'_, D>) -> bool {
     setting.density.value.name == fields::DENSITY_CONSTANT.name
 }
@@ -103,7 +103,7 @@ struct Scratch {
 }
 
 /// A particle as the relaxation sees it.
-struct Seen {
+struct RelaxedParticle {
     place: f64,
     constant: f64,
     density: f64,
@@ -112,7 +112,7 @@ struct Seen {
 
 impl Relaxation {
     /// Change of K of a particle in a step of which a share `part` of the difference goes.
-    fn change(&self, seen: &Seen, reference: f64, part: f64) -> f64 {
+    fn change(&self, seen: &RelaxedParticle, reference: f64, part: f64) -> f64 {
         let slack = self.plugin.tolerance * reference;
         let place = |p: Place| seen.place == p.number();
         if place(Place::Alone) {
@@ -128,7 +128,7 @@ impl Relaxation {
         }
     }
 
-    /// Relaxes the constants over a step; what that gives to the particles, J.
+    /// Relaxes the constants over a step; returns the energy of the particles from it, J.
     fn relax<const D: usize>(
         &self,
         world: &World<D>,
@@ -156,7 +156,7 @@ impl Relaxation {
             if inside && contacts.any(|c| open.get(c.element as usize) == Some(&true)) {
                 return 0.0;
             }
-            let seen = Seen {
+            let seen = RelaxedParticle {
                 place: surface[i],
                 constant: *constant,
                 density: density[i],
@@ -230,8 +230,8 @@ mod tests {
         }
     }
 
-    fn seen(place: Place, constant: f64, density: f64) -> Seen {
-        Seen {
+    fn sample(place: Place, constant: f64, density: f64) -> RelaxedParticle {
+        RelaxedParticle {
             place: place.number(),
             constant,
             density,
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_full_support_loses_what_it_has_beyond_the_tolerance() {
-        let of = |k: f64| relaxation().change(&seen(Place::Inside, k, 1000.0), 1000.0, 1.0);
+        let of = |k: f64| relaxation().change(&sample(Place::Inside, k, 1000.0), 1000.0, 1.0);
         assert_eq!([of(9.0), of(-9.0)], [0.0, 0.0]);
         assert!((of(430.0) + 420.0).abs() < 1e-9 && (of(-130.0) - 120.0).abs() < 1e-9);
     }
@@ -250,19 +250,19 @@ mod tests {
     fn surfaces_have_no_pressure_where_that_is_asked_for() {
         let mut relaxation = relaxation();
         relaxation.plugin.no_pressure = true;
-        let of = |rho| relaxation.change(&seen(Place::At, 0.0, rho), 1000.0, 0.5);
+        let of = |rho| relaxation.change(&sample(Place::At, 0.0, rho), 1000.0, 0.5);
         assert_eq!([of(1030.0), of(960.0)], [-15.0, 20.0]);
     }
 
     #[test]
     fn within_reach_of_a_surface_nothing_changes() {
-        let change = relaxation().change(&seen(Place::Near, 400.0, 900.0), 1000.0, 1.0);
+        let change = relaxation().change(&sample(Place::Near, 400.0, 900.0), 1000.0, 1.0);
         assert_eq!(change, 0.0);
     }
 
     #[test]
     fn surfaces_are_not_under_tension_and_lone_particles_have_no_pressure() {
-        let of = |place, rho| relaxation().change(&seen(place, 0.0, rho), 1000.0, 0.5);
+        let of = |place, rho| relaxation().change(&sample(place, 0.0, rho), 1000.0, 0.5);
         assert!((of(Place::At, 590.0) - 200.0).abs() < 1e-9);
         assert_eq!(of(Place::At, 1100.0), 0.0);
         assert_eq!(of(Place::Alone, 140.0), 860.0);

@@ -139,7 +139,7 @@ impl<const D: usize> BodyResponse<D> {
         }))
     }
 
-    /// How the body's velocity changes, but for what the friction of the end of the step does.
+    /// Change of the body's velocity without the friction at the end of the step.
     fn freely(&self, dt: f64) -> Vector6<f64> {
         let pull = |r: &Vector6<f64>| r * (dt * r.dot(&self.before));
         self.ahead - self.roots.iter().map(pull).sum::<Vector6<f64>>()
@@ -161,7 +161,7 @@ impl<const D: usize> Bodies<D> {
         Ok((!all.is_empty()).then_some(Bodies(all)))
     }
 
-    /// Adds what bodies do to the fluid besides, and gives the vectors of the update.
+    /// Adds the further effect of bodies on the fluid, and gives the vectors of the update.
     pub fn bind(
         &self,
         base: &dyn Operator<D>,

@@ -6,7 +6,7 @@ use sph_neighbours::Interaction;
 
 use crate::viscosity::Coupling;
 
-/// Where a viscous operator finds the viscosity.
+/// Source of the viscosity for a viscous operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viscosity {
     /// One number for all particles, Pa s; no column exists.
@@ -27,9 +27,9 @@ pub trait ViscousOperator<const D: usize>: Send {
     }
     /// The same friction as rows of a matrix, for implicit schemes.
     fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>>;
-    /// How much stiffer than Morris's operator it is: divides the viscous step limit.
+    /// Stiffness over that of Morris's operator: divides the viscous step limit.
     fn stiffness(&self) -> f64;
-    /// Whether it is zero in rigid rotation, at free surfaces too.
+    /// True if it is zero in rigid rotation, at free surfaces too.
     fn leaves_rotations(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! Friction as a matrix: what an implicit scheme needs of a viscous operator.
+//! Friction as a matrix: the form of a viscous operator for an implicit scheme.
 
 use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};
@@ -9,7 +9,7 @@ use sph_neighbours::{Cluster, Kinds, Neighbourhood, World};
 pub trait Coupling<const D: usize>: Send + Sync {
     /// Columns read.
     fn access(&self) -> Access;
-    /// Whether C and W mix the components of the velocity.
+    /// True if C and W mix the components of the velocity.
     fn mixes_components(&self) -> bool;
     /// Lends the coupling with its columns to `with`, once.
     ///
@@ -37,14 +37,14 @@ pub struct CouplingRow<W, const D: usize> {
 
 /// A [`Coupling`] with its columns. Since the separation is the only direction, C_ab = α 1 + β r rᵀ.
 pub trait BoundCoupling<const D: usize>: Sync {
-    /// Whether α and β are not zero everywhere.
+    /// Parts of α and β that are not zero everywhere.
     fn kinds(&self) -> Kinds;
 
     /// α (N s/m), β (N s/m³) and their norm |α| + |β| r² for every candidate of a cluster, one number per lane each;
     /// exactly zero beyond the support.
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>);
 
-    /// Whether [`walls`](Self::scalar_walls) looks at the free neighbours of a particle.
+    /// True if [`walls`](Self::scalar_walls) reads the free neighbours of a particle.
     fn walls_need_neighbours(&self, particle: usize) -> bool;
 
     /// W and s of walls, for couplings that do not mix components.

@@ -19,9 +19,9 @@ pub use choice::{Across, Choice, OnLattice, PairOperator, WallTerm};
 pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
-    /// Whether a sheared layer's response depends on its direction: else β is not looked at.
+    /// True if a sheared layer's response depends on its direction: else β is skipped.
     const DIRECTIONAL: bool = true;
-    /// Whether any part of the force is along the relative velocity: else α is not looked at.
+    /// True if any part of the force is along the relative velocity: else α is skipped.
     const EVEN: bool = true;
     /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r, from the volumes here and there, r² and F.
     fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
@@ -42,7 +42,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
         }
         force
     }
-    /// ½ t·f(t) of several particles: what a unit velocity along t gives.
+    /// ½ t·f(t) of several particles: the response to a unit velocity along t.
     #[inline(always)]
     fn shears<L: Lane>(self, volume: L, there: L, along: &[L; D], pair: &LanePair<D, L>) -> L {
         let half = L::splat(0.5);
@@ -137,7 +137,7 @@ fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
     open
 }
 
-/// Whether the fluid rubs any wall: all may be free-slip.
+/// True if the fluid rubs any wall: all may be free-slip.
 fn rubs<const D: usize>(world: &World<D>) -> bool {
     let elements = &world.walls.elements;
     let mut friction_factors = world
@@ -167,7 +167,7 @@ pub struct BoundFriction<'a, const D: usize, F> {
     wall_friction: &'a [f64],
     elements: &'a Elements<D>,
     contacts: &'a Contacts<D>,
-    /// Whether any wall does: else no wall is looked at.
+    /// True if any wall does: else walls are skipped.
     rubs: bool,
     /// Walls that fluid passes: nothing of them is corrected.
     open: Vec<u32>,
@@ -200,7 +200,7 @@ pub struct Own<const D: usize, L> {
     volume: L,
     density: L,
     along: [L; D],
-    /// Whether any has an element at which the wall term is to be corrected.
+    /// True if any has an element at which the wall term is to be corrected.
     near: bool,
 }
 

@@ -140,7 +140,7 @@ impl<const D: usize> Drop for FrictionOperator<'_, D> {
     }
 }
 
-/// Writes rows of a matrix; what couples copies stands on the diagonal alone.
+/// Writes rows of a matrix; couplings to copies are on the diagonal alone.
 struct Writer<'a, E, const D: usize> {
     own: &'a [E],
     rows: &'a mut Rows<E, D>,
@@ -174,7 +174,8 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
     }
 }
 
-/// Largest of Σ C over what is left of the diagonal, of blocks with the means of their diagonals: Σ C is the whole less what is a row's own.
+/// Largest of Σ C over the rest of the diagonal, of blocks with the means of their diagonals: Σ C is the whole less the
+/// row's own part.
 fn stiffness<E: Entry<D>, const D: usize>(own: &[E], whole: &[E]) -> f64 {
     let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
     let row = |(own, whole): (&E, &E)| {

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{Cluster, CouplingRows, Couplings, Keeper, MOST, Space, Weak, World};
+use sph_neighbours::{Cluster, CouplingRows, CouplingWriter, Couplings, MOST, Space, Weak, World};
 
 use crate::linear::Block;
 use crate::viscosity::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
@@ -32,7 +32,7 @@ pub struct FrictionSystem<const D: usize> {
     matrices: Mutex<Matrices<D>>,
 }
 
-/// M + θΔt W, and the same with what couples a row to others.
+/// M + θΔt W, and the same with the couplings of a row to others.
 struct Diagonals<E> {
     own: Vec<E>,
     whole: Vec<E>,
@@ -121,7 +121,7 @@ impl<const D: usize> FrictionSystem<D> {
         })
     }
 
-    /// θΔt W over Δt of a particle, N s/m: what walls do to it.
+    /// θΔt W over Δt of a particle, N s/m: the friction of walls.
     pub(crate) fn of_walls(&self, particle: usize) -> Block<D> {
         let own = match self.mixes {
             false => Block::<D>::identity() * self.scalar.own[particle],
@@ -182,7 +182,7 @@ impl<const D: usize> Part<'_, D> {
     fn add<E: FrictionEntry<D>>(
         &self,
         cluster: &mut Cluster<'_, D>,
-        keeper: &mut Keeper<'_>,
+        keeper: &mut CouplingWriter<'_>,
         (own, whole, right): CouplingRows<'_, E, E, Vect<D>>,
     ) {
         self.coupling.strengths(cluster, keeper.numbers);

@@ -19,16 +19,16 @@ use crate::viscosity::{Coupling, FrictionSystem, Solves};
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
 const INNER: f64 = 0.1;
 
-/// Vectors of a solve: right-hand side, uⁿ, u*, what they start from, and those of conjugate gradients.
+/// Vectors of a solve: right-hand side, uⁿ, u*, their start, and those of conjugate gradients.
 const VECTORS: usize = 8;
 
 /// Updates of the viscosity with the velocity within a step.
-pub struct Lagged<const D: usize> {
+pub struct PicardUpdates<const D: usize> {
     /// Stages of the viscosity of the present velocity; empty where it does not depend on it.
     pub stages: Stages<D>,
-    /// Whether an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
+    /// True if an elastic material stiffens while it is strained: 𝒢Δt then acts as a viscosity.
     pub stiffens: bool,
-    /// Whether a soil may be held by the solve beyond its strength.
+    /// True if a soil may be held by the solve beyond its strength.
     pub may_hold: bool,
 }
 
@@ -37,7 +37,7 @@ pub struct ImplicitViscosity<const D: usize> {
     coupling: Box<dyn Coupling<D>>,
     scheme: Box<dyn TimeScheme>,
     solver: Box<dyn LinearSolver<D>>,
-    lagged: Lagged<D>,
+    lagged: PicardUpdates<D>,
     solves: Solves,
     /// The system of the last solve, for its memory.
     system: FrictionSystem<D>,
@@ -48,7 +48,7 @@ pub struct ImplicitViscosity<const D: usize> {
     ahead: Vec<Vect<D>>,
     /// uⁿ⁺¹ on its way.
     velocity: Vec<Vect<D>>,
-    /// Viscosities without what makes them stiff.
+    /// Viscosities without the stiffening.
     plain: Vec<f64>,
 }
 
@@ -60,7 +60,7 @@ impl<const D: usize> ImplicitViscosity<D> {
     pub fn new(
         coupling: Box<dyn Coupling<D>>,
         (scheme, solver): (Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>),
-        lagged: Lagged<D>,
+        lagged: PicardUpdates<D>,
     ) -> Self {
         ImplicitViscosity {
             coupling,
@@ -218,7 +218,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         let solved = match self.lagged.stages.is_empty() {
             true => self.solver.solve(whole, &right, velocity),
             false => {
-                // More than the outer iteration asks for would be lost on it.
+                // A tolerance below that of the outer iteration gains nothing.
                 let enough = INNER * self.scheme.outer().tolerance;
                 let solver = &mut self.solver;
                 solver.solve_roughly(whole, &right, velocity, enough)
@@ -310,7 +310,7 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
     }
 }
 
-/// Adds what the strain of the step does to an elastic material, s𝒢Δt, to the viscosities; `plain` keeps those without it.
+/// Adds the elastic response to the strain of the step, s𝒢Δt, to the viscosities; `plain` keeps those without it.
 ///
 /// Δt is the whole step, over which stresses follow the velocity, also in a kick over a part of it.
 fn stiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
@@ -329,8 +329,8 @@ fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Resu
     Ok(())
 }
 
-/// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with what drives the flow:
-/// next to rest the velocity need not be more accurate than the change that one step could give it.
+/// √(Σm|u − u'|²/Σm(|u|² + Δt²|g|²)) of a velocity against the world's, with the driving acceleration: next to rest the
+/// velocity need not be more accurate than the change that one step could give it.
 fn relative_change<const D: usize>(
     world: &World<D>,
     velocity: &[Vect<D>],

@@ -19,18 +19,18 @@ const LEAST: f64 = 1e-3;
 /// interfaces to δr²/R.
 #[derive(Default)]
 pub struct InterfaceDistance {
-    beyond: Option<Beyond>,
-    mixed: Mixed,
+    beyond: Option<KernelTail>,
+    mixed: InterfaceParticles,
 }
 
 /// Particles with another phase within the reach of their list; phases change with the lists only.
 #[derive(Default)]
-struct Mixed {
+struct InterfaceParticles {
     built_for: u64,
     near: Vec<bool>,
 }
 
-impl Mixed {
+impl InterfaceParticles {
     fn refresh<const D: usize>(&mut self, world: &World<D>, phase: &[u32]) {
         if self.built_for == world.lists.builds && self.near.len() == phase.len() {
             return;
@@ -68,7 +68,7 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
         let phase = world.free.get(fields::PHASE)?;
         let kernel = &*world.kernel;
         let own = kernel.value_at_zero();
-        let beyond = self.beyond.get_or_insert_with(|| Beyond::new(kernel));
+        let beyond = self.beyond.get_or_insert_with(|| KernelTail::new(kernel));
         let lists = world.lists.nearest();
         self.mixed.refresh(world, phase);
         let mixed = &self.mixed.near;
@@ -95,13 +95,13 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
 }
 
 /// The share of the kernel beyond a plane, tabulated over the distance.
-struct Beyond {
+struct KernelTail {
     radius: f64,
     /// At equal steps from 0 to the radius: from 1/2 down to 0.
     share: Vec<f64>,
 }
 
-impl Beyond {
+impl KernelTail {
     const STEPS: usize = 256;
 
     fn new(kernel: &dyn Sampler) -> Self {
@@ -125,7 +125,7 @@ impl Beyond {
         let whole = 2.0 * at(0.0);
         let step = radius / Self::STEPS as f64;
         let share = (0..=Self::STEPS).map(|k| at(k as f64 * step) / whole);
-        Beyond {
+        KernelTail {
             radius,
             share: share.collect(),
         }
@@ -157,11 +157,11 @@ mod tests {
     fn the_table_is_inverted_to_1e_4_of_the_radius() {
         for dimension in [2, 3] {
             let kernel = wendland_c2().sampler(dimension, 0.5);
-            let beyond = Beyond::new(&*kernel);
+            let beyond = KernelTail::new(&*kernel);
             assert_eq!(beyond.share[0], 0.5);
             for k in 0..=100 {
                 let d = 0.0085 * f64::from(k);
-                let at = d * Beyond::STEPS as f64;
+                let at = d * KernelTail::STEPS as f64;
                 let (low, part) = (at.floor() as usize, at.fract());
                 let share = beyond.share[low] * (1.0 - part) + beyond.share[low + 1] * part;
                 let found = beyond.distance(share);

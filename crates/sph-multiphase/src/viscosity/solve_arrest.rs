@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-/// Mean share of the weight above which a result is not right: what falls with 0.95 g has a tenth less kinetic energy.
+/// Mean share of the weight above which a result is not right: a fall with 0.95 g has a tenth less kinetic energy.
 const MUCH: f64 = 0.05;
 
 /// Mean share of the weight of a soil that the solve bears beyond the strength of the law.
@@ -76,7 +76,7 @@ impl SolveArrest {
         })
     }
 
-    /// Why a run that has come to its end has no result, if too much was held.
+    /// Reason that a finished run has no result, if too much was held.
     pub(crate) fn verdict(&self) -> Option<StepError> {
         let told = self.warning()?;
         Some(StepError::Stage {

@@ -10,7 +10,7 @@ use crate::viscosity::SolveArrest;
 /// Effort of the implicit solves of a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Solves {
-    /// How many systems were solved by each method.
+    /// Systems solved, by method.
     pub by_method: BTreeMap<String, u64>,
     /// Mean number of iterations of all, those before a factorisation included.
     pub mean_iterations: f64,
@@ -21,10 +21,10 @@ pub struct Solves {
     /// Wall-clock time of all solves, without putting the systems together, s.
     #[serde(default)]
     pub wall_seconds: f64,
-    /// Most bytes of a matrix and of what the solver held for it.
+    /// Most bytes of a matrix and of the solver's memory for it.
     #[serde(default)]
     pub most_bytes: usize,
-    /// How often the viscosity followed the velocity, where it depends on it.
+    /// Updates of the viscosity by the velocity, where it depends on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer: Option<OuterSolves>,
     /// Weight of a soil that solves bore beyond its strength, with stresses of the end of the step.

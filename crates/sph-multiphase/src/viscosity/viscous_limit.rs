@@ -12,7 +12,7 @@ pub struct ViscousLimit {
     pub coefficient: f64,
     /// Largest η/ρ₀ that the laws allow, m²/s; may be infinite.
     pub largest: f64,
-    /// Whether all viscosities are constant, so that it is the one of every state.
+    /// True if all viscosities are constant, so that it is the one of every state.
     pub constant: bool,
 }
 
@@ -26,7 +26,7 @@ impl<const D: usize> Limiter<D> for ViscousLimit {
                 let density = world.free.get(fields::DENSITY)?;
                 let both = viscosity.par_iter().zip(density).with_min_len(1024);
                 let present = both.map(|(eta, rho)| eta / rho).reduce(|| 0.0, f64::max);
-                // Before the first evaluation nothing is known but what the laws allow.
+                // Before the first evaluation the bounds of the laws alone are known.
                 match present > 0.0 || self.largest.is_infinite() {
                     true => present,
                     false => self.largest,

@@ -5,8 +5,8 @@ use sph_core::StepError;
 use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
-    /// Whether a rank says yes, if none has failed. Every message between ranks is preceded by this, so that a rank
-    /// that fails anywhere in a step reaches the others, which wait here.
+    /// True if a rank answers yes; an error if one has failed. Every message between ranks is preceded by this, so that
+    /// a rank that fails anywhere in a step reaches the others, which wait here.
     ///
     /// # Errors
     /// If a rank has failed, on all ranks alike; messages that fail.
@@ -32,8 +32,8 @@ impl<const D: usize> Parts<D> {
 
     /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
     /// has that has one.
-    pub fn confess(&mut self, cause: StepError) -> StepError {
-        self.link.confess(cause)
+    pub fn share_failure(&mut self, cause: StepError) -> StepError {
+        self.link.share_failure(cause)
     }
 
     /// The least of every value over all ranks.

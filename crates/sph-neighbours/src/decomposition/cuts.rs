@@ -162,7 +162,7 @@ impl<const D: usize> Cuts<D> {
         group
     }
 
-    /// The rank that owns what is at a place.
+    /// The rank that owns a place.
     pub fn owner(&self, x: &Vect<D>) -> u32 {
         self.group_of(x, 1).first as u32
     }

@@ -47,7 +47,7 @@ impl From<PartError> for StepError {
 
 /// Particles of a rank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Divided {
+pub struct RankParticles {
     /// That it owns.
     pub own: usize,
     /// Copies of others'.

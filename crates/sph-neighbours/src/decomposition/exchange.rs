@@ -12,7 +12,7 @@ pub struct Exchange {
     pub columns: Vec<AnyField>,
 }
 
-/// Messages of an evaluation, from what its stages touch.
+/// Messages of an evaluation, from the columns that its stages touch.
 pub fn exchanges(stages: &[Access]) -> Vec<Exchange> {
     let sums = stages.iter().enumerate().filter(|(_, access)| access.sweep);
     let told = sums.map(|(stage, access)| Exchange {

@@ -35,7 +35,7 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// Fills the whole with what all ranks have sent.
+/// Fills the whole with the messages of all ranks.
 fn join<const D: usize>(
     part: &World<D>,
     whole: &mut World<D>,

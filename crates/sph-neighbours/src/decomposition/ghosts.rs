@@ -92,7 +92,7 @@ impl<'a, const D: usize> Needs<'a, D> {
         }
     }
 
-    /// Whether a rank with this box needs a copy of what is at a place.
+    /// True if a rank with this box needs copies of particles at a place.
     pub fn at(&self, x: &Vect<D>, rank: &RankBox<D>) -> bool {
         let apart = rank.distance_squared(x, self.domain);
         if apart < self.reach * self.reach {

@@ -28,9 +28,9 @@ pub(crate) struct Link {
     pub partners: RwLock<Partners>,
     /// Number of times that a stage goes from particles to their neighbours.
     pub rings: usize,
-    /// Whether all ranks have got the failure at hand.
+    /// True once all ranks have got the failure at hand.
     told: AtomicBool,
-    /// Whether messages failed where no error could be returned.
+    /// True if messages failed where no error could be returned.
     lost: AtomicBool,
     pub messages: AtomicU64,
     pub bytes: AtomicU64,
@@ -78,14 +78,14 @@ impl Link {
         }
     }
 
-    /// Whether a rank says yes, if none has failed.
+    /// True if a rank answers yes; an error if one has failed.
     pub fn any(&self, failed: bool, yes: bool) -> Result<bool, PartError> {
         let mut said = [f64::from(u8::from(yes))];
         self.agree(failed, &mut said)?;
         Ok(said[0] > 0.0)
     }
 
-    /// Whether all is well at the end of something in which ranks may have failed, with or without a message.
+    /// Confirms the success of all ranks at the end of a work in which some may have failed, with or without a message.
     pub fn confirm(&self, failed: bool) -> Result<(), PartError> {
         if failed && self.told.swap(false, Ordering::Relaxed) {
             return Err(PartError::Elsewhere);
@@ -97,7 +97,7 @@ impl Link {
 
     /// After a failure on any rank, on all ranks: informs the others, and gives the cause that the first rank
     /// has that has one.
-    pub fn confess(&self, cause: StepError) -> StepError {
+    pub fn share_failure(&self, cause: StepError) -> StepError {
         if !self.told.swap(false, Ordering::Relaxed) {
             // They answer with the failure itself.
             let _ = self.any(true, false);
@@ -126,8 +126,8 @@ impl Link {
         sends.map(|(rank, slots)| (*rank, pack(slots))).collect()
     }
 
-    /// Sends messages to the ranks with copies, and does some `work` meanwhile; gives what comes for the ghosts, owner
-    /// by owner.
+    /// Sends messages to the ranks with copies, and does some `work` meanwhile; returns the messages for the ghosts,
+    /// owner by owner.
     fn swapped(
         &self,
         out: Vec<(usize, Vec<u8>)>,

@@ -8,7 +8,7 @@ use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
     /// Brings an earlier copy of this rank's particles into the present order: particles that have come since are asked
-    /// of their earlier ranks, particles that have gone are left out. Every rank must ask.
+    /// of their earlier ranks, particles that have gone are left out. Every rank must call it.
     ///
     /// # Errors
     /// Another rank that has failed; messages that fail; a particle that no rank had.

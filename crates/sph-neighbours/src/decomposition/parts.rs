@@ -1,8 +1,8 @@
 //! A rank's part of a flow: its own particles, and ghosts, which are copies of others' that are near.
 //!
-//! Ghosts take part in every step as if they were the rank's own. Only what is summed over neighbours comes out wrong for them,
-//! since some of their neighbours are missing: it is overwritten with what their owner found. All that follows from a
-//! particle's own columns is the same on both ranks, to the bit.
+//! Ghosts take part in every step as if they were the rank's own. Only what is summed over neighbours comes out wrong
+//! for them, since some of their neighbours are missing: it is overwritten with the result of their owner. All that
+//! follows from a particle's own columns is the same on both ranks, to the bit.
 
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
@@ -12,10 +12,10 @@ use sph_core::{AnyField, Role, Store, Vect, fields};
 use crate::decomposition::ghosts::{Needs, RankBox};
 use crate::decomposition::link::{Link, Partner, Partners};
 use crate::decomposition::owner::OWNER;
-use crate::decomposition::{Cuts, DecompositionError, Divided, PartError, Thread, Transport};
+use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
 use crate::{Extent, World};
 
-/// Rebuilt lists until the parts are looked at again.
+/// Rebuilt lists between two checks of the parts.
 const BUILDS_TO_LOOK: u64 = 20;
 /// Imbalance from which the space is cut anew: the largest share over the mean, less one.
 const UNEVEN: f64 = 0.05;
@@ -40,14 +40,14 @@ pub struct Parts<const D: usize> {
     cuts: Cuts<D>,
     /// Particles that went to another rank, and how often the space was cut anew.
     changes: [u64; 2],
-    /// Rebuilds since the parts were looked at.
+    /// Rebuilds since the last check of the parts.
     builds: u64,
 }
 
 impl<const D: usize> Parts<D> {
     /// Leaves a rank its part of the particles, which every rank holds as a whole; `rings` is how often a stage goes from particles
     /// to their neighbours. The places of the lists must be known; lists are built for the part alone. All particles are taken
-    /// to cost the same: the parts are looked at when lists are built next.
+    /// to cost the same: the parts are checked when lists are built next.
     ///
     /// # Errors
     /// More ranks than particles; a column that is missing.
@@ -82,7 +82,7 @@ impl<const D: usize> Parts<D> {
         let places: Vec<Vect<D>> = kept.iter().map(|k| reference[*k as usize]).collect();
         let own: Vec<bool> = kept.iter().map(|k| owners[*k as usize] == rank).collect();
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |k| own[k]));
-        let sends = transport.others().iter().map(to).collect();
+        let sends = transport.other_ranks().iter().map(to).collect();
         drop(needs);
         world.free.keep_slots(&kept);
         let link = Arc::new(Link::new(transport, rings));
@@ -104,7 +104,7 @@ impl<const D: usize> Parts<D> {
         &self.link.transport
     }
 
-    /// Whether this rank writes what all found.
+    /// True if this rank writes the common results.
     pub fn is_first(&self) -> bool {
         self.link.transport.rank() == 0
     }
@@ -120,11 +120,11 @@ impl<const D: usize> Parts<D> {
     }
 
     /// The division of the particles.
-    pub fn divided(&self, free: &Store<D>) -> Divided {
+    pub fn divided(&self, free: &Store<D>) -> RankParticles {
         let partners = self.link.partners();
         let count = |all: &[Partner]| all.iter().map(|(_, slots)| slots.len()).sum::<usize>();
         let ghosts = count(&partners.receives);
-        Divided {
+        RankParticles {
             own: free.len() - ghosts,
             ghosts,
             sent: count(&partners.sends),
@@ -174,7 +174,7 @@ impl<const D: usize> Parts<D> {
         self.link.update_ghosts_during(world, wanted, work)
     }
 
-    /// Whether each of so many particles is sent to another rank.
+    /// Marks of particles that are sent to another rank, out of so many.
     pub fn sent(&self, particles: usize) -> Vec<bool> {
         let mut sent = vec![false; particles];
         for (_, slots) in &self.link.partners().sends {
@@ -221,11 +221,11 @@ impl<const D: usize> Parts<D> {
         world.free.keep_slots(&own);
         self.move_house(world)?;
         let own = world.free.len();
-        let around = self.around(world)?;
+        let around = self.rank_boxes(world)?;
         let places = world.free.get(fields::POSITION)?.to_vec();
         let needs = Needs::new(world, self.link.rings);
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
-        let sends: Vec<Partner> = self.link.transport.others().iter().map(to).collect();
+        let sends: Vec<Partner> = self.link.transport.other_ranks().iter().map(to).collect();
         drop(needs);
         self.deliver(world, &sends)?;
         world.extent = Some(self.extent(&places)?);
@@ -320,7 +320,7 @@ impl<const D: usize> Parts<D> {
             numbers[*rank] = (message.len() / each) as u64;
         }
         self.link.count(&out);
-        let mut come = self.link.transport.trade(&numbers)?;
+        let mut come = self.link.transport.all_to_all(&numbers)?;
         come[self.link.transport.rank()] = 0;
         let from: Vec<usize> = (0..come.len()).filter(|r| come[*r] > 0).collect();
         let messages = self.link.transport.swap(out, &from)?;
@@ -335,8 +335,8 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Boxes around what each rank owns.
-    fn around(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
+    /// Boxes around the particles of each rank.
+    fn rank_boxes(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
         let own = RankBox::around(world.free.get(fields::POSITION)?.iter());
         let numbers = own.lower.iter().chain(own.upper.iter());
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();

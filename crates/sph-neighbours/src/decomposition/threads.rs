@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     /// Results of every rank.
-    fn each<T: Send>(ranks: usize, work: impl Fn(&Thread) -> T + Sync) -> Vec<T> {
+    fn on_each_rank<T: Send>(ranks: usize, work: impl Fn(&Thread) -> T + Sync) -> Vec<T> {
         std::thread::scope(|scope| {
             let communicator = Thread::communicator(ranks);
             let work = &work;
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn messages_arrive_where_they_are_sent_and_reductions_agree() {
-        let found = each(4, |at| {
+        let found = on_each_rank(4, |at| {
             let rank = at.rank() as u64;
             let all = at.all(&[rank as u8]).expect("all");
             let mut largest = [
@@ -99,7 +99,7 @@ mod tests {
             let mut total = [rank, 1];
             at.total(&mut total).expect("total");
             let traded: Vec<u64> = (0..4).map(|to| 10 * rank + to).collect();
-            let traded = at.trade(&traded).expect("trade");
+            let traded = at.all_to_all(&traded).expect("trade");
             let gathered = at.gather(vec![rank as u8; 2]).expect("gather");
             (all, largest, total, traded, gathered.len())
         });
@@ -121,7 +121,7 @@ mod tests {
     fn work_is_done_before_messages_are_waited_for() {
         let (done, is_done) = std::sync::mpsc::channel();
         let (done, is_done) = (std::sync::Mutex::new(done), std::sync::Mutex::new(is_done));
-        let found = each(2, |at| {
+        let found = on_each_rank(2, |at| {
             if at.rank() == 1 {
                 // Sends nothing until the other has done its work, which would never come if that waited first.
                 let is_done = is_done.lock().expect("one rank");
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn waiting_for_an_ended_rank_is_an_error() {
-        let found = each(3, |at| match at.rank() {
+        let found = on_each_rank(3, |at| match at.rank() {
             1 => Ok(()),
             _ => at.total(&mut [1]),
         });

@@ -53,7 +53,7 @@ pub trait Transport: Send + Sync + Debug {
     /// # Errors
     /// As [`swap`](Self::swap).
     fn all(&self, own: &[u8]) -> Result<Vec<Vec<u8>>, TransportError> {
-        let others = self.others();
+        let others = self.other_ranks();
         let out = others.iter().map(|r| (*r, own.to_vec())).collect();
         let mut all = self.swap(out, &others)?;
         all.insert(self.rank(), own.to_vec());
@@ -70,7 +70,7 @@ pub trait Transport: Send + Sync + Debug {
             return Ok(Vec::new());
         }
         let mut all = vec![own];
-        all.extend(self.swap(Vec::new(), &self.others())?);
+        all.extend(self.swap(Vec::new(), &self.other_ranks())?);
         Ok(all)
     }
 
@@ -107,8 +107,8 @@ pub trait Transport: Send + Sync + Debug {
     ///
     /// # Errors
     /// As [`swap`](Self::swap).
-    fn trade(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
-        let others = self.others();
+    fn all_to_all(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
+        let others = self.other_ranks();
         let out = others
             .iter()
             .map(|r| (*r, numbers[*r].to_le_bytes().to_vec()));
@@ -123,7 +123,7 @@ pub trait Transport: Send + Sync + Debug {
     }
 
     /// All ranks but this one, ascending.
-    fn others(&self) -> Vec<usize> {
+    fn other_ranks(&self) -> Vec<usize> {
         (0..self.ranks()).filter(|r| *r != self.rank()).collect()
     }
 }

@@ -7,11 +7,11 @@ use sph_core::plugin;
 use crate::course::{FactorTable, check_course, factor, range};
 use crate::laws::imposed_velocity;
 use crate::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place, Profile,
+    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
+    OpenRefusal, OpenSetting, Profile,
 };
 
-/// A volume per time passes through the part of the face that has fluid in front of it, at whatever level that is.
+/// A volume per time passes through the part of the face that has fluid in front of it, at any level.
 ///
 /// Velocities are those of a [`VelocityInlet`](crate::VelocityInlet), scaled so that they have the rate.
 ///
@@ -23,7 +23,7 @@ use crate::{
 pub struct FlowRate {
     /// Volume into the fluid per time: m³/s, in two dimensions m²/s.
     pub rate: f64,
-    /// How the velocity is shared out along the face.
+    /// Distribution of the velocity along the face.
     #[parameter(default)]
     pub profile: Profile,
     /// Times, s, and factors of the rate, straight between them; it must cover the run.
@@ -44,7 +44,7 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         check_course(&self.over_time, setting)?;
         setting.check_speed("rate", 0.0)
     }
-    fn fit(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
+    fn fit(&self, places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         self.profile.fit(places)
     }
     fn entering(&self) -> Entering {
@@ -56,28 +56,29 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
     fn lets_out(&self) -> bool {
         range(&self.over_time, self.rate)[0] < 0.0
     }
-    fn asked(&self, _: &[Place<D>], time: f64) -> Option<f64> {
+    fn asked(&self, _: &[FaceElement<D>], time: f64) -> Option<f64> {
         Some(self.rate * factor(&self.over_time, time))
     }
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    ) -> Vec<FaceValues<D>> {
         let now = self.rate * factor(&self.over_time, moment.time);
         let each = || places.iter().zip(inside);
-        let weight = |place: &Place<D>| self.profile.at(place) * place.measure;
+        let weight = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
         let wetted = each().filter(|(_, i)| i.wet);
         let wet: f64 = wetted.map(|(p, i)| weight(p) * i.filled).sum();
         // Through less than an element there would be a jet.
         let wet = wet.max(places.iter().map(weight).sum::<f64>() / places.len() as f64);
-        let one = |(place, inside): (&Place<D>, &Inside<D>)| match inside.wet && wet > 0.0 {
-            true => Outside {
+        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| match inside.wet && wet > 0.0
+        {
+            true => FaceValues {
                 share: Some(inside.filled),
                 ..imposed_velocity(place, now / wet * self.profile.at(place))
             },
-            false => Outside::dry(),
+            false => FaceValues::dry(),
         };
         each().map(one).collect()
     }

@@ -5,8 +5,8 @@ use sph_core::plugin;
 use crate::course::{FactorTable, check_course, factor};
 use crate::laws::imposed_pressure;
 use crate::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place,
+    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
+    OpenRefusal, OpenSetting,
 };
 
 /// A still water level behind the face: the pressure is hydrostatic below it, and nothing passes above.
@@ -51,13 +51,13 @@ impl<const D: usize> OpenBoundary<D> for Level {
     }
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    ) -> Vec<FaceValues<D>> {
         let level = self.level * factor(&self.over_time, moment.time);
         let g = moment.gravity.norm();
-        let one = |(place, inside): (&Place<D>, &Inside<D>)| {
+        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
             let depth = level - moment.height(&place.centre);
             let still = inside.density * g * depth;
             let mut outside = imposed_pressure(place, inside, still.max(0.0));

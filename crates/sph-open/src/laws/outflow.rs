@@ -4,13 +4,14 @@ use sph_core::plugin;
 
 use crate::laws::imposed_pressure;
 use crate::{
-    Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside, Place,
+    FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal,
+    OpenSetting,
 };
 
 /// Fluid leaves, and sound with it.
 ///
 /// With u inwards, p_i − ρc u_i arrives from the fluid, u_i that of the face as a whole. With a `velocity` −u₀ far away,
-/// p₀ + ρc u₀ comes from outside, so that p = ½ [p_i + p₀ + ρc (u₀ − u_i)]. With a `memory` only what changes faster leaves, and the means of p_i and u_i over this
+/// p₀ + ρc u₀ comes from outside, so that p = ½ [p_i + p₀ + ρc (u₀ − u_i)]. With a `memory` only faster changes leave, and the means of p_i and u_i over this
 /// time, p̄ and ū, have the pressure p₀: p = p₀ + ½ [(p_i − p̄) − ρc (u_i − ū)]. In both cases fluid passes with
 /// u = u_i + (p − p_i)/ρc, with the u_i of each element.
 ///
@@ -59,13 +60,13 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
     }
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    ) -> Vec<FaceValues<D>> {
         let g = moment.gravity.norm();
         let [present, mean] = of_the_face(places, inside);
-        let one = |(place, inside): (&Place<D>, &Inside<D>)| {
+        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
             let z = inside.impedance;
             let depth = |level: f64| (level - moment.height(&place.centre)).max(0.0);
             let far = self.pressure + self.level.map_or(0.0, |l| inside.density * g * depth(l));
@@ -86,7 +87,7 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
 ///
 /// Sound in front of a face is a plane wave there. What differs from element to element is the profile of the flow, and which
 /// particles have just been taken into the mean: times ρc that would be pressure.
-fn of_the_face<const D: usize>(places: &[Place<D>], inside: &[Inside<D>]) -> [f64; 2] {
+fn of_the_face<const D: usize>(places: &[FaceElement<D>], inside: &[FluidMean<D>]) -> [f64; 2] {
     let (mut sums, mut whole) = ([0.0; 2], 0.0);
     for (place, inside) in places.iter().zip(inside).filter(|(_, inside)| inside.wet) {
         let velocities = [inside.velocity, inside.mean];

@@ -5,8 +5,8 @@ use sph_core::plugin;
 use crate::course::{FactorTable, check_course, factor};
 use crate::laws::imposed_pressure;
 use crate::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place,
+    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
+    OpenRefusal, OpenSetting,
 };
 
 /// A given pressure over the whole face; the velocity follows, u = u_i + (p − p_i)/ρc.
@@ -47,10 +47,10 @@ impl<const D: usize> OpenBoundary<D> for Pressure {
     }
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    ) -> Vec<FaceValues<D>> {
         let now = self.pressure * factor(&self.over_time, moment.time);
         let each = places.iter().zip(inside);
         each.map(|(place, inside)| imposed_pressure(place, inside, now))

@@ -7,11 +7,11 @@ use sph_core::plugin;
 use crate::course::{FactorTable, check_course, factor, range};
 use crate::laws::imposed_velocity;
 use crate::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place, Profile,
+    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
+    OpenRefusal, OpenSetting, Profile,
 };
 
-/// Fluid passes with a given velocity along the normal of the face, whatever is in front of it.
+/// Fluid passes with a given velocity along the normal of the face, for any fluid in front of it.
 ///
 /// The pressure follows from the characteristic that leaves the fluid, p = p_i + ρc (u − u_i): sound that arrives is
 /// thrown back as from a wall that moves so. A negative velocity takes fluid out, as far as there is fluid before the
@@ -30,7 +30,7 @@ pub struct VelocityInlet {
     /// Velocity into the fluid, m/s; a `profile` and `over_time` are factors of it.
     #[parameter(unit: "m/s")]
     pub velocity: f64,
-    /// How it is shared out along the face.
+    /// Distribution of the velocity along the face.
     #[parameter(default)]
     pub profile: Profile,
     /// Times, s, and factors of the velocity, straight between them; it must cover the run.
@@ -53,7 +53,7 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         let largest = times.reduce(f64::max).unwrap_or(1.0) * self.profile.largest();
         setting.check_speed("velocity", self.velocity * largest)
     }
-    fn fit(&self, places: &[Place<D>]) -> Result<(), OpenRefusal> {
+    fn fit(&self, places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         self.profile.fit(places)
     }
     fn entering(&self) -> Entering {
@@ -65,14 +65,19 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
     fn lets_out(&self) -> bool {
         range(&self.over_time, self.velocity)[0] < 0.0
     }
-    fn asked(&self, places: &[Place<D>], time: f64) -> Option<f64> {
+    fn asked(&self, places: &[FaceElement<D>], time: f64) -> Option<f64> {
         let now = self.velocity * factor(&self.over_time, time);
-        let one = |place: &Place<D>| self.profile.at(place) * place.measure;
+        let one = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
         Some(now * places.iter().map(one).sum::<f64>())
     }
-    fn outside(&self, places: &[Place<D>], _: &[Inside<D>], moment: &Moment<D>) -> Vec<Outside<D>> {
+    fn outside(
+        &self,
+        places: &[FaceElement<D>],
+        _: &[FluidMean<D>],
+        moment: &Moment<D>,
+    ) -> Vec<FaceValues<D>> {
         let now = self.velocity * factor(&self.over_time, moment.time);
-        let one = |place: &Place<D>| imposed_velocity(place, now * self.profile.at(place));
+        let one = |place: &FaceElement<D>| imposed_velocity(place, now * self.profile.at(place));
         places.iter().map(one).collect()
     }
 }

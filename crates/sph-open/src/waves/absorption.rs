@@ -1,4 +1,4 @@
-//! A paddle that lets go out what comes back to it.
+//! A paddle that absorbs waves that come back to it.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -89,8 +89,8 @@ impl Absorption {
         }
     }
 
-    /// Way and velocity besides what is prescribed, `dt` later: with the depth of the water before the paddle, none if there is
-    /// none.
+    /// Way and velocity besides the prescribed motion, `dt` later: with the depth of the water before the paddle, none
+    /// if there is none.
     pub fn next(
         &self,
         [way, velocity]: [f64; 2],

@@ -53,7 +53,7 @@ pub fn wavenumber_on(omega: f64, depth: f64, gravity: f64, current: f64) -> Opti
     Some(halved([0.0, high], |k| frequency(k) > omega))
 }
 
-/// Where a condition begins to hold between two numbers, to rounding.
+/// Boundary between two numbers from which a condition holds, to rounding.
 fn halved([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (low + high);

@@ -1,4 +1,4 @@
-//! The face of a paddle: where it looks, and how it moves besides what is prescribed.
+//! The face of a paddle: its gauge, and its motion besides the prescribed one.
 
 use sph_boundary::{Drawing, MoverSetting, RigidState};
 use sph_core::Vect;
@@ -61,7 +61,7 @@ impl<const D: usize> Face<D> {
         })
     }
 
-    /// Where it looks.
+    /// The depth gauge of the face.
     pub fn gauge(&self, now: &RigidState<D>) -> DepthGauge<D> {
         let [way, _] = self.movement(now);
         let (place, lean) = match self.arm {
@@ -90,8 +90,8 @@ impl<const D: usize> Face<D> {
         [arm * angle, arm * rate]
     }
 
-    /// Way and velocity besides what is prescribed.
-    pub fn besides(&self, now: &RigidState<D>, plan: &RigidState<D>) -> [f64; 2] {
+    /// Way and velocity besides the prescribed motion.
+    pub fn free_motion(&self, now: &RigidState<D>, plan: &RigidState<D>) -> [f64; 2] {
         let (now, plan) = (self.movement(now), self.movement(plan));
         [now[0] - plan[0], now[1] - plan[1]]
     }
@@ -138,7 +138,7 @@ mod tests {
             };
             let plan = face.moved(RigidState::default(), [0.02, 0.1], 0.0);
             let now = face.moved(plan, [0.01, -0.3], 2.0);
-            let [way, velocity] = face.besides(&now, &plan);
+            let [way, velocity] = face.free_motion(&now, &plan);
             assert!((way - 0.01).abs() < 1e-15 && (velocity + 0.3).abs() < 1e-15);
             let top = now.movement((Vect::<3>::new(0.0, 0.0, 0.5)).into());
             assert!(

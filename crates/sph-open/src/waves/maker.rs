@@ -22,7 +22,7 @@ use crate::waves::superposition::{Component, Waves};
 ///   X₂ = H²/(32 d) [3 cosh kd/sinh³ kd − 2/(H/S)] sin 2ωt.
 ///
 /// Irregular and focused waves, and flaps, are of first order. The paddle begins where it is drawn and at rest, and rises to its
-/// motion within `ramp`. With `absorb` it looks at the depth of the water within two smoothing lengths, and moves besides so that
+/// motion within `ramp`. With `absorb` it measures the depth of the water within two smoothing lengths, and moves besides so that
 /// waves that come back leave through it:
 ///
 ///   τ du'/dt + u' = −ω/e₀ (η − η_made) − X'/10T,   τ = E/(ω e₀)
@@ -39,7 +39,7 @@ use crate::waves::superposition::{Component, Waves};
 /// waves = { regular = { height = "8 cm", period = "1.2 s" } }
 /// ```
 #[plugin(MoverEntry [2 => WaveMaker<2>, 3 => WaveMaker<3>], "wave-maker",
-    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb what comes back",
+    "a piston or a flap that makes waves: regular, irregular, focused; it may absorb waves that come back",
     source: "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003")]
 #[derive(Debug)]
 #[serde(bound = "")]
@@ -64,7 +64,7 @@ pub struct WaveMaker<const D: usize> {
     /// Time in which the motion rises; two periods if left out.
     #[parameter(unit: "s", min: 0.0)]
     ramp: Option<f64>,
-    /// Whether waves that come back leave through the paddle.
+    /// True if waves that come back leave through the paddle.
     #[parameter(default)]
     absorb: bool,
     #[serde(skip)]
@@ -80,15 +80,15 @@ struct Feedback<const D: usize> {
     absorption: Absorption,
 }
 
-type Settled<T> = Result<T, MoverRefusal>;
+type MoverResult<T> = Result<T, MoverRefusal>;
 
-fn refuse<T>(key: &str, why: impl Into<String>) -> Settled<T> {
+fn refuse<T>(key: &str, why: impl Into<String>) -> MoverResult<T> {
     Err(MoverRefusal::at_key(key, why))
 }
 
 impl<const D: usize> WaveMaker<D> {
     /// Depth of the water and size of gravity.
-    fn water(&self, setting: &MoverSetting<'_, D>) -> Settled<[f64; 2]> {
+    fn water(&self, setting: &MoverSetting<'_, D>) -> MoverResult<[f64; 2]> {
         let gravity = setting.gravity;
         let g = -gravity[D - 1];
         if !(g > 0.0 && gravity.norm() <= g * (1.0 + 1e-12)) {
@@ -105,7 +105,7 @@ impl<const D: usize> WaveMaker<D> {
     }
 
     /// The direction of the waves.
-    fn direction(&self) -> Settled<Vect<D>> {
+    fn direction(&self) -> MoverResult<Vect<D>> {
         let along = match &self.along {
             None => return Ok(Vect::from_fn(|k, _| if k == 0 { 1.0 } else { 0.0 })),
             Some(along) => along,
@@ -124,7 +124,7 @@ impl<const D: usize> WaveMaker<D> {
         }
     }
 
-    fn paddle(&self) -> Settled<Paddle> {
+    fn paddle(&self) -> MoverResult<Paddle> {
         let Some(hinge) = &self.hinge else {
             return Ok(Paddle::Piston);
         };
@@ -140,8 +140,8 @@ impl<const D: usize> WaveMaker<D> {
         }
     }
 
-    /// Whether the motion has the correction of second order.
-    fn second_order(&self, paddle: Paddle, depth: f64, first: &Component) -> Settled<bool> {
+    /// True if the motion has the correction of second order.
+    fn second_order(&self, paddle: Paddle, depth: f64, first: &Component) -> MoverResult<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
         match self.order {
             Some(1) => return Ok(false),
@@ -162,7 +162,7 @@ impl<const D: usize> WaveMaker<D> {
     }
 
     /// The motion at the still level, m.
-    fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> Settled<Vec<SinePart>> {
+    fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> MoverResult<Vec<SinePart>> {
         let waves = self.waves.components(depth, gravity);
         let Some(first) = waves.first() else {
             return refuse(
@@ -198,7 +198,7 @@ impl<const D: usize> WaveMaker<D> {
         water: [f64; 2],
         ramp: f64,
         setting: &MoverSetting<'_, D>,
-    ) -> Settled<Option<Feedback<D>>> {
+    ) -> MoverResult<Option<Feedback<D>>> {
         if !self.absorb {
             return Ok(None);
         }
@@ -223,7 +223,7 @@ impl<const D: usize> WaveMaker<D> {
 }
 
 impl<const D: usize> Mover<D> for WaveMaker<D> {
-    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Settled<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> MoverResult<()> {
         let water = self.water(setting)?;
         let faulty = |(key, why): (&str, String)| MoverRefusal::at_key(key, why);
         self.waves.check(water[0], water[1], 0.0).map_err(faulty)?;
@@ -281,7 +281,7 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
         let Some(Feedback { face, absorption }) = &self.feedback else {
             return plan;
         };
-        let besides = face.besides(now, &self.motion.state(time));
+        let besides = face.free_motion(now, &self.motion.state(time));
         let next = absorption.next(besides, load.depth, time, dt);
         face.moved(plan, next, (next[1] - besides[1]) / dt)
     }

@@ -17,13 +17,13 @@ impl Paddle {
     pub fn near_field(self, frequency: f64, depth: f64, gravity: f64) -> f64 {
         let y = frequency * frequency * depth / gravity;
         let term = |j: usize| {
-            let x = standing(j, y);
+            let x = root(j, y);
             let moved = match self {
                 Paddle::Piston => x.sin(),
                 Paddle::Flap(hinge) => {
                     let arm = (depth - hinge) / depth;
                     let low = x * (1.0 - arm).max(0.0);
-                    // A hinge below the floor: what of the flap moves there counts for nothing.
+                    // A hinge below the floor: the motion of the flap there does not count.
                     x.sin() + (x.cos() - low.cos()) / (x * arm)
                 }
             };
@@ -35,7 +35,7 @@ impl Paddle {
 }
 
 /// The j-th root x = k d of x tan x = −y, between (j − ½)π and jπ.
-fn standing(j: usize, y: f64) -> f64 {
+fn root(j: usize, y: f64) -> f64 {
     let top = j as f64 * std::f64::consts::PI;
     // x = jπ − atan(y/x) contracts: its slope is y/(x² + y²), below 1/π.
     (0..60).fold(top, |x, _| top - (y / x).atan())
@@ -49,7 +49,7 @@ mod tests {
     fn roots_are_roots_and_a_piston_is_a_flap_hinged_far_below() {
         for y in [0.01, 1.0, 30.0] {
             for j in [1, 2, 7] {
-                let x = standing(j, y);
+                let x = root(j, y);
                 assert!((x * x.sin() + y * x.cos()).abs() < 1e-9, "{j} {y}: {x}");
             }
         }
@@ -67,7 +67,7 @@ mod tests {
         let kd = depth * crate::waves::wavenumber(omega, depth, gravity);
         let first = 4.0 * kd.sinh() * kd.cosh() / (2.0 * kd + (2.0 * kd).sinh());
         let rest: f64 = (1..4000)
-            .map(|j| standing(j, y))
+            .map(|j| root(j, y))
             .map(|x| 4.0 * x.sin() * x.cos() / (2.0 * x + (2.0 * x).sin()))
             .sum();
         // The rest falls as 1/j².

@@ -24,7 +24,7 @@ pub(crate) struct Orbits {
     pub gravity: f64,
     pub current: f64,
     pub waves: Vec<Component>,
-    /// Whether the only wave is of second order.
+    /// True if the only wave is of second order.
     pub second: bool,
 }
 
@@ -75,9 +75,10 @@ impl Orbits {
             true => elevation.max(0.0),
             false => 0.0,
         };
-        let water = self.below(z.min(top), time, share);
+        let water = self.extrapolated(z.min(top), time, share);
         let pressure = match z < elevation {
-            // Above the still level the first order has the pressure of the still level, and the weight of what is above.
+            // Above the still level the first order has the pressure of the still level, and the weight of the water
+            // above.
             true => water.pressure + self.gravity * (z.min(top) - z),
             false => 0.0,
         };
@@ -88,7 +89,7 @@ impl Orbits {
     }
 
     /// The same as if there were water at this height.
-    fn below(&self, height: f64, time: f64, share: f64) -> Water {
+    fn extrapolated(&self, height: f64, time: f64, share: f64) -> Water {
         let (mut u, mut up, mut pushed) = (0.0, 0.0, 0.0);
         for w in &self.waves {
             let (sigma, k, a) = (self.intrinsic(w), w.wavenumber, share * w.amplitude);
@@ -157,7 +158,7 @@ mod tests {
             let kx = 0.157 * f64::from(j);
             let here = eta(kx, 0.2);
             let all = orbits(amplitude, kx);
-            let water = all.below(here, 0.2, 1.0);
+            let water = all.extrapolated(here, 0.2, 1.0);
             let step = 1e-5;
             let rises = (eta(kx, 0.2 + step) - eta(kx, 0.2 - step)) / (2.0 * step);
             let slope = k * (eta(kx + step, 0.2) - eta(kx - step, 0.2)) / (2.0 * step);

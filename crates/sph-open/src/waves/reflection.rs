@@ -16,9 +16,9 @@ use crate::waves::separation::{Separated, separated};
 /// `highest`; the window is to hold a whole number of periods. Every frequency is [separated] by least squares, with the
 /// wavenumbers of linear waves, on a `current` if there is one. The columns are significant heights 4 √(Σ ½ a²), m, of both, √(reflected/incident energy), and
 /// the period of the largest incident wave, s; of regular waves the height is 1/√2 of the significant one, 2a. They are NaN
-/// before the window ends, 0 for the height of what is not there. The curve has both amplitudes over the frequency.
+/// before the window ends, 0 for the height of a missing wave. The curve has both amplitudes over the frequency.
 ///
-/// Frequencies at which the places cannot separate the two waves (a third of what is best, `clear` in
+/// Frequencies at which the places cannot separate the two waves (a third of the best case, `clear` in
 /// [`Separated`]) are left out.
 ///
 /// Source: Mansard & Funke 1980; the sums over time are discrete Fourier transforms by the trapezoidal rule.
@@ -270,7 +270,7 @@ impl<const D: usize> Gathers<D> for ReflectionProbe {
 
     fn recall(&self, gathered: &[u64]) {
         let row = 1 + self.at.len();
-        // What another scene gathered is of other gauges.
+        // Values gathered by another scene are of other gauges.
         let fits = gathered.len() == row + 2 * self.numbers().count() * self.at.len();
         if let (true, Ok(mut sums)) = (fits, self.sums.lock()) {
             let all: Vec<f64> = gathered.iter().map(|b| f64::from_bits(*b)).collect();
@@ -304,8 +304,8 @@ mod tests {
         }
     }
 
-    /// Feeds it what waves (frequency, amplitude there, amplitude back, phase) make, every 20 ms, in steps that do not meet the
-    /// window's ends.
+    /// Feeds it the levels of waves (frequency, amplitude there, amplitude back, phase), every 20 ms, in steps that do
+    /// not meet the window's ends.
     fn fed(probe: &ReflectionProbe, waves: &[[f64; 4]]) {
         let mut t = 0.003;
         while t < probe.to + 0.05 {

@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn two_waves_are_found_to_rounding() {
-        // As on a current: what comes back against it is shorter.
+        // As on a current: a wave that comes back against it is shorter.
         let (k, incident, reflected) = ([2.4, 3.1], [0.03, -0.01], [0.001, 0.002]);
         let gauges = PLACES.map(|x| (x, signal(k, x, incident, reflected)));
         let found = separated(k, &gauges).expect("a solution");

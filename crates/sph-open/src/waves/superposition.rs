@@ -28,10 +28,10 @@ impl Component {
         0.25 * coth * (3.0 * (coth * coth - 1.0) + 2.0)
     }
 
-    /// Whether regular waves are so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
+    /// Checks that regular waves are so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
     ///
     /// # Errors
-    /// Why not.
+    /// The reason that it does not fit.
     pub(crate) fn fits_second_order(&self, depth: f64) -> Result<(), String> {
         let length = TAU / self.wavenumber;
         let ursell = 2.0 * self.amplitude * length * length / depth.powi(3);
@@ -106,7 +106,7 @@ pub struct Focused {
     /// Lowest and highest frequency over that of the peak.
     #[parameter(default: [0.5, 2.0], unit: "1")]
     pub band: [f64; 2],
-    /// Where the crests meet, as a way from the paddle.
+    /// Place at which the crests meet, as a distance from the paddle.
     #[parameter(unit: "m")]
     pub at: f64,
     /// When they meet.
@@ -114,7 +114,7 @@ pub struct Focused {
     pub time: f64,
 }
 
-/// How many waves a focused group has.
+/// Number of waves of a focused group.
 const GROUP: f64 = 64.0;
 
 /// The wrong key of a table, with the reason.

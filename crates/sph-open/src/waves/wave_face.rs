@@ -9,22 +9,22 @@ use crate::waves::dispersion::wavenumber_on;
 use crate::waves::orbits::Orbits;
 use crate::waves::superposition::Waves;
 use crate::{
-    Entering, Inside, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, Outside,
-    Place,
+    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
+    OpenRefusal, OpenSetting,
 };
 
 /// Waves come in through the face on a current, and waves that come to it go out.
 ///
 /// Behind the face is the water of linear waves on a uniform current, regular waves to second order ([`Waves`]): its surface,
 /// pressure p₀ and velocity u₀. Where a current comes in, or waves without a current, the face imposes u₀ at every depth, below
-/// its own surface; what runs to it is thrown back.
+/// its own surface; a wave that runs to it is reflected.
 ///
 /// Elsewhere, and where a current goes out against the waves, the face yields. A wave that runs to it has p' = −ρ C u' at every depth, with u' inwards and its speed C = σ/k
 /// in the water at rest. So
 ///
 ///   p = p₀ − ρ C (u_n − u₀ₙ)
 ///
-/// ([`Outside::yielding`]), and no wave of the period comes back, whatever its height. Of other periods with the speed C'
+/// ([`FaceValues::yielding`]), and no wave of the period comes back, whatever its height. Of other periods with the speed C'
 /// |C' − C|/(C' + C) comes back by linear theory, and of a change of the mean level, C' = √(gd). The level at the face follows
 /// from the same: what runs high goes out.
 ///
@@ -36,7 +36,7 @@ use crate::{
 /// current = "0.2 m/s"
 /// waves = { regular = { height = "8 cm", period = "1.2 s" } }
 /// ```
-#[plugin(OpenBoundaryEntry [2, 3], "waves", "waves come in on a current, and what comes to the face goes out",
+#[plugin(OpenBoundaryEntry [2, 3], "waves", "waves come in on a current, and waves that come to the face go out",
     source: "Stokes 1847; Verbrugghe et al. 2019")]
 #[derive(Debug)]
 pub struct WaveFace {
@@ -59,18 +59,18 @@ pub struct WaveFace {
     /// Time in which the waves rise; two periods if left out.
     #[parameter(unit: "s", min: 0.0)]
     ramp: Option<f64>,
-    /// Whether the face yields; if left out, where a current goes out, or nothing comes in.
+    /// True if the face yields; if left out, so where a current goes out, or nothing comes in.
     yields: Option<bool>,
     /// Name of the phase that comes in; that of the fluid in front of the face if left out.
     #[parameter(default)]
     phase: Option<String>,
     #[serde(skip)]
-    settled: OnceLock<Settled>,
+    settled: OnceLock<WaveFaceState>,
 }
 
 /// Quantities derived from the table.
 #[derive(Clone, Debug)]
-struct Settled {
+struct WaveFaceState {
     orbits: Orbits,
     /// C, m/s.
     speed: f64,
@@ -78,7 +78,7 @@ struct Settled {
     yields: bool,
 }
 
-impl Settled {
+impl WaveFaceState {
     /// Share of the waves' amplitudes at a time.
     fn share(&self, time: f64) -> f64 {
         match time < self.ramp {
@@ -93,7 +93,7 @@ fn refuse<T>(key: &str, why: impl Into<String>) -> Result<T, OpenRefusal> {
 }
 
 impl WaveFace {
-    /// Whether the waves are of second order.
+    /// True if the waves are of second order.
     fn second_order(&self, orbits: &Orbits) -> Result<bool, OpenRefusal> {
         let fits = matches!(self.waves, Some(Waves::Regular(_)));
         match self.order {
@@ -111,7 +111,7 @@ impl WaveFace {
         }
     }
 
-    fn settled(&self, gravity: f64) -> Result<Settled, OpenRefusal> {
+    fn settled(&self, gravity: f64) -> Result<WaveFaceState, OpenRefusal> {
         if gravity.is_nan() || gravity <= 0.0 {
             return refuse("level", "waves need gravity: set `numerics.gravity`");
         }
@@ -161,7 +161,7 @@ impl WaveFace {
         let speed = wavenumber_on(omega, depth, gravity, -self.current)
             .map_or((gravity * depth).sqrt(), |k| omega / k + self.current);
         let comes_in = self.current > 0.0 || (self.current == 0.0 && self.waves.is_some());
-        Ok(Settled {
+        Ok(WaveFaceState {
             orbits,
             speed,
             ramp,
@@ -192,18 +192,18 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
     }
     fn outside(
         &self,
-        places: &[Place<D>],
-        inside: &[Inside<D>],
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
         moment: &Moment<D>,
-    ) -> Vec<Outside<D>> {
+    ) -> Vec<FaceValues<D>> {
         let Some(settled) = self.settled.get() else {
-            return vec![Outside::dry(); places.len()];
+            return vec![FaceValues::dry(); places.len()];
         };
         let orbits = &settled.orbits;
         let share = settled.share(moment.time);
         let elevation = orbits.elevation(moment.time, share);
         let up: Vect<D> = -moment.gravity / moment.gravity.norm();
-        let one = |(place, inside): (&Place<D>, &Inside<D>)| {
+        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
             let height = moment.height(&place.centre) - self.level;
             let water = orbits.at(height, elevation, moment.time, share);
             let level = place.normal - up * place.normal.dot(&up);
@@ -215,17 +215,17 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
             };
             let tall = (side * level.norm()).max(f64::MIN_POSITIVE);
             match settled.yields {
-                true => Outside::yielding(
+                true => FaceValues::yielding(
                     place,
                     inside,
                     inside.density * water.pressure,
                     velocity,
                     inside.density * settled.speed,
                 ),
-                false => Outside {
+                false => FaceValues {
                     velocity,
                     share: Some(((elevation - height) / tall + 0.5).clamp(0.0, 1.0)),
-                    ..Outside::dry()
+                    ..FaceValues::dry()
                 },
             }
         };
@@ -289,7 +289,7 @@ mod tests {
         let k = wavenumber_on(omega, depth, gravity, -current).expect("a wave");
         let sigma = omega + k * current;
         for height in [0.05, 0.25, 0.45] {
-            let place = Place::<2> {
+            let place = FaceElement::<2> {
                 centre: Vect::<2>::new(5.0, height),
                 normal: Vect::<2>::new(-1.0, 0.0),
                 measure: 0.03,
@@ -298,7 +298,7 @@ mod tests {
                 rectangle: None,
             };
             let out = 0.03 * sigma * (k * height).cosh() / (k * depth).sinh();
-            let inside = Inside::<2> {
+            let inside = FluidMean::<2> {
                 wet: true,
                 pressure: 1000.0 * (gravity * (depth - height) + sigma / k * out),
                 filled: 1.0,

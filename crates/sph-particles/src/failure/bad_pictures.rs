@@ -16,8 +16,8 @@ const BEYOND: f64 = 0.01;
 /// Half the thickness of the slice through a body of three dimensions, in spacings.
 const SLICE: f64 = 1.0;
 
-/// The column that shows what went wrong.
-fn telling(cause: &StepError) -> &'static str {
+/// The column that shows the failure.
+fn deciding_column(cause: &StepError) -> &'static str {
     match cause {
         StepError::Bad {
             quantity: "density",
@@ -43,7 +43,7 @@ pub fn draw<const D: usize>(
     folder: &Path,
 ) -> Vec<PathBuf> {
     let world = &flow.world;
-    let Some((label, mut values)) = column_of(flow, telling(cause)) else {
+    let Some((label, mut values)) = column_of(flow, deciding_column(cause)) else {
         return Vec::new();
     };
     let Ok(position) = world.free.get(fields::POSITION) else {

@@ -30,7 +30,7 @@ pub struct Failure {
     pub checkpoint: Option<PathBuf>,
     /// All columns of the bad state for ParaView, if they were written.
     pub bad_state: Option<PathBuf>,
-    /// Pictures of the bad state, as far as they were written: all of it, and what is around the particle.
+    /// Pictures of the bad state, as far as they were written: all of it, and the surroundings of the particle.
     pub pictures: Vec<PathBuf>,
 }
 

@@ -14,11 +14,11 @@ const NEAR: f64 = 4.0;
 pub struct Findings {
     /// The cause of the run's end.
     pub cause: Trouble,
-    /// Roll-backs before it was given up.
+    /// Roll-backs before the end.
     pub retries: u32,
     /// The step that failed last, s.
     pub dt: f64,
-    /// Whose bound it came from.
+    /// Name of the limit that bound the step.
     pub limiter: String,
     /// The particle at fault, or the one with the largest acceleration where none is named.
     pub particle: Option<Suspect>,
@@ -37,21 +37,21 @@ pub struct Findings {
 pub struct Suspect {
     /// Its number.
     pub number: u32,
-    /// Whether the failed step named it.
+    /// True if the failed step named it.
     pub named: bool,
     /// Its phase.
     pub phase: String,
     /// The body it came from.
     pub body: String,
     /// At the last good state, if there is one.
-    pub before: Option<Sighting>,
+    pub before: Option<ParticleRecord>,
     /// At the bad state.
-    pub after: Option<Sighting>,
+    pub after: Option<ParticleRecord>,
 }
 
 /// A particle at some time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sighting {
+pub struct ParticleRecord {
     /// Time, s.
     pub time: f64,
     /// Position, m.
@@ -122,7 +122,7 @@ pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Opti
         return Some((place_of(flow, *particle)?, true));
     }
     let acceleration = flow.world.free.get(fields::ACCELERATION).ok()?;
-    // What is not a number is larger than any.
+    // NaN is larger than any number.
     let size = |k: &usize| {
         let a = acceleration[*k].norm_squared();
         if a.is_nan() { f64::INFINITY } else { a }
@@ -155,7 +155,7 @@ pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<
 }
 
 /// A particle as it is now.
-pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<Sighting> {
+pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<ParticleRecord> {
     let world = &flow.world;
     let position = world.free.get(fields::POSITION).ok()?;
     let velocity = world.free.get(fields::VELOCITY).ok()?;
@@ -173,7 +173,7 @@ pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Optio
         Some((name.to_string(), distance / world.spacing))
     });
     let list = |v: &Vect<D>| v.iter().map(|c| finite(*c)).collect();
-    Some(Sighting {
+    Some(ParticleRecord {
         time: world.time,
         position: list(x),
         velocity: list(&velocity[particle]),

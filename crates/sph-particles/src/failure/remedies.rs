@@ -4,7 +4,7 @@ use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::defaults;
 
-use crate::failure::findings::{Findings, Share, Sighting};
+use crate::failure::findings::{Findings, ParticleRecord, Share};
 
 /// Remedies of the plugins of a scene for their terms, by kind.
 pub type Remedies = [(&'static str, String)];
@@ -38,7 +38,7 @@ pub fn remedies(
     all
 }
 
-fn seen(found: &Findings) -> Option<&Sighting> {
+fn last_record(found: &Findings) -> Option<&ParticleRecord> {
     let particle = found.particle.as_ref()?;
     particle.before.as_ref().or(particle.after.as_ref())
 }
@@ -75,7 +75,7 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
     }
 }
 
-/// Whether an acceleration is beyond what drives flows.
+/// True if an acceleration exceeds those that drive flows.
 fn large(scene: &Scene, acceleration: f64) -> bool {
     let size = |a: &Option<Vec<f64>>| a.iter().flatten().map(|x| x * x).sum::<f64>().sqrt();
     let driven = size(&scene.numerics.gravity) + size(&scene.numerics.driving);
@@ -113,7 +113,7 @@ fn against_term(scene: &Scene, share: &Share, told: &Remedies) -> Option<String>
 
 /// Two particles in one place are no matter of steps.
 fn against_crowding(found: &Findings) -> Option<String> {
-    let nearest = seen(found)?.nearest.filter(|d| *d < CLOSE)?;
+    let nearest = last_record(found)?.nearest.filter(|d| *d < CLOSE)?;
     Some(format!(
         "its nearest neighbour was {nearest:.2} spacings away: look whether bodies overlap at the start, or settle them \
          (`numerics.relax`)"

@@ -98,7 +98,7 @@ impl<const D: usize> Running<'_, D> {
         }))
     }
 
-    /// Finds out and writes what a person needs to see why the run failed.
+    /// Finds and writes the evidence of a failed run.
     pub(crate) fn find_out(
         &mut self,
         failure: &mut Failure,
@@ -134,7 +134,7 @@ impl<const D: usize> Running<'_, D> {
         failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
     }
 
-    /// The particle, its place, and what acted on it if the bad state was evaluated.
+    /// The particle, its place, and the terms that acted on it if the bad state was evaluated.
     fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
         let flow = &self.shown().flow;
         let Some((k, named)) = suspect(flow, &failure.cause) else {
@@ -156,7 +156,7 @@ impl<const D: usize> Running<'_, D> {
             before: None,
             after: sighting(flow, k),
         });
-        // Densities and accelerations are judged after the sweep; what fails earlier has none of this state.
+        // Densities and accelerations are judged after the sweep; an earlier failure has none of this state.
         let judged = ["density", "acceleration"];
         // A whole that was gathered is not evaluated.
         let evaluated = self.whole.is_none();
@@ -177,7 +177,7 @@ impl<const D: usize> Running<'_, D> {
         shown.clone().find(within).or_else(|| shown.next())
     }
 
-    /// Back to the last good state, which becomes the checkpoint; what acted on the particle there.
+    /// Back to the last good state, which becomes the checkpoint; with the terms that acted on the particle there.
     fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &RunCounters) {
         let Some(snapshot) = self.good.state() else {
             return self.offer_an_earlier_checkpoint(failure);
@@ -203,7 +203,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Without a state to go back to, what was saved in its time.
+    /// Without a state to go back to, the last save.
     fn offer_an_earlier_checkpoint(&self, failure: &mut Failure) {
         let saved = self.options.out.join(CHECKPOINT);
         failure.checkpoint = saved.exists().then_some(saved);

@@ -44,7 +44,7 @@ pub fn room_of_sound(mach: f64, density: [f64; 2]) -> f64 {
     (LIQUID / mach).min((LIQUID.powi(2) / moved[0].max(moved[1])).sqrt())
 }
 
-/// Settings to try, with what they may bring.
+/// Settings to try, with their possible gains.
 pub fn advice(costs: &Costs) -> Vec<String> {
     limiter(costs).into_iter().chain(stage(costs)).collect()
 }

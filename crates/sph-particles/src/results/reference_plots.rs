@@ -89,7 +89,7 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Authors of the reference: what a line `# Source: …` of its file has up to the year.
+/// Authors of the reference: the text of a line `# Source: …` of its file up to the year.
 fn source(path: &Path) -> Option<String> {
     let lines = BufReader::new(File::open(path).ok()?).lines();
     let heads = lines
@@ -110,7 +110,7 @@ fn cited(source: &str) -> Option<String> {
         digits == 4
     };
     let Some((open, _)) = source.match_indices('(').find(year) else {
-        // What this project has computed says so before its first colon.
+        // The source of a reference that this project has computed names it before its first colon.
         let what = source.split([':', ';', ',']).next()?.trim();
         return (!what.is_empty()).then(|| what.to_string());
     };

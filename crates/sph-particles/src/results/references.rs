@@ -123,7 +123,7 @@ fn against_field<const D: usize>(
     Ok(entry)
 }
 
-/// Whether a time counts.
+/// True if a time counts.
 fn counts(reference: &Reference, t: f64) -> bool {
     let inside = reference.window.is_none_or(|[a, b]| t >= a && t <= b);
     inside && reference.exclude.is_none_or(|[a, b]| t < a || t > b)
@@ -168,7 +168,7 @@ fn against_series<const D: usize>(
             "a probe is compared with a `file`, or by the norm `decay-rate`".into(),
         ));
     };
-    // It was good when the run began; what has been computed since is not lost with it.
+    // It was good when the run began; results computed since are not lost with it.
     let table = match reference_table(reference, path) {
         Ok(table) => table,
         Err(gone) => return Ok(Err(gone.to_string())),

@@ -1,4 +1,4 @@
-//! The summary at the end of a run, and what a failed one leaves to its reader.
+//! The summary at the end of a run, and the findings of a failed one.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -97,7 +97,7 @@ impl<const D: usize> Running<'_, D> {
         })
     }
 
-    /// Particles that left by whatever the scene names, and by the border of the domain if anything did.
+    /// Particles that left by the scene's exits, and by the border of the domain if there are any.
     fn left(&self) -> BTreeMap<String, OutletTotals> {
         let flow = &self.parts.flow;
         let named = flow.outlets.labels().len();

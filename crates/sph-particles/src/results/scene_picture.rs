@@ -44,7 +44,7 @@ type Line = (Vec<[f64; 3]>, Colour);
 struct Notes<const D: usize> {
     lines: Vec<Line>,
     texts: Vec<([f64; 3], String)>,
-    /// Corners of the box around particles, walls and what is near them, m.
+    /// Corners of the box around particles, walls and their surroundings, m.
     low: Vect<D>,
     high: Vect<D>,
     /// Length of ticks, m.

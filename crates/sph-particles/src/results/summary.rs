@@ -1,4 +1,4 @@
-//! `summary.json`: what a run was and what came out.
+//! `summary.json`: settings and results of a run.
 
 use std::collections::BTreeMap;
 
@@ -49,10 +49,10 @@ pub struct RankShare {
     pub memory_bytes: f64,
 }
 
-/// Relative change of what should be conserved.
+/// Relative change of a conserved quantity.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Drift {
-    /// Over the initial mass; what has left by outlets is still counted.
+    /// Over the initial mass; mass that has left by outlets still counts.
     pub mass: f64,
     /// Over Σ m|u| at the end, or its largest value so far if larger.
     pub momentum: f64,

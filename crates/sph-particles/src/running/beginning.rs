@@ -11,7 +11,7 @@ use crate::failure::error::RunError;
 use crate::running::checkpoint;
 use crate::running::counters::Counters;
 
-/// Puts the flow where the run begins, and gives what has been counted until there.
+/// Puts the flow where the run begins, and returns the counts until there.
 pub fn begin<const D: usize>(
     scene: &Scene,
     identity: &Identity,

@@ -117,8 +117,8 @@ fn refused(path: &Path, reason: impl Into<String>) -> RunError {
     }
 }
 
-/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is
-/// given; returns what the driver saved. A flow that had no lists gets none.
+/// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is given;
+/// returns the driver's saved state. A flow that had no lists gets none.
 pub fn load<const D: usize>(
     flow: &mut Flow<D>,
     scene: &Scene,
@@ -165,7 +165,7 @@ pub fn load<const D: usize>(
 
 /// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
 ///
-/// All that the flow remembers must be in the checkpoint; more is left aside.
+/// The whole memory of the flow must be in the checkpoint; more is ignored.
 pub fn start_from<const D: usize>(
     flow: &mut Flow<D>,
     scene: &Scene,

@@ -4,7 +4,7 @@ use sph_core::StepError;
 
 /// The error of a run whose steps have become too short to move its clock.
 pub(crate) fn standing_still(time: f64, dt: f64, target: f64, limiter: &str) -> Option<StepError> {
-    // What is left of the way to an output may be as short: it is made up for after the step.
+    // The rest of the way to an output may be as short: it is made up for after the step.
     let moves = time + dt > time || time + dt >= target * (1.0 - 1e-12);
     (!moves).then(|| StepError::Stage {
         stage: "clock".into(),

@@ -85,7 +85,7 @@ impl Counters {
         }
     }
 
-    /// Takes over what the driver has counted.
+    /// Takes over the counts of the driver.
     pub(crate) fn take(&mut self, books: &RunCounters) {
         self.rows = books.rows;
         self.last_row = books.last_row.map(f64::to_bits);
@@ -107,8 +107,8 @@ impl Counters {
 
     /// The error of counts that no run of the scene can have at a time.
     ///
-    /// A checkpoint with right checksums may be of any origin. Counts that decide what is done
-    /// next must fit the time; others need only be such that counting on is possible.
+    /// A checkpoint with right checksums may be of any origin. Counts that decide the next work must fit the time;
+    /// others need only be such that counting on is possible.
     pub(crate) fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
         let scale = f64::from_bits(self.step_scale);
         if !(scale > 0.0 && scale <= 1.0) {
@@ -206,7 +206,7 @@ impl Counters {
     }
 }
 
-/// All whole numbers in what a piece of work has counted.
+/// All whole numbers in the counts of a piece of work.
 fn whole_numbers(counted: &Json) -> Vec<u64> {
     match counted {
         Json::Number(n) => n.as_u64().into_iter().collect(),

@@ -1,4 +1,4 @@
-//! A run on its way: the particles, and what was counted of them.
+//! A run on its way: the particles, and their counts.
 
 use std::sync::Arc;
 
@@ -32,10 +32,10 @@ pub(crate) struct Running<'a, const D: usize> {
     pub(crate) extrema: Extrema,
     pub(crate) outputs: Outputs,
     /// The state before the last step.
-    pub(crate) good: LastGood<D>,
+    pub(crate) good: StateBeforeStep<D>,
     /// Knowledge of the present state.
     pub(crate) known: DerivedState,
-    /// The last step that was tried, s, and what limited it.
+    /// The last step that was tried, s, and its limit.
     pub(crate) tried: (f64, &'static str),
     /// Bounds of the step at hand.
     pub(crate) limits: Vec<StepLimit>,
@@ -50,12 +50,12 @@ pub(crate) struct Running<'a, const D: usize> {
 
 /// The state before the last step, if any was kept.
 #[derive(Default)]
-pub(crate) struct LastGood<const D: usize> {
+pub(crate) struct StateBeforeStep<const D: usize> {
     pub(crate) snapshot: Snapshot<D>,
     pub(crate) taken: bool,
 }
 
-impl<const D: usize> LastGood<D> {
+impl<const D: usize> StateBeforeStep<D> {
     pub(crate) fn state(&self) -> Option<&Snapshot<D>> {
         self.taken.then_some(&self.snapshot)
     }
@@ -73,7 +73,7 @@ pub(crate) struct DerivedState {
 }
 
 impl<const D: usize> Running<'_, D> {
-    /// Whether this process writes.
+    /// True if this process writes.
     pub(crate) fn writes(&self) -> bool {
         self.ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0)
     }

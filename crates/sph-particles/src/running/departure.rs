@@ -76,7 +76,7 @@ impl DepartureWatch {
         )
     }
 
-    /// The reason for the run's end, if a body is no longer in the domain.
+    /// The reason for the run's end, if a body has left the domain.
     pub fn verdict(&self) -> Option<StepError> {
         let (name, time) = self.gone.as_ref()?;
         Some(StepError::Stage {

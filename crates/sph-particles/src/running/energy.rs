@@ -10,10 +10,10 @@ use crate::setup::moves;
 /// Shares of the scale from which the run warns, and from which it fails.
 const TOLD: f64 = 0.01;
 const GROSS: f64 = 0.1;
-/// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that what is at rest is not
+/// Least scale over Σ m c²: the energy of a flow with a sixteenth of its speed of sound, so that a fluid at rest is not
 /// measured by its own noise.
 const STILL: f64 = 2e-3;
-/// Kinds of plugins that give a flow no energy but what its sums hold.
+/// Kinds of plugins that give a flow no energy besides that of its sums.
 const OWN: [&str; 9] = [
     "formulation",
     "viscous-operator",
@@ -29,7 +29,7 @@ const OWN: [&str; 9] = [
 /// The energies of a flow so far, J.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EnergyWatch {
-    /// Whether anything else than its own weight may give the flow energy, or hold some that its sums leave out.
+    /// True if anything else than its own weight may give the flow energy, or hold some that its sums leave out.
     driven: bool,
     /// Sum and potential energy in the first row, largest kinetic, least potential energy, largest rise of the sum.
     so_far: Option<[f64; 5]>,
@@ -39,7 +39,7 @@ pub(crate) struct EnergyWatch {
 }
 
 impl EnergyWatch {
-    /// Of a scene; `so_far` is what a run that is resumed has seen.
+    /// Of a scene; `so_far` is from the earlier part of a resumed run.
     pub fn from_scene<const D: usize>(
         scene: &Scene,
         flow: &Flow<D>,
@@ -157,7 +157,7 @@ mod tests {
         assert!(told.contains("2.000e-1 J, 2.4 %"), "{told}");
         assert_eq!(flow.look(&balance(4.3, 6.0, 100.0), 0.0, 4.0), None, "once");
         assert!(flow.verdict().is_none() && flow.remarks().is_some());
-        // What has been lost again was made all the same.
+        // Energy that was lost again was made all the same.
         flow.look(&balance(6.0, 6.0, 100.0), 0.0, 5.0);
         flow.look(&balance(1.0, 6.0, 100.0), 0.0, 6.0);
         assert!(flow.verdict().is_some());

@@ -22,7 +22,7 @@ pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
     })
 }
 
-/// Every file that a scene names, with what is in it.
+/// Every file that a scene names, with its contents.
 ///
 /// # Errors
 /// A file that cannot be read, at its key.

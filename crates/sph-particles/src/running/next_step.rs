@@ -2,7 +2,7 @@
 
 use sph_core::StepLimit;
 
-/// The least limit times `factor`, cut so that `target` (s) is hit exactly, and the name of what limited it.
+/// The least limit times `factor`, cut so that `target` (s) is hit exactly, and the name of its limit.
 ///
 /// Without any limit the step is `longest`.
 pub fn next_step(

@@ -12,7 +12,7 @@ use crate::running::run::run_part;
 
 /// Runs a scene on several ranks that are threads of this process.
 ///
-/// The results are those of one rank, to the bit. What it is good for is to see how a scene divides, without a cluster.
+/// The results are those of one rank, to the bit. Its purpose is to see how a scene divides, without a cluster.
 ///
 /// # Errors
 /// As [`run_part`].

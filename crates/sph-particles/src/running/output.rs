@@ -15,7 +15,7 @@ use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls};
 use crate::setup::Probes;
 
-/// Whether outputs show how far particles are from the surface, which is found from lists and contacts.
+/// True if outputs show how far particles are from the surface, which is found from lists and contacts.
 pub(crate) fn shows_depths(scene: &Scene) -> bool {
     let mut shown = scene.output.fields.iter().chain(&scene.output.picture);
     shown.any(|name| name == SURFACE_DISTANCE.name)

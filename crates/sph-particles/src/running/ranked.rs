@@ -1,4 +1,4 @@
-//! A run on several ranks: the first gathers what all have found, and writes it.
+//! A run on several ranks: the first gathers all results, and writes them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -64,7 +64,7 @@ pub(crate) fn columns_of_all<const D: usize>(
     Ok(all)
 }
 
-/// Whether a probe or an output needs lists and contacts.
+/// True if a probe or an output needs lists and contacts.
 fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
     shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs().around)
 }
@@ -75,14 +75,14 @@ impl<const D: usize> Running<'_, D> {
         self.whole.as_ref().unwrap_or(&self.parts)
     }
 
-    /// The walls of what is shown: its own, or those of this process's part.
+    /// The walls of outputs: its own, or those of this process's part.
     pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
         let own = self.shown().flow.walls.as_deref();
         own.or(self.parts.flow.walls.as_deref())
     }
 
     /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
-    /// must ask. Nothing where one process runs all.
+    /// must call it. Nothing where one process runs all.
     pub(crate) fn gather(&mut self, evaluated: bool) -> Result<(), RunError> {
         if self.known.gathered.is_some_and(|done| done || !evaluated) {
             return Ok(());
@@ -97,7 +97,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(whole) = whole else {
             return Ok(parts.gather(&flow.world, None).map_err(StepError::from)?);
         };
-        // Only what is evaluated has neighbours.
+        // Only an evaluated state has neighbours.
         whole.world.forget_lists();
         let gathered = parts.gather(&flow.world, Some(&mut whole.world));
         gathered.map_err(StepError::from)?;
@@ -129,12 +129,12 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
-    /// Whether a probe needs lists and contacts.
+    /// True if a probe needs lists and contacts.
     pub(crate) fn looks_around(&self) -> bool {
         self.parts.probes.iter().any(|(_, p)| p.needs().around)
     }
 
-    /// Counts what is near the particles of this process.
+    /// Counts the neighbours of the particles of this process.
     pub(crate) fn look_around(&mut self) -> Result<(), RunError> {
         let flow = &self.parts.flow;
         let free = &flow.world.free;
@@ -239,7 +239,7 @@ impl<const D: usize> Running<'_, D> {
     pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {
             None => cause,
-            Some(parts) => parts.confess(cause),
+            Some(parts) => parts.share_failure(cause),
         }
     }
 }

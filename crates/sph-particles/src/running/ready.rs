@@ -9,7 +9,7 @@ use sph_scene::Scene;
 
 use crate::failure::error::RunError;
 use crate::running::counters::Counters;
-use crate::running::course::{DerivedState, LastGood, Running};
+use crate::running::course::{DerivedState, Running, StateBeforeStep};
 use crate::running::departure::DepartureWatch;
 use crate::running::energy::EnergyWatch;
 use crate::running::mach::MachWatch;
@@ -48,7 +48,7 @@ pub(crate) fn ready<'a, const D: usize>(
         counters: Counters::begin(),
         extrema: Extrema::NONE,
         outputs: Outputs::from_scene(scene, parts.pressure),
-        good: LastGood::default(),
+        good: StateBeforeStep::default(),
         known: DerivedState::default(),
         tried: (0.0, "none"),
         limits: Vec::new(),

@@ -101,7 +101,7 @@ fn run_in<const D: usize>(
 /// Factor by which a rolled-back step recovers per good step.
 pub(crate) const RECOVERY: f64 = 1.05;
 
-/// Adds to what is counted under a name, which is written down when it first comes.
+/// Adds to the count of a name, which is entered at its first use.
 fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
     match all.get_mut(name) {
         Some(sum) => *sum += more,
@@ -110,7 +110,7 @@ fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more
 }
 
 impl<const D: usize> Running<'_, D> {
-    /// One step from an evaluated state, which is kept, not beyond `target` (s); what went wrong in it, if something did.
+    /// One step from an evaluated state, which is kept, not beyond `target` (s); its failure, if there is one.
     pub(crate) fn step(&mut self, target: f64) -> Result<Result<(), StepError>, RunError> {
         let time = self.parts.flow.world.time;
         let (dt, limiter) = match self.chosen_step(time, target)? {
@@ -161,7 +161,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// The next step and what limits it, noted with all bounds.
+    /// The next step and its limit, noted with all bounds.
     fn chosen_step(
         &mut self,
         time: f64,

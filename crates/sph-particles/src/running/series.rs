@@ -20,7 +20,7 @@ pub struct Extrema {
     pub momentum_scale: f64,
 }
 
-/// Names and units of all columns, with the labels of what leaves.
+/// Names and units of all columns, with the labels of exits.
 pub fn columns<const D: usize>(left: &[String], probes: &Probes<D>) -> Vec<(String, String)> {
     let mut columns: Vec<(String, String)> = [("time", "s"), ("dt", "s")]
         .map(|(n, u)| (n.to_string(), u.to_string()))

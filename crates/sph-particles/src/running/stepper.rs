@@ -74,7 +74,7 @@ impl<const D: usize> Stepper<D> {
         self.parts.flow.world.time
     }
 
-    /// The last step, s, and what limited it.
+    /// The last step, s, and its limit.
     pub fn last_step(&self) -> (f64, &'static str) {
         (self.parts.flow.world.dt, self.limiter)
     }

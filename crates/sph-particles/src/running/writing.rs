@@ -72,7 +72,7 @@ impl<const D: usize> Running<'_, D> {
         self.counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
     }
 
-    /// Takes up what the rows of earlier parts of the run have seen.
+    /// Takes up the extremes in rows of earlier parts of the run.
     pub(crate) fn recall_extrema(&mut self, goes_on: bool) {
         let extrema = &mut self.extrema;
         if goes_on {

@@ -12,7 +12,7 @@ use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_rheology::state::{Laws, Lift, Lifted, Reference};
 use sph_scene::Scene;
-use sph_solver::setup::{Choices, FlowInputs, Planned, Planning, joined, shown};
+use sph_solver::setup::{Choices, FlowInputs, Planning, StagePlan, joined, shown};
 use sph_solver::step::{NewParticleDefaults, Outlets, VariableGravity, accounts};
 use sph_solver::{Flow, SolverError};
 
@@ -21,7 +21,7 @@ use crate::setup::field_error;
 use crate::setup::initial_world::InitialWorld;
 use crate::setup::leaks::Leak;
 use crate::setup::output_fields::check_output_fields;
-use crate::setup::placement::Placed;
+use crate::setup::placement::PlacedParticles;
 use crate::setup::probe_setup;
 use crate::setup::relaxation::Relaxation;
 use crate::setup::shapes::Drawn;
@@ -61,7 +61,8 @@ pub struct Assembled<const D: usize> {
     pub body_of: Vec<u32>,
 }
 
-/// Builds the plugins, the particles and the plan of what a process begins with. Where this is a part of the flow, all ranks assemble together.
+/// Builds the plugins, the particles and the plan of the start of a process. Where this is a part of the flow, all
+/// ranks assemble together.
 ///
 /// # Errors
 /// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
@@ -92,7 +93,7 @@ pub(crate) fn assembled<const D: usize>(
     open_faces::check_values(scene, &entering, &parts)?;
     let (free, outlets) = filled_columns(scene, &*formulation, &parts, &placed)?;
     let mut world = World { free, ..room };
-    let about = About {
+    let about = PlanInput {
         scene,
         formulation: &*formulation,
         integrator: &*choices.integrator,
@@ -128,7 +129,7 @@ pub(crate) fn assembled<const D: usize>(
     let relaxation = start(&beginning, &share, &mut flow)?;
     let (probes, integrator) = (&choices.probes, &*choices.integrator);
     accounts::open(scene, probes, integrator, &*formulation, &mut flow)?;
-    flow.nursery = nursery(scene, formulation, columns().collect(), &flow);
+    flow.nursery = new_particle_values(scene, formulation, columns().collect(), &flow);
     Ok(Assembled {
         flow,
         integrator: choices.integrator,
@@ -163,7 +164,7 @@ fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
 fn remarks<const D: usize>(
     scene: &Scene,
     ground: &Ground,
-    placed: &Placed<D>,
+    placed: &PlacedParticles<D>,
     flow: &mut Flow<D>,
 ) -> Result<Vec<String>, SolverError> {
     flow.know_exits(scene);
@@ -174,7 +175,7 @@ fn remarks<const D: usize>(
 }
 
 /// Initial values of newborn particles, where some may come in.
-fn nursery<const D: usize>(
+fn new_particle_values<const D: usize>(
     scene: &Scene,
     formulation: Arc<dyn Formulation<D>>,
     columns: Vec<OwnColumn<D>>,
@@ -200,7 +201,7 @@ fn wall_speeds<const D: usize>(
 }
 
 /// Input of a plan, before there is one.
-struct About<'a, const D: usize> {
+struct PlanInput<'a, const D: usize> {
     scene: &'a Scene,
     formulation: &'a dyn Formulation<D>,
     integrator: &'a dyn Integrator,
@@ -211,13 +212,13 @@ struct About<'a, const D: usize> {
     shown: &'a [String],
 }
 
-/// Whether a wall moves or slides.
+/// True if a wall moves or slides.
 pub fn moves(wall: &sph_scene::Wall) -> bool {
     wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
 }
 
-impl<const D: usize> About<'_, D> {
-    fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
+impl<const D: usize> PlanInput<'_, D> {
+    fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<StagePlan<D>, SolverError> {
         let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
         let diffused = self.formulation.diffused();
         let coefficients = self.integrator.coefficients();
@@ -292,7 +293,7 @@ fn filled_columns<const D: usize>(
     scene: &Scene,
     formulation: &dyn Formulation<D>,
     parts: &[Part<D>],
-    placed: &Placed<D>,
+    placed: &PlacedParticles<D>,
 ) -> Result<(Store<D>, Outlets), SolverError> {
     let mut free = state(scene, formulation, parts, placed.positions.len())?;
     let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free)
@@ -305,7 +306,7 @@ fn filled_columns<const D: usize>(
 fn give_places<const D: usize>(
     scene: &Scene,
     free: &mut Store<D>,
-    placed: &Placed<D>,
+    placed: &PlacedParticles<D>,
 ) -> Result<(), SolverError> {
     let count = free.len() as u32;
     free.get_mut(fields::POSITION)?
@@ -337,8 +338,7 @@ fn show<const D: usize>(
     check_output_fields(scene, flow)
 }
 
-/// Equations of state with their reference states, and what gravity changes by; what may lift them where faces are
-/// open.
+/// Equations of state with their reference states, and the change of gravity; the lift where faces are open.
 fn bind_laws<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,

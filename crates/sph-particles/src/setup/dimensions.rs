@@ -16,7 +16,7 @@ pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverErr
     assemble_share(scene, Share::Whole)
 }
 
-/// The same of what a process begins with. Where this is a part of the flow, all ranks assemble together.
+/// The same for the start of a process. Where this is a part of the flow, all ranks assemble together.
 ///
 /// # Errors
 /// Every problem of the scene; a flow that cannot be divided; another rank that failed.

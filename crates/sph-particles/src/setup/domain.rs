@@ -60,7 +60,7 @@ pub fn extent<const D: usize>(regions: &[Region<D>]) -> f64 {
     regions.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Times at which the way of prescribed walls is looked at.
+/// Times at which the way of prescribed walls is sampled.
 const SAMPLES: usize = 1000;
 
 /// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
@@ -120,7 +120,7 @@ pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
     let extent = (upper - lower).max();
     let margin = Vect::repeat(room * extent);
     let mut domain = Domain::open(lower - margin, upper + margin);
-    // So much at least on the way: where walls go less far, the box is what it is without.
+    // So much at least on the way: where walls go less far, the box is the same as without.
     sweep(scene, drawn, 0.5 * room * extent, &mut domain);
     if let Some([low, high]) = &scene.numerics.domain {
         domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));

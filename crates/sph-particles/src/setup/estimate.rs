@@ -10,7 +10,7 @@ use sph_solver::{SolverError, defaults};
 use crate::setup::shapes::Drawn;
 
 /// Bytes per particle of columns, lists and buffers together, before a scene is assembled: that of water in the usual
-/// support. What an assembled one holds is in [`Memory`](crate::setup::Memory).
+/// support. The memory of an assembled one is in [`Memory`](crate::setup::Memory).
 const BYTES_PER_PARTICLE: [f64; 2] = [1000.0, 3500.0];
 /// Bytes per neighbour, where lists outweigh the columns: four with the skin, four without, and a sixteenth to spare.
 const BYTES_PER_NEIGHBOUR: f64 = 8.5;
@@ -31,7 +31,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// From the particle count, the first step, s, and what the run holds, bytes.
+    /// From the particle count, the first step, s, and the memory of the run, bytes.
     pub fn new(scene: &Scene, particles: f64, dt: f64, memory: f64) -> Self {
         let steps = (scene.run.end / dt).ceil();
         let outputs = match (&scene.output.times, scene.output.every) {

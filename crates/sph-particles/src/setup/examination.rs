@@ -21,7 +21,7 @@ pub struct FieldUse {
     pub name: String,
     /// SI unit.
     pub unit: String,
-    /// Whether it carries history.
+    /// True if it carries history.
     pub state: bool,
     /// Bytes per particle.
     pub bytes: usize,
@@ -36,7 +36,7 @@ pub struct FieldUse {
 pub struct StageUse {
     /// Name.
     pub name: String,
-    /// Whether it walks over neighbours.
+    /// True if it walks over neighbours.
     pub sweep: bool,
     /// Columns read at the particle.
     pub reads_here: Vec<String>,
@@ -100,7 +100,7 @@ pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
     })
 }
 
-/// As [`examine`] of a scene in `D` dimensions, with what was assembled for it.
+/// As [`examine`] of a scene in `D` dimensions, with its assembly.
 ///
 /// # Errors
 /// Every problem of the scene, with its path.
@@ -190,7 +190,7 @@ fn memory<const D: usize>(
     flow: &mut Flow<D>,
     dt: f64,
 ) -> Result<Memory, SolverError> {
-    // Where the state is one that the run will refuse, what can be counted without it counts.
+    // Where the state is one that the run will refuse, the parts that need no state count.
     let evaluated = flow.evaluate().is_ok();
     let mut system = 0;
     for hooked in flow.hooks.all.iter().filter(|_| evaluated) {

@@ -6,7 +6,7 @@ use sph_probes::{Probe, ProbeColumn, Solution, SolutionEntry, norm};
 use sph_scene::{Norm, Scene};
 use sph_solver::SolverError;
 
-/// A field with what it should be, `components` numbers per particle.
+/// A field and its exact values, `components` numbers per particle.
 pub struct Compared {
     /// Values of the field.
     pub values: Vec<f64>,
@@ -105,7 +105,7 @@ pub fn probes<const D: usize>(
         let built = Registry::<SolutionEntry>::discovered()
             .and_then(|registry| registry.find(&choice.name))
             .and_then(|entry| entry.build::<D>(&choice.table));
-        let solution = built.map_err(|e| SolverError::Scene(choice.blame(&e)))?;
+        let solution = built.map_err(|e| SolverError::Scene(choice.scene_problems(&e)))?;
         let field = field.clone();
         probes.push((column(name), Box::new(ErrorProbe { field, solution })));
     }

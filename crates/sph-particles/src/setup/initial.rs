@@ -1,4 +1,4 @@
-//! In what state the particles are at time zero.
+//! State of the particles at time zero.
 
 use sph_core::Vect;
 use sph_probes::Solution;

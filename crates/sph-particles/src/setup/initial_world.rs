@@ -11,7 +11,7 @@ use sph_solver::{SolverError, defaults};
 
 use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::leaks::{Leak, leaks};
-use crate::setup::placement::{Placed, place};
+use crate::setup::placement::{PlacedParticles, place};
 use crate::setup::shapes::Drawn;
 use crate::setup::share::{ExistingWalls, Share};
 use crate::setup::walls::{build_walls, check_scaling, thin_walls, wall_problem};
@@ -23,7 +23,7 @@ pub(crate) struct InitialWorld<const D: usize> {
     /// The walls, if there are any.
     pub walls: Option<Box<dyn Wall<D>>>,
     /// Places and bodies of the particles.
-    pub placed: Placed<D>,
+    pub placed: PlacedParticles<D>,
     /// Walls behind which fluid can get.
     pub leaks: Vec<Leak<D>>,
     /// Remarks.
@@ -110,7 +110,7 @@ impl<const D: usize> InitialWorld<D> {
         Ok(InitialWorld {
             world,
             walls,
-            placed: Placed {
+            placed: PlacedParticles {
                 positions: Vec::new(),
                 body: Vec::new(),
                 warnings: Vec::new(),

@@ -34,7 +34,7 @@ impl Contact {
         self.squares += distance * distance;
     }
 
-    /// Mean distance where it is far from what fits, all along.
+    /// Mean distance where it is far from the fitting one, all along.
     fn misfit(&self, fitting: f64) -> Option<f64> {
         let mean = self.sum / self.number as f64;
         let scatter = (self.squares / self.number as f64 - mean * mean)

@@ -79,8 +79,8 @@ impl<'a, const D: usize> Layers<'a, D> {
     }
 
     /// The body a place is in.
-    fn look(&self, x: &Vect<D>) -> Seen {
-        let mut seen = Seen {
+    fn look(&self, x: &Vect<D>) -> LayerSample {
+        let mut seen = LayerSample {
             body: None,
             density: 0.0,
             clear: f64::INFINITY,
@@ -98,7 +98,7 @@ impl<'a, const D: usize> Layers<'a, D> {
     }
 }
 
-struct Seen {
+struct LayerSample {
     body: Option<usize>,
     density: f64,
     /// Distance to the nearest surface of any body, m.

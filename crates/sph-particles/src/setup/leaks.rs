@@ -34,7 +34,7 @@ pub(crate) fn leaks<const D: usize>(
         return Vec::new();
     }
     let skins = Skins::new(walls, &world.domain);
-    let about = About {
+    let about = LeakInput {
         scene,
         world,
         walls,
@@ -48,7 +48,7 @@ pub(crate) fn leaks<const D: usize>(
     all
 }
 
-struct About<'a, const D: usize> {
+struct LeakInput<'a, const D: usize> {
     scene: &'a Scene,
     world: &'a World<D>,
     walls: &'a WallSet<D>,
@@ -58,7 +58,7 @@ struct About<'a, const D: usize> {
     particles: &'a [Vect<D>],
 }
 
-impl<const D: usize> About<'_, D> {
+impl<const D: usize> LeakInput<'_, D> {
     fn name(&self, wall: usize) -> &str {
         self.scene.wall.keys().nth(wall).map_or("", String::as_str)
     }
@@ -83,7 +83,7 @@ impl<const D: usize> About<'_, D> {
         if rim.size(points, &self.world.domain) < support {
             return told(self.gap(rim));
         }
-        let beside = self.beside(rim, support);
+        let beside = self.neighbouring_points(rim, support);
         if let Some((node, ..)) = beside.first() {
             return Some(self.leak(wall(*node), &self.beside_text(rim, &beside), places));
         }
@@ -100,7 +100,7 @@ impl<const D: usize> About<'_, D> {
         let others = self.skins.all.iter().enumerate();
         let around = others
             .filter(|(k, skin)| skin.holds && !rim.skins.contains(k))
-            .find(|(_, skin)| within(skin, &centre));
+            .find(|(_, skin)| in_box(skin, &centre));
         if let Some((_, skin)) = around {
             let holds = self.name(skin.wall);
             return told(format!(
@@ -188,7 +188,7 @@ impl<const D: usize> About<'_, D> {
 
     /// Points of a rim with the nearest one of another skin within `reach`, and the distance, m: in the plane of both
     /// ends, in space the nearest.
-    fn beside(&self, rim: &Rim<D>, reach: f64) -> Vec<(usize, usize, f64)> {
+    fn neighbouring_points(&self, rim: &Rim<D>, reach: f64) -> Vec<(usize, usize, f64)> {
         let points = &self.walls.points.position;
         let [low, high] = rim.bounds(points);
         let near = |x: &Vect<D>| (0..D).all(|k| low[k] - reach < x[k] && x[k] < high[k] + reach);
@@ -241,11 +241,11 @@ impl<const D: usize> About<'_, D> {
         let rimmed = self.skins.rims.iter().any(|r| r.skins.contains(&k));
         let mut others = self.skins.all.iter().enumerate();
         let inner =
-            others.any(|(n, o)| n != k && o.holds && within(o, &skin.low) && within(o, &skin.high));
+            others.any(|(n, o)| n != k && o.holds && in_box(o, &skin.low) && in_box(o, &skin.high));
         if rimmed || !skin.holds || skin.open || !inner {
             return None;
         }
-        if self.particles.iter().any(|x| within(skin, x)) {
+        if self.particles.iter().any(|x| in_box(skin, x)) {
             return None;
         }
         let what = "the fluid is to be inside of it, and none is there, while other fluid surrounds it: turn it with `flip = \
@@ -267,8 +267,8 @@ impl<const D: usize> Rim<D> {
     }
 }
 
-/// Whether a place is in the box around a skin.
-fn within<const D: usize>(skin: &Skin<D>, x: &Vect<D>) -> bool {
+/// True if a place is in the box around a skin.
+fn in_box<const D: usize>(skin: &Skin<D>, x: &Vect<D>) -> bool {
     (0..D).all(|k| skin.low[k] <= x[k] && x[k] <= skin.high[k])
 }
 

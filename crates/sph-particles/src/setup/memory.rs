@@ -8,10 +8,10 @@ use sph_solver::Flow;
 
 /// Room that lists keep free for longer rows: they are cut to a sixteenth more than they need.
 const SPARE: f64 = 17.0 / 16.0;
-/// Excess of vectors that grow by doubling over what they need, in the mean.
+/// Excess of vectors that grow by doubling over their contents, in the mean.
 const GROWN: f64 = 1.5;
-/// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with what
-/// an allocator counted in two and three dimensions.
+/// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with
+/// the counts of an allocator in two and three dimensions.
 const TABLES_PER_ELEMENT: f64 = 550.0;
 /// Pixels of a picture, a little more than those of a plot, 1200 · 800.
 const PIXELS: f64 = 1200.0 * 850.0;
@@ -25,15 +25,14 @@ const SHARES: f64 = 2.0 + 2.0 * 2.0 / 3.0;
 /// Bytes of a place of a particle for pictures and files: three coordinates and a value.
 const BYTES_PER_PLACE: f64 = 32.0;
 
-/// Memory of a run by what holds it, bytes. The program itself and what a Cholesky factorisation fills in while it works
-/// are not in it.
+/// Memory of a run by its owners, bytes. The program itself and the fill-in of a Cholesky factorisation are not in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Columns of the particles.
     pub columns: f64,
     /// Neighbour lists, with skin and without.
     pub lists: f64,
-    /// The state to fall back on, and what neighbours are read from.
+    /// The state to fall back on, and the source of neighbours.
     pub copies: f64,
     /// Points, elements and contacts.
     pub walls: f64,

@@ -1,4 +1,4 @@
-//! Movers learn of the scene and get their walls.
+//! Preparation of movers with the scene and their walls.
 
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ pub(crate) fn prepare<const D: usize>(
     Ok(())
 }
 
-/// Whether the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
+/// True if the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
 pub(crate) fn carried(scene: &Scene) -> bool {
     let mut walls = scene.wall.values();
     match scene.wall.is_empty() {

@@ -1,4 +1,4 @@
-//! Open faces learn of the scene, and get their walls.
+//! Preparation of open faces with the scene and their walls.
 
 use std::sync::Arc;
 
@@ -14,9 +14,9 @@ use sph_solver::{SolverError, defaults};
 
 use crate::setup::shapes::Drawn;
 use crate::setup::tension;
-use crate::setup::tension::Filled;
+use crate::setup::tension::FilledBox;
 
-/// Distance in front of a port in which the room of a particle is looked at, over the spacing.
+/// Distance in front of a port within which the free volume of a particle is measured, over the spacing.
 const ROOM: f64 = 0.5;
 
 /// Opens the walls of a scene that have a law for it; takes the laws out of the choices.
@@ -99,7 +99,7 @@ pub(crate) fn check<const D: usize>(
     scene: &Scene,
     opened: &Option<OpenBoundaries<D>>,
     walls: Option<&dyn Wall<D>>,
-    filled: Filled<'_, D>,
+    filled: FilledBox<'_, D>,
 ) -> Result<Vec<String>, SolverError> {
     let Some(opened) = opened else {
         return Ok(Vec::new());

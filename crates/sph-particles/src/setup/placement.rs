@@ -14,7 +14,7 @@ use filled_share::shares;
 const TOO_NEAR: f64 = 0.4;
 
 /// Positions with the number of their body, in the order of identities.
-pub struct Placed<const D: usize> {
+pub struct PlacedParticles<const D: usize> {
     /// Positions, m.
     pub positions: Vec<Vect<D>>,
     /// Number of the body, in the scene's order of names.
@@ -35,7 +35,7 @@ pub fn place<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
     walls: Option<&dyn Wall<D>>,
-) -> Result<Placed<D>, Vec<SceneProblem>> {
+) -> Result<PlacedParticles<D>, Vec<SceneProblem>> {
     let spacing = scene.numerics.spacing;
     let offset = match walls.map_or(0.0, |w| w.lattice_offset()) {
         x if x < 0.25 => Offset::None,
@@ -48,7 +48,7 @@ pub fn place<const D: usize>(
         disturb(&mut filled, spacing, disorder, seed, &periodic);
     }
     let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
-    let mut placed = Placed {
+    let mut placed = PlacedParticles {
         positions: Vec::new(),
         body: Vec::new(),
         warnings: Vec::new(),

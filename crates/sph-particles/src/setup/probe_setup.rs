@@ -32,7 +32,7 @@ pub fn prepare<const D: usize>(
         if let Err(why) = probe.prepare(&known) {
             problems.push(SceneProblem::new(format!("{kind}.{name}.phase"), why));
         }
-        if let Err(why) = learn(scene, name, &mut **probe) {
+        if let Err(why) = load_reference(scene, name, &mut **probe) {
             problems.push(SceneProblem::new(format!("{kind}.{name}.file"), why));
         }
         let suffixes = probe.columns().into_iter().map(|c| c.suffix);
@@ -54,7 +54,7 @@ pub fn prepare<const D: usize>(
 }
 
 /// Reads the file that a probe compares with, and hands it over.
-fn learn<const D: usize>(
+fn load_reference<const D: usize>(
     scene: &Scene,
     name: &str,
     probe: &mut dyn Probe<D>,
@@ -76,7 +76,9 @@ fn learn<const D: usize>(
     let rows = rows
         .map(|(x, y)| [factors[0] * x, factors[1] * y])
         .collect();
-    probe.learn(rows).map_err(|why| format!("`{file}` {why}"))
+    probe
+        .load_reference(rows)
+        .map_err(|why| format!("`{file}` {why}"))
 }
 
 #[cfg(test)]

@@ -35,7 +35,8 @@ pub struct ExchangeUse {
     pub bytes: usize,
 }
 
-/// A decomposition of a scene at its start, and what an evaluation sends. Solves send besides, in each iteration, a vector.
+/// A decomposition of a scene at its start, and the messages of an evaluation. Solves send besides, in each iteration,
+/// a vector.
 #[derive(Clone, Debug, Serialize)]
 pub struct Ranks {
     /// Each rank.

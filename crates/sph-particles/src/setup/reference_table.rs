@@ -1,4 +1,4 @@
-//! The tables that references name: read, and held against what can be compared.
+//! The tables that references name: read, and checked against the comparable results.
 
 use std::path::Path;
 

@@ -45,7 +45,7 @@ pub fn relax<const D: usize>(
     relax_positions(world, walls, &surface, most, tolerance).map(Some)
 }
 
-/// Whether air is within a support: a place of the fluid's side that belongs to no body.
+/// True if air is within a support: a place of the fluid's side that belongs to no body.
 ///
 /// Places are tried along the directions of a lattice of side 5, half a support and a whole one away.
 fn near_surface<const D: usize>(
@@ -206,7 +206,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
             add(row.row(), values, &|v| points.share[v as usize]);
         }
         let contacts = world.walls.contacts.of_particle(i).iter();
-        // What the walls add to the gradient: −∇γ, or ∇ ln s times the sum.
+        // The part of the walls in the gradient: −∇γ, or ∇ ln s times the sum.
         let wall = match slope {
             Some(slope) => slope[i] * -(whole * sum),
             None => contacts.fold(Vect::zeros(), |sum: Vect<D>, c| sum + c.gradient),

@@ -18,7 +18,7 @@ pub struct Relaxation {
     pub rms_before: f64,
     /// Root mean square of the error after.
     pub rms: f64,
-    /// Volume of a particle over that of a cell of the lattice: what the fluid has per particle,
-    /// from the mean of Σ V w over the particles that see neither a wall nor a surface.
+    /// Volume of a particle over that of a cell of the lattice: the fluid's volume per particle, from the mean of Σ V w
+    /// over the particles that see neither a wall nor a surface.
     pub volume: f64,
 }

@@ -12,9 +12,9 @@ pub(crate) struct Skin<const D: usize> {
     /// Box around it, m.
     pub low: Vect<D>,
     pub high: Vect<D>,
-    /// Whether its normals point inwards: the fluid is in it.
+    /// True if its normals point inwards: the fluid is in it.
     pub holds: bool,
-    /// Whether any of its elements lets fluid pass.
+    /// True if any of its elements lets fluid pass.
     pub open: bool,
 }
 

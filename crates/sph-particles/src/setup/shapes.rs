@@ -253,7 +253,7 @@ pub(crate) fn rigid_motion<const D: usize>(
     })
 }
 
-/// The bend of a wall that follows levels: at each place what they rose from the start of the run on.
+/// The bend of a wall that follows levels: at each place their rise since the start of the run.
 fn levels_of<const D: usize>(levels: &Levels, place: &str) -> Result<RigidMotion<D>, SolverError> {
     let at = |key: &str, why: String| SolverError::at(format!("{place}.{key}"), why);
     let Some(path) = &levels.path else {

@@ -16,14 +16,14 @@ pub enum Share<const D: usize> {
     Part(Arc<dyn Transport>),
     /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
     Blank,
-    /// Columns and plugins alone, without a particle, among walls that stand already: for what others gather.
+    /// Columns and plugins alone, without a particle, among walls that stand already: for a gathered state.
     Columns(Option<Box<ExistingWalls<D>>>),
 }
 
 /// Walls that stand already: the plugin, and the data of pair sums.
 pub type ExistingWalls<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
 
-/// Refuses what cannot be divided between ranks.
+/// Refuses scenes that cannot be divided between ranks.
 pub fn refuse_the_indivisible<const D: usize>(
     flow: &Flow<D>,
     ranks: usize,
@@ -41,7 +41,7 @@ pub fn refuse_the_indivisible<const D: usize>(
     }
 }
 
-/// Whether all ranks are ready, which all must call.
+/// Confirms that all ranks are ready, which all must call.
 pub fn all_ready<T, E: From<StepError>>(
     ranks: &dyn Transport,
     ready: Result<T, E>,

@@ -15,11 +15,11 @@ const DRY: f64 = 2.0;
 
 /// The soils among the phases of a scene.
 pub struct Ground {
-    /// Whether the law of a phase reads a pressure.
+    /// Marks of phases whose law reads a pressure.
     pub soil: Vec<bool>,
     /// Diameter of its grains, m, if it has one.
     grains: Vec<Option<f64>>,
-    /// Whether the pores of soils are full of water.
+    /// True if the pores of soils are full of water.
     pub saturated: bool,
 }
 

@@ -2,7 +2,7 @@
 //! tension.
 //!
 //! A face whose velocity into the fluid falls by Δu sends off a wave of −ρcΔu. Particles carry no tension: a full box
-//! without background pressure is torn apart, and what is torn off goes its own way.
+//! without background pressure is torn apart, and torn parts move on their own.
 
 use sph_boundary::Wall;
 use sph_core::Vect;
@@ -11,15 +11,15 @@ use sph_open::OpenBoundaries;
 use sph_rheology::state::{Laws, Lift};
 use sph_scene::Scene;
 
-/// Lift over ρcΔu: half as much again for what faces and walls throw back.
+/// Lift over ρcΔu: half as much again for reflections at faces and walls.
 const LIFT: f64 = 1.5;
 /// The largest lift over ρc²: that of a flow of Mach 0.1 that turns round.
 const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
-/// A box, its particles, their laws and what lifts these.
-pub(crate) type Filled<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
+/// A box, its particles, their laws and their lift.
+pub(crate) type FilledBox<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
 
 /// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
 /// remark on it, or on the background pressure that is missing.
@@ -27,7 +27,7 @@ pub(crate) fn lift<const D: usize>(
     scene: &Scene,
     opened: &OpenBoundaries<D>,
     walls: Option<&dyn Wall<D>>,
-    (room, positions, laws, lift): Filled<'_, D>,
+    (room, positions, laws, lift): FilledBox<'_, D>,
 ) -> Option<String> {
     let walls = walls?;
     let references = || laws.iter().map(|law| law.reference());
@@ -82,7 +82,7 @@ pub(crate) fn lift<const D: usize>(
     ))
 }
 
-/// Whether every place a spacing beside a particle has another particle, or is behind a wall.
+/// True if every place a spacing beside a particle has another particle, or is behind a wall.
 fn is_full<const D: usize>(room: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
     let reach = (1.0 + NEAR) * room.spacing;
     let grid = CellGrid::new(positions, reach, &room.domain);

@@ -4,7 +4,7 @@ use sph_boundary::WallSpec;
 use sph_core::{SceneProblem, number};
 use sph_scene::Scene;
 
-/// Times at which the motion of walls is looked at.
+/// Times at which the motion of walls is sampled.
 const SAMPLES: usize = 1000;
 /// The change Δv of a vessel's speed within the time L/c that sound takes through its fluid counts by Δv/c, the share
 /// of its density by which the fluid is pressed together: aL/c² of a lasting acceleration a. From the first on it is
@@ -25,9 +25,9 @@ pub struct Speeds {
 
 /// The speeds of the walls before the end of the run, for a speed of sound, m/s, and a length of the fluid, m.
 ///
-/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose
-/// walls all move together carries its fluid along and may be of any speed; what its acceleration does to the fluid
-/// may not.
+/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose walls
+/// all move together carries its fluid along and may be of any speed; the effect of its acceleration on the fluid may
+/// not.
 pub fn speeds<const D: usize>(
     scene: &Scene,
     walls: &[WallSpec<D>],
@@ -49,7 +49,7 @@ pub fn speeds<const D: usize>(
     let [mut pressed, mut changed] = [(0.0_f64, 0.0); 2];
     let begin: Vec<f64> = walls.iter().map(|w| moving(w, 0.0, 0.0).speed).collect();
     for time in times {
-        let all: Vec<Moving> = walls.iter().map(|w| moving(w, time, crossing)).collect();
+        let all: Vec<WallSpeed> = walls.iter().map(|w| moving(w, time, crossing)).collect();
         let least =
             |of: &dyn Fn(usize) -> f64| (0..all.len()).map(of).fold(f64::INFINITY, f64::min);
         let larger = |most: &mut (f64, f64), x: f64| {
@@ -147,7 +147,7 @@ fn vessel<const D: usize>(
     }
 }
 
-/// The key of the course of the first wall that moves, and where its file, if it has one, says what it does at a time.
+/// The key of the course of the first wall that moves, and the line of its file, if it has one, at a time.
 fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (String, String) {
     let moving = walls.iter().find(|w| w.motion.moves());
     let name = moving.map_or("", |w| w.drawing.name());
@@ -169,13 +169,13 @@ fn known(x: f64) -> f64 {
 
 /// Largest speed of the corners of a wall, and how much their velocities have changed since a time before, m/s.
 #[derive(Clone, Copy, Default)]
-struct Moving {
+struct WallSpeed {
     speed: f64,
     change: f64,
 }
 
-fn moving<const D: usize>(wall: &WallSpec<D>, time: f64, since: f64) -> Moving {
-    let mut most = Moving::default();
+fn moving<const D: usize>(wall: &WallSpec<D>, time: f64, since: f64) -> WallSpeed {
+    let mut most = WallSpeed::default();
     if !wall.motion.moves() {
         return most;
     }

@@ -9,7 +9,7 @@ use sph_scene::Scene;
 use sph_solver::SolverError;
 use sph_solver::defaults::KNOWN_WALLS;
 
-/// Refuses what does not follow walls that scale the kernel.
+/// Refuses plugins that do not follow walls that scale the kernel.
 ///
 /// # Errors
 /// The key of the scene that does not.

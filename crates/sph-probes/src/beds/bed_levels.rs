@@ -6,7 +6,7 @@ use sph_neighbours::World;
 
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
-/// Levels of a bed, what the flow carries along it, and Shields numbers.
+/// Levels of a bed, its load, and Shields numbers.
 ///
 /// Columns: the lowest place of the bed, `.lowest` (m), with its `.lowest-x`, and the highest, `.highest`, with `.highest-x`; the change of its
 /// volume with pores, `.volume`; the mean Shields number, `.shields`; the mean flux of grains without pores along x,

@@ -4,11 +4,10 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::beds::columns::{Columns, End};
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// Three curves over a movable bed, mass of what moves of it (kg, per metre of width), and lowest
-/// point of the motion (m).
+/// Three curves over a movable bed, moving mass of it (kg, per metre of width), and lowest point of the motion (m).
 ///
 /// A grain moves if its speed |u| is above `threshold` = Δx/Δt, one pixel of the experiment's
 /// camera in one of its images: 1 mm in 5 ms. Columns are two spacings wide, and in every one
@@ -48,19 +47,19 @@ pub(crate) fn threshold() -> f64 {
     0.2
 }
 
-/// The three curves, and what moves.
-struct Drawn {
+/// The three curves, and the moving mass.
+struct BedCurves {
     surface: Columns,
     interface: Columns,
     /// Lowest moving grains.
     moving: Columns,
-    /// Mass of what moves, kg.
+    /// Moving mass, kg.
     mass: f64,
 }
 
 impl BedLines {
-    fn draw(&self, world: &World<2>) -> Result<Drawn, StepError> {
-        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
+    fn draw(&self, world: &World<2>) -> Result<BedCurves, StepError> {
+        let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;
@@ -70,7 +69,7 @@ impl BedLines {
             xs().fold(f64::NEG_INFINITY, f64::max),
         ];
         let empty = |end| Columns::over(range, world.spacing, end);
-        let mut drawn = Drawn {
+        let mut drawn = BedCurves {
             surface: empty(End::Highest),
             interface: empty(End::Highest),
             moving: empty(End::Lowest),

@@ -9,7 +9,7 @@ const WIDTH: f64 = 2.0;
 /// Most columns; a reference may have a wrong unit.
 const MOST: f64 = 1e6;
 
-/// Which particle of a column the line goes through.
+/// Particle of a column at which the line passes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum End {
     /// The highest, half a spacing above it.

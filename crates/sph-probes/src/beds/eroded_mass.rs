@@ -4,10 +4,10 @@ use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::front::Direction;
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// Mass of a bed that is no longer where it was at the start, kg (per metre of width in 2D).
+/// Mass of a bed that has left its place at the start, kg (per metre of width in 2D).
 ///
 /// The thesis takes the error Er = (m_SPH − m_exp)/m_exp of the mass m of all sediment that has
 /// reached the downstream outlet of the flume. Here
@@ -17,8 +17,8 @@ use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 ///   the start: what is under way, or came to rest on the bed;
 /// * `.total` is the sum of both: all that has left the region of the bed at the start.
 ///
-/// What moves within that region has left no place and does not count. A particle is where its
-/// centre is: the top row of a flat bed has to rise by half a spacing until it counts.
+/// Motion within that region does not count. The centre of a particle decides: the top row of a
+/// flat bed has to rise by half a spacing until it counts.
 ///
 /// Source: Ghaïtanellis 2017, §5.4.1 and Eq. 5.17; `.risen` is ours.
 ///
@@ -59,7 +59,7 @@ impl<const D: usize> Probe<D> for ErodedMass {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
+        let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let sign = match self.direction {
             Direction::Forward => 1.0,
             Direction::Backward => -1.0,

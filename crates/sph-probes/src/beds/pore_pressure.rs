@@ -24,7 +24,7 @@ use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 #[plugin(ProbeEntry [2, 3], "pore-pressure", "pressure of the water in a soil's pores at a point",
     source: "p − p'; Ghaïtanellis 2017, Eqs. 2.91, 5.26")]
 pub struct PorePressureProbe {
-    /// Where.
+    /// Position, m.
     #[parameter(unit: "m")]
     pub at: Vec<f64>,
     /// Density ρ_w of the fluid in the pores.

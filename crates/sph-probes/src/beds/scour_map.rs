@@ -3,7 +3,7 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Width of a cell in spacings: one that grains have spread from by less than a spacing is not empty.
@@ -15,7 +15,7 @@ const GAP: f64 = 2.0;
 ///
 /// The bed is seen from above in cells two spacings wide, or a little wider so that whole ones fill the part that counts: where a
 /// bed begins in the middle of a cell, its grains leave the half cell for the next. Its height in a cell is half a spacing above the
-/// last grain, from the bottom up, over which there is a gap of two spacings: what is in suspension does not count.
+/// last grain, from the bottom up, over which there is a gap of two spacings: grains in suspension do not count.
 /// The depth of scour is `level` less that height, negative where the bed has risen.
 ///
 /// With every output of fields the map goes to `curves/NAME_0003.csv`, with the columns x, y, height and depth in m, and to
@@ -45,7 +45,7 @@ pub struct ScourMap {
     number: Option<u32>,
 }
 
-/// How the part that counts is divided, m.
+/// Cells of the counted part, m.
 struct Grid {
     corner: [f64; 2],
     width: [f64; 2],
@@ -79,7 +79,7 @@ impl ScourMap {
     }
 
     fn cells(&self, world: &World<3>) -> Result<Vec<Cell>, StepError> {
-        let bed = Counted::in_phase(world, Some(&self.phase), self.number)?;
+        let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let grid = self.grid(world.spacing);
         let cell = |k: usize, x: f64| {
             let n = ((x - grid.corner[k]) / grid.width[k]).floor() as i64;

@@ -16,7 +16,7 @@ use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 #[plugin(ProbeEntry [2, 3], "displacement", "how far the material of a place has moved",
     source: "mean over the particles that started there")]
 pub struct DisplacementProbe {
-    /// Where the material was at the start.
+    /// Position of the material at the start.
     #[parameter(unit: "m")]
     pub at: Vec<f64>,
 }

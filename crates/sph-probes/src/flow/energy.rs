@@ -3,7 +3,7 @@
 use sph_core::plugin;
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, Reduce};
 
 /// ½ Σ m u² of all free particles, J (per metre of depth in 2D).
 ///
@@ -12,7 +12,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
 /// kind = "kinetic-energy"
 /// ```
 #[plugin(ProbeEntry [2, 3], "kinetic-energy", "kinetic energy of all particles", source: "½ Σ m u²",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct KineticEnergy {}
 
 impl Preset for KineticEnergy {

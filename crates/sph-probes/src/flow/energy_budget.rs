@@ -10,11 +10,11 @@ use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 /// Terms that give energy to a particle or take it, in the order of [`ENERGY_WORKS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnergyWork {
-    /// Friction, explicit or solved for, of eddies and at walls too; what moving walls rub in.
+    /// Friction, explicit or solved for, of eddies and at walls too; the work of moving walls.
     Viscosity,
     /// Diffusion of the density.
     Smoother,
-    /// Shifted positions, and what shifted particles take up.
+    /// Shifted positions, and the density and velocity that shifted particles take up.
     Shifting,
     /// Terms of `[damping.…]`: the damper of sound.
     Damper,
@@ -26,7 +26,7 @@ pub enum EnergyWork {
     Walls,
     /// Driving, interfaces, elastic and other forces.
     Others,
-    /// What the length of the step makes, and whatever is not listed.
+    /// Error of the step's length, and terms without a column.
     Remainder,
 }
 
@@ -120,7 +120,7 @@ pub struct EnergyBudget {
 pub fn work_of_stranger(kind: &str) -> Field<Scalar> {
     static KNOWN: Mutex<BTreeMap<String, &'static str>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    // Fields have names that live as long as the program; there are as many as kinds.
+    // Names of fields have the lifetime of the program; there are as many as kinds.
     let name = known
         .entry(kind.to_string())
         .or_insert_with(|| Box::leak(format!("work_{kind}").into_boxed_str()));

@@ -3,9 +3,11 @@
 use sph_core::{Axis, parameters, plugin};
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce};
+use crate::measure::{
+    MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce,
+};
 
-/// Which of the two ends of a phase along an axis.
+/// One of the two ends of a phase along an axis.
 #[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
@@ -31,7 +33,7 @@ pub enum Direction {
 /// ```
 #[plugin(ProbeEntry [2, 3], "front", "the foremost particle along an axis, either way",
     source: "extreme coordinate or quantile, and half a spacing",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct Front {
     /// Axis along which the front moves.
     #[parameter(default)]

@@ -4,10 +4,10 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
-use crate::phases::phase::{self, Counted, column, share};
+use crate::phases::phase::{self, CountedPhase, column, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// The highest place over a point where Σ V w falls to half of what it is under water, V being at most a cell δr^d.
+/// The highest place over a point where Σ V w falls to half of its value under water, V being at most a cell δr^d.
 ///
 /// The sum is over the particles of `phase`, so that its top is found under another fluid, or over
 /// all particles. Under water it is one, and less beside an upright wall, as no particles are behind that: there the
@@ -29,8 +29,8 @@ pub struct Level {
     pub follows: Option<String>,
     /// Name of the phase whose top is measured; the free surface of all of them if left out.
     pub phase: Option<String>,
-    /// Whether dry parts of the line below that place are taken off, as a wire does whose wet length is measured: a drop in the air
-    /// then counts with its own height.
+    /// True if dry parts of the line below that place are taken off, as a wire does whose wet length is measured: a
+    /// drop in the air then counts with its own height.
     #[parameter(default)]
     pub wetted: bool,
     #[serde(skip)]
@@ -67,7 +67,7 @@ impl<const D: usize> Probe<D> for Level {
         let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
         let mut foot = carried(world, drawn, self.follows.as_deref())?;
         foot[D - 1] = 0.0;
-        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
+        let counted = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         // Only the particles whose support meets the vertical line matter.
         let mut near = column(world, &foot)?;
         near.retain(|(_, _, k)| counted.has(*k));
@@ -79,7 +79,7 @@ impl<const D: usize> Probe<D> for Level {
             return Ok(vec![f64::NAN]);
         }
         let half = match beside_a_wall(world, &near, bottom + radius)? {
-            true => 0.5 * whole(filling, bottom + radius, top - radius, 0.5 * radius),
+            true => 0.5 * fullest_part(filling, bottom + radius, top - radius, 0.5 * radius),
             false => 0.5,
         };
         // Down from above until half full, then bisect.
@@ -117,7 +117,7 @@ fn length_where(holds: impl Fn(f64) -> bool, from: f64, to: f64, step: f64) -> f
     middles.filter(|z| holds(*z)).count() as f64 * each
 }
 
-/// Whether the highest particle within a spacing of the line is within reach of a wall, and not the floor below
+/// True if the highest particle within a spacing of the line is within reach of a wall, and not the floor below
 /// `floor`.
 fn beside_a_wall<const D: usize>(
     world: &World<D>,
@@ -137,7 +137,7 @@ fn beside_a_wall<const D: usize>(
 }
 
 /// The largest sum over a part of the line, at most one; one if there is no such part.
-fn whole(filling: impl Fn(f64) -> f64, from: f64, to: f64, step: f64) -> f64 {
+fn fullest_part(filling: impl Fn(f64) -> f64, from: f64, to: f64, step: f64) -> f64 {
     let count = ((to - from) / step).floor();
     if count < 0.0 {
         return 1.0;

@@ -13,9 +13,9 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
 ///
 /// Its curve has every component's, and −⟨u'w'⟩, u along the first axis and w along the axis of the profile. Where the flow is the
-/// same along an axis, as along a periodic one, nothing else need be said; `within` is for the others. A layer's distance is the
+/// same along an axis, as along a periodic one, no other key is needed; `within` is for the others. A layer's distance is the
 /// mean of its particles, so that a mean of a linear profile lies on it wherever rows stand in their layers; there it is compared
-/// with a `file` of distances and values. What was gathered goes on in a run that is resumed.
+/// with a `file` of distances and values. A resumed run goes on with the gathered values.
 ///
 /// Source: Issa 2004, Eq. 6.46–6.50, with layers in the place of points.
 ///
@@ -33,13 +33,13 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 pub struct MeanProfile {
     /// The axis that layers are cut across.
     pub axis: Component,
-    /// Where the first layer begins.
+    /// Start of the first layer.
     #[parameter(unit: "m")]
     pub from: f64,
-    /// Where the last layer ends.
+    /// End of the last layer.
     #[parameter(unit: "m")]
     pub to: f64,
-    /// How many there are.
+    /// Number of layers.
     #[parameter(min: 1, max: 10000)]
     pub layers: usize,
     /// The time from which rows of the series count.
@@ -49,7 +49,7 @@ pub struct MeanProfile {
     pub within: Option<[Vec<f64>; 2]>,
     /// A scalar field in the place of the velocity.
     pub field: Option<String>,
-    /// Which component of the velocity is compared.
+    /// Component of the velocity that is compared.
     #[parameter(default: Component::X)]
     pub component: Component,
     /// CSV file of the reference, relative to the scene's folder: distance from `from` in m, value in SI.
@@ -82,7 +82,7 @@ impl MeanProfile {
         (self.to - self.from) * (layer as f64 + 0.5) / self.layers as f64
     }
 
-    /// Mean distance of what was in a layer from `from`, m; the middle of one where nothing was.
+    /// Mean distance of the particles of a layer from `from`, m; the middle of an empty one.
     fn distance(&self, layer: usize, sums: &[f64], components: usize) -> f64 {
         match sums[0] > 0.0 {
             true => sums[2 + 2 * components] / sums[0],
@@ -205,7 +205,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
         self.file.as_deref()
     }
 
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
         let finite = rows.iter().flatten().all(|v| v.is_finite());
         let grows = rows.windows(2).all(|w| w[0][0] < w[1][0]);
         if rows.len() < 2 || !finite || !grows {
@@ -344,7 +344,7 @@ impl<const D: usize> Gathers<D> for MeanProfile {
     }
 
     fn recall(&self, gathered: &[u64]) {
-        // What another scene gathered is of other layers.
+        // Values gathered by another scene are of other layers.
         let fits = gathered.len() == self.layers * self.stride::<D>();
         if let (true, Ok(mut sums)) = (fits, self.sums.lock()) {
             *sums = gathered.iter().map(|v| f64::from_bits(*v)).collect();

@@ -20,7 +20,7 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 pub struct MooringProbe {
     /// Name of the body.
     pub wall: String,
-    /// Which of its lines, in the order of the scene; 0 is the first.
+    /// Index of the line, in the order of the scene; 0 is the first.
     #[parameter(default)]
     pub line: u32,
 }

@@ -5,8 +5,9 @@ use sph_neighbours::World;
 
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
-/// Mass of all phases that has come in and gone out by an open face since the start, and what the face holds: mass that has come
-/// in and is in no particle yet, or has left one and is not out yet. Without a wall those of all faces together.
+/// Mass of all phases that has come in and gone out by an open face since the start, and the mass that the face holds:
+/// mass that has come in and is in no particle yet, or has left one and is not out yet. Without a wall those of all
+/// faces together.
 ///
 /// entered − left − held is the mass of the particles that were born there less that of those that died.
 ///

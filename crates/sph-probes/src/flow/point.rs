@@ -20,7 +20,7 @@ use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
 #[plugin(ProbeEntry [2, 3], "pressure", "pressure at a point or over a sensor's face",
     source: "Ghaïtanellis 2017, Eq. 2.91")]
 pub struct PressureProbe {
-    /// Where.
+    /// Position, m.
     #[parameter(unit: "m")]
     pub at: Vec<f64>,
     /// Diameter of the sensor's face; 0 for a point.
@@ -33,7 +33,7 @@ pub struct PressureProbe {
     pub follows: Option<String>,
 }
 
-/// Where a point carried by a wall is now.
+/// Present position of a point carried by a wall.
 ///
 /// # Errors
 /// If there is no wall of that name.
@@ -93,7 +93,7 @@ impl<const D: usize> Probe<D> for PressureProbe {
 /// ```
 #[plugin(ProbeEntry [2, 3], "velocity", "velocity at a point", source: "Shepard mean")]
 pub struct VelocityProbe {
-    /// Where.
+    /// Position, m.
     #[parameter(unit: "m")]
     pub at: Vec<f64>,
 }

@@ -40,12 +40,12 @@ pub enum Component {
 #[plugin(ProbeEntry [2, 3], "profile", "a component of the velocity along a line, beside a reference",
     source: "moving least squares of first order")]
 pub struct Profile {
-    /// Which component of the velocity.
+    /// Component of the velocity.
     pub component: Component,
-    /// Where the line starts.
+    /// Start of the line.
     #[parameter(unit: "m")]
     pub from: Vec<f64>,
-    /// Where it ends.
+    /// End of the line.
     #[parameter(unit: "m")]
     pub to: Vec<f64>,
     /// CSV file of the reference, relative to the scene's folder: distance from the start in m, velocity in m/s.
@@ -74,7 +74,7 @@ impl Profile {
 /// Least eigenvalue over the largest of the matrix of a fit that is believed.
 const LEAST: f64 = 1e-6;
 
-/// The velocity at a place by a linear fit of what is around; nothing where no particle is.
+/// The velocity at a place by a linear fit of the particles around; none where there is no particle.
 fn fitted_velocity<const D: usize>(
     world: &World<D>,
     x: &Vect<D>,
@@ -130,7 +130,7 @@ impl<const D: usize> Probe<D> for Profile {
         Some(&self.file)
     }
 
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
         if rows.is_empty() || rows.iter().flatten().any(|v| !v.is_finite()) {
             return Err("is no profile: expected rows of a distance and a velocity".into());
         }

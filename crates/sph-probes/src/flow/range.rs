@@ -3,7 +3,7 @@
 use sph_core::plugin;
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, Reduce};
 
 /// Smallest and largest value of a field, in its own unit; over `scale`, without one.
 ///
@@ -14,7 +14,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
 /// scale = 1000
 /// ```
 #[plugin(ProbeEntry [2, 3], "range", "smallest and largest value of a field", source: "plain extrema",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct FieldRange {
     /// Name of the field.
     pub field: String,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Deserializer};
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::sampling::near::Near;
+use crate::sampling::near::NearbyParticles;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// The largest |ψ| with ψ(x, y) = ∫ u_x dy′ from the bottom y₀ of a box, and its place: the
@@ -36,7 +36,7 @@ pub struct StreamFunction {
     /// Spacing of the grid; half of that of the particles if left out.
     #[parameter(unit: "m", above: 0.0)]
     pub grid: Option<f64>,
-    /// How often the mean is corrected.
+    /// Number of corrections of the mean.
     #[parameter(default, max: 4)]
     pub corrections: u32,
 }
@@ -66,7 +66,7 @@ struct Grid {
 }
 
 impl StreamFunction {
-    fn grid(&self, world: &World<2>, near: &Near, velocity: &[f64]) -> Grid {
+    fn grid(&self, world: &World<2>, near: &NearbyParticles, velocity: &[f64]) -> Grid {
         let [low, high] = self.corners;
         let wanted = self.grid.unwrap_or(0.5 * world.spacing);
         let cells = [0, 1].map(|k| ((high[k] - low[k]) / wanted).round().clamp(2.0, MOST));
@@ -143,13 +143,13 @@ impl Probe<2> for StreamFunction {
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
         let velocity = world.free.get(fields::VELOCITY)?;
         let [low, high] = self.corners.map(Vect::from);
-        // A correction looks at the neighbours of neighbours.
-        let near = Near::new(world, low, high, 1 + self.corrections as usize)?;
+        // A correction reads the neighbours of neighbours.
+        let near = NearbyParticles::new(world, low, high, 1 + self.corrections as usize)?;
         if near.is_empty() {
             return Ok(vec![f64::NAN; 3]);
         }
         let along: Vec<f64> = near.numbers().map(|k| velocity[k][0]).collect();
-        // q is what is averaged: u, and then u with what its mean lacks.
+        // q is the averaged quantity: u, and then u with what its mean lacks.
         let mut q = along.clone();
         for _ in 0..self.corrections {
             let mean = near.means(&*world.kernel, &q);

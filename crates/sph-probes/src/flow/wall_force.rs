@@ -9,7 +9,7 @@ use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 /// Force and moment of the fluid on a named wall, pressure and friction together, and the
 /// pressure integral by itself.
 ///
-/// The force is the reaction to what the wall does to the particles, F = −Σ m_a a_a,wall: with the
+/// The force is the reaction to the force of the wall on the particles, F = −Σ m_a a_a,wall: with the
 /// weight it is the whole change of the fluid's momentum. The columns `.pressure` are
 /// −Σ p_s S_s n_s over the wall's elements (none with dummy particles). In two dimensions forces
 /// are per metre of depth.

@@ -4,7 +4,7 @@ use sph_core::StepError;
 use sph_neighbours::World;
 
 use super::quantity::Quantity;
-use crate::phases::phase::Counted;
+use crate::phases::phase::CountedPhase;
 
 /// Bounds on a quantity: a particle on a bound does not count.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub(crate) fn counted<const D: usize>(
     (name, number): (Option<&str>, Option<u32>),
     conditions: &[QuantityBounds],
 ) -> Result<(Vec<usize>, Vec<usize>), StepError> {
-    let phase = Counted::in_phase(world, name, number)?;
+    let phase = CountedPhase::in_phase(world, name, number)?;
     let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
     let mut all = of_phase.clone();
     for condition in conditions {

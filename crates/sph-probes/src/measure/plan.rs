@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use super::conditions::{QuantityBounds, counted};
 use super::quantity::Quantity;
-use super::reduction::{Reduce, Weighed};
+use super::reduction::{Reduce, WeightedValues};
 use crate::phases::phase;
 use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
 
@@ -57,7 +57,7 @@ impl PlannedColumn {
     }
 }
 
-/// A measurement: which particles count, with which weight, and what of them is reduced.
+/// A measurement: the particles that count, their weights, and the quantity that is reduced.
 pub(crate) struct Plan<'a> {
     pub phase: Option<&'a str>,
     pub conditions: Vec<QuantityBounds>,
@@ -90,17 +90,17 @@ pub(crate) trait Preset: Send {
 }
 
 /// A probe that measures by its parameters.
-pub(crate) struct Measured<P> {
+pub(crate) struct MeasuringProbe<P> {
     preset: P,
     number: Option<u32>,
     /// The units of the quantities of the columns, known from the first measurement on.
     units: OnceLock<Vec<&'static str>>,
 }
 
-impl<P: Preset> Measured<P> {
+impl<P: Preset> MeasuringProbe<P> {
     /// Of parameters.
     pub fn new(preset: P) -> Self {
-        Measured {
+        MeasuringProbe {
             preset,
             number: None,
             units: OnceLock::new(),
@@ -143,7 +143,7 @@ impl<P: Preset> Measured<P> {
             let (value, unit) = column.of.values(world)?;
             units.push(unit);
             let values: Vec<f64> = counted.iter().map(|k| value(*k)).collect();
-            let weighed = Weighed {
+            let weighed = WeightedValues {
                 values: &values,
                 weights: own.as_deref(),
                 whole,
@@ -173,7 +173,7 @@ impl<P: Preset> Measured<P> {
     }
 }
 
-impl<const D: usize, P: Preset> Probe<D> for Measured<P> {
+impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
     fn columns(&self) -> Vec<ProbeColumn> {
         self.named::<D>()
     }
@@ -213,7 +213,7 @@ impl<const D: usize, P: Preset> Probe<D> for Measured<P> {
     }
 }
 
-impl<const D: usize, P: Preset> Curves<D> for Measured<P> {
+impl<const D: usize, P: Preset> Curves<D> for MeasuringProbe<P> {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let axis = self
             .preset

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use sph_core::{Axis, parameters, plugin};
 
 use super::conditions::QuantityBounds;
-use super::plan::{Measured, Plan, PlannedColumn, Preset};
+use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset};
 use super::quantity::{Quantity, unit_of};
-use super::reduction::{Reduce, Weighed};
+use super::reduction::{Reduce, WeightedValues};
 use crate::ProbeEntry;
 
 /// A reduction of many values to a number.
@@ -73,7 +73,7 @@ impl Reduction {
 /// A reduction of values with their weights, which are one if none are given; `whole` is the weight of all particles of the
 /// phase, for shares.
 pub fn reduced(how: Reduction, values: &[f64], weights: Option<&[f64]>, whole: f64) -> f64 {
-    let weighed = Weighed {
+    let weighed = WeightedValues {
         values,
         weights,
         whole,
@@ -83,7 +83,7 @@ pub fn reduced(how: Reduction, values: &[f64], weights: Option<&[f64]>, whole: f
 
 /// The least value that a share of the weight does not exceed.
 pub fn quantile(share: f64, values: &[f64], weights: Option<&[f64]>) -> f64 {
-    let weighed = Weighed {
+    let weighed = WeightedValues {
         values,
         weights,
         whole: 0.0,
@@ -148,7 +148,7 @@ impl Weight {
 /// above = { x = 0.5 }
 /// ```
 #[plugin(ProbeEntry [2, 3], "statistic", "any field over any particles, reduced to numbers",
-    source: "sums, extrema, quantiles", within: Measured::new)]
+    source: "sums, extrema, quantiles", within: MeasuringProbe::new)]
 pub struct Statistic {
     /// The quantity.
     pub field: String,

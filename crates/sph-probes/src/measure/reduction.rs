@@ -1,6 +1,6 @@
 //! Reductions of many values to a number.
 
-/// How values become a number. NaN where there is none, but for sums, counts and shares of something.
+/// Reduction of values to a number. NaN where there is none, but for sums, counts and shares of something.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reduce {
     /// The least.
@@ -29,14 +29,14 @@ pub(crate) enum Reduce {
 
 /// Values with their weights, as far as they are not all one.
 #[derive(Clone, Copy)]
-pub(crate) struct Weighed<'a> {
+pub(crate) struct WeightedValues<'a> {
     pub values: &'a [f64],
     pub weights: Option<&'a [f64]>,
     /// The weight of all particles of the phase.
     pub whole: f64,
 }
 
-impl Weighed<'_> {
+impl WeightedValues<'_> {
     fn total(&self) -> f64 {
         self.weights
             .map_or(self.values.len() as f64, |w| w.iter().sum())
@@ -69,7 +69,7 @@ impl Weighed<'_> {
             Reduce::QuantileDown(share) => {
                 let values: Vec<f64> = values().map(|v| -v).collect();
                 let values = &values;
-                -Weighed { values, ..*self }.quantile(share)
+                -WeightedValues { values, ..*self }.quantile(share)
             }
             Reduce::FromBelow(share) => self.beyond(share, false),
             Reduce::FromAbove(share) => self.beyond(share, true),
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn reductions_are_what_their_formulas_say() {
-        let weighed = Weighed {
+        let weighed = WeightedValues {
             values: &[3.0, -1.0, 2.0],
             weights: Some(&[1.0, 2.0, 1.0]),
             whole: 8.0,
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn nothing_has_no_mean_and_a_sum_of_nothing() {
-        let nothing = Weighed {
+        let nothing = WeightedValues {
             values: &[],
             weights: None,
             whole: 0.0,

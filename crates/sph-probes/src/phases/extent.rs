@@ -3,7 +3,7 @@
 use sph_core::{Axis, fields, plugin};
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, Reduce};
 
 /// Least coordinate of a phase less half a spacing, and largest plus half a spacing, m.
 ///
@@ -18,7 +18,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
 /// ```
 #[plugin(ProbeEntry [2, 3], "extent", "lowest and highest coordinate of a phase",
     source: "extrema or quantiles, and half a spacing",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct Extent {
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,

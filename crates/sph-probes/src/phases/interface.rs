@@ -4,7 +4,7 @@ use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::{carried, point};
-use crate::phases::phase::{self, Counted, column, share};
+use crate::phases::phase::{self, CountedPhase, column, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// The highest place over a point where the share Σ_phase V w / Σ V w crosses one half, m.
@@ -52,7 +52,7 @@ impl<const D: usize> Probe<D> for Interface {
         let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
         let mut foot = carried(world, drawn, self.follows.as_deref())?;
         foot[D - 1] = 0.0;
-        let counted = Counted::in_phase(world, Some(&self.phase), self.number)?;
+        let counted = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let near = column(world, &foot)?;
         // Share of the phase less one half, if the place is not empty.
         let excess = |z: f64| -> Option<f64> {

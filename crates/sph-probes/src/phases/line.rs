@@ -5,10 +5,10 @@ use sph_neighbours::World;
 
 use crate::beds::bed_lines;
 use crate::beds::columns::{Columns, End};
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
-/// Which line of a body of soil.
+/// Line of a body of soil.
 #[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum LineOf {
@@ -21,8 +21,8 @@ pub enum LineOf {
     Limit,
 }
 
-/// Root mean square of the height of a line over a reference's, at the reference's points, the
-/// share of these points where there is a line, and the root mean square of their distances from it, in whatever direction.
+/// Root mean square of the height of a line over a reference's, at the reference's points, the share of these points
+/// where there is a line, and the root mean square of their distances from it, in any direction.
 ///
 /// The line goes through the highest particle of every column of two spacings' width, half a spacing
 /// above it; with `of = "failure"` through the highest that has moved by less than `moved` since the
@@ -32,7 +32,7 @@ pub enum LineOf {
 /// ([`BedLines`](crate::BedLines)). Between
 /// two particles the line is straight, beyond the last ones level; a column without a particle
 /// interrupts it. Points of the reference without a line do not count in the first and the last value:
-/// look at the share, too. Without any they are NaN. A steep line is nearer than it is high.
+/// read the share, too. Without any they are NaN. A steep line is nearer than it is high.
 ///
 /// Displacements are kept for such probes only.
 ///
@@ -48,7 +48,7 @@ pub enum LineOf {
 #[plugin(ProbeEntry [2], "line", "free surface, failure line or limit of motion of a phase against a drawn line",
     source: "highest particles; Ghaïtanellis 2017, §5.3.2, Eq. 5.21")]
 pub struct Line {
-    /// Which line: `surface`, `failure` or `limit`.
+    /// The line: `surface`, `failure` or `limit`.
     #[parameter(default)]
     pub of: LineOf,
     /// CSV file of the reference, relative to the scene's folder: x and y in m.
@@ -70,7 +70,7 @@ pub struct Line {
 impl Line {
     /// The line over the reference.
     fn drawn(&self, world: &World<2>) -> Result<Columns, StepError> {
-        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
+        let counted = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         // Particles far away from the reference make no columns: these must fit into memory.
         let xs = || self.reference.iter().map(|[x, _]| *x);
@@ -124,7 +124,7 @@ impl Probe<2> for Line {
         Some(&self.file)
     }
 
-    fn learn(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
+    fn load_reference(&mut self, rows: Vec<[f64; 2]>) -> Result<(), String> {
         if rows.is_empty() || rows.iter().flatten().any(|v| !v.is_finite()) {
             return Err("is no line: expected rows of x and y".into());
         }

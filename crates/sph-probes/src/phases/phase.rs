@@ -16,7 +16,7 @@ pub(crate) fn number(name: &str, names: &[String]) -> Result<u32, String> {
 }
 
 /// The particles of one phase, or all of them.
-pub(crate) enum Counted<'a> {
+pub(crate) enum CountedPhase<'a> {
     /// All particles.
     All,
     /// None: the phase has no particles' numbers to compare with.
@@ -25,7 +25,7 @@ pub(crate) enum Counted<'a> {
     Of(&'a [u32], u32),
 }
 
-impl<'a> Counted<'a> {
+impl<'a> CountedPhase<'a> {
     /// Those of the phase `name` with its `number` as [`Probe::name_phases`](crate::Probe) found it.
     ///
     /// # Errors
@@ -36,11 +36,11 @@ impl<'a> Counted<'a> {
         number: Option<u32>,
     ) -> Result<Self, StepError> {
         match (name, number) {
-            (None, _) => Ok(Counted::All),
+            (None, _) => Ok(CountedPhase::All),
             // A scene of one phase has no column of phases.
-            (_, Some(0)) if !world.free.has(fields::PHASE.name) => Ok(Counted::All),
-            (_, Some(_)) if !world.free.has(fields::PHASE.name) => Ok(Counted::None),
-            (_, Some(k)) => Ok(Counted::Of(world.free.get(fields::PHASE)?, k)),
+            (_, Some(0)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::All),
+            (_, Some(_)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::None),
+            (_, Some(k)) => Ok(CountedPhase::Of(world.free.get(fields::PHASE)?, k)),
             (Some(name), None) => Err(StepError::Stage {
                 stage: "probes".into(),
                 reason: format!("the number of the phase `{name}` is not known yet"),
@@ -48,12 +48,12 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Whether particle `k` counts.
+    /// True if particle `k` counts.
     pub fn has(&self, k: usize) -> bool {
         match self {
-            Counted::All => true,
-            Counted::None => false,
-            Counted::Of(phases, number) => phases[k] == *number,
+            CountedPhase::All => true,
+            CountedPhase::None => false,
+            CountedPhase::Of(phases, number) => phases[k] == *number,
         }
     }
 }

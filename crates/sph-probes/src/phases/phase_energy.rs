@@ -3,7 +3,7 @@
 use sph_core::plugin;
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, Reduce};
 
 /// Kinetic energy ½ Σ m u² and potential energy −Σ m g·r of a phase, J (per metre of depth in 2D).
 ///
@@ -15,7 +15,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
 /// phase = "water"
 /// ```
 #[plugin(ProbeEntry [2, 3], "phase-energy", "kinetic and potential energy of a phase", source: "½ Σ m u², −Σ m g·r",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct PhaseEnergy {
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,

@@ -3,7 +3,7 @@
 use sph_core::{fields, plugin};
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
+use crate::measure::{MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, Reduce};
 
 /// Σ V over the particles of a phase, m² in two dimensions and m³ in three.
 ///
@@ -16,7 +16,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, Reduce};
 /// scale = 0.786
 /// ```
 #[plugin(ProbeEntry [2, 3], "phase-volume", "volume of a phase", source: "Σ m/ρ",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct PhaseVolume {
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,

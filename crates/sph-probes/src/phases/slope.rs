@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
-use crate::phases::phase::{self, Counted};
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene, norm};
 
 /// Angle θ = arctan(dy/dx) of the line through the surface between two places, and the root mean
@@ -52,11 +52,11 @@ impl Probe<2> for SurfaceSlope {
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
-        let counted = Counted::in_phase(world, self.phase.as_deref(), self.number)?;
+        let counted = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let [first, last] = self.between;
         let columns = ((last - first) / world.spacing).round().max(0.0);
-        // Only of columns that have a particle: the places may be as far apart as they like.
+        // Only of columns that have a particle: the places may be arbitrarily far apart.
         let mut highest: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
         for (_, x) in positions
             .iter()

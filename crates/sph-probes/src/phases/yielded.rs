@@ -3,12 +3,14 @@
 use sph_core::{fields, plugin};
 
 use crate::ProbeEntry;
-use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce};
+use crate::measure::{
+    MeasuringProbe, Plan, PlannedColumn, Preset, Quantity, QuantityBounds, Reduce,
+};
 
 /// Share of the particles whose strain rate is above a threshold, γ̇ > γ̇_y, and the mean strain
 /// rate of those, 1/s.
 ///
-/// A regularised law has no plug that does not move at all: what counts as yielded is a choice. A
+/// A regularised law has no plug that does not move at all: the definition of yielding is a choice. A
 /// phase without particles has no share, and without one that yields there is no mean: NaN. Only
 /// scenes with a law that reads the strain rate have one; the probe computes it in all phases.
 ///
@@ -21,7 +23,7 @@ use crate::measure::{Measured, Plan, PlannedColumn, Preset, Quantity, QuantityBo
 /// strain_rate = 1.0
 /// ```
 #[plugin(ProbeEntry [2, 3], "yielded", "share of a phase that strains faster than a threshold", source: "a count",
-    within: Measured::new)]
+    within: MeasuringProbe::new)]
 pub struct Yielded {
     /// Threshold γ̇_y.
     #[parameter(unit: "1/s", min: 0.0)]

@@ -12,7 +12,7 @@ struct Image {
 }
 
 /// The particles within some supports of a box.
-pub(crate) struct Near {
+pub(crate) struct NearbyParticles {
     images: Vec<Image>,
     /// First image of every cell, row after row, and the end.
     first: Vec<usize>,
@@ -24,7 +24,7 @@ pub(crate) struct Near {
 /// Most cells along a side; beyond that they grow.
 const MOST: f64 = 2048.0;
 
-impl Near {
+impl NearbyParticles {
     /// Those within `supports` radii of the box between two corners.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Near {
         let longest = (far - corner).max();
         let side = radius.max(longest / MOST);
         let cells = [0, 1].map(|k| ((far[k] - corner[k]) / side) as usize + 1);
-        let mut near = Near {
+        let mut near = NearbyParticles {
             images,
             first: vec![0; cells[0] * cells[1] + 1],
             corner,
@@ -108,7 +108,7 @@ impl Near {
         j * self.cells[0] + i
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.images.is_empty()
     }

@@ -73,7 +73,7 @@ pub struct Bagnold {
     pub bottom: f64,
 }
 
-/// What is the same at every height.
+/// Constants over the height.
 struct Steady {
     /// I.
     inertial_number: f64,

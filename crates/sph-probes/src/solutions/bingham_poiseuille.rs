@@ -99,7 +99,7 @@ impl BinghamPoiseuille {
             }
             let slope = k * n * s.powf(n - 1.0) + tau * m * (-m * s).exp();
             let newton = s - excess / slope;
-            // Before the bracket is looked at: a last step of no length ends on its edge.
+            // Before the test of the bracket: a last step of no length ends on its edge.
             if (newton - s).abs() <= 1e-15 * s {
                 return newton;
             }

@@ -19,7 +19,7 @@ pub struct Cantilever {
     /// Speed of the tip U.
     #[parameter(unit: "m/s")]
     pub speed: f64,
-    /// Where the plate leaves its clamp.
+    /// Start of the plate at its clamp.
     #[parameter(default, unit: "m")]
     pub root: f64,
     /// Length L beyond the clamp.

@@ -1,4 +1,4 @@
-//! A fluid that turns like a solid.
+//! Rigid rotation of a fluid.
 
 use sph_core::{Vect, plugin};
 

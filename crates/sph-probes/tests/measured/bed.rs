@@ -109,7 +109,7 @@ fn a_line_compares_the_limit_with_a_drawn_one() {
             let x = 0.05 + (end - 0.05) * f64::from(k) / 20.0;
             [x, BED - 2.0 * SPACING + SLOPE * x + shift]
         };
-        line.learn((0..=20).map(row).collect()).unwrap();
+        line.load_reference((0..=20).map(row).collect()).unwrap();
         line.measure(&world()).unwrap()
     };
     let found = rms(0.0, 0.42);

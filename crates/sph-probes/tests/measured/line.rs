@@ -36,7 +36,7 @@ fn probe(keys: &str) -> Box<dyn Probe<2>> {
 
 fn measured(keys: &str, world: &World<2>, rows: Vec<[f64; 2]>) -> Vec<f64> {
     let mut probe = probe(keys);
-    probe.learn(rows).unwrap();
+    probe.load_reference(rows).unwrap();
     probe.measure(world).unwrap()
 }
 
@@ -98,6 +98,6 @@ fn points_without_a_column_lower_the_share_alone() {
 fn invalid_lines_are_refused() {
     let mut probe = probe("");
     assert_eq!(probe.file(), Some("line.csv"));
-    assert!(probe.learn(Vec::new()).is_err());
-    assert!(probe.learn(vec![[0.0, f64::NAN]]).is_err());
+    assert!(probe.load_reference(Vec::new()).is_err());
+    assert!(probe.load_reference(vec![[0.0, f64::NAN]]).is_err());
 }

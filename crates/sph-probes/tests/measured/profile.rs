@@ -43,7 +43,7 @@ fn profile(off: f64) -> Profile {
         let y = 0.1 * f64::from(k);
         [y, flow(&Vect::<2>::new(0.5, y))[0] + off]
     };
-    Probe::<2>::learn(&mut profile, (0..=10).map(row).collect()).unwrap();
+    Probe::<2>::load_reference(&mut profile, (0..=10).map(row).collect()).unwrap();
     profile
 }
 
@@ -81,6 +81,6 @@ fn where_no_particle_is_there_is_no_velocity() {
 #[test]
 fn a_reference_without_rows_is_refused() {
     let mut profile: Profile = toml::from_str(TABLE).unwrap();
-    assert!(Probe::<2>::learn(&mut profile, Vec::new()).is_err());
-    assert!(Probe::<2>::learn(&mut profile, vec![[0.0, f64::NAN]]).is_err());
+    assert!(Probe::<2>::load_reference(&mut profile, Vec::new()).is_err());
+    assert!(Probe::<2>::load_reference(&mut profile, vec![[0.0, f64::NAN]]).is_err());
 }

@@ -13,7 +13,7 @@ pub struct Reference {
 pub trait BoundState: Send + Sync + std::fmt::Debug {
     /// p(ρ), Pa.
     fn pressure(&self, density: &[f64], pressure: &mut [f64]);
-    /// Whether the pressure depends on the strain rate as well; p(ρ) is then that at rest.
+    /// True if the pressure depends on the strain rate as well; p(ρ) is then that at rest.
     fn needs_strain_rate(&self) -> bool {
         false
     }

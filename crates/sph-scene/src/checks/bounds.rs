@@ -52,7 +52,7 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
                 );
                 found.add(&path, message);
             }
-            // What fills the walls ends at them.
+            // A filling of the walls ends at them.
             if body.fill.is_some() {
                 continue;
             }

@@ -7,7 +7,7 @@ use scene_text::Problems;
 pub(crate) struct Dimension(pub usize);
 
 impl Dimension {
-    /// Whether a vector has one entry per dimension; if not, that is a problem.
+    /// True if a vector has one entry per dimension; if not, a problem is added.
     pub fn vector(self, list: &[f64], path: &str, found: &mut Problems) -> bool {
         let right = list.len() == self.0;
         if !right {
@@ -22,7 +22,7 @@ impl Dimension {
         right
     }
 
-    /// Whether a vector has the right length and is not zero.
+    /// Checks that a vector has the right length and is not zero.
     pub fn direction(self, list: &[f64], path: &str, found: &mut Problems) {
         if self.vector(list, path, found) && list.iter().all(|c| *c == 0.0) {
             found.add(path, "a direction of length 0 is none");
@@ -60,7 +60,7 @@ impl Dimension {
         }
     }
 
-    /// Whether a shape of `dimension` can stand here.
+    /// True if a shape of `dimension` can stand here.
     pub fn is(self, dimension: usize, what: &str, path: &str, found: &mut Problems) -> bool {
         let right = dimension == self.0;
         if !right {

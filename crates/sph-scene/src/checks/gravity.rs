@@ -6,7 +6,7 @@ use crate::checks::dimension::Dimension;
 use crate::checks::motion;
 use crate::{GravityOverTime, Motion};
 
-/// Checks what gravity changes by.
+/// Checks the change of gravity.
 pub(crate) fn over_time(given: &GravityOverTime, of: Dimension, found: &mut Problems) {
     let path = "numerics.gravity_over_time";
     let courses = scene_text::given([

@@ -1,4 +1,4 @@
-//! Names: how they are spelt, and that what they name exists.
+//! Names: their spelling, and the existence of the named objects.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

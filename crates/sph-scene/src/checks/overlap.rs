@@ -2,7 +2,7 @@
 
 use scene_text::Problems;
 
-use crate::geometry::periodic_place::Placed;
+use crate::geometry::periodic_place::PeriodicRegion;
 use crate::geometry::vector::point;
 use crate::{Region, Scene};
 
@@ -10,23 +10,23 @@ use crate::{Region, Scene};
 const SHARED: f64 = 1e-3;
 /// Most points tried along an axis of the box that two bodies have in common.
 const ALONG: f64 = 256.0;
-/// Bound on the work of all pairs, in edges looked at.
+/// Bound on the work of all pairs, in compared edges.
 const WORK: f64 = 2e7;
 
-/// Tries lattice points of what the boxes around two bodies have in common.
+/// Tries lattice points of the intersection of the boxes around two bodies.
 ///
 /// Bodies that walls clip or that fill them are left to the code that has the walls.
 pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     let spacing = scene.numerics.spacing;
     let periods = scene.numerics.periodic.bounds::<D>();
-    // What walls cut away may overlap; that shows once there are walls.
+    // Parts that walls cut away may overlap; that shows once there are walls.
     let whole = scene.body.iter().filter(|(_, b)| !b.needs_walls());
     let (names, regions): (Vec<&String>, Vec<Region<D>>) = whole
         .filter_map(|(name, body)| Some((name, Region::from_body(body)?)))
         .unzip();
     let placed: Vec<_> = regions
         .iter()
-        .map(|r| Placed::new(r, spacing, &periods))
+        .map(|r| PeriodicRegion::new(r, spacing, &periods))
         .collect();
     let mut work = WORK;
     for (i, first) in placed.iter().enumerate() {
@@ -59,8 +59,8 @@ fn edges<const D: usize>(region: &Region<D>) -> f64 {
 }
 
 fn common<const D: usize>(
-    first: &Placed<'_, D>,
-    second: &Placed<'_, D>,
+    first: &PeriodicRegion<'_, D>,
+    second: &PeriodicRegion<'_, D>,
     spacing: f64,
     effort: f64,
     work: &mut f64,

@@ -8,7 +8,7 @@ use crate::checks::wave;
 use crate::tables::body::BodyShape;
 use crate::{Body, LevelSurface, Pressure, Scene};
 
-/// Checks what a body gives in space.
+/// Checks the keys of a body in space.
 pub(crate) fn body_geometry(
     scene: &Scene,
     body: &Body,

@@ -7,7 +7,7 @@ use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
 
-/// Errors of drawings: the name that it was given, the place, what is wrong there.
+/// Errors of drawings: the given name, the place, the fault there.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct DrawingError(String);

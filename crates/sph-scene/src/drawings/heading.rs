@@ -9,7 +9,7 @@ pub(crate) struct Form {
     pub columns: Option<Vec<String>>,
     /// Factor from the numbers of each to SI; that of the unit in its head, else 1, if left out.
     pub factors: [Option<f64>; 2],
-    /// SI units of what they hold.
+    /// SI units of the columns.
     pub alike: [&'static str; 2],
 }
 
@@ -26,16 +26,16 @@ impl Form {
 
 /// The columns of a file that count.
 #[derive(Debug)]
-pub(crate) struct Chosen {
+pub(crate) struct ColumnChoice {
     /// Their places, from 0.
     pub at: [usize; 2],
     /// Factor from the numbers of each to SI.
     pub factors: [f64; 2],
-    /// Whether there are no others.
+    /// True if there are no others.
     pub only: bool,
 }
 
-impl Chosen {
+impl ColumnChoice {
     /// Of a file with these heads, which may be none.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl Chosen {
                 (None, None) => 1.0,
             };
         }
-        Ok(Chosen {
+        Ok(ColumnChoice {
             at,
             factors,
             only: form.columns.is_none(),

@@ -7,7 +7,7 @@ use std::path::Path;
 use scene_text::line_and_column;
 
 use crate::Line;
-use crate::drawings::heading::{Chosen, Form, joined};
+use crate::drawings::heading::{ColumnChoice, Form, joined};
 
 /// Longest text file, bytes.
 const BYTES: u64 = 64 << 20;
@@ -94,7 +94,7 @@ pub(crate) fn lines(text: &str, name: &str, form: &Form) -> Result<Vec<Line>, St
 fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
     let mut blocks: Vec<Vec<Row>> = Vec::new();
     let (mut begun, mut rows, mut comment) = (false, 0, "");
-    let mut chosen: Option<Chosen> = None;
+    let mut chosen: Option<ColumnChoice> = None;
     // A row of millions of columns is not kept.
     let most = form.columns.as_ref().map_or(3, |_| COLUMNS);
     for (k, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
@@ -116,12 +116,12 @@ fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
             none => {
                 let named = numbers.iter().all(Option::is_none);
                 let said = match named {
-                    true => Chosen::from_heads(form, &heads(content)),
+                    true => ColumnChoice::from_heads(form, &heads(content)),
                     // A comment may say anything.
                     false => Some(heads(comment))
                         .filter(|heads| heads.len() == columns)
-                        .and_then(|heads| Chosen::from_heads(form, &heads).ok())
-                        .map_or_else(|| Chosen::from_heads(form, &[]), Ok),
+                        .and_then(|heads| ColumnChoice::from_heads(form, &heads).ok())
+                        .map_or_else(|| ColumnChoice::from_heads(form, &[]), Ok),
                 };
                 let first = none.insert(said.map_err(at_line)?);
                 if named {

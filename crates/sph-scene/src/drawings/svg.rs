@@ -19,7 +19,7 @@ const LARGEST: f64 = 1e9;
 /// Shares of the tolerance that arcs lose to cubics and cubics to straight edges.
 const SHARES: [f64; 2] = [0.1, 0.8];
 
-/// What is drawn, upright, in user units; curves within `tolerance` user units.
+/// Lines of a drawing, upright, in user units; curves within `tolerance` user units.
 ///
 /// The origin is the lower left corner of the `viewBox`, else of the width and height, else the
 /// upper left corner.
@@ -47,7 +47,7 @@ pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>,
         corners: 0,
     };
     let upright = upright(&root).map_err(told)?;
-    // Not by recursion: drawings may be nested as deeply as they like.
+    // Not by recursion: drawings may be nested to any depth.
     let mut waiting: Vec<(Node<'_, '_>, Affine)> = children(&root, upright);
     while let Some((node, outer)) = waiting.pop() {
         let place = |why: String| {

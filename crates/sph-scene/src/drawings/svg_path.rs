@@ -53,7 +53,7 @@ struct Pen {
     at: Point,
     start: Point,
     handle: Handle,
-    /// Whether a line has been begun.
+    /// True if a line has been begun.
     down: bool,
 }
 
@@ -144,7 +144,7 @@ impl Pen {
         self.down = true;
     }
 
-    /// A curve by two handles; the second is mirrored by what goes on smoothly.
+    /// A curve by two handles; a smooth continuation mirrors the second.
     fn cubic(&mut self, [first, second, to]: [Point; 3], handle: &mut Handle) -> Point {
         *handle = Handle::Cubic(second);
         self.path.curve_to(first, second, to);

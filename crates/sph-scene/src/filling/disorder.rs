@@ -1,6 +1,6 @@
 //! Random displacement and velocity of particles, the same on every machine.
 
-use crate::filling::fill::Filled;
+use crate::filling::fill::BodyParticles;
 use crate::geometry::periodic_place::wrapped;
 
 /// Displaces every particle along each axis by at most `fraction` of the spacing, at random.
@@ -8,7 +8,7 @@ use crate::geometry::periodic_place::wrapped;
 /// The same seed gives the same displacements. A particle that leaves a periodic box enters it
 /// on the other side.
 pub fn disturb<const D: usize>(
-    bodies: &mut [Filled<D>],
+    bodies: &mut [BodyParticles<D>],
     spacing: f64,
     fraction: f64,
     seed: u64,
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn displacements_repeat_and_stay_within_the_fraction() {
         let start = || {
-            vec![Filled {
+            vec![BodyParticles {
                 body: 0,
                 positions: vec![[0.5, 0.5]; 100],
             }]

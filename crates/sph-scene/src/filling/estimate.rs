@@ -4,8 +4,8 @@ use crate::Region;
 
 /// About how many particles [`fill`](crate::fill) will place, from the boxes around the bodies.
 ///
-/// It looks at no lattice node, so a scene that asks for 10¹² particles can be refused at once.
-/// What is cut out and the corners beside a disc are counted as if they were filled.
+/// No lattice node is visited, so that a scene of 10¹² particles can be refused at once.
+/// Regions that are cut out, and the corners beside a disc, count as if they were filled.
 ///
 /// ```
 /// use sph_scene::{Region, Shape, estimate};

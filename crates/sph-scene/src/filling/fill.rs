@@ -4,12 +4,12 @@ use sph_core::place_cells::{PlaceCells, offsets};
 
 use crate::Region;
 use crate::filling::nodes::{Nodes, Offset};
-use crate::geometry::periodic_place::{Placed, ROUNDING, wrapped};
+use crate::geometry::periodic_place::{PeriodicRegion, ROUNDING, wrapped};
 use crate::geometry::vector::distance;
 
 /// The particles of one body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Filled<const D: usize> {
+pub struct BodyParticles<const D: usize> {
     /// Number of the body in the list that was filled.
     pub body: usize,
     /// Positions, m.
@@ -31,10 +31,10 @@ pub fn fill<const D: usize>(
     spacing: f64,
     offset: Offset,
     periodic: &[Option<[f64; 2]>; D],
-) -> Vec<Filled<D>> {
+) -> Vec<BodyParticles<D>> {
     let placed: Vec<_> = bodies
         .iter()
-        .map(|b| Placed::new(b, spacing, periodic))
+        .map(|b| PeriodicRegion::new(b, spacing, periodic))
         .collect();
     let (firm, reach) = match offset {
         Offset::None => (
@@ -61,7 +61,7 @@ pub fn fill<const D: usize>(
                 doubtful.push((body, node));
             }
         }
-        filled.push(Filled { body, positions });
+        filled.push(BodyParticles { body, positions });
     }
     let around = directions::<D>();
     for (body, node) in doubtful {

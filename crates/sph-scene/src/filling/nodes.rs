@@ -1,8 +1,8 @@
 //! The lattice of one body: how many nodes along each axis and where they are.
 
-use crate::geometry::periodic_place::{Placed, ROUNDING};
+use crate::geometry::periodic_place::{PeriodicRegion, ROUNDING};
 
-/// Where the lattice of a body starts, counted from the lower corner of the box around it.
+/// Origin of the lattice of a body, counted from the lower corner of the box around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Offset {
     /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if
@@ -31,7 +31,7 @@ pub(crate) struct Nodes<const D: usize> {
 }
 
 impl<const D: usize> Nodes<D> {
-    pub fn new(placed: &Placed<'_, D>, spacing: f64, offset: Offset) -> Self {
+    pub fn new(placed: &PeriodicRegion<'_, D>, spacing: f64, offset: Offset) -> Self {
         let (lo, hi) = placed.bounds();
         let spans = placed.spans();
         let shift = offset.shift();

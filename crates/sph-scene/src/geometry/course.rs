@@ -197,8 +197,8 @@ fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
 }
 
 impl Motion {
-    /// Where the scene says what the wall does at a time, s: the key, and the name of the file with the line if it is in
-    /// one. None of a motion without a table.
+    /// Source of the wall's motion at a time, s: the key, and the name of the file with the line if it is in one. None
+    /// of a motion without a table.
     pub fn told_at(&self, place: &str, time: f64) -> Option<(String, Option<String>)> {
         let mut translations = self.translate.iter().enumerate();
         let told = |rows: &CourseRows| rows.path.is_some() || rows.table.is_some();

@@ -13,7 +13,7 @@ use crate::{FluidSide, Polygon};
 pub struct Line {
     /// Corners in the order of travel, m.
     pub points: Vec<[f64; 2]>,
-    /// Whether an edge leads from the last corner back to the first.
+    /// True if an edge leads from the last corner back to the first.
     pub closed: bool,
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> 
 
 /// Errors of turning closed lines.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Unsided {
+pub(crate) enum SideError {
     /// The line of a number is open.
     Open(usize),
     /// Too many edges lie beside too many lines.
@@ -77,16 +77,16 @@ pub(crate) enum Unsided {
 /// Most edges, of all lines together, that are passed on the way out from a corner of each.
 const PASSED: usize = 200_000_000;
 
-/// Turns closed lines so that the fluid is inside or outside of what they enclose.
+/// Turns closed lines so that the fluid is inside or outside of the enclosed area.
 ///
 /// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
 /// number of others shows in the number of edges that a ray from one of its corners to the right passes.
-pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, Unsided> {
+pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, SideError> {
     if side == FluidSide::AsDrawn {
         return Ok(lines);
     }
     if let Some(open) = lines.iter().position(|l| !l.closed) {
-        return Err(Unsided::Open(open));
+        return Err(SideError::Open(open));
     }
     let polygons: Vec<Polygon> = lines
         .iter()
@@ -115,7 +115,7 @@ pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, U
             }
         });
         if whole.is_break() {
-            return Err(Unsided::Tangled);
+            return Err(SideError::Tangled);
         }
         let anticlockwise = polygons[k].area() > 0.0;
         let wanted = (side == FluidSide::Inside) == within.is_multiple_of(2);

@@ -5,8 +5,8 @@ use crate::{Polygon, Region, Shape};
 /// A relative length that counts as rounding.
 pub(crate) const ROUNDING: f64 = 1e-6;
 
-/// A region with what periodicity makes of it.
-pub(crate) struct Placed<'a, const D: usize> {
+/// A region with its periodic images.
+pub(crate) struct PeriodicRegion<'a, const D: usize> {
     base: Periodic<'a, D>,
     cuts: Vec<Periodic<'a, D>>,
     periods: [Option<[f64; 2]>; D],
@@ -19,7 +19,7 @@ struct Periodic<'a, const D: usize> {
     spans: [bool; D],
 }
 
-impl<'a, const D: usize> Placed<'a, D> {
+impl<'a, const D: usize> PeriodicRegion<'a, D> {
     pub fn new(region: &'a Region<D>, spacing: f64, periods: &[Option<[f64; 2]>; D]) -> Self {
         let periodic = |shape: &'a Shape<D>| Periodic {
             shape,
@@ -36,7 +36,7 @@ impl<'a, const D: usize> Placed<'a, D> {
                 }
             }
         }
-        Placed {
+        PeriodicRegion {
             base: periodic(&region.base),
             cuts: region.cuts.iter().map(periodic).collect(),
             periods: *periods,

@@ -38,7 +38,7 @@ impl Polygon {
         0.5 * self.edges().map(cross).sum::<f64>()
     }
 
-    /// Whether a point is inside, by the parity of crossings.
+    /// True if a point is inside, by the parity of crossings.
     pub fn contains(&self, x: [f64; 2]) -> bool {
         self.edges().filter(|(a, b)| crosses_ray(x, *a, *b)).count() % 2 == 1
     }
@@ -65,12 +65,12 @@ impl Polygon {
     }
 }
 
-/// Whether the ray from a point to the right passes an edge.
+/// True if the ray from a point to the right passes an edge.
 pub(crate) fn crosses_ray(x: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
     (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
 }
 
-/// Most pairs of segments that are looked at; the mesh of a wall refuses one of more.
+/// Largest number of compared pairs of segments; the mesh of a wall refuses one of more.
 const PAIRS: usize = 200_000_000;
 
 /// The first two segments of a chain that cross or touch without being neighbours.
@@ -85,10 +85,10 @@ pub(crate) fn crossing(
 }
 
 /// Two segments, by number, and the place where they meet.
-type Met = (usize, usize, [f64; 2]);
+type SegmentCrossing = (usize, usize, [f64; 2]);
 
 /// The same with the number of pairs that were held against each other.
-fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<Met>, usize) {
+fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<SegmentCrossing>, usize) {
     let n = edges.len();
     let tree = BoxTree::new(edges.iter().map(|(a, b)| bounds([*a, *b])).collect());
     let mut pairs = 0;

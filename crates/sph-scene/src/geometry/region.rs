@@ -6,9 +6,9 @@ use crate::{LevelSurface, Shape};
 /// A shape less other shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region<const D: usize> {
-    /// What is filled.
+    /// The filled region.
     pub base: Shape<D>,
-    /// What is cut out of it.
+    /// Regions cut out of it.
     pub cuts: Vec<Shape<D>>,
 }
 
@@ -21,7 +21,7 @@ impl<const D: usize> Region<D> {
         }
     }
 
-    /// The region of a body, if the body gives a shape or bounds what it fills by a box.
+    /// The region of a body, if the body gives a shape or bounds its filling by a box.
     pub fn from_body(body: &Body) -> Option<Self> {
         Some(Region {
             base: body.shape.shape()?,
@@ -51,8 +51,7 @@ impl<const D: usize> Region<D> {
         })
     }
 
-    /// Lower and upper corner of a box around it, m: that of the base, less what is beyond a level
-    /// surface or a wave.
+    /// Lower and upper corner of a box around it, m: that of the base, less the part beyond a level surface or a wave.
     pub fn bounds(&self) -> ([f64; D], [f64; D]) {
         let (mut lo, mut hi) = self.base.bounds();
         for cut in &self.cuts {

@@ -33,7 +33,7 @@ pub enum Shape<const D: usize> {
     Side {
         /// The surface.
         surface: LevelSurface,
-        /// Whether it is what is above it.
+        /// True if it describes the half space above.
         above: bool,
     },
     /// All that is above a wave.
@@ -100,7 +100,7 @@ impl<const D: usize> Shape<D> {
                 if polygon.contains(flat) { away } else { -away }
             }
             Shape::Cylinder { from, to, radius } => {
-                let (along, off, length) = about(from, to, x);
+                let (along, off, length) = axial_coordinates(from, to, x);
                 let (side, end) = (radius - off, along.min(length - along));
                 match side.min(end) {
                     inside if inside >= 0.0 => inside,
@@ -108,7 +108,7 @@ impl<const D: usize> Shape<D> {
                 }
             }
             Shape::Cone { base, apex, radius } => {
-                let (along, off, height) = about(base, apex, x);
+                let (along, off, height) = axial_coordinates(base, apex, x);
                 let slant = (radius * (height - along) - height * off) / radius.hypot(height);
                 slant.min(along)
             }
@@ -187,7 +187,11 @@ impl<const D: usize> Shape<D> {
 }
 
 /// Distance of a point along an axis and off it, and the length of the axis.
-fn about<const D: usize>(from: &[f64; D], to: &[f64; D], x: &[f64; D]) -> (f64, f64, f64) {
+fn axial_coordinates<const D: usize>(
+    from: &[f64; D],
+    to: &[f64; D],
+    x: &[f64; D],
+) -> (f64, f64, f64) {
     let length = distance(from, to);
     let along = (0..D)
         .map(|k| (x[k] - from[k]) * (to[k] - from[k]) / length)

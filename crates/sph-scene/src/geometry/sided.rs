@@ -69,7 +69,7 @@ impl Wall {
     }
 }
 
-/// Which way a surface faces: [`Winding::sense`].
+/// Side that a surface faces: [`Winding::sense`].
 pub fn sense(facets: &Facets) -> f64 {
     let corners = facets.triangles.iter().map(|t| facets.corners(t));
     Winding::sense(&corners.collect::<Vec<_>>())

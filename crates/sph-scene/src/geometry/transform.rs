@@ -8,11 +8,11 @@ use crate::geometry::vector::{array, unit};
 /// x → turn·(factor·x − centre) + centre + shift.
 pub(crate) struct Placing {
     factor: f64,
-    turn: Option<Turn>,
+    turn: Option<RotationAxis>,
     shift: [f64; 3],
 }
 
-struct Turn {
+struct RotationAxis {
     centre: [f64; 3],
     axis: [f64; 3],
     cos: f64,
@@ -25,7 +25,7 @@ impl Placing {
             let axis = rotate.axis.as_deref().and_then(unit);
             // A quarter turn is exact.
             let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
-            Turn {
+            RotationAxis {
                 centre: array(rotate.centre.as_deref().unwrap_or(&[])),
                 axis: axis.map_or([0.0, 0.0, 1.0], |a| array(&a)),
                 cos: clean(rotate.angle.cos()),

@@ -7,7 +7,7 @@ use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
 use crate::geometry::divide;
-use crate::geometry::outlines::{Line, Unsided, oriented, rectangle};
+use crate::geometry::outlines::{Line, SideError, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
@@ -45,7 +45,7 @@ impl Wall {
                 drawn.len()
             )));
         }
-        // The sides of an open box run anticlockwise; there is no asking what they enclose.
+        // The sides of an open box run anticlockwise; their enclosed volume is not known yet.
         let open_box = self.bounds.is_some() && !self.open.is_empty();
         let side = match self.side() {
             Some(side) if !open_box => side,
@@ -53,14 +53,14 @@ impl Wall {
         };
         let turned = self.flip || open_box && self.side() == Some(FluidSide::Outside);
         let lines = oriented(drawn, side).map_err(|why| match why {
-            Unsided::Open(open) => {
+            SideError::Open(open) => {
                 let message = format!(
                     "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
                      it, or leave out `fluid` and draw it with the fluid on the left of travel"
                 );
                 SceneProblem::new(format!("{place}.fluid"), message)
             }
-            Unsided::Tangled => problem(
+            SideError::Tangled => problem(
                 "its lines have too many edges beside each other to find which is within which: leave \
                  out `fluid` and draw them with the fluid on the left of travel"
                     .to_string(),
@@ -126,8 +126,8 @@ impl Wall {
         Ok(facets)
     }
 
-    /// How many corners or facets the shape of the wall will have, where that is not in the length of the
-    /// scene itself; none of a file, which has its own error.
+    /// Number of corners or facets of the wall's shape, where it is not in the length of the scene itself; none of a
+    /// file, which has its own error.
     pub fn declared(&self, spacing: f64) -> usize {
         let spacing = spacing / self.factor();
         let sides = |given: Option<usize>, radius: f64| {
@@ -187,7 +187,7 @@ impl Wall {
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
-        // What is scaled later is taken as it stands, else the heads of the columns may have units.
+        // A drawing that is scaled later is taken as it stands, else the heads of the columns may have units.
         let scaled = self.unit.is_some() || self.scale.is_some();
         let form = Form::places(&self.columns, scaled.then_some(1.0));
         rows::lines(&rows::text(path)?, &path.display().to_string(), &form)
@@ -251,7 +251,7 @@ impl Wall {
         ))
     }
 
-    /// Refuses what is absurdly large or small against the spacing.
+    /// Refuses lengths that are absurdly large or small against the spacing.
     fn fits<const D: usize>(
         &self,
         [lo, hi]: &[[f64; D]; 2],
@@ -300,7 +300,7 @@ impl Wedge {
     }
 }
 
-/// Whether the name of a file ends in `.ending`, in letters of any size.
+/// True if the name of a file ends in `.ending`, in letters of any size.
 pub(crate) fn has_ending(file: &str, ending: &str) -> bool {
     let found = file.rsplit_once('.').map(|(_, found)| found);
     found.is_some_and(|found| found.eq_ignore_ascii_case(ending))

@@ -13,7 +13,7 @@ pub struct DataFile {
     pub key: String,
     /// The file as the scene names it.
     pub named: String,
-    /// Where it is, if the scene may name it.
+    /// Path of the file, if the scene may name it.
     pub path: Result<PathBuf, PathProblem>,
 }
 
@@ -22,7 +22,7 @@ impl Loaded {
     pub fn files(&self) -> Vec<DataFile> {
         let mut found = Vec::new();
         for (key, value) in &self.resolved() {
-            within(value, key, key, &mut found);
+            collect_files(value, key, key, &mut found);
         }
         let placed = |(key, named): (String, String)| DataFile {
             path: self.source.resolve(&key, &named),
@@ -34,13 +34,13 @@ impl Loaded {
 }
 
 /// Every key `file` with the file it names.
-fn within(value: &Value, key: &str, path: &str, found: &mut Vec<(String, String)>) {
+fn collect_files(value: &Value, key: &str, path: &str, found: &mut Vec<(String, String)>) {
     match value {
         Value::String(file) if key == "file" => found.push((path.to_string(), file.clone())),
         Value::Table(table) => tables(table, path, found),
         Value::Array(items) => {
             for (k, item) in items.iter().enumerate() {
-                within(item, "", &format!("{path}[{k}]"), found);
+                collect_files(item, "", &format!("{path}[{k}]"), found);
             }
         }
         _ => {}
@@ -49,7 +49,7 @@ fn within(value: &Value, key: &str, path: &str, found: &mut Vec<(String, String)
 
 fn tables(table: &Table, path: &str, found: &mut Vec<(String, String)>) {
     for (key, value) in table {
-        within(value, key, &format!("{path}.{key}"), found);
+        collect_files(value, key, &format!("{path}.{key}"), found);
     }
 }
 
@@ -63,7 +63,7 @@ mod tests {
         let scene: Table = toml::from_str(scene).unwrap();
         let mut found = Vec::new();
         for (key, value) in &scene {
-            within(value, key, key, &mut found);
+            collect_files(value, key, key, &mut found);
         }
         let found: Vec<_> = found.into_iter().map(|(k, f)| format!("{k}={f}")).collect();
         assert_eq!(

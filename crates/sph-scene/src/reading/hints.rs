@@ -68,7 +68,7 @@ fn at<'t>(scene: &'t Table, path: &[&str]) -> Option<&'t Value> {
         .try_fold(scene.get(*first)?, |value, key| value.get(*key))
 }
 
-/// Where plugins of a name stand, or those of a kind of that name.
+/// Places of plugins of a name, or of those of a kind of that name.
 fn places(name: &str, value: &Value, parents: &[&str]) -> Option<String> {
     let table = value.as_table();
     if let Some(kind) = kind_of(name) {

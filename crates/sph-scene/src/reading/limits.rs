@@ -9,7 +9,7 @@ pub(crate) const WALL_CORNERS: usize = 1_000_000;
 pub(crate) const BODY_CORNERS: usize = 10_000;
 /// Most lines of a drawing: each two of which are compared.
 pub(crate) const LINES: usize = 20_000;
-/// Most keys of a table, of whatever depth, and most fields of an output.
+/// Most keys of a table, of any depth, and most fields of an output.
 pub(crate) const TABLES: usize = 1_000;
 /// Most output times, and most rows of a course.
 pub(crate) const TIMES: usize = 1_000_000;
@@ -72,7 +72,7 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
     found
 }
 
-/// Tables of any depth with more keys than any table needs; what is in them is not looked at.
+/// Tables of any depth with more keys than any table needs; their contents are skipped.
 fn wide(table: &Table, path: &str, found: &mut Vec<SceneProblem>) {
     let n = table.len();
     if n > TABLES {

@@ -29,7 +29,7 @@ pub type Plugins = BTreeMap<String, Table>;
 /// The schema of a table whose keys are those of a plugin.
 pub(crate) type AnyTable = serde_json::Map<String, serde_json::Value>;
 
-/// What the schema says of [`Plugins`].
+/// Form of [`Plugins`] in the schema.
 pub(crate) type AnyPlugins = BTreeMap<String, AnyTable>;
 
 /// A probe or gauge: the plugin's name and its parameters in one table.

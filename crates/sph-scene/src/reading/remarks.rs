@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use crate::reading::plugins::{holders, in_table, probes, solutions};
 
-/// Of every plugin that a scene names: remarks on its parameters, and what is wrong with its name or with them.
+/// Of every plugin that a scene names: remarks on its parameters, and the faults of its name or of them.
 pub(crate) fn of_plugins(scene: &Table) -> (Vec<SceneProblem>, Vec<SceneProblem>) {
     let (mut remarks, mut mistakes) = (Vec::new(), Vec::new());
     for choice in choices(scene) {
@@ -18,7 +18,7 @@ pub(crate) fn of_plugins(scene: &Table) -> (Vec<SceneProblem>, Vec<SceneProblem>
     (remarks, mistakes)
 }
 
-/// Remarks on the parameters of a plugin, or what is wrong with its name or with them.
+/// Remarks on the parameters of a plugin, or the faults of its name or of them.
 fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> {
     let kind = kind_of(choice.kind);
     let plugins = kind.map_or(Vec::new(), |kind| (kind.plugins)());
@@ -27,10 +27,11 @@ fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> 
         return Ok(Vec::new());
     }
     let Some(plugin) = plugins.iter().find(|p| p.name == choice.name) else {
-        return Err(choice.blame(&unknown(choice, &plugins)));
+        return Err(choice.scene_problems(&unknown(choice, &plugins)));
     };
     let mut table = Value::Table(choice.table.clone());
-    let inside = |found: Vec<SceneProblem>| choice.blame(&RegistryError::Parameters(found));
+    let inside =
+        |found: Vec<SceneProblem>| choice.scene_problems(&RegistryError::Parameters(found));
     conform(&mut table, &(plugin.schema)())
         .map(inside)
         .map_err(inside)
@@ -46,7 +47,7 @@ fn unknown(choice: &PluginChoice, plugins: &[PluginInfo]) -> RegistryError {
     }
 }
 
-/// Every plugin that a scene names, in whatever form the rest of the scene is.
+/// Every plugin that a scene names, in any form of the rest of the scene.
 fn choices(scene: &Table) -> Vec<PluginChoice> {
     let mut all = Vec::new();
     for kind in kinds() {

@@ -9,7 +9,7 @@ use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::{LevelSurface, Shape, Wave};
 
-/// A piece of a phase at the start: one shape, or what the walls enclose, less what is subtracted.
+/// A piece of a phase at the start: one shape, or the volume that walls enclose, less subtracted shapes.
 #[parameters]
 pub struct Body {
     /// Name of the phase it is made of.
@@ -17,22 +17,23 @@ pub struct Body {
     /// Its shape.
     #[serde(flatten)]
     pub shape: BodyShape,
-    /// Fills what the walls enclose, instead of a shape; a `box` bounds it.
+    /// Fills the volume that walls enclose, instead of a shape; a `box` bounds it.
     pub fill: Option<Filling>,
     /// Point, m, in that one of several regions between the walls which `fill` fills; all of them if left out.
     #[parameter(unit: "m")]
     pub seed: Option<Vec<f64>>,
-    /// Whether only what is on the fluid's side of all walls is filled.
+    /// True if only the fluid's side of all walls is filled.
     #[parameter(default)]
     pub clip: bool,
     /// Shapes that are cut out.
     #[parameter(default)]
     pub subtract: Vec<BodyShape>,
-    /// Only what is above this surface is filled: bodies of one `box` with the same surface in `below` and `above` share a lattice.
+    /// Surface above which alone the body is filled: bodies of one `box` with the same surface in `below` and `above`
+    /// share a lattice.
     pub above: Option<LevelSurface>,
-    /// Only what is below this surface is filled.
+    /// Surface below which alone the body is filled.
     pub below: Option<LevelSurface>,
-    /// Wave that is on it at the start: what is above its surface is not filled.
+    /// Wave on it at the start: the part above its surface is not filled.
     pub wave: Option<Wave>,
     /// Velocity at the start, m/s; at rest if left out.
     #[parameter(unit: "m/s")]
@@ -44,7 +45,7 @@ pub struct Body {
     /// Pressure at the start.
     #[parameter(default)]
     pub pressure: Pressure,
-    /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of what stands over a place in all bodies.
+    /// Level of the free surface against gravity, m, for a hydrostatic pressure. If left out, the top of the only body, or the weight of all bodies over a place.
     #[parameter(unit: "m")]
     pub surface: Option<f64>,
 }
@@ -73,7 +74,7 @@ pub struct BodyShape {
     pub extrusion: Option<Extrusion>,
 }
 
-/// What a body without a shape fills.
+/// Filling of a body without a shape.
 #[parameters]
 pub enum Filling {
     /// Every place that the walls enclose.
@@ -153,7 +154,7 @@ impl BodyShape {
 }
 
 impl Body {
-    /// Whether walls decide what is filled: `clip` or `fill`.
+    /// True if walls bound the filling: `clip` or `fill`.
     pub fn needs_walls(&self) -> bool {
         self.clip || self.fill.is_some()
     }

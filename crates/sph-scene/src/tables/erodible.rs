@@ -11,10 +11,10 @@ pub struct Erodible {
     /// Distance of the places at which the level is known, m; the spacing if left out.
     #[parameter(unit: "m", above: 0.0)]
     pub cell: Option<f64>,
-    /// Where the bed begins along x, in three dimensions along x and y, m; `-inf` or left out for as far as the wall goes.
+    /// Start of the bed along x, in three dimensions along x and y, m; `-inf` or left out for as far as the wall goes.
     #[parameter(unit: "m", min_items: 1)]
     pub from: Option<Vec<f64>>,
-    /// Where it ends, m; `inf` or left out for as far as the wall goes.
+    /// End of the bed, m; `inf` or left out for as far as the wall goes.
     #[parameter(unit: "m", min_items: 1)]
     pub to: Option<Vec<f64>>,
     /// Level under which there are no grains, m; grains without end if left out.

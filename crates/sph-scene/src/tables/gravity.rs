@@ -1,10 +1,10 @@
-//! The table `[numerics.gravity_over_time]`: what gravity changes by.
+//! The table `[numerics.gravity_over_time]`: the change of gravity over time.
 
 use std::path::PathBuf;
 
 use sph_core::parameters;
 
-/// What is added to `gravity` over time, m/s²; exactly one of `sine`, `table` and `file`.
+/// Acceleration that is added to `gravity` over time, m/s²; exactly one of `sine`, `table` and `file`.
 ///
 /// In the frame of a tank that moves it is the acceleration of the tank with the other sign.
 #[parameters]

@@ -7,7 +7,7 @@ use sph_core::parameters;
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
-/// Courses count their time from `start` and hold what they reached at `stop`.
+/// Courses count their time from `start` and hold the values reached at `stop`.
 #[parameters]
 pub struct Motion {
     /// Constant velocity, m/s; none if left out.
@@ -39,14 +39,14 @@ pub struct Motion {
     pub stop: Option<f64>,
 }
 
-/// Places of the wall are lifted by what a level has risen since the start, linear between places along x; courses of
+/// Places of the wall are lifted by the rise of a level since the start, linear between places along x; courses of
 /// levels are smooth between the rows of the table, at rest before the first and after the last.
 #[parameters]
 pub struct Levels {
     /// A table with a column `time` (s) and one of levels (m) for each place, relative to the scene's folder: `series.csv` of a
     /// run, for example.
     pub file: String,
-    /// Where the levels were taken, ascending along x, m.
+    /// Places of the levels, ascending along x, m.
     #[parameter(unit: "m", min_items: 1)]
     pub places: Vec<f64>,
     /// The columns of these places.

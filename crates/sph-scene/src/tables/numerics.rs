@@ -5,7 +5,7 @@ use sph_core::parameters;
 
 use crate::{GravityOverTime, Motion};
 
-/// How long the scene runs and how carefully.
+/// Duration and accuracy of the run.
 #[parameters]
 pub struct Run {
     /// Simulated time at which the run ends, s.
@@ -14,7 +14,7 @@ pub struct Run {
     /// Factor on the largest stable time step of the plugins.
     #[parameter(default: 1.0, unit: "1", above: 0.0, max: 1.0, quantity: "safety factor")]
     pub safety: f64,
-    /// How often a failing step is retried with half the time step before the run stops.
+    /// Number of retries of a failing step with half the time step before the run stops.
     #[parameter(default: 8, min: 0, max: 60)]
     pub retries: u32,
     /// Largest number of steps; no limit if left out.
@@ -47,7 +47,7 @@ pub struct Numerics {
     /// Gravity, m/s², one entry per dimension; it is in balance with the pressure of walls. None if left out.
     #[parameter(unit: "m/s²")]
     pub gravity: Option<Vec<f64>>,
-    /// What is added to `gravity` over time.
+    /// Acceleration that is added to `gravity` over time.
     pub gravity_over_time: Option<GravityOverTime>,
     /// Motion of the frame that the scene is drawn in, as that of a wall but without rotation: its acceleration is taken from `gravity`, and walls, levels and velocities count in the frame.
     pub frame: Option<Motion>,
@@ -69,10 +69,11 @@ pub struct Numerics {
     #[parameter(default: [0.01, 3.0], unit: "1")]
     #[schemars(inner(range(min = 0.0)))]
     pub density_bounds: [f64; 2],
-    /// Whether more than a tenth of the mass may be faster than its sound; the run ends if not.
+    /// True if more than a tenth of the mass may be faster than its sound; the run ends if not.
     #[parameter(default)]
     pub supersonic: bool,
-    /// Whether a solve for stresses of the end of the step may bear more than a twentieth of a soil's weight beyond its strength; the run fails at its end if not.
+    /// True if a solve for stresses of the end of the step may bear more than a twentieth of a soil's weight beyond its
+    /// strength; the run fails at its end if not.
     #[parameter(default)]
     pub delayed_yield: bool,
     /// Largest random displacement of a particle at the start along each axis, as a fraction of the spacing; if left out 0, and 0.01 in a scene that shifts particles, which a perfect lattice keeps from doing so.
@@ -100,7 +101,7 @@ pub enum ReferencePressure {
     Of(PressureOf),
 }
 
-/// Whose reference pressure all phases have.
+/// Phase whose reference pressure all phases have.
 #[parameters]
 pub enum PressureOf {
     /// That of the phase with the least density.

@@ -7,7 +7,7 @@ use crate::Heading;
 /// A place where particles leave the flow: a box, or all that is beyond a plane across an axis.
 ///
 /// A particle that is there at the end of a step is taken out, and its mass counted. Nothing is
-/// there at the start. Neither the outlet nor what has left through it holds the flow back: what is upstream
+/// there at the start. Neither the outlet nor fluid beyond it holds the flow back: what is upstream
 /// has a free surface there, which suits falls and flows faster than their waves.
 #[parameters]
 pub struct Outlet {
@@ -15,17 +15,17 @@ pub struct Outlet {
     #[serde(rename = "box")]
     #[parameter(unit: "m")]
     pub bounds: Option<[Vec<f64>; 2]>,
-    /// Place of a plane along `axis`, m: what is beyond it leaves.
+    /// Place of a plane along `axis`, m: particles beyond it leave.
     #[parameter(unit: "m")]
     pub beyond: Option<f64>,
     /// Axis across which the plane stands; x if left out.
     pub axis: Option<Axis>,
-    /// Which side of the plane is beyond it, `forward` or `backward`; larger coordinates if left out.
+    /// Side of the plane that is beyond it, `forward` or `backward`; larger coordinates if left out.
     pub direction: Option<Heading>,
 }
 
 impl Outlet {
-    /// Whether a place is in the outlet.
+    /// True if a place is in the outlet.
     pub fn contains<const D: usize>(&self, x: &[f64; D]) -> bool {
         if let Some([lo, hi]) = &self.bounds {
             let within = |k: usize| lo.get(k) <= Some(&x[k]) && Some(&x[k]) <= hi.get(k);

@@ -1,10 +1,10 @@
-//! The table `[output]`: what a run writes and when.
+//! The table `[output]`: files of a run, and the times of writing.
 
 use scene_text::PictureRange;
 use serde::{Deserialize, Deserializer};
 use sph_core::parameters;
 
-/// What a run writes and when.
+/// Files of a run, and the times of writing.
 #[parameters]
 pub struct Output {
     /// Simulated time between outputs of fields, s; a hundredth of the end if neither this nor `times` is given.
@@ -32,7 +32,7 @@ pub struct Output {
     /// Pictures per second of the film of every field that has pictures, `animations/NAME.gif`; 10 if left out, 0 for no film.
     #[parameter(default, unit: "1/s", min: 0.0, max: 50.0)]
     pub animation: Option<f64>,
-    /// Whether files for ParaView are written.
+    /// True if files for ParaView are written.
     #[parameter(default: true)]
     pub vtk: bool,
 }

@@ -1,4 +1,4 @@
-//! The table `[reference.NAME]`: what a result is compared with, and by which norm.
+//! The table `[reference.NAME]`: the reference of a result, and the norm of the difference.
 
 use std::path::PathBuf;
 
@@ -55,14 +55,14 @@ pub struct Reference {
     /// Period of the reference, s, for the norms `lag` and `period`.
     #[parameter(unit: "s", above: 0.0)]
     pub period: Option<f64>,
-    /// How the difference becomes one number; `rms-over-range` for probes and `l2` for fields if left out.
+    /// Norm of the difference; `rms-over-range` for probes and `l2` for fields if left out.
     pub norm: Option<Norm>,
     /// The file with its folder, set when the scene is read.
     #[serde(skip)]
     pub path: Option<PathBuf>,
 }
 
-/// How a difference becomes one number.
+/// Norm of a difference.
 ///
 /// `u` is the result and `e` the reference; over particles the sums weigh with the volume V.
 #[parameters]
@@ -110,7 +110,7 @@ impl Norm {
 }
 
 impl Reference {
-    /// Whether the norm compares with nothing but a number of the reference, or with nothing at all.
+    /// True if the norm compares with nothing but a number of the reference, or with nothing at all.
     pub fn stands_alone(&self) -> bool {
         matches!(self.norm(), Norm::Mean | Norm::ErrorMean | Norm::Period)
     }

@@ -17,7 +17,7 @@ use sph_core::PluginChoice;
 /// on 0.0021, from 0 0.0042).
 pub const OFF_LATTICE: f64 = 0.01;
 
-/// A scene: what flows where, under which laws, for how long, and what is written.
+/// A scene: materials and their places, laws, duration and outputs.
 #[parameters]
 pub struct Scene {
     /// The scene in one line, with its publication.
@@ -27,7 +27,7 @@ pub struct Scene {
     /// Number of space dimensions.
     #[parameter(min: 2, max: 3)]
     pub dimension: usize,
-    /// How long the scene runs and how carefully.
+    /// Duration and accuracy of the run.
     pub run: Run,
     /// Resolution, forces, periodic directions and bounds.
     pub numerics: Numerics,
@@ -63,7 +63,7 @@ pub struct Scene {
     /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
     #[parameter(default)]
     pub reference: BTreeMap<String, Reference>,
-    /// What is written and when.
+    /// Files of a run, and the times of writing.
     #[parameter(default)]
     pub output: Output,
 }
@@ -74,7 +74,7 @@ impl Scene {
         array::<D>(self.numerics.gravity.as_deref().unwrap_or(&[])).into()
     }
 
-    /// Whether gravity changes over time: a motion against it or with it takes or gives energy.
+    /// True if gravity changes over time: a motion against it or with it takes or gives energy.
     pub fn swings(&self) -> bool {
         self.numerics.gravity_over_time.is_some() || self.numerics.frame.is_some()
     }
@@ -102,9 +102,8 @@ impl Scene {
 
     /// One region for every body, in the order of `body`; `bounds` is the box around all walls, m.
     ///
-    /// The region of a body that fills the walls is that box, or the part of it in the body's
-    /// own `box`; its lattice counts from the lower corner. What is behind walls is to be taken
-    /// away by the caller, as it is of a body with `clip`.
+    /// The region of a body that fills the walls is that box, or the part of it in the body's own `box`; its lattice
+    /// counts from the lower corner. The caller removes the part behind walls, as it is of a body with `clip`.
     ///
     /// # Errors
     /// If a body fills the walls and there are no bounds, or its box has nothing in common with
@@ -157,13 +156,13 @@ impl Scene {
         single("rheology", &self.phase.get(phase)?.rheology, &path)
     }
 
-    /// What moves a wall, if the scene chooses something.
+    /// Mover of a wall, if the scene chooses one.
     pub fn mover(&self, wall: &str) -> Option<PluginChoice> {
         let path = format!("wall.{wall}.mover");
         single("mover", &self.wall.get(wall)?.mover, &path)
     }
 
-    /// What the fluid meets where it passes a wall, if it does.
+    /// Open boundary at a wall, if the scene chooses one.
     pub fn open_boundary(&self, wall: &str) -> Option<PluginChoice> {
         let path = format!("wall.{wall}.open-boundary");
         single("open-boundary", &self.wall.get(wall)?.open_boundary, &path)

@@ -20,7 +20,7 @@ pub struct Wall {
     /// Corners of the wall in order, m; the fluid is on the left of travel. Two dimensions only.
     #[parameter(unit: "m", min_items: 2)]
     pub polyline: Option<Vec<Vec<f64>>>,
-    /// Whether the last corner of the `polyline` is joined to the first.
+    /// True if the last corner of the `polyline` is joined to the first.
     #[parameter(default)]
     pub closed: bool,
     /// Thickness of a plate, m, half of it on either side of the `polyline`; a plate has two faces and wets on both.
@@ -67,23 +67,24 @@ pub struct Wall {
     pub rotate: Option<Rotate>,
     /// Side of a closed geometry on which the fluid is: `inside` if left out, `as-drawn` for a file. A `polyline` has the fluid on the left of travel.
     pub fluid: Option<FluidSide>,
-    /// Whether a `polyline`, or what a `file` has, is turned round: the fluid is on the other side.
+    /// True if a `polyline`, or the geometry of a `file`, is turned round: the fluid is on the other side.
     #[parameter(default)]
     pub flip: bool,
-    /// Whether facets of an STL file that face the other way than most of those they hang together with are turned
+    /// True if facets of an STL file that face the other way than most of those they hang together with are turned
     /// round.
     #[parameter(default)]
     pub align: bool,
-    /// Whether the fluid sticks to the wall.
+    /// Condition of the fluid at the wall: it sticks or slips.
     #[parameter(default)]
     pub condition: SlipCondition,
     /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
     #[parameter(unit: "m", above: 0.0)]
     pub slip_length: Option<f64>,
-    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times what they press on the wall.
+    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times their load on
+    /// the wall.
     #[parameter(unit: "1", min: 0.0)]
     pub friction_coefficient: Option<f64>,
-    /// How that friction is shared out, for `condition = "coulomb"`.
+    /// Distribution of that friction, for `condition = "coulomb"`.
     pub friction_form: Option<FrictionForm>,
     /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
     #[parameter(unit: "m/s")]
@@ -94,11 +95,12 @@ pub struct Wall {
     pub erodible: Option<Erodible>,
     /// Name of the `erodible` wall that this one stands in: its foot follows the bed.
     pub stands_in: Option<String>,
-    /// What moves the geometry instead, with the force of the fluid on it, `[wall.NAME.mover.PLUGIN]`; none if left out.
+    /// Mover of the geometry in place of a motion, with the force of the fluid on it, `[wall.NAME.mover.PLUGIN]`; none
+    /// if left out.
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub mover: Plugins,
-    /// What the fluid meets where it passes the geometry, `[wall.NAME.open-boundary.PLUGIN]`; a solid wall if left out.
+    /// Open boundary at which fluid passes the geometry, `[wall.NAME.open-boundary.PLUGIN]`; a solid wall if left out.
     #[serde(rename = "open-boundary")]
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
@@ -111,7 +113,7 @@ pub struct Wall {
     pub place: Option<String>,
 }
 
-/// What a wall does to the velocity along it.
+/// Condition of a wall for the velocity along it.
 #[parameters]
 pub enum SlipCondition {
     /// The fluid moves with the wall.
@@ -125,7 +127,7 @@ pub enum SlipCondition {
     Coulomb,
 }
 
-/// How Coulomb's friction at a wall is shared out among the particles.
+/// Distribution of Coulomb's friction at a wall among the particles.
 #[parameters]
 pub enum FrictionForm {
     /// All of it: the coefficient times the force on the wall.
@@ -142,7 +144,7 @@ pub enum FluidSide {
     Inside,
     /// Outside: an obstacle.
     Outside,
-    /// Where the facets of a file face, or on the left of its lines in the upright drawing.
+    /// The side that the facets of a file face, or the left of its lines in the upright drawing.
     AsDrawn,
 }
 

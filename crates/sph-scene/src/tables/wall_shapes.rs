@@ -33,7 +33,7 @@ impl Face {
         self as usize / 2
     }
 
-    /// Whether it is towards more.
+    /// True if it is towards more.
     pub fn upper(self) -> bool {
         self as usize % 2 == 1
     }
@@ -81,7 +81,7 @@ pub struct CylinderWall {
     /// Angle, rad, right-handed about the direction of travel, from +x for a cylinder along z (+y along x, +z along y) at which the first corner lies. A slanted cylinder counts as along the axis it is nearest to.
     #[parameter(default, unit: "rad")]
     pub turn: f64,
-    /// Whether the two flat ends are left out: a pipe.
+    /// True if the two flat ends are left out: a pipe.
     #[parameter(default)]
     pub open_ends: bool,
 }
@@ -122,7 +122,7 @@ pub struct ExtrusionWall {
     /// The polygon, either way round, and its ends.
     #[serde(flatten)]
     pub shape: Extrusion,
-    /// Whether the two flat ends are left out.
+    /// True if the two flat ends are left out.
     #[parameter(default)]
     pub open_ends: bool,
 }

@@ -23,7 +23,7 @@ use crate::geometry::level::nearest;
 #[parameters]
 #[derive(Copy, PartialEq)]
 pub struct Wave {
-    /// Which wave: `solitary`.
+    /// Kind of the wave: `solitary`.
     pub kind: WaveKind,
     /// Height H₀ of the crest over the still water, m.
     #[parameter(unit: "m", above: 0.0)]

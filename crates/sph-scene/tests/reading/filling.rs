@@ -1,17 +1,19 @@
 //! Where particles stand.
 
-use sph_scene::{Filled, Offset, Polygon, Region, Scene, Shape, disturb, estimate, fill, parse};
+use sph_scene::{
+    BodyParticles, Offset, Polygon, Region, Scene, Shape, disturb, estimate, fill, parse,
+};
 
 fn cuboid<const D: usize>(lo: [f64; D], hi: [f64; D]) -> Shape<D> {
     Shape::Cuboid { lo, hi }
 }
 
-fn counts<const D: usize>(filled: &[Filled<D>]) -> Vec<usize> {
+fn counts<const D: usize>(filled: &[BodyParticles<D>]) -> Vec<usize> {
     filled.iter().map(|f| f.positions.len()).collect()
 }
 
 /// Least distance of two particles across all bodies.
-fn nearest<const D: usize>(filled: &[Filled<D>]) -> f64 {
+fn nearest<const D: usize>(filled: &[BodyParticles<D>]) -> f64 {
     let all: Vec<_> = filled.iter().flat_map(|f| &f.positions).collect();
     let mut least = f64::INFINITY;
     for (i, a) in all.iter().enumerate() {

@@ -122,7 +122,7 @@ fn a_problem_found_later_is_shown_where_the_plugin_stands() {
         "viscosity",
         "must be more than 2",
     )]);
-    let shown = loaded.source.diagnose(&choice.blame(&error));
+    let shown = loaded.source.diagnose(&choice.scene_problems(&error));
     assert_eq!(
         shown[0].to_string(),
         "scenes/pool.toml:13:1: phase.water.rheology.newtonian.viscosity: must be more than 2"

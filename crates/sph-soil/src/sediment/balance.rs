@@ -2,7 +2,7 @@
 
 use sph_core::bed::Bed;
 
-/// How the grains of a bed are packed, and how steep it stands.
+/// Packing of the grains of a bed, and its angle of repose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Packing {
     /// Porosity n of the bed.
@@ -13,7 +13,7 @@ pub struct Packing {
     pub slide_time: f64,
 }
 
-/// What a step does to a bed.
+/// Rates and volumes of a step of a bed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Balance {
     /// Rates of the levels, m/s.

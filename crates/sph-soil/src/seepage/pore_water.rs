@@ -156,8 +156,8 @@ impl PoreWater {
         })
     }
 
-    /// How much more than one half of what is around a particle is its own, which is its depth behind the surface
-    /// between soil and water over some length; and the water that soil has in reach.
+    /// Excess over one half of the share of its own phase around a particle, which is its depth behind the surface
+    /// between soil and water over some length; and the water within reach of soil.
     fn depth<const D: usize>(
         &self,
         phase: &[u32],

@@ -56,7 +56,7 @@ pub(crate) struct Couplings<'a, const D: usize> {
     pub gravity: Vect<D>,
 }
 
-/// What a cluster leaves for its rows.
+/// Coefficients of a cluster for its rows.
 #[derive(Default)]
 pub(crate) struct ClusterCoefficients {
     /// c and what it adds to the source, for every candidate, one number per lane each.
@@ -67,7 +67,7 @@ pub(crate) struct ClusterCoefficients {
 }
 
 impl<const D: usize> Couplings<'_, D> {
-    /// Whether a particle has a pressure that is solved for, in a row that is not with another owner.
+    /// True if a particle has a pressure that is solved for, in a row that is not with another owner.
     pub fn is_solved(&self, i: usize) -> bool {
         self.parts[i].inside().is_some() && self.owned.has(i)
     }
@@ -188,7 +188,7 @@ impl Body for SideBySide<'_> {
 /// Share of a row's couplings that keeps a system without a surface regular.
 const FAINT: f64 = 1e-9;
 
-/// Where an iteration starts: the pressure before, or what is known, Pa.
+/// Start of an iteration: the pressure before, or the known one, Pa.
 pub(crate) fn start(pressure: f64, part: &Part) -> Vect<1> {
     Vect::from([match part {
         Part::Inside(_) => pressure,

@@ -2,7 +2,7 @@
 
 use sph_core::parameters;
 
-/// What is blended where a soil yields from a solid to a liquid.
+/// Blended quantities where a soil yields from a solid to a liquid.
 #[parameters]
 pub enum Blend {
     /// div(ζτ_l + (1 − ζ)τ_s): a stress, so that action is reaction.

@@ -8,8 +8,8 @@ use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wa
 /// Coulomb's friction on walls that have a coefficient μ: the wall pulls at the soil with μ times what
 /// the soil presses on it, against the sliding, and at most with what stops it within the step.
 ///
-/// What a particle presses on a wall (the part of [`wall_forces`](sph_neighbours::wall_forces) that is its own, exact in sum) is shared
-/// among the elements by |∇γ_as|, and what an element gets, N_s, is taken back from the particles before
+/// The load of a particle on a wall (the part of [`wall_forces`](sph_neighbours::wall_forces) that is its own, exact in sum) is shared
+/// among the elements by |∇γ_as|, and the load of an element, N_s, is taken back from the particles before
 /// it: F_as = μ N_s V_a|∇γ_as| / Σ_b V_b|∇γ_bs|. So the sum of all F is μ times the force on the wall. Where the pressure between
 /// the grains is another than that of the equation of state, N_s counts for p'_s/p_s, with the means of both
 /// pressures over those particles, less the normal elastic stress.
@@ -22,11 +22,11 @@ use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wa
 ///
 /// Source: Ghaïtanellis 2017, Eq. 4.115–4.123 (`literal`); the force of elements is ours.
 pub struct CoulombFriction {
-    /// Whether the phases rub, in the order of their numbers.
+    /// Marks of phases that rub, in the order of their numbers.
     rubs: Vec<bool>,
     /// The pressure that makes friction, Pa.
     pressure: Field<Scalar>,
-    /// What the elements get, of the state before the last kick.
+    /// Loads of the elements, of the state before the last kick.
     pressed: Vec<f64>,
 }
 
@@ -40,7 +40,7 @@ impl CoulombFriction {
         }
     }
 
-    /// What particles press on walls at the state of the last evaluation; called before a kick.
+    /// Loads of particles on walls at the state of the last evaluation; called before a kick.
     ///
     /// # Errors
     /// If a column is missing.

@@ -35,7 +35,7 @@ use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
     source: "Ghaïtanellis 2017, Eq. 4.94–4.101")]
 #[derive(Copy)]
 pub struct Displacement {
-    /// What is blended where a soil yields.
+    /// Blended quantities where a soil yields.
     #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.105 (stresses)")]
     pub blend: Blend,
     /// Scale of the operator on a lattice.

@@ -23,7 +23,7 @@ use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
     source: "Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001")]
 #[derive(Copy)]
 pub struct Divergence {
-    /// What is blended where a soil yields.
+    /// Blended quantities where a soil yields.
     #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)")]
     pub blend: Blend,
     /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the step

@@ -21,7 +21,7 @@ pub struct ElasticMotion<const D: usize> {
     pub gradient: GradientStage<D>,
     /// The laws and their inputs.
     pub law_inputs: LawInputs,
-    /// Whether the force is made of displacements.
+    /// True if the force is made of displacements.
     pub displaced: bool,
     /// Gradients of a run of particles, kept for their memory.
     pub gradients: Pool<Vec<Gradient>>,

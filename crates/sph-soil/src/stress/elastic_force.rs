@@ -11,17 +11,17 @@ pub trait ElasticForce<const D: usize>: Send {
     fn term(&self, law_inputs: &LawInputs) -> Box<dyn Interaction<D>>;
     /// The blended values where the material yields.
     fn blend(&self) -> Blend;
-    /// Whether the stress is that of the end of the step: what the step adds is then solved for with the viscosity, and elastic
-    /// waves do not bound it.
+    /// True if the stress is that of the end of the step: its increment is then solved for with the viscosity, and
+    /// elastic waves do not bound it.
     fn implicit(&self) -> bool {
         false
     }
-    /// Whether it takes steps of its own within that of the flow, in which nothing but velocities and remembered stresses
-    /// changes.
+    /// True if it takes steps of its own within that of the flow, in which nothing but velocities and remembered
+    /// stresses changes.
     fn sub_steps(&self) -> bool {
         false
     }
-    /// Whether it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
+    /// True if it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
     /// with them stresses that are not cut.
     fn displaced(&self) -> bool {
         false

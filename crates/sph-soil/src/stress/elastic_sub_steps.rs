@@ -31,7 +31,7 @@ pub struct ElasticSubSteps<const D: usize> {
     longest: f64,
     touched: Vec<bool>,
     acceleration: Vec<Vect<D>>,
-    /// What the velocity of the drift has more than the last.
+    /// Velocity of the drift less the last velocity.
     mean: Vec<Vect<D>>,
     /// δ, by which τ is behind the velocity since the last kick, s.
     behind: f64,

@@ -16,11 +16,11 @@ use crate::stress::{NeighbourSums, VelocityGradient};
 pub struct Gathered<const D: usize> {
     /// Of free neighbours, and of walls as far as they rub.
     sums: [SMatrix<f64, D, D>; 2],
-    /// What walls that slip add, and what open faces do.
+    /// Sums of walls that slip, and of open faces.
     slipping: [Slipping<D>; 2],
 }
 
-/// What is known of the normal component alone.
+/// Equations for the normal component alone.
 #[derive(Clone, Copy)]
 struct Slipping<const D: usize> {
     sums: [SMatrix<f64, D, D>; 2],
@@ -151,7 +151,7 @@ impl<const D: usize> Slipping<D> {
         }
     }
 
-    /// Where it meets a wall at an angle: itself, facing where the wall does not.
+    /// Continuation at a wall that it meets at an angle: itself, facing where the wall does not.
     fn beyond(&self, wall: &Self) -> Option<Self> {
         let normal = wall.facing.try_normalize(0.0)?;
         let facing = self.facing - normal * normal.dot(&self.facing);

@@ -3,8 +3,7 @@
 use nalgebra::SMatrix;
 use sph_core::{Work, contract};
 
-/// What a formula is made of: sums over neighbours, wall points and elements with the weights
-/// θ_b V_b ∇w_ab and −∇γ_as.
+/// Terms of a formula: sums over neighbours, wall points and elements with the weights θ_b V_b ∇w_ab and −∇γ_as.
 #[derive(Clone, Copy, Debug)]
 pub struct NeighbourSums<const D: usize> {
     /// Σ (u_b − u_a) ⊗ weight, 1/s.
@@ -19,7 +18,7 @@ pub struct NeighbourSums<const D: usize> {
 pub trait VelocityGradient<const D: usize>: Send + Sync {
     /// The gradient from the sums, 1/s; zero for a particle without neighbours.
     fn gradient(&self, sums: &NeighbourSums<D>) -> SMatrix<f64, D, D>;
-    /// Whether the force of an elastic stress is the adjoint of this formula, and not of the plain sum over γ.
+    /// True if the force of an elastic stress is the adjoint of this formula, and not of the plain sum over γ.
     fn adjoint(&self) -> bool {
         false
     }

@@ -69,7 +69,7 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
     }
 }
 
-/// What free neighbours add to [`NeighbourSums`]: velocity, then position.
+/// Contributions of free neighbours to [`NeighbourSums`]: velocity, then position.
 struct FreeSums<'a, const D: usize> {
     velocity: &'a [Vect<D>],
     volume: &'a [f64],

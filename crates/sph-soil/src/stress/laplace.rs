@@ -13,7 +13,7 @@ use crate::stress::bed_system::{ClusterCoefficients, Couplings, Part, start};
 use crate::stress::effective_pressure::{EffectivePressureEntry, Soils};
 use crate::stress::soil_surface::Grains;
 
-/// What solves for the effective pressure.
+/// Solver of the effective pressure.
 #[parameters]
 pub enum PressureSolver {
     /// With an incomplete factorisation; iterations grow with the rows of the bed.
@@ -65,7 +65,7 @@ pub struct Laplace {
     /// Relative residual at which the iteration ends.
     #[parameter(default: 1e-5, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
-    /// What iterates.
+    /// The iterative solver.
     #[parameter(default, source: "ours; jacobi: Ghaïtanellis 2017, §4.6.1")]
     pub solver: PressureSolver,
     /// Iterations after which it gives up; the step is then tried again with half its length. 2000 of conjugate gradients and
@@ -141,7 +141,7 @@ struct Solve<const D: usize> {
     least_depth: f64,
     /// Time between solves over √(δr/|g|).
     interval: f64,
-    /// Whether the solver needs the rows of all particles.
+    /// True if the solver needs the rows of all particles.
     whole: bool,
     /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
@@ -263,8 +263,7 @@ impl<const D: usize> Solve<D> {
 }
 
 impl<const D: usize> Solve<D> {
-    /// Whether a multiple of the interval has passed within the last step: the same for a run that
-    /// was interrupted.
+    /// True if a multiple of the interval has passed within the last step: the same for a run that was interrupted.
     fn due(&self, world: &World<D>) -> bool {
         let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
         let count = |time: f64| (time / interval).floor();
@@ -285,13 +284,13 @@ impl<const D: usize> Solve<D> {
         Ok(move |i: usize| soils[phase.map_or(0, |p| p[i] as usize)])
     }
 
-    /// What stands over Δρ in the pressure of surface particles, m²/s².
+    /// Addend to Δρ in the pressure of surface particles, m²/s².
     fn top(&self, world: &World<D>) -> f64 {
         let depth = (self.surface_depth * world.spacing).max(self.least_depth);
         depth * world.gravity.norm()
     }
 
-    /// Whether copies of others' particles are at the surface is known to their owners.
+    /// Refreshes the marks of copies at the surface by those of their owners.
     fn refresh(
         &self,
         world: &World<D>,

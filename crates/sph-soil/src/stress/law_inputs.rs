@@ -21,12 +21,12 @@ pub struct LawInputs {
 }
 
 impl LawInputs {
-    /// Whether some law reads the strain rate.
+    /// True if some law reads the strain rate.
     pub fn strain_rate(&self) -> bool {
         self.laws.iter().any(|l| l.needs().strain_rate)
     }
 
-    /// Whether some law reads a pressure.
+    /// True if some law reads a pressure.
     fn feels_pressure(&self) -> bool {
         self.laws.iter().any(|l| l.needs().pressure)
     }

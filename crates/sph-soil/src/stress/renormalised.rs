@@ -20,8 +20,8 @@ use crate::stress::{Isotropic, NeighbourSums, VelocityGradient, VelocityGradient
 #[plugin(VelocityGradientEntry [2, 3], "renormalised", "exact for linear velocities, at free surfaces as well",
     source: "Randles & Libersky 1996")]
 pub struct Renormalised {
-    /// Whether the force of an elastic stress does the work of this gradient: stiffer at free surfaces, and the
-    /// energy is kept. Not for walls that slip.
+    /// True if the force of an elastic stress does the work of this gradient: stiffer at free surfaces, and the energy
+    /// is kept. Not for walls that slip.
     #[parameter(default, source: "Bonet & Lok 1999, §4")]
     pub adjoint: bool,
 }

@@ -18,7 +18,7 @@ const EVEN: f64 = 0.1;
 pub(crate) struct Grains<'a, S> {
     /// Of all particles, m^d.
     pub volume: &'a [f64],
-    /// Whether a particle is soil. Others do not hide a surface: water and air.
+    /// Test whether a particle is soil. Others do not hide a surface: water and air.
     pub soil: S,
 }
 
@@ -44,8 +44,8 @@ impl<const D: usize, S: Fn(usize) -> bool + Sync> PairSum<D> for Grains<'_, S> {
 }
 
 impl<S: Fn(usize) -> bool> Grains<'_, S> {
-    /// Whether no grain and no wall is in the cone around the outward normal of a particle with these walls. One without
-    /// grains around is at the surface.
+    /// True if no grain and no wall is in the cone around the outward normal of a particle with these walls. One
+    /// without grains around is at the surface.
     ///
     /// Source: the cone of Marrone et al. 2010, with neighbours of the soil only.
     pub fn at_surface<const D: usize>(

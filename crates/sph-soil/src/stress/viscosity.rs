@@ -10,7 +10,7 @@ use crate::stress::{Blend, LawInputs};
 pub struct ViscosityStage {
     /// The laws and their inputs.
     pub law_inputs: LawInputs,
-    /// Whether there is an eddy viscosity to add.
+    /// True if there is an eddy viscosity to add.
     pub eddies: bool,
 }
 

@@ -1,11 +1,11 @@
-//! A flow of what was planned.
+//! A flow from a plan.
 
 use sph_boundary::Wall;
 use sph_core::{AnyField, Evolved, Role, fields};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
-use crate::setup::planning::Planned;
+use crate::setup::planning::StagePlan;
 use crate::step::declared::Columns;
 use crate::step::flow::Flow;
 use crate::step::outlets::Outlets;
@@ -29,10 +29,10 @@ pub struct FlowInputs<const D: usize> {
     pub density: Evolved,
 }
 
-/// A flow of what was planned, with all columns that it touches.
+/// A flow from a plan, with all columns that it touches.
 pub fn joined<const D: usize>(
     world: World<D>,
-    planned: Planned<D>,
+    planned: StagePlan<D>,
     given: FlowInputs<D>,
 ) -> Flow<D> {
     let mut evolved = vec![given.density];

@@ -18,7 +18,7 @@ use crate::step::stages::{InteractionSweep, Work};
 pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
 
 /// The works that run, those that do not, and the pair terms.
-pub struct Planned<const D: usize> {
+pub struct StagePlan<const D: usize> {
     /// Stages in order.
     pub stages: Vec<Work<D>>,
     /// Names of the stages that are not needed.
@@ -45,7 +45,7 @@ pub struct Planning<'a, const D: usize> {
     pub setting: &'a Setting<'a, D>,
     /// The walls, if there are any.
     pub walls: Option<&'a dyn Wall<D>>,
-    /// The way from density diffusion to what the formulation integrates.
+    /// The way from density diffusion to the quantity that the formulation integrates.
     pub diffused: Diffused,
     /// Names of columns that outputs show and probes measure.
     pub shown: &'a [String],
@@ -55,11 +55,11 @@ pub struct Planning<'a, const D: usize> {
 type Offers<const D: usize> = Vec<(&'static str, Offer<D>)>;
 
 impl<const D: usize> Planning<'_, D> {
-    /// Asks all parts for what they offer and keeps, in order, the stages that are needed.
+    /// Collects the offers of all parts and keeps, in order, the stages that are needed.
     ///
     /// # Errors
     /// The key of the scene for which a part is not known, or a column that no stage writes.
-    pub fn plan(&self, parts: &mut [Part<D>]) -> Result<Planned<D>, SolverError> {
+    pub fn plan(&self, parts: &mut [Part<D>]) -> Result<StagePlan<D>, SolverError> {
         let mut offers = self.offers(parts)?;
         let mut stages: Vec<Work<D>> = Vec::new();
         if let Some(walls) = self.walls {
@@ -105,7 +105,7 @@ impl<const D: usize> Planning<'_, D> {
         stages.push(Work::Stage(Box::new(sweep)));
         let goals = self.goals(&all, &stages, later);
         let (stages, pruned) = self.ordered(stages, &goals, &hooks)?;
-        Ok(Planned {
+        Ok(StagePlan {
             stages,
             pruned,
             terms,
@@ -117,7 +117,7 @@ impl<const D: usize> Planning<'_, D> {
         })
     }
 
-    /// Asks all parts in turn for what they offer.
+    /// Collects the offers of all parts in turn.
     fn offers(&self, parts: &mut [Part<D>]) -> Result<Offers<D>, SolverError> {
         let one = |(kind, part): &mut Part<D>| {
             let chosen = self.scene.choice(kind);

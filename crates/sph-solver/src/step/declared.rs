@@ -11,7 +11,7 @@ pub(crate) struct Columns {
     pub forces: Vec<Access>,
 }
 
-/// Whether one of these columns is written.
+/// True if one of these columns is written.
 pub(crate) fn writes_any(access: &Access, fields: &[AnyField]) -> bool {
     fields.iter().any(|f| access.writes.contains(f))
 }

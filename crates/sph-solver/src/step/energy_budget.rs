@@ -9,7 +9,7 @@ use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, 
 use sph_rheology::state::Laws;
 
 use crate::step::flow::Flow;
-use crate::step::observer::{Boundary, Observer, Seen};
+use crate::step::observer::{Boundary, ObservedFlow, Observer};
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 1024;
@@ -22,7 +22,7 @@ fn own(work: EnergyWork) -> Account {
     ENERGY_WORKS[work as usize]
 }
 
-/// Classes of terms with rates of their own; the pressure has what they leave of the acceleration.
+/// Classes of terms with rates of their own; the pressure has the rest of the acceleration.
 const CLASSES: [EnergyWork; 5] = [
     EnergyWork::Viscosity,
     EnergyWork::Smoother,
@@ -59,7 +59,7 @@ fn of_hooks(kind: &str) -> Account {
 /// Counts the work of all terms on every particle, step by step.
 pub struct EnergyBudget<const D: usize> {
     diffused: Diffused,
-    /// Whether densities are sums over positions, which shifts change.
+    /// True if densities are sums over positions, which shifts change.
     summed: bool,
     /// −D lnρ/Dt by motion.
     dilatation: [Box<dyn Interaction<D>>; 1],
@@ -68,7 +68,7 @@ pub struct EnergyBudget<const D: usize> {
     terms: Vec<(String, Option<Account>)>,
     /// The accounts of the classes of terms.
     classes: Vec<Account>,
-    /// Whose work every hook does, in their order.
+    /// Account of the work of every hook, in their order.
     hooks: Vec<Account>,
     /// The number of the hook that kicks, if there is one.
     kicker: Option<usize>,
@@ -89,7 +89,7 @@ pub struct EnergyBudget<const D: usize> {
 }
 
 /// Adds work to a column of the books.
-fn book<const D: usize>(
+fn add_work<const D: usize>(
     world: &mut World<D>,
     field: Field<Scalar>,
     amounts: &[f64],
@@ -101,19 +101,19 @@ fn book<const D: usize>(
 }
 
 /// A number for each of so many particles.
-fn each(particles: usize, one: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
+fn per_particle(particles: usize, one: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
     let all = (0..particles).into_par_iter().with_min_len(BATCH);
     all.map(one).collect()
 }
 
 impl<const D: usize> Observer<D> for EnergyBudget<D> {
-    fn observe(&mut self, at: Boundary, seen: &mut Seen<'_, D>) -> Result<(), StepError> {
+    fn observe(&mut self, at: Boundary, seen: &mut ObservedFlow<'_, D>) -> Result<(), StepError> {
         let (world, dt) = (&mut *seen.world, seen.dt);
         match at {
             Boundary::Evaluated => Ok(self.evaluated(world)?),
             Boundary::Kicks => self.before_kick(world, seen.terms),
             Boundary::Kicked => Ok(self.kicked(world, dt)?),
-            Boundary::Hooked(StepPhase::AfterKick, k) => Ok(self.worked(world, k)?),
+            Boundary::Hooked(StepPhase::AfterKick, k) => Ok(self.record_hook(world, k)?),
             Boundary::KickEnds => self.settled(world, dt),
             Boundary::Hooked(StepPhase::BeforeWalls | StepPhase::BeforeDrift, k) => {
                 Ok(self.turned(world, self.hooks[k])?)
@@ -167,7 +167,7 @@ impl<const D: usize> EnergyBudget<D> {
         })
     }
 
-    /// After an evaluation: what the motion has made of the compression since that was booked.
+    /// After an evaluation: the work of compression by the motion since the last entry.
     fn evaluated(&self, world: &mut World<D>) -> Result<(), FieldError> {
         let density = world.free.get(fields::DENSITY)?;
         let now = self.compression(world, density)?;
@@ -176,20 +176,20 @@ impl<const D: usize> EnergyBudget<D> {
             let mass = world.free.get(fields::MASS)?;
             let velocity = world.free.get(fields::VELOCITY)?;
             let position = world.free.get(fields::POSITION)?;
-            let start = each(now.len(), |i| {
+            let start = per_particle(now.len(), |i| {
                 let high = -world.steady_gravity.dot(&position[i]);
                 now[i] + mass[i] * (0.5 * velocity[i].norm_squared() + high)
             });
             *world.free.get_mut(ENERGY_AT_START)? = start;
         } else {
-            let more = each(now.len(), |i| now[i] - booked[i]);
-            book(world, own(EnergyWork::Remainder), &more)?;
+            let more = per_particle(now.len(), |i| now[i] - booked[i]);
+            add_work(world, own(EnergyWork::Remainder), &more)?;
         }
         *world.free.get_mut(BOOKED_COMPRESSION)? = now;
         Ok(())
     }
 
-    /// Before a kick: what every class of terms is about to do.
+    /// Before a kick: the work of every class of terms in it.
     fn before_kick(
         &mut self,
         world: &World<D>,
@@ -207,7 +207,7 @@ impl<const D: usize> EnergyBudget<D> {
         let free = &world.free;
         free.get(fields::VELOCITY)?.clone_into(&mut self.before);
         free.get(fields::DENSITY)?.clone_into(&mut self.density);
-        // What a step that failed has left.
+        // The rest of a step that failed.
         self.turns.clear();
         self.changes.clear();
         Ok(())
@@ -229,7 +229,7 @@ impl<const D: usize> EnergyBudget<D> {
     }
 
     /// After the hook number `k` has worked on velocities and scalars that have been advanced.
-    fn worked(&mut self, world: &World<D>, k: usize) -> Result<(), FieldError> {
+    fn record_hook(&mut self, world: &World<D>, k: usize) -> Result<(), FieldError> {
         let of = self.hooks[k];
         let now = world.free.get(fields::VELOCITY)?;
         if now != self.velocity {
@@ -241,7 +241,7 @@ impl<const D: usize> EnergyBudget<D> {
         if scalar != self.scalar {
             let volume = world.free.get(fields::VOLUME)?;
             let gamma = world.sum_renormalisation();
-            let change = each(scalar.len(), |i| {
+            let change = per_particle(scalar.len(), |i| {
                 let gamma = gamma.map_or(1.0, |g| g[i]);
                 let slope = (self.diffused.per_density)(self.density[i], volume[i], gamma);
                 (scalar[i] - self.scalar[i]) / slope
@@ -266,11 +266,11 @@ impl<const D: usize> EnergyBudget<D> {
                 true => world.driving + (world.gravity - world.steady_gravity),
                 false => Vect::zeros(),
             };
-            let done = each(n, |i| work(i, (rates[i][class].acceleration + steady) * dt));
-            book(world, *of, &done)?;
+            let done = per_particle(n, |i| work(i, (rates[i][class].acceleration + steady) * dt));
+            add_work(world, *of, &done)?;
         }
         for (of, turn) in std::mem::take(&mut self.turns) {
-            book(world, of, &each(n, |i| work(i, turn[i])))?;
+            add_work(world, of, &per_particle(n, |i| work(i, turn[i])))?;
         }
         let dilatation = self.dilatation_with(world, mean.clone())?;
         let (volume, pressure) = (
@@ -278,17 +278,17 @@ impl<const D: usize> EnergyBudget<D> {
             world.free.get(fields::PRESSURE)?,
         );
         let acceleration = world.free.get(fields::ACCELERATION)?;
-        let compressed = each(n, |i| -volume[i] * pressure[i] * dilatation[i] * dt);
-        let pushed = each(n, |i| {
+        let compressed = per_particle(n, |i| -volume[i] * pressure[i] * dilatation[i] * dt);
+        let pushed = per_particle(n, |i| {
             let others = self.rates[i].iter().map(|rate| rate.acceleration);
             let push = acceleration[i] - world.gravity - world.driving - others.sum::<Vect<D>>();
             work(i, push * dt) + compressed[i]
         });
-        book(world, own(EnergyWork::Walls), &pushed)?;
-        book(world, BOOKED_COMPRESSION, &compressed)?;
+        add_work(world, own(EnergyWork::Walls), &pushed)?;
+        add_work(world, BOOKED_COMPRESSION, &compressed)?;
         // What the weight has given; `drifts` takes what the drift costs.
-        let fallen = each(n, |i| work(i, world.steady_gravity * dt));
-        book(world, own(EnergyWork::Remainder), &fallen)?;
+        let fallen = per_particle(n, |i| work(i, world.steady_gravity * dt));
+        add_work(world, own(EnergyWork::Remainder), &fallen)?;
         // Densities in the middle of the motion: a term that changes them in this step does it all along.
         let all = self.density.par_iter_mut().zip(&dilatation);
         all.for_each(|(rho, rate)| *rho *= 1.0 - 0.5 * rate * dt);
@@ -301,7 +301,8 @@ impl<const D: usize> EnergyBudget<D> {
         if world.free.has(self.diffused.evolved.rate.name) {
             for (class, of) in self.classes.clone().into_iter().enumerate() {
                 if self.rates.iter().any(|rates| rates[class].scalar != 0.0) {
-                    let change = each(self.rates.len(), |i| self.rates[i][class].scalar * dt);
+                    let change =
+                        per_particle(self.rates.len(), |i| self.rates[i][class].scalar * dt);
                     self.condensed(world, of, &change)?;
                 }
             }
@@ -323,21 +324,21 @@ impl<const D: usize> EnergyBudget<D> {
         let all = self.density.iter_mut().zip(change);
         all.for_each(|(rho, change)| *rho += change);
         let after = self.compression(world, &self.density)?;
-        let work = each(before.len(), |i| after[i] - before[i]);
-        book(world, BOOKED_COMPRESSION, &work)?;
-        book(world, of, &work)
+        let work = per_particle(before.len(), |i| after[i] - before[i]);
+        add_work(world, BOOKED_COMPRESSION, &work)?;
+        add_work(world, of, &work)
     }
 
     /// Books velocities that were changed.
     fn turned(&mut self, world: &mut World<D>, of: Account) -> Result<(), FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let now = world.free.get(fields::VELOCITY)?;
-        let gain = each(now.len(), |i| {
+        let gain = per_particle(now.len(), |i| {
             let squares = now[i].norm_squared() - self.velocity[i].norm_squared();
             0.5 * mass[i] * squares
         });
         now.to_vec().clone_into(&mut self.velocity);
-        book(world, of, &gain)
+        add_work(world, of, &gain)
     }
 
     /// Before a drift over `dt` seconds with the present velocities: weights and shifts.
@@ -346,14 +347,14 @@ impl<const D: usize> EnergyBudget<D> {
         let height = |i: usize, way: &Vect<D>| -mass[i] * world.steady_gravity.dot(way) * dt;
         let n = mass.len();
         let velocity = world.free.get(fields::VELOCITY)?;
-        let lifted = each(n, |i| height(i, &velocity[i]));
+        let lifted = per_particle(n, |i| height(i, &velocity[i]));
         let shift = world.free.get(fields::SHIFT_VELOCITY).ok();
-        let shifted = shift.map(|s| each(n, |i| height(i, &s[i])));
-        book(world, own(EnergyWork::Remainder), &lifted)?;
+        let shifted = shift.map(|s| per_particle(n, |i| height(i, &s[i])));
+        add_work(world, own(EnergyWork::Remainder), &lifted)?;
         let Some(shifted) = shifted else {
             return Ok(());
         };
-        book(world, own(EnergyWork::Shifting), &shifted)?;
+        add_work(world, own(EnergyWork::Shifting), &shifted)?;
         if !self.summed {
             return Ok(());
         }
@@ -362,7 +363,7 @@ impl<const D: usize> EnergyBudget<D> {
         let both = velocity.iter().zip(shift).map(|(u, s)| u + s).collect();
         let without = self.dilatation_with(world, velocity)?;
         let with = self.dilatation_with(world, both)?;
-        let change = each(n, |i| -self.density[i] * (with[i] - without[i]) * dt);
+        let change = per_particle(n, |i| -self.density[i] * (with[i] - without[i]) * dt);
         Ok(self.condensed(world, own(EnergyWork::Shifting), &change)?)
     }
 
@@ -386,7 +387,7 @@ impl<const D: usize> EnergyBudget<D> {
     fn compression(&self, world: &World<D>, density: &[f64]) -> Result<Vec<f64>, FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();
-        Ok(each(mass.len(), |i| {
+        Ok(per_particle(mass.len(), |i| {
             let law = &self.laws[phase.map_or(0, |p| p[i] as usize)];
             mass[i] * law.internal_energy(density[i])
         }))

@@ -21,9 +21,9 @@ use crate::step::declared::Columns;
 use crate::step::ghosts::run_and_update_ghosts;
 use crate::step::guard;
 use crate::step::hooks::{Hooked, Hooks};
-use crate::step::kept_rates::Kept;
+use crate::step::kept_rates::KeptRates;
 use crate::step::new_particles::NewParticleDefaults;
-use crate::step::observer::{Boundary, Observer, Seen};
+use crate::step::observer::{Boundary, ObservedFlow, Observer};
 use crate::step::outlets::Outlets;
 use crate::step::saved_particles::SavedParticles;
 use crate::step::snapshot::Snapshot;
@@ -51,7 +51,7 @@ pub struct Flow<const D: usize> {
     pub inner_bounds: Vec<String>,
     /// Work within a step.
     pub hooks: Hooks<D>,
-    /// Whether hooks before a drift read density, volume, pressure and γ of the present positions.
+    /// True if hooks before a drift read density, volume, pressure and γ of the present positions.
     pub(crate) fresh_state: bool,
     /// Forces on walls by hooks in the last kick, in the order of the walls; empty if there are none.
     pub(crate) on_walls: Vec<WallForce<D>>,
@@ -63,14 +63,14 @@ pub struct Flow<const D: usize> {
     pub(crate) outside: Vec<OutsideForce<D>>,
     /// Declarations of all of these.
     pub(crate) columns: Columns,
-    /// Whether particles moved since the last evaluation.
+    /// True if particles moved since the last evaluation.
     pub moved: bool,
-    /// Whether the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
+    /// True if the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
     /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
-    pub(crate) kept_rates: Kept<D>,
+    pub(crate) kept_rates: KeptRates<D>,
     /// The same particles, where some of them may go to another rank.
     pub(crate) kept_image: SavedParticles<D>,
     /// Equations of state, in the order of the phase numbers.
@@ -127,7 +127,7 @@ impl<const D: usize> Flow<D> {
         };
     }
 
-    /// Whether nothing has been looked for near particles yet.
+    /// True if nothing has been looked for near particles yet.
     pub fn is_blank(&self) -> bool {
         self.world.lists.reference.is_empty()
     }
@@ -203,7 +203,7 @@ impl<const D: usize> Flow<D> {
 
     /// Shows the flow to the observers at a boundary within a step.
     pub(crate) fn observe(&mut self, at: Boundary, dt: f64) -> Result<(), StepError> {
-        let mut seen = Seen {
+        let mut seen = ObservedFlow {
             world: &mut self.world,
             terms: &self.terms,
             dt,
@@ -226,7 +226,7 @@ impl<const D: usize> Flow<D> {
             true => self.state_columns(),
             false => Vec::new(),
         };
-        // What only writes state has been done: a solve would start from its own result.
+        // Stages that only write state have run: a solve would start from its own result.
         let done = |writes: &[AnyField]| {
             let known = |f: &AnyField| state.contains(&f.name);
             restored && !writes.is_empty() && writes.iter().all(known)

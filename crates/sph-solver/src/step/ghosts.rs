@@ -7,8 +7,8 @@ use sph_neighbours::{SweepHalf, World};
 
 use crate::step::stages::Work;
 
-/// Runs a piece of work and gives ghosts what it has found: where it may run in halves, those that are ghosts elsewhere
-/// come first, and the others while the messages are on their way.
+/// Runs a piece of work and gives ghosts its results: where it may run in halves, those that are ghosts elsewhere come
+/// first, and the others while the messages are on their way.
 pub(crate) fn run_and_update_ghosts<const D: usize>(
     work: &mut Work<D>,
     access: &Access,
@@ -51,7 +51,7 @@ fn in_halves<const D: usize>(
     Ok(told?)
 }
 
-/// Runs half of a stage, which is held to what it declares.
+/// Runs half of a stage, which is held to its declaration.
 fn watched<const D: usize>(
     stage: &mut dyn Stage<World<D>>,
     access: &Access,

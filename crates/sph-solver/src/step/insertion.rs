@@ -123,8 +123,8 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Sets what the formulation integrates for those whose identities are not below `first`, so that they have their
-    /// densities.
+    /// Sets the quantity that the formulation integrates for those whose identities are not below `first`, so that they
+    /// have their densities.
     fn begin_density(
         &mut self,
         nursery: &NewParticleDefaults<D>,

@@ -5,13 +5,13 @@ use sph_core::{Evolved, FieldError, Store, Vect, fields};
 
 /// Rates of all particles, in the order of the kept state.
 #[derive(Default)]
-pub struct Kept<const D: usize> {
+pub struct KeptRates<const D: usize> {
     acceleration: Vec<Vect<D>>,
     /// One column per evolved scalar.
     scalars: Vec<Vec<f64>>,
 }
 
-impl<const D: usize> Kept<D> {
+impl<const D: usize> KeptRates<D> {
     /// Copies the present rates, in the order of the kept state.
     pub(crate) fn keep(&mut self, free: &Store<D>, evolved: &[Evolved]) -> Result<(), FieldError> {
         free.get(fields::ACCELERATION)?
@@ -52,7 +52,7 @@ mod tests {
     const SALT: Field<Scalar> = Field::new("salt", "1", "mass fraction");
     const SALT_RATE: Field<Scalar> = Field::new("salt_rate", "1/s", "its rate");
 
-    /// Heun's mean, of each particle with itself, whatever its place was when the rates were kept.
+    /// Heun's mean, of each particle with itself, independent of its place when the rates were kept.
     #[test]
     fn rates_are_the_mean_of_both_ends_of_a_step() {
         let evolved = [Evolved {
@@ -68,7 +68,7 @@ mod tests {
             *free.get_mut(fields::ACCELERATION).expect("added") = vectors.to_vec();
         };
         set(&mut free, [1.0, 2.0, 4.0]);
-        let mut kept = Kept::default();
+        let mut kept = KeptRates::default();
         kept.keep(&free, &evolved).expect("columns");
         for (places, mean) in [(None, [3.0, 4.0, 6.0]), (Some([2, 0, 1]), [4.5, 3.5, 5.0])] {
             set(&mut free, [5.0, 6.0, 8.0]);

@@ -46,7 +46,7 @@ impl<const D: usize> Flow<D> {
         self.load_walls_more(&force_requests)
     }
 
-    /// Whether the mover of each wall needs forces; empty if none does.
+    /// Marks of walls whose mover needs forces; empty if none does.
     fn force_requests(&self) -> Vec<bool> {
         let Some(walls) = &self.walls else {
             return Vec::new();
@@ -91,7 +91,7 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Adds what acts outside of the sweep: it has taken the velocities that it left.
+    /// Adds forces from outside of the sweep, which read the velocities after it.
     fn load_walls_more(&mut self, force_requests: &[bool]) -> Result<(), StepError> {
         if force_requests.is_empty() || self.world.lists.builds == 0 {
             return Ok(());

@@ -42,7 +42,7 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a column is missing.
     pub fn let_out(&mut self, dt: f64) -> Result<(), StepError> {
-        // First the gates that look at wall contacts, which are by slots.
+        // First the gates that read wall contacts, which are by slots.
         self.by_gates(dt)?;
         self.by_outlets(dt)
     }
@@ -120,7 +120,7 @@ impl<const D: usize> Flow<D> {
         let free = &self.world.free;
         let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
         let phase = free.get(fields::PHASE).ok();
-        // What flies as fast as sound was not spilled: it ends the run.
+        // A particle as fast as sound was not spilled: it ends the run.
         let slow = |k: usize| {
             let law = &self.laws[phase.map_or(0, |p| p[k] as usize)];
             velocity[k].norm() < law.reference().sound_speed

@@ -24,7 +24,7 @@ pub(crate) enum Boundary {
 }
 
 /// The flow at a boundary.
-pub(crate) struct Seen<'a, const D: usize> {
+pub(crate) struct ObservedFlow<'a, const D: usize> {
     pub world: &'a mut World<D>,
     /// The terms of the sweep.
     pub terms: &'a [Box<dyn Interaction<D>>],
@@ -38,5 +38,5 @@ pub(crate) trait Observer<const D: usize>: Send {
     ///
     /// # Errors
     /// If a column is missing.
-    fn observe(&mut self, at: Boundary, seen: &mut Seen<'_, D>) -> Result<(), StepError>;
+    fn observe(&mut self, at: Boundary, seen: &mut ObservedFlow<'_, D>) -> Result<(), StepError>;
 }

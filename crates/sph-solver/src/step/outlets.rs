@@ -7,7 +7,8 @@ use sph_scene::{Outlet, Scene};
 /// The outlets of a scene.
 pub struct Outlets {
     pub(crate) all: Vec<Outlet>,
-    /// `outlet.NAME.PHASE`, then `open.NAME.PHASE` of open faces, then `domain.PHASE`, as what has been taken out is counted.
+    /// `outlet.NAME.PHASE`, then `open.NAME.PHASE` of open faces, then `domain.PHASE`, in the order of the counts of
+    /// removed particles.
     pub(crate) labels: Vec<String>,
     /// Labels that the scene named.
     pub(crate) named: usize,
@@ -25,7 +26,8 @@ pub struct OutletTotals {
 }
 
 impl Outlets {
-    /// The outlets of a scene; `free` counts what leaves by them. Particles start at `places`, each in the body of a number.
+    /// The outlets of a scene; `free` counts the particles that leave by them. Particles start at `places`, each in the
+    /// body of a number.
     ///
     /// # Errors
     /// If a body stands in one at the start.
@@ -74,7 +76,7 @@ impl Outlets {
         &self.labels[..self.named]
     }
 
-    /// Whether there is no outlet.
+    /// True if there is no outlet.
     pub fn is_empty(&self) -> bool {
         self.labels.is_empty()
     }

@@ -46,7 +46,7 @@ impl<const D: usize> Flow<D> {
         let bad = guard::positions(&self.world).err();
         let expired = self.world.lists_expired()?;
         match parts.any(bad.is_some(), expired) {
-            Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(elsewhere)),
+            Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(failed_elsewhere)),
             Err(other) => Err(other.into()),
             Ok(false) => {
                 self.world.forget_pruned();
@@ -67,7 +67,7 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Brings what is kept within a step to the particles that this rank has now.
+    /// Brings values kept within a step to the present particles of this rank.
     pub(crate) fn kept_follows(&mut self) -> Result<(), StepError> {
         let image = &mut self.kept_image;
         if let Some(free) = image.follow(self.parts.as_ref(), &self.world)? {
@@ -95,7 +95,7 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Whether any rank has a reason; every rank must call it.
+    /// True if any rank has a reason; every rank must call it.
     pub fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
         match &mut self.parts {
             None => Ok(own),
@@ -104,6 +104,6 @@ impl<const D: usize> Flow<D> {
     }
 }
 
-fn elsewhere() -> StepError {
+fn failed_elsewhere() -> StepError {
     PartError::Elsewhere.into()
 }

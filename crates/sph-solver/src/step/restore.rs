@@ -16,7 +16,7 @@ impl<const D: usize> Snapshot<D> {
     pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
         let walls = (flow.walls.as_deref_mut(), &mut flow.loads);
         self.put_back(&mut flow.world, walls)?;
-        // What the evaluation of this state has left is among it.
+        // The results of the evaluation of this state are among it.
         flow.restored = true;
         flow.rebuild_lists()
     }

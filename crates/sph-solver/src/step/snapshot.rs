@@ -74,10 +74,10 @@ impl<const D: usize> Snapshot<D> {
         now.iter().map(place).collect::<Result<_, _>>().map(Some)
     }
 
-    /// Puts part of the state back, whatever order the particles are in now.
+    /// Puts part of the state back, for any present order of the particles.
     ///
-    /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, from what a
-    /// solve starts) is left as the last evaluation made it: only motion is undone.
+    /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, the start of
+    /// a solve) is left as the last evaluation made it: only motion is undone.
     pub(crate) fn recall(
         &self,
         world: &mut World<D>,

@@ -1,4 +1,4 @@
-//! Particles are sorted when lists expire: a step that goes on with what was derived before takes it along.
+//! Particles are sorted when lists expire: a step that goes on with values derived before sorts them, too.
 
 use sph_core::{Slots, StepError, fields};
 

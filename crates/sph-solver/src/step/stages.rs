@@ -17,7 +17,7 @@ pub const WALL_STATE: Field<Scalar> = Field::new(
 
 /// A piece of work of an evaluation: of the walls, which the flow has, or a stage.
 pub enum Work<const D: usize> {
-    /// Contacts, and what walls make of the kernel.
+    /// Contacts, and the kernel at walls.
     WallGeometry {
         /// The columns of that.
         columns: Vec<AnyField>,
@@ -95,7 +95,7 @@ pub struct InteractionSweep<const D: usize> {
     terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The column that density diffusion changes, if there is any.
     diffused: Option<Diffused>,
-    /// Whether walls exist.
+    /// True if walls exist.
     walls: bool,
     declared: Vec<Access>,
     /// Buffer of rates that terms sum besides.
@@ -103,7 +103,7 @@ pub struct InteractionSweep<const D: usize> {
 }
 
 impl<const D: usize> InteractionSweep<D> {
-    /// Of these terms; with what density diffusion changes, if there is any, and whether walls exist.
+    /// Of these terms; with the quantity of density diffusion, if there is any, and true if walls exist.
     pub fn new(
         terms: Arc<[Box<dyn Interaction<D>>]>,
         diffused: Option<Diffused>,

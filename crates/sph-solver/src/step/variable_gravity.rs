@@ -3,7 +3,7 @@
 use sph_boundary::{Course, RigidMotion};
 use sph_core::Vect;
 
-/// Gravity over time, without what is steady of it.
+/// Gravity over time, without its steady part.
 pub struct VariableGravity<const D: usize> {
     /// Motion of the frame.
     pub frame: RigidMotion<D>,
@@ -17,7 +17,7 @@ pub enum AddedGravity<const D: usize> {
     None,
     /// a·r(t)·sin(2πt/T + φ): amplitude, m/s², and course of amplitude 1 with its value at time 0.
     Sine(Vect<D>, Course, f64),
-    /// Times, s, and what is added then, m/s².
+    /// Times, s, and the acceleration that is added then, m/s².
     Rows(Vec<(f64, Vect<D>)>),
 }
 

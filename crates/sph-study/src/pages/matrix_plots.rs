@@ -1,4 +1,4 @@
-//! A plot per axis: what the runs along it reached.
+//! A plot per axis: results of the runs along it.
 
 use sph_io::{Plot, Series, Style};
 
@@ -24,7 +24,7 @@ pub fn axes(results: &Results) -> Vec<(String, Plot)> {
     plots
 }
 
-/// What a run is drawn by: the first error of its axis, or its largest deviation of the density.
+/// Ordinate of a run: the first error of its axis, or its largest deviation of the density.
 fn ordinate(frontier: &Frontier, variant: &VariantResult) -> Option<f64> {
     match frontier.errors.first() {
         Some(error) => variant.error(error),
@@ -48,7 +48,7 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
                 .as_ref()
                 .is_some_and(|v| v.colour == Colour::Red);
             match ordinate(frontier, variant).filter(|y| y.is_finite()) {
-                // A logarithmic axis cannot show what is exact.
+                // A logarithmic axis cannot show an error of zero.
                 Some(y) => points.push([place, y.max(1e-16)]),
                 None if red => broken.push(place),
                 None => {}

@@ -16,7 +16,7 @@ pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
     sph_io::write_json(folder.join("study.json"), results)?;
     table::write_csv(results, &folder.join("study.csv"))?;
     for (name, plot) in matrix_plots::axes(results) {
-        both(&plot, folder, &format!("axis-{}", safe(&name)))?;
+        write_both(&plot, folder, &format!("axis-{}", safe(&name)))?;
     }
     if results.frontiers.is_empty() {
         compared(results, folder)?;
@@ -31,18 +31,18 @@ pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
 fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
     if !results.errors.is_empty() {
         let plot = plots::work_precision(results);
-        both(&plot, folder, "error-against-time")?;
+        write_both(&plot, folder, "error-against-time")?;
     }
     if let Some(scale) = &results.scale {
-        both(&scale.plot(&results.title), folder, "cost-against-size")?;
+        write_both(&scale.plot(&results.title), folder, "cost-against-size")?;
     }
     if let Some(plot) = plots::convergence(results) {
-        both(&plot, folder, "error-against-refinement")?;
+        write_both(&plot, folder, "error-against-refinement")?;
     }
     Ok(())
 }
 
-fn both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
+fn write_both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
     plot.save(folder.join(format!("{name}.svg")))?;
     plot.save(folder.join(format!("{name}.png")))
 }

@@ -93,7 +93,7 @@ fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A text, escaped, with what stands between backticks as code.
+/// A text, escaped, with the text between backticks as code.
 fn marked(text: &str) -> String {
     let pieces: Vec<_> = text.split('`').map(escape).collect();
     if pieces.len() % 2 == 0 {
@@ -178,7 +178,7 @@ fn facts(results: &Results) -> String {
     grid(&[], &rows, |_| String::new())
 }
 
-/// In what the variants that have run differ.
+/// Keys in which the variants that have run differ.
 fn unlike(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
     let ran = results.variants.iter().filter(|v| v.steps > 0);
     let mut all: Vec<String> = ran.filter_map(|v| of(&v.origin)).collect();

@@ -78,7 +78,7 @@ fn costs_heads(cost: Cost) -> Vec<String> {
     heads.iter().map(|h| h.to_string()).collect()
 }
 
-/// What stands below them.
+/// Cells of the costs below them.
 fn costs(cost: Cost, v: &VariantResult) -> impl Iterator<Item = Option<String>> {
     let milliseconds = |s: f64| format!("{} ms", number::plain((s * 1e6).round() / 1e3));
     let mut cells = vec![v.cost(cost).map(milliseconds)];

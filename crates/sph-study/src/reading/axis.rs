@@ -33,12 +33,12 @@ pub struct Choice {
     pub label: String,
     /// Name in folders: the label, after the axis' name where the label is a bare value.
     pub slug: String,
-    /// What it sets.
+    /// Keys and values that it sets.
     pub sets: Vec<Set>,
 }
 
 impl StudyAxis {
-    /// Whether its places set a key of the scene, or something around or in it.
+    /// True if its places set a key of the scene, or something around or in it.
     pub fn touches(&self, key: &str) -> bool {
         let within = |inner: &str, outer: &str| {
             let rest = inner.strip_prefix(outer);

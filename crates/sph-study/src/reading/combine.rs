@@ -175,10 +175,10 @@ pub fn safe(text: &str) -> String {
     out.trim_matches(['-', '.']).to_string()
 }
 
-/// Whether a name fits a pattern with `*` and `?`.
+/// True if a name fits a pattern with `*` and `?`.
 ///
-/// What follows a `*` is tried at its first place; where the rest does not fit, the last `*` alone takes one letter
-/// more. That is enough, and takes no more than the product of both lengths.
+/// The text after a `*` is tried at its first place; where the rest does not fit, the last `*` alone takes one letter
+/// more. That is enough, and its time is at most the product of both lengths.
 pub fn fits(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) =
         (pattern.chars().collect(), name.chars().collect());

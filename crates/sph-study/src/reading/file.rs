@@ -27,7 +27,7 @@ pub struct StudyFile {
     #[parameter(default)]
     #[schemars(with = "SceneValues")]
     pub set: Table,
-    /// What is varied.
+    /// Axes of variation.
     #[parameter(default)]
     pub vary: Vec<AxisTable>,
     /// Instead of `vary`: axes that are gone along one by one, each from harmless to absurd, until it breaks.
@@ -39,23 +39,23 @@ pub struct StudyFile {
     /// Bounds of green and of yellow by quantity, for every `axis` that gives none of its own.
     #[parameter(default)]
     pub judge: Bounds,
-    /// Whether axes are crossed or go side by side.
+    /// Combination of axes: crossed, or side by side.
     #[parameter(default)]
     pub combine: Combine,
     /// Key of the scene over which the order of convergence is computed; `numerics.spacing` if left out and varied.
     pub refinement: Option<String>,
     /// Cost against the number of particles, with or without `error`.
     pub scaling: Option<Scaling>,
-    /// How often a variant is run; its time is the least.
+    /// Number of runs of a variant; its time is the least.
     #[parameter(default: 1, min: 1, max: 1000)]
     pub repetitions: usize,
-    /// Whether variants run one by one with all threads, or side by side with one thread each.
+    /// True if variants run one by one with all threads, false if side by side with one thread each.
     #[parameter(default: true)]
     pub serial: bool,
-    /// Wall-clock time after which a variant is given up, s; no limit if left out.
+    /// Largest wall-clock time of a variant, s; no limit if left out.
     #[parameter(unit: "s", above: 0.0)]
     pub time_limit: Option<f64>,
-    /// Whether variants write the pictures, fields and checkpoints of the scene.
+    /// True if variants write the pictures, fields and checkpoints of the scene.
     #[parameter(default)]
     pub keep_output: bool,
     /// Combinations that are left out: names of axes, each with a label or a list of labels.
@@ -85,7 +85,7 @@ pub struct AxisTable {
 pub struct Ladder {
     /// Name in tables and folders.
     pub name: String,
-    /// What is varied, with its unit, for pages and plots.
+    /// Varied quantity, with its unit, for pages and plots.
     pub title: String,
     /// Scene of this axis; the study's if left out.
     pub scene: Option<String>,
@@ -108,10 +108,10 @@ pub struct Ladder {
     /// Label of the last value that must survive.
     #[schemars(with = "Option<Json>")]
     pub must: Option<Value>,
-    /// Bounds of green and of yellow by quantity: a reference, or what every run has.
+    /// Bounds of green and of yellow by quantity: a reference, or a quantity of every run.
     #[parameter(default)]
     pub judge: Bounds,
-    /// Whether what comes after a red value is run all the same.
+    /// True if variants after a red value are run all the same.
     #[parameter(default)]
     pub to_the_end: bool,
 }
@@ -144,7 +144,7 @@ pub struct Entry {
     pub set: Table,
 }
 
-/// How axes make variants.
+/// Combination of axes to variants.
 #[parameters]
 pub enum Combine {
     /// Every value with every other.

@@ -13,7 +13,7 @@ use crate::reading::scene_text::SceneText;
 use crate::reading::variant::Variant;
 use crate::running::verdict::QUANTITIES;
 
-/// Names of what the labels of such a study's variants belong to.
+/// Names of the axes to which the labels of such a study's variants belong.
 const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
 
 /// The axes of such a study as a table has them.
@@ -36,7 +36,7 @@ pub fn read(
     set: &[Override],
     only: &[String],
 ) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
-    let mut problems = whole(file);
+    let mut problems = study_problems(file);
     let mut ladders = Vec::new();
     for (k, given) in file.axis.iter().enumerate() {
         match one(file, given, &format!("axis[{k}]"), find) {
@@ -94,8 +94,8 @@ pub fn read(
     }
 }
 
-/// A ladder with what its variants are made from.
-struct Found {
+/// A ladder with the source of its variants.
+struct LadderSource {
     ladder: Ladder,
     scene: SceneText,
     /// The ladder itself, the combinations, the values.
@@ -103,7 +103,7 @@ struct Found {
 }
 
 /// Mistakes of the study as a whole.
-fn whole(file: &StudyFile) -> Vec<SceneProblem> {
+fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     let mut problems = Vec::new();
     let mut problem = |path: String, message: &str| problems.push(SceneProblem::new(path, message));
     if !file.vary.is_empty() {
@@ -146,7 +146,7 @@ fn one(
     given: &file::Ladder,
     at: &str,
     find: &dyn Fn(&str) -> Result<SceneText, String>,
-) -> Result<Found, Vec<SceneProblem>> {
+) -> Result<LadderSource, Vec<SceneProblem>> {
     let problem =
         |key: &str, message: String| vec![SceneProblem::new(format!("{at}{key}"), message)];
     let values = values(given, at)?;
@@ -183,7 +183,7 @@ fn one(
         name: COLUMNS[k].to_string(),
         choices,
     };
-    Ok(Found {
+    Ok(LadderSource {
         axes: [
             axis(0, vec![itself]),
             axis(1, plugins(file, given)?),
@@ -242,7 +242,7 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
     Ok(choices)
 }
 
-/// Refuses bounds of what no run of the axis has, and bounds in the wrong order.
+/// Refuses bounds of quantities that no run of the axis has, and bounds in the wrong order.
 fn check(judge: &Bounds, errors: &[String], path: &str) -> Result<(), Vec<SceneProblem>> {
     let known = || {
         let own = errors.iter().map(String::as_str);

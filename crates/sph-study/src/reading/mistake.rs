@@ -52,7 +52,7 @@ impl Refused {
     }
 }
 
-/// Origins of what is put on top of a scene, so that its mistakes are shown where they were made.
+/// Origins of the overrides of a scene, so that its mistakes are shown where they were made.
 pub(crate) struct OverrideSources<'a> {
     /// The study file.
     pub study: &'a Source,

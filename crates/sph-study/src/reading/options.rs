@@ -14,14 +14,14 @@ pub struct Options {
     pub out: PathBuf,
     /// Threads; `None` for all cores.
     pub threads: Option<usize>,
-    /// Whether finished variants are run again.
+    /// True if finished variants are run again.
     pub fresh: bool,
-    /// On what and by what variants are run, for the records.
+    /// Machine and program of the variants, for the records.
     pub origin: Origin,
 }
 
 impl Options {
-    /// On all cores; what is finished stays.
+    /// On all cores; finished variants stay.
     pub fn new(out: impl Into<PathBuf>, origin: Origin) -> Self {
         Options {
             out: out.into(),

@@ -31,7 +31,7 @@ pub struct Study {
     pub axes: Vec<StudyAxis>,
     /// Key over which the order of convergence is computed.
     pub refinement: Option<String>,
-    /// Axes that are gone along until they break, instead of what is varied.
+    /// Axes that are gone along until they break, instead of varied values.
     pub ladders: Vec<Ladder>,
     /// Settings put on top of every variant, as of `--set`.
     pub set: Vec<String>,
@@ -85,7 +85,7 @@ impl Study {
         };
         let study = match file.axis.is_empty() {
             true => parts.varied(file, source)?,
-            false => parts.along(file, source)?,
+            false => parts.plan_ladders(file, source)?,
         };
         if let Some(pattern) = only
             .iter()
@@ -121,7 +121,7 @@ impl Study {
             given_by: &variant.given_by,
         };
         let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
-        // What no key of the study is to blame for still belongs to a variant.
+        // A mistake without a key of the study still belongs to a variant.
         for mistake in &mut mistakes {
             if mistake.diagnostic.file != self.source.file {
                 let message = &mut mistake.diagnostic.message;
@@ -189,7 +189,7 @@ impl Parts<'_> {
     }
 
     /// Axes that are gone along until they break.
-    fn along(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
+    fn plan_ladders(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
         let (ladders, variants) = ladder::read(&file, &source, self.find, self.set, self.only)?;
         let mut scenes: Vec<&str> = Vec::new();
         for ladder in &ladders {

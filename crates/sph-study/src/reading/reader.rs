@@ -1,4 +1,4 @@
-//! The scenes of all variants, and what must hold of them together.
+//! The scenes of all variants, and the conditions on all of them together.
 
 use std::collections::BTreeMap;
 

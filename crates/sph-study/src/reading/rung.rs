@@ -19,7 +19,7 @@ pub struct Ladder {
     pub must: Option<usize>,
     /// Bounds of green and yellow.
     pub judge: Bounds,
-    /// Whether what comes after a red value is run all the same.
+    /// True if variants after a red value are run all the same.
     pub to_the_end: bool,
 }
 
@@ -35,7 +35,7 @@ pub struct Rung {
 }
 
 impl Rung {
-    /// What variants have in common that are gone along one after the other.
+    /// Ladder and combination, common to variants that run one after the other.
     pub fn chain(&self) -> (usize, usize) {
         (self.ladder, self.combination)
     }

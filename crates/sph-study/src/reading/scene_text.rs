@@ -15,7 +15,7 @@ pub struct SceneText {
     pub file: String,
     /// Folders besides its own whose files it may name.
     pub allowed: Vec<PathBuf>,
-    /// What computes it.
+    /// Method that computes the scene.
     pub method: &'static dyn Method,
 }
 

@@ -19,7 +19,7 @@ pub struct Variant {
     pub errors: Vec<String>,
     /// Its place on an axis that is gone along until it breaks.
     pub rung: Option<Rung>,
-    /// Whether it is to be run, or only shown if it has been.
+    /// True if it is to be run, false if only an earlier run is shown.
     pub wanted: bool,
     /// The scene.
     pub subject: Arc<dyn Subject>,

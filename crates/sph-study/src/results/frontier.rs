@@ -35,7 +35,7 @@ pub struct Frontier {
     pub holds_to: Option<String>,
     /// The first red value, with the reason.
     pub breaks_at: Option<[String; 2]>,
-    /// Whether nothing is red up to the value that must survive; unknown while runs are missing.
+    /// True if nothing is red up to the value that must survive; unknown while runs are missing.
     pub met: Option<bool>,
 }
 
@@ -104,7 +104,7 @@ impl Frontier {
         finite.unwrap_or_else(|| (0..self.values.len()).map(|k| k as f64).collect())
     }
 
-    /// Whether places span so much that they are drawn by their logarithms.
+    /// True if places span so much that they are drawn by their logarithms.
     pub fn is_wide(&self) -> bool {
         let places = self.places();
         let least = places.iter().copied().fold(f64::INFINITY, f64::min);

@@ -160,7 +160,7 @@ pub fn row(frontier: &Frontier, v: &VariantResult) -> Vec<String> {
     ]
 }
 
-/// When, what and where.
+/// Date, program and machine.
 pub fn trouble(first: &Trouble) -> String {
     let place: Vec<String> = first.position.iter().map(|x| number::plain(*x)).collect();
     let whose = match (first.particle, place.is_empty()) {

@@ -11,12 +11,12 @@ use crate::results::variant_result::{SeriesResult, VariantResult};
 use crate::running::cost::{Cost, Scaling};
 
 /// A name with its particles and seconds, by size.
-type Competitor = (String, Vec<[f64; 2]>);
+type CostSeries = (String, Vec<[f64; 2]>);
 
 /// Costs of all series, and the fastest at each size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scale {
-    /// Of what.
+    /// Unit of the cost.
     pub cost: Cost,
     /// One per series of the study that has run.
     pub series: Vec<SeriesCost>,
@@ -56,7 +56,7 @@ impl Scale {
         variant: impl Fn(&str) -> Option<&'a VariantResult>,
     ) -> Self {
         let mut costs = Vec::new();
-        let mut groups: BTreeMap<String, Vec<Competitor>> = BTreeMap::new();
+        let mut groups: BTreeMap<String, Vec<CostSeries>> = BTreeMap::new();
         for one in series {
             let all: Vec<&VariantResult> = one.variants.iter().filter_map(|n| variant(n)).collect();
             let mut points: Vec<[f64; 2]> = all
@@ -77,7 +77,7 @@ impl Scale {
         }
         let fastest = groups
             .iter()
-            .flat_map(|(among, all)| reigns(among, all))
+            .flat_map(|(among, all)| fastest_ranges(among, all))
             .collect();
         Scale {
             cost: scaling.cost,
@@ -142,7 +142,7 @@ impl SeriesCost {
 }
 
 /// The fastest of some competitors, from the least to the largest size.
-fn reigns(among: &str, all: &[Competitor]) -> Vec<FastestRange> {
+fn fastest_ranges(among: &str, all: &[CostSeries]) -> Vec<FastestRange> {
     let mut sizes: Vec<f64> = all.iter().flat_map(|(_, p)| p).map(|p| p[0]).collect();
     sizes.sort_by(f64::total_cmp);
     sizes.dedup();
@@ -181,7 +181,7 @@ fn reigns(among: &str, all: &[Competitor]) -> Vec<FastestRange> {
     found.into_iter().map(|(_, reign)| reign).collect()
 }
 
-/// Where two power laws through their costs at two sizes meet; halfway where one has none.
+/// Size at which two power laws through their costs at two sizes meet; halfway where one has none.
 fn takeover(sizes: [f64; 2], costs: impl Fn(f64) -> Option<[f64; 2]>) -> f64 {
     let [low, high] = sizes.map(f64::ln);
     let lead = |n: f64| costs(n).map(|[a, b]| (a / b).ln());
@@ -211,7 +211,7 @@ mod tests {
             ("steep".to_string(), steep),
             ("slow".to_string(), law(2e-6, 1.0)),
         ];
-        let found = reigns("2D", &all);
+        let found = fastest_ranges("2D", &all);
         let names: Vec<&str> = found.iter().map(|r| r.name.as_str()).collect();
         assert_eq!(names, ["steep", "linear"]);
         let meets = found[0].particles[1];
@@ -228,7 +228,7 @@ mod tests {
                 vec![[1e2, 2.0], [1e4, 90.0], [1e6, 9e3]],
             ),
         ];
-        let found = reigns("", &all);
+        let found = fastest_ranges("", &all);
         assert_eq!(found[0].name, "direct");
         assert!((found[0].particles[1] / 1e5 - 1.0).abs() < 1e-9);
         assert_eq!(found[1].particles[1], 1e6);

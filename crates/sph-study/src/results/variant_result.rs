@@ -56,7 +56,7 @@ pub struct VariantResult {
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// On what and by what it was run.
+    /// Machine and program of the run.
     #[serde(flatten)]
     pub origin: Origin,
     /// Data on which the result depends.
@@ -66,7 +66,7 @@ pub struct VariantResult {
 /// Wall-clock times of the repetitions, s.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct WallSeconds {
-    /// The least: what the variant takes where nothing disturbs it.
+    /// The least: the time of the variant without disturbance.
     pub min: Option<f64>,
     /// Largest over least, less one.
     pub spread: Option<f64>,

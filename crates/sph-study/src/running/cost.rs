@@ -8,7 +8,7 @@ use sph_core::parameters;
 /// A cost against the number of particles.
 #[parameters]
 pub struct Scaling {
-    /// Of what.
+    /// Unit of the cost.
     #[parameter(default)]
     pub cost: Cost,
     /// Name of the axis whose entries compete: the fastest at each size, and the sizes at which another takes over.
@@ -16,7 +16,7 @@ pub struct Scaling {
     pub between: Option<String>,
 }
 
-/// What costs time.
+/// Unit of the cost of a run.
 #[parameters]
 pub enum Cost {
     /// A step, everything included.
@@ -55,13 +55,13 @@ pub struct SolveCost {
     pub seconds: f64,
     /// Mean number of iterations.
     pub iterations: f64,
-    /// Most bytes of a matrix and of what the solver kept for it.
+    /// Most bytes of a matrix and of the solver's memory for it.
     pub bytes: usize,
 }
 
 /// Their entries in the summary of a run.
 #[derive(Deserialize)]
-pub(crate) struct SolvesTold {
+pub(crate) struct SolveSummaries {
     by_method: BTreeMap<String, u64>,
     mean_iterations: f64,
     wall_seconds: f64,
@@ -69,7 +69,7 @@ pub(crate) struct SolvesTold {
 }
 
 impl SolveCost {
-    pub(crate) fn from_solves(solves: SolvesTold) -> Self {
+    pub(crate) fn from_solves(solves: SolveSummaries) -> Self {
         SolveCost {
             count: solves.by_method.values().sum(),
             seconds: solves.wall_seconds,

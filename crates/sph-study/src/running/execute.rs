@@ -1,4 +1,4 @@
-//! Runs what a study has not run yet, one by one or side by side.
+//! Runs the missing variants of a study, one by one or side by side.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -18,7 +18,7 @@ use crate::running::watcher::Watcher;
 pub struct Outcome {
     /// One record per variant, in their order.
     pub records: Vec<Record>,
-    /// Whether it was stopped before all variants had run.
+    /// True if it was stopped before all variants had run.
     pub stopped: bool,
     /// The error that kept it from going on, a full disk for instance.
     pub error: Option<IoError>,
@@ -98,7 +98,7 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
     }
 }
 
-/// Whether each variant has to run, by its record.
+/// Marks of the variants that have to run, by their records.
 pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
     let file = &study.file;
     let mut open = vec![false; study.variants.len()];
@@ -131,7 +131,7 @@ fn chains(study: &Study) -> Vec<Vec<usize>> {
     chains
 }
 
-/// Whether nothing behind a variant on its axis is worth running.
+/// True if nothing behind a variant on its axis is worth running.
 fn breaks(study: &Study, variant: &Variant, record: &Record) -> bool {
     let ladder = variant.rung.map(|r| &study.ladders[r.ladder]);
     ladder.is_some_and(|ladder| {
@@ -140,7 +140,7 @@ fn breaks(study: &Study, variant: &Variant, record: &Record) -> bool {
     })
 }
 
-/// The record of a variant behind one that broke: what is known from before, or that it is skipped.
+/// The record of a variant behind one that broke: the earlier one, or that it is skipped.
 fn skipped(before: &Variant, variant: &Variant, options: &Options) -> Record {
     let known = options.known(variant);
     let ended = known.filter(|r| !matches!(r.status, Status::Interrupted | Status::Pending));

@@ -1,4 +1,4 @@
-//! On what and by what a study was run.
+//! Machine and program of a study.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -20,7 +20,7 @@ pub struct Machine {
 
 impl Machine {
     /// This computer.
-    pub fn this() -> Self {
+    pub fn this_machine() -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         Machine {
             cpu: cpu().unwrap_or_else(|| std::env::consts::ARCH.to_string()),
@@ -34,7 +34,7 @@ impl Machine {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Origin {
-    /// On what it ran.
+    /// The machine.
     pub machine: Machine,
     /// Version of the program.
     pub version: String,
@@ -45,10 +45,10 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Of what this program runs here and now.
+    /// Of this program and machine, at present.
     pub fn new(built_with: &str) -> Self {
         Origin {
-            machine: Machine::this(),
+            machine: Machine::this_machine(),
             version: VERSION.into(),
             commit: commit(),
             built_with: built_with.into(),
@@ -68,7 +68,7 @@ fn cpu() -> Option<String> {
         let line = text.lines().find(|l| l.starts_with("model name"))?;
         return Some(line.split_once(':')?.1.trim().to_string());
     }
-    said(Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]))
+    output_of(Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]))
 }
 
 fn system() -> String {
@@ -81,7 +81,7 @@ fn system() -> String {
 }
 
 /// Output of a program, if it is there and succeeds.
-fn said(command: &mut Command) -> Option<String> {
+fn output_of(command: &mut Command) -> Option<String> {
     let output = command
         .stdin(Stdio::null())
         .stderr(Stdio::null())
@@ -105,7 +105,7 @@ fn commit() -> Option<String> {
     let here = std::env::current_dir().ok();
     let mut folders = beside.into_iter().chain(here.as_deref());
     folders.find_map(|folder| {
-        let git = |words: &[&str]| said(Command::new("git").current_dir(folder).args(words));
+        let git = |words: &[&str]| output_of(Command::new("git").current_dir(folder).args(words));
         let root = git(&["rev-parse", "--show-toplevel"])?;
         let ours = Path::new(&root)
             .join("crates/sph-study/Cargo.toml")
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_machine_has_a_name_and_cores() {
-        let machine = Machine::this();
+        let machine = Machine::this_machine();
         assert!(machine.cores > 0 && !machine.cpu.is_empty() && !machine.os.is_empty());
         assert!(machine.to_string().contains(&machine.cpu));
     }

@@ -8,7 +8,7 @@ use serde_json::Value as Json;
 use sph_io::IoError;
 use sph_run::Trouble;
 
-use crate::running::cost::{Cost, SolveCost, SolvesTold};
+use crate::running::cost::{Cost, SolveCost, SolveSummaries};
 use crate::running::machine::Origin;
 
 /// Name of the record in a variant's folder.
@@ -24,7 +24,7 @@ pub enum Status {
     Done,
     /// It stopped on an error.
     Failed,
-    /// It was given up after the study's time limit.
+    /// It exceeded the study's time limit.
     OverLimit,
     /// It has begun, and goes on when the study is run again.
     Interrupted,
@@ -85,7 +85,7 @@ pub struct Record {
     pub solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
     pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// On what and by what it was run.
+    /// Machine and program of the run.
     #[serde(flatten)]
     pub origin: Origin,
 }
@@ -136,7 +136,7 @@ fn one() -> String {
     "1".into()
 }
 
-/// The part of a run's summary that a study reads, whatever computed it.
+/// The part of a run's summary that a study reads, of any method.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RunSummary {
@@ -148,12 +148,12 @@ struct RunSummary {
     steps_rolled_back: u64,
     simulated_seconds: f64,
     dt_limiters: BTreeMap<String, f64>,
-    implicit_viscosity: Option<SolvesTold>,
+    implicit_viscosity: Option<SolveSummaries>,
     errors: BTreeMap<String, Error>,
     wall_seconds_by_stage: BTreeMap<String, f64>,
     escaped: usize,
     density_range: [Option<f64>; 2],
-    drift: DriftTold,
+    drift: DriftSummary,
     mach: Option<f64>,
     nearest: [Option<f64>; 2],
     first_trouble: Option<Trouble>,
@@ -161,7 +161,7 @@ struct RunSummary {
 
 #[derive(Default, Deserialize)]
 #[serde(default)]
-struct DriftTold {
+struct DriftSummary {
     energy: Option<f64>,
     energy_rise: Option<f64>,
     momentum: Option<f64>,
@@ -218,7 +218,7 @@ impl Record {
         folder.join(FILE)
     }
 
-    /// Takes over what a finished repetition gave.
+    /// Takes over the results of a finished repetition.
     pub fn add(&mut self, run: &Record) {
         let fastest = self.least_seconds().is_none_or(|s| run.spent <= s);
         self.wall_seconds.push(run.spent);
@@ -244,7 +244,7 @@ impl Record {
         self.health.clone_from(&run.health);
     }
 
-    /// Whether nothing is left to do for a variant of this fingerprint.
+    /// True if nothing is left to do for a variant of this fingerprint.
     pub fn settles(&self, fingerprint: &str, repetitions: usize, limit: Option<f64>) -> bool {
         let same = self.fingerprint == fingerprint;
         same && match self.status {

@@ -1,4 +1,4 @@
-//! One variant: its repetitions, and what becomes of its folder.
+//! One variant: its repetitions, and the end of its folder.
 
 use std::path::Path;
 use std::time::Instant;
@@ -32,7 +32,7 @@ enum Cause {
 }
 
 impl Job<'_> {
-    /// Runs what is missing; the record is what is known afterwards, whatever happened.
+    /// Runs the missing repetitions; the record has all that is known afterwards, also after a failure.
     pub fn run(&self) -> (Record, Result<(), IoError>) {
         let file = &self.study.file;
         let mut record = self.options.known(self.variant).unwrap_or_default();
@@ -53,9 +53,9 @@ impl Job<'_> {
     fn repeat(&self, record: &mut Record) -> Result<(), IoError> {
         let folder = self.options.folder(self.variant);
         if record.fingerprint.is_empty() && folder.exists() {
-            // What lies there belongs to another scene, or is to be forgotten; a killed run of
+            // Files there belong to another scene, or are obsolete; a killed run of
             // this one is known by its checkpoint.
-            self.forget(&folder)?;
+            self.remove_results(&folder)?;
         }
         sph_io::writable(&folder)?;
         record.fingerprint.clone_from(&self.variant.fingerprint);
@@ -64,7 +64,7 @@ impl Job<'_> {
         record.reason = None;
         while record.wall_seconds.len() < self.study.file.repetitions {
             record.status = Status::Interrupted;
-            let ended = self.once(&folder, record)?;
+            let ended = self.run_once(&folder, record)?;
             record.save(&folder)?;
             if ended != Status::Done {
                 break;
@@ -76,7 +76,7 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn forget(&self, folder: &Path) -> Result<(), IoError> {
+    fn remove_results(&self, folder: &Path) -> Result<(), IoError> {
         let record = Record::path(folder);
         let kept = folder.join(CHECKPOINT).exists() && !record.exists() && !self.options.fresh;
         if kept {
@@ -90,8 +90,8 @@ impl Job<'_> {
         })
     }
 
-    /// One repetition; the status is what became of it.
-    fn once(&self, folder: &Path, record: &mut Record) -> Result<Status, IoError> {
+    /// One repetition; the status is its outcome.
+    fn run_once(&self, folder: &Path, record: &mut Record) -> Result<Status, IoError> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);
         let identity = format!("{} repetition {repetition}", self.variant.fingerprint);
@@ -101,7 +101,7 @@ impl Job<'_> {
             options.start = Start::Resumed;
         }
         let limit = self.study.file.time_limit;
-        let mut observer = Watching {
+        let mut observer = StepRelay {
             job: self,
             since: Instant::now(),
             left: limit.map(|l| l - record.spent),
@@ -170,7 +170,7 @@ fn remove(file: &Path) {
 }
 
 /// Passes a run's steps on, and a stop back.
-struct Watching<'a> {
+struct StepRelay<'a> {
     job: &'a Job<'a>,
     since: Instant,
     /// Seconds that are left under the time limit.
@@ -178,7 +178,7 @@ struct Watching<'a> {
     cause: Option<Cause>,
 }
 
-impl Observer for Watching<'_> {
+impl Observer for StepRelay<'_> {
     fn step(&mut self, progress: &Progress) -> Command {
         self.job.watcher.step(self.job.variant, progress);
         let over = |left: f64| self.since.elapsed().as_secs_f64() > left;

@@ -40,7 +40,7 @@ pub struct Verdict {
     pub why: String,
 }
 
-/// What every run can be judged by, besides the scene's references, with what it means.
+/// Quantities of every run for a verdict, besides the scene's references, each with its meaning.
 pub const QUANTITIES: [(&str, &str); 7] = [
     (
         "energy-rise",
@@ -130,7 +130,7 @@ pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
         let (colour, bound) = match *value {
             x if x <= *green => continue,
             x if x <= *yellow => (Colour::Yellow, green),
-            // Nothing compares with what is not a number.
+            // Nothing compares with NaN.
             _ => (Colour::Red, yellow),
         };
         if colour > worst.colour {

@@ -15,7 +15,7 @@ pub trait Watcher: Sync {
     fn message(&self, _variant: &Variant, _text: &str) {}
     /// A variant has come to an end, or had one.
     fn finished(&self, _variant: &Variant, _record: &Record) {}
-    /// Whether to stop, with what is finished kept.
+    /// True to stop, with finished variants kept.
     fn stop(&self) -> bool {
         false
     }

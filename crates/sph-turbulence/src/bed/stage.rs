@@ -37,7 +37,7 @@ impl BedShear {
 }
 
 /// Share of the kernel that lies beyond a plane at a distance, m: ∫ w(r) A(r) dr over the caps A of spheres, by Simpson's rule.
-fn beyond(kernel: &dyn Sampler, distance: f64) -> f64 {
+fn kernel_beyond(kernel: &dyn Sampler, distance: f64) -> f64 {
     let width = kernel.support_radius() - distance;
     let cap = |r: f64| match kernel.dimension() {
         2 => 2.0 * r * (distance / r).min(1.0).acos(),
@@ -72,17 +72,17 @@ fn distance_of(shares: &[f64], radius: f64, share: f64) -> f64 {
 }
 
 /// The bed as a particle sees it.
-struct Seen<const D: usize> {
+struct BedView<const D: usize> {
     distance: f64,
     slip: Vect<D>,
 }
 
 impl BedShear {
-    fn seen<const D: usize>(
+    fn bed_view<const D: usize>(
         &self,
         world: &World<D>,
         viscosities: impl Fn(usize) -> Option<f64> + Sync,
-    ) -> Result<Vec<Option<Option<Seen<D>>>>, StepError> {
+    ) -> Result<Vec<Option<Option<BedView<D>>>>, StepError> {
         let phase = world.free.get(fields::PHASE)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let volume = world.free.get(fields::VOLUME)?;
@@ -112,7 +112,7 @@ impl BedShear {
             let filling = (filling * rows.inverse_renormalisation).max(1.0);
             let distance = distance_of(&self.shares, radius, share / filling);
             let slip = velocity[i] - momentum / share;
-            (distance < world.spacing).then(|| Seen {
+            (distance < world.spacing).then(|| BedView {
                 distance: distance.max(LEAST_DISTANCE * world.spacing),
                 slip: slip - normal * slip.dot(&normal),
             })
@@ -140,14 +140,14 @@ impl<const D: usize> Stage<World<D>> for BedShear {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         if self.shares.is_empty() {
             let radius = world.kernel.support_radius();
-            let at = |k: usize| beyond(&*world.kernel, radius * k as f64 / STEPS as f64);
+            let at = |k: usize| kernel_beyond(&*world.kernel, radius * k as f64 / STEPS as f64);
             self.shares = (0..=STEPS).map(at).collect();
         }
         let mut friction = world.free.take(BED_FRICTION_VELOCITY)?;
         let mut distances = world.free.take(BED_DISTANCE)?;
         let phase = world.free.get(fields::PHASE)?;
         let viscosity = |i: usize| self.viscosities[phase[i] as usize];
-        let seen = self.seen(world, viscosity)?;
+        let seen = self.bed_view(world, viscosity)?;
         for (i, seen) in seen.into_iter().enumerate() {
             (friction[i], distances[i]) = (0.0, f64::INFINITY);
             let (Some(nu), Some(Some(seen))) = (viscosity(i), seen) else {

@@ -12,13 +12,13 @@ use crate::kind::KIND;
 /// Distances from walls that a closure reads.
 #[derive(Clone, Debug)]
 pub(crate) struct Distances {
-    /// Which walls count; all, if empty.
+    /// Walls that count; all, if empty.
     pub walls: Vec<String>,
     /// Beyond it no value is needed, m.
     pub within: f64,
 }
 
-/// What stands behind the stage of a closure.
+/// State behind the stage of a closure.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClosureCommon {
     /// Name of the plugin.
@@ -29,12 +29,12 @@ pub(crate) struct ClosureCommon {
     pub bed: Option<RoughBed>,
     /// Distances that it reads.
     pub distances: Option<Distances>,
-    /// Whether it resolves eddies, which are of three dimensions.
+    /// True if it resolves eddies, which are of three dimensions.
     pub eddies_in_space: bool,
 }
 
 impl ClosureCommon {
-    /// Refuses what no closure is for.
+    /// Refuses phases that no closure is for.
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
         check(self.name, &self.phases, setting)?;

@@ -6,9 +6,9 @@ use sph_core::{Access, StepError, fields};
 use crate::columns::LAST_STRAIN;
 
 /// Keeps the strain rate of a step, which came along with its interactions, for the closure in the next one.
-pub(crate) struct KeepStrain;
+pub(crate) struct StrainRecorder;
 
-impl<const D: usize> StepHook<D> for KeepStrain {
+impl<const D: usize> StepHook<D> for StrainRecorder {
     fn name(&self) -> String {
         "strain rate of the step".into()
     }

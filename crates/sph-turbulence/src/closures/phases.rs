@@ -55,7 +55,7 @@ pub(crate) fn check<const D: usize>(
     }
 }
 
-/// Whether it acts, phase by phase; none where there is but one.
+/// Marks of phases on which it acts; none where there is but one.
 pub(crate) fn acting<const D: usize>(
     named: &[String],
     setting: &Setting<'_, D>,
@@ -100,7 +100,7 @@ impl<'a> Kinematic<'a> {
     }
 }
 
-/// Whether it acts on a phase of a name.
+/// True if it acts on a phase of a name.
 pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
     named.is_empty() || named.iter().any(|name| name == phase)
 }
@@ -109,7 +109,7 @@ pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
 pub(crate) struct PhaseFilter<S> {
     /// The closure's.
     pub stage: S,
-    /// Whether it acts, phase by phase.
+    /// Marks of phases on which it acts.
     pub acts: Vec<bool>,
     /// A bed that is a rough wall.
     pub bed: Option<BedEddies>,

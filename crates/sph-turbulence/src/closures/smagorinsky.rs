@@ -7,14 +7,14 @@ use sph_neighbours::World;
 
 use super::common::ClosureCommon;
 use super::filter::FilterLength;
-use super::last_strain::KeepStrain;
+use super::last_strain::StrainRecorder;
 use super::phases::viscosities;
 use super::wall_units::WallUnits;
 use crate::bed::RoughBed;
 use crate::columns::{DAMPING_UNITS, LAST_STRAIN};
 use crate::kind::KIND;
 
-/// What lessens the eddies near walls.
+/// Damping of the eddies near walls.
 #[parameters]
 pub enum Damping {
     /// Nothing.
@@ -47,10 +47,10 @@ pub struct Smagorinsky {
     /// Δ over the length that `filter_length` names.
     #[parameter(default: 2.0, unit: "1", above: 0.0, source: "Issa 2004, Eq. 5.53: 2h")]
     pub filter: f64,
-    /// What Δ is a multiple of.
+    /// Length of which Δ is a multiple.
     #[parameter(default: FilterLength::SmoothingLength)]
     pub filter_length: FilterLength,
-    /// What lessens the eddies near walls.
+    /// Damping of the eddies near walls.
     #[parameter(default: Damping::None, source: "van Driest 1956")]
     pub damping: Damping,
     /// Of which step the strain rate is.
@@ -152,7 +152,7 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         self.common().offer_to(setting, self.clone(), offer)?;
         if self.strain_of == StrainOf::LastStep {
-            offer.hook(KeepStrain);
+            offer.hook(StrainRecorder);
         }
         if self.damping != Damping::VanDriest {
             return Ok(());

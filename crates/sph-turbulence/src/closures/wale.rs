@@ -33,7 +33,7 @@ pub struct Wale {
     /// Δ over the length that `filter_length` names.
     #[parameter(default: 1.0, unit: "1", above: 0.0, source: "Nicoud and Ducros 1999, §3")]
     pub filter: f64,
-    /// What Δ is a multiple of.
+    /// Length of which Δ is a multiple.
     #[parameter(default: FilterLength::Spacing)]
     pub filter_length: FilterLength,
     /// Names of the phases that it acts on: fluids with one viscosity. To be left out where there is one.

@@ -9,8 +9,8 @@ use crate::columns::DAMPING_UNITS;
 use crate::distance::ElementTree;
 use crate::wall::{WallLaw, nearest};
 
-/// z⁺ = z u*/ν with the true distance z from the nearest element and its u*, the mean of what the law of the smooth wall
-/// makes of the particles that touch it, weighted with their shares |∇γ_as|. It is infinite where no particle does.
+/// z⁺ = z u*/ν with the true distance z from the nearest element and its u*, the mean by the law of the smooth wall for
+/// the particles that touch it, weighted with their shares |∇γ_as|. It is infinite where no particle does.
 pub(crate) struct WallUnits<const D: usize> {
     /// ν of every phase, m²/s; none of those whose eddies are not damped.
     pub viscosities: Vec<Option<f64>>,

@@ -9,7 +9,7 @@ use crate::columns::WALL_DISTANCE;
 
 /// [`WALL_DISTANCE`]: the true distance from the nearest of some walls, by their elements; `within` where all are farther.
 pub struct WallDistance<const D: usize> {
-    /// Which walls count; all, if empty.
+    /// Walls that count; all, if empty.
     walls: Vec<String>,
     /// Beyond it no value is needed, m.
     within: f64,

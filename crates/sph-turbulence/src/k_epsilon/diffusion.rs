@@ -14,7 +14,7 @@ const RATE: [Field<Scalar>; 2] = [TURBULENT_ENERGY_RATE, DISSIPATION_RATE];
 /// dA_a/dt = 1/(γ_a ρ_a) Σ_b V_b (D_a + D_b)(A_a − A_b) F_ab with D = η + η_t/σ, for A = k (N = 1), or k and ε (N = 2) that
 /// share all of the pair but D; nothing passes through walls and surfaces, nor into phases without eddies.
 ///
-/// But for the ε of walls with a wall function, where it is asked for: with ε = u_k³/(κz), ν_t = κu_k z and u_k⁴ = C_μk² the
+/// Except for the ε of walls with a wall function, on request: with ε = u_k³/(κz), ν_t = κu_k z and u_k⁴ = C_μk² the
 /// wall gives C_μk²/(σ_ε z), which adds 2/γ_a Σ_s C_μk²/(σ_ε z)|∇γ_as| to dε/dt, z being the particle's distance.
 ///
 /// Source: Issa 2004, Eq. 5.61 and 5.65, with the viscosity of the fluid; the flux of ε is that of the
@@ -33,7 +33,7 @@ pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     eddies: &'a [f64],
     density: &'a [f64],
     volume: &'a [f64],
-    /// 1 − 1/σ: what an eddy's viscosity does not move.
+    /// 1 − 1/σ: the part that an eddy's viscosity does not move.
     held: [f64; N],
     slot: [usize; N],
     /// 2C_μ/σ of a flux through walls.
@@ -143,7 +143,7 @@ impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
     }
 }
 
-/// Δt ≤ C ρ h²/(η + η_t): what keeps an explicit diffusion positive.
+/// Δt ≤ C ρ h²/(η + η_t): the limit of a positive explicit diffusion.
 pub(crate) struct DiffusionLimit(
     /// C.
     pub f64,

@@ -7,8 +7,8 @@ use sph_neighbours::World;
 use super::earsm::AlgebraicStress;
 use crate::columns::{DISSIPATION, EDDY_STRESS, TURBULENT_ENERGY};
 
-/// [`EDDY_STRESS`] −ρ k β_4 (S*Ω* − Ω*S*): normal stresses that differ, and what turns secondary flows. It does no work
-/// on the mean flow. Nothing where k and ε are not known.
+/// [`EDDY_STRESS`] −ρ k β_4 (S*Ω* − Ω*S*): normal stresses that differ, which drive secondary flows. It does no work on
+/// the mean flow. Nothing where k and ε are not known.
 ///
 /// Source: Wallin and Johansson 2000, Eq. 3.9.
 pub(crate) struct ExtraStress;

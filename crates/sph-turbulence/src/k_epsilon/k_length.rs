@@ -25,7 +25,7 @@ use crate::kind::KIND;
 /// P = min(√C_μ, C_μ k S/ε) k S.
 ///
 /// L is Prandtl's: κz, at most `longest`, or κz√(1 − z/H) in an open channel of a `depth` H; not less than a hundredth of
-/// the spacing, so that a surface has some. What is dissipated is that of the end of the step, and k is positive by
+/// the spacing, so that a surface has some. Dissipation is that of the end of the step, and k is positive by
 /// construction. Within a spacing of walls with a wall function k = u*²/√C_μ.
 ///
 /// Sources: Prandtl 1945; Issa 2004, Eq. 5.26–5.30, 5.60–5.64, 5.66; Guimet and Laurence 2002 (production).
@@ -59,7 +59,7 @@ pub struct KLength {
     pub phases: Vec<String>,
     /// The bed of another phase as a rough wall.
     pub bed: Option<RoughBed>,
-    /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    /// True if production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
     #[parameter(default)]
     pub damped_at_surfaces: bool,
 }
@@ -192,9 +192,9 @@ struct Sources {
     length: Length,
     /// ν of every phase, m²/s; none of those that it does not act on.
     viscosities: Vec<Option<f64>>,
-    /// Whether production is damped at surfaces.
+    /// True if production is damped at surfaces.
     damped: bool,
-    /// Whether there is a bed that is a rough wall.
+    /// True if there is a bed that is a rough wall.
     bed: bool,
 }
 

@@ -4,7 +4,7 @@ use sph_core::parameters;
 
 use super::realisable::RealisableModel;
 
-/// Which equations k and ε follow.
+/// Equations of k and ε.
 #[parameters]
 pub enum Variant {
     /// Launder and Spalding 1974, with the production of Guimet and Laurence 2002: [`KEpsilonModel`].
@@ -119,7 +119,7 @@ impl KEpsilonModel {
         friction_velocity.powi(2) * speed / (karman * distance)
     }
 
-    /// ε = k^{3/2}/(0.18 H) at the surface of a channel of a depth H, m: eddies are no longer there than a share of the depth.
+    /// ε = k^{3/2}/(0.18 H) at the surface of a channel of a depth H, m: eddies there are limited to a share of it.
     /// Source: Celik and Rodi 1984 (Naot and Rodi 1982: C_μ^¾ k^{3/2}/(κ 0.07 H)).
     pub fn at_surface(&self, energy: f64, depth: f64) -> f64 {
         energy.powf(1.5) / (0.18 * depth)

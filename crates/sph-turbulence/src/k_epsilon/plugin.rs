@@ -27,10 +27,11 @@ use crate::kind::KIND;
 /// dk/dt = div((ν + ν_t/σ_k) grad k) + P − ε,
 /// dε/dt = div((ν + ν_t/σ_ε) grad ε) + (C_ε1 P − C_ε2 ε) ε/k:
 ///
-/// the standard model, with P = min(√C_μ, C_μ k S/ε) k S. Diffusion is explicit, and what is dissipated is that of the end
-/// of the step, so that both are positive by construction; nothing is clipped. Within a spacing of walls with a wall
+/// the standard model, with P = min(√C_μ, C_μ k S/ε) k S. Diffusion is explicit, and dissipation is that of the end of
+/// the step, so that both are positive by construction; nothing is clipped. Within a spacing of walls with a wall
 /// function k = u*²/√C_μ and ε = u*³/(κz), or that of `at_wall`. Nothing passes through other walls and the surface.
-/// `variant` takes other equations, "realisable" those of [`RealisableModel`], "explicit-algebraic" C_μ of [`AlgebraicStress`].
+/// `variant` takes other equations, "realisable" those of [`RealisableModel`], "explicit-algebraic" C_μ of
+/// [`AlgebraicStress`].
 ///
 /// The constants imply κ = √((C_ε2 − C_ε1) σ_ε √C_μ) = 0.433 in a logarithmic layer.
 ///
@@ -56,10 +57,10 @@ pub struct KEpsilon {
     /// κ of the wall values.
     #[parameter(default: 0.41, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.22")]
     pub karman: f64,
-    /// Which equations.
+    /// Equations of k and ε.
     #[parameter(default)]
     pub variant: Variant,
-    /// What k and ε are next to walls with a wall function.
+    /// Values of k and ε next to walls with a wall function.
     #[parameter(default,
         source: "Issa 2004, Eq. 5.33; Launder and Spalding 1974; Ferrand et al. 2013; the flux of ε is ours")]
     pub at_wall: AtWall,
@@ -69,7 +70,7 @@ pub struct KEpsilon {
     /// The bed of another phase as a rough wall.
     #[parameter(default)]
     pub bed: Option<RoughBed>,
-    /// Whether production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
+    /// True if production is damped where a free surface cuts the support: P (2C − 1), C = Σ V w/γ.
     #[parameter(default)]
     pub damped_at_surfaces: bool,
     /// Depth H of a channel at whose surface ε = k^{3/2}/(0.18 H), in the particles whose support the surface cuts by a quarter

@@ -51,8 +51,8 @@ impl RealisableModel {
         1.0 / (self.a_0 + a_s * (squared + turn.norm_squared()).sqrt() * time)
     }
 
-    /// k and ε after `dt` seconds of production P, m²/s³, and dissipation at a strain rate S, 1/s, and a viscosity, m²/s; the
-    /// sinks are of the end of the step, so that both are positive whatever Δt.
+    /// k and ε after `dt` seconds of production P, m²/s³, and dissipation at a strain rate S, 1/s, and a viscosity,
+    /// m²/s; the sinks are of the end of the step, so that both are positive for any Δt.
     pub fn after(
         &self,
         [energy, dissipation]: [f64; 2],

@@ -1,4 +1,4 @@
-//! Production and dissipation within a step, and what walls set.
+//! Production and dissipation within a step, and the values at walls.
 
 use rayon::prelude::*;
 use sph_contribution::{Report, StepHook, StepMoment, StepPhase};
@@ -11,7 +11,7 @@ use super::realisable::RealisableModel;
 use crate::closures::phases::Kinematic;
 use crate::columns::{DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS};
 
-/// What k and ε are within a spacing of walls with a wall function.
+/// Values of k and ε within a spacing of walls with a wall function.
 #[parameters]
 pub enum AtWall {
     /// Both those of the logarithm: k = u*²/√C_μ, ε = u*³/(κz).
@@ -33,24 +33,24 @@ pub(crate) struct Sources {
     pub karman: f64,
     /// ν of every phase, m²/s; none of those that it does not act on.
     pub viscosities: Vec<Option<f64>>,
-    /// Whether production is damped at surfaces.
+    /// True if production is damped at surfaces.
     pub damped: bool,
     /// Depth of a channel at whose surface ε is a value, m.
     pub surface_depth: Option<f64>,
-    /// Whether there is a bed that is a rough wall.
+    /// True if there is a bed that is a rough wall.
     pub bed: bool,
 }
 
 /// Conditions of a particle next to a wall with a wall function.
 #[derive(Clone, Copy)]
-struct Near {
+struct WallConditions {
     friction_velocity: f64,
     distance: f64,
 }
 
 /// Strain rates of a particle.
 #[derive(Clone, Copy)]
-struct Strained {
+struct StrainRates {
     rate: f64,
     /// ν_t, m²/s, of the beginning of the step.
     eddies: f64,
@@ -63,13 +63,13 @@ struct Strained {
 const AT_SURFACE: f64 = 0.5;
 
 impl Sources {
-    /// Whether the share of the support that is filled matters.
+    /// True if the share of the support that is filled matters.
     fn sees_surfaces(&self) -> bool {
         self.damped || self.surface_depth.is_some()
     }
 
     /// k and ε after a step within the flow.
-    fn inside(&self, [k, e]: [f64; 2], strained: Strained, dt: f64) -> [f64; 2] {
+    fn inside(&self, [k, e]: [f64; 2], strained: StrainRates, dt: f64) -> [f64; 2] {
         let model = KEpsilonModel::default();
         let share = if self.damped { strained.share } else { 1.0 };
         let of_eddies = || share * strained.eddies * strained.rate.powi(2);
@@ -90,7 +90,13 @@ impl Sources {
     }
 
     /// k and ε after a step.
-    fn after(&self, both: [f64; 2], strained: Strained, near: Option<Near>, dt: f64) -> [f64; 2] {
+    fn after(
+        &self,
+        both: [f64; 2],
+        strained: StrainRates,
+        near: Option<WallConditions>,
+        dt: f64,
+    ) -> [f64; 2] {
         let model = KEpsilonModel::default();
         let Some(near) = near else {
             let [k, e] = self.inside(both, strained, dt);
@@ -173,7 +179,7 @@ impl<const D: usize> StepHook<D> for Sources {
                 (friction[i] > 0.0 && distance < world.spacing).then_some([friction[i], distance])
             });
             let [friction_velocity, distance] = of_wall.or_else(|| bed.at(i))?;
-            Some(Near {
+            Some(WallConditions {
                 friction_velocity,
                 distance,
             })
@@ -183,7 +189,7 @@ impl<const D: usize> StepHook<D> for Sources {
             let Some(nu) = viscosity.at(i) else {
                 return;
             };
-            let strained = Strained {
+            let strained = StrainRates {
                 rate: rates[i],
                 eddies: eddies[i] / density[i],
                 viscosity: nu,

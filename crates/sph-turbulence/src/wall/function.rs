@@ -150,7 +150,7 @@ impl<const D: usize> Contribution<D> for LogLaw {
     }
 }
 
-/// Whether a phase has a viscosity that the law can take.
+/// True if a phase has a viscosity that the law can take.
 fn is_viscous(viscosity: &Option<f64>) -> bool {
     viscosity.is_some_and(|nu| nu > 0.0)
 }
@@ -158,7 +158,7 @@ fn is_viscous(viscosity: &Option<f64>) -> bool {
 /// No work, but a word about z⁺ at the end.
 struct Range;
 
-/// Where the logarithmic law of a boundary layer is taken to hold: Issa 2004, Table 6.1, and the upper end.
+/// Range of the logarithmic law of a boundary layer: Issa 2004, Table 6.1, and the upper end.
 const VALID: [f64; 2] = [1.0, 1000.0];
 
 impl<const D: usize> StepHook<D> for Range {

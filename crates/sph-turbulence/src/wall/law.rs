@@ -23,7 +23,7 @@ pub enum WallLawError {
     WithinRoughness {
         /// The given value, m.
         distance: f64,
-        /// Where the velocity of the fully rough law begins, m.
+        /// Least height of the velocity of the fully rough law, m.
         least: f64,
     },
     /// Constants that are none.
@@ -208,7 +208,7 @@ impl WallLaw {
                     false => 2.0 * u,
                 };
             }
-            // Newton's error is squared by each step: what is left of the next is below rounding.
+            // Newton's error is squared by each step: the rest of the next is below rounding.
             let squeezed = high.is_finite() && high - low <= 1e-15 * high;
             if squeezed || (next - u).abs() <= 1e-10 * u {
                 return next;
@@ -289,7 +289,7 @@ mod tests {
         }
     }
 
-    /// Page §4.7: u* = 0.05 m/s, k_s = 10 mm, k_s⁺ = 500: Nikuradse's law, whatever the viscosity.
+    /// Page §4.7: u* = 0.05 m/s, k_s = 10 mm, k_s⁺ = 500: Nikuradse's law, for any viscosity.
     #[test]
     fn a_fully_rough_wall_has_nikuradses_law() {
         let law = rough(0.01);

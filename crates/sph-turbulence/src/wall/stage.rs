@@ -20,7 +20,7 @@ pub(crate) struct WallShear {
 }
 
 impl WallShear {
-    /// Whether the friction of every element is that of the law.
+    /// Marks of elements whose friction is that of the law.
     fn marks<const D: usize>(&self, walls: &WallSet<D>) -> Vec<bool> {
         let named = |wall: &u32| self.walls.contains(&walls.names[*wall as usize]);
         walls.elements.wall.iter().map(named).collect()

@@ -12,7 +12,7 @@ pub fn start(scene: &Scene, found: &mut Problems) {
     room(scene, found);
 }
 
-/// How the grains get their places: one way of several.
+/// Checks that the grains get their places in one way alone.
 fn ways(scene: &Scene, found: &mut Problems) {
     let s = &scene.start;
     let given = given([

@@ -1,4 +1,4 @@
-//! Mistakes of walls: where they are, what moves them, what they are to the fluid.
+//! Mistakes of walls: their places, their motion, their condition for the fluid.
 
 use scene_text::{Problems, given, suggestion, unit_factor};
 

@@ -16,7 +16,7 @@ pub struct Fluid {
     /// Bulk modulus K_f, Pa; a fluid that does not give way if left out.
     #[parameter(unit: "Pa", above: 0.0)]
     pub bulk_modulus: Option<f64>,
-    /// Whether it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
+    /// True if it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
     #[parameter(default)]
     pub shear: bool,
     /// Lubrication of the gaps between neighbours; none if left out.
@@ -24,7 +24,7 @@ pub struct Fluid {
     /// Strain of a pore, summed over steps, at which pores are found anew. Catalano 2012, Eq. (5.14).
     #[parameter(default: 0.01, unit: "1", min: 0.0)]
     pub remesh_strain: f64,
-    /// Steps after which they are found anew whatever the strain.
+    /// Steps after which they are found anew at any strain.
     #[parameter(min: 1)]
     pub remesh_steps: Option<u64>,
     /// The law for the conductance of throats, `[fluid.conductance.LAW]`; hydraulic radii if left out.

@@ -7,7 +7,7 @@ use super::{AnyPlugins, Plugins, Triple};
 /// The grains and the law of their contacts.
 #[parameters(crate: crate::reexport)]
 pub struct Grains {
-    /// How many; not with a file, a lattice or a filled box.
+    /// Number of grains; not with a file, a lattice or a filled box.
     #[parameter(min: 1, max: 10_000_000)]
     pub count: Option<usize>,
     /// Smallest and largest radius, m; drawn evenly from between them. Not with a file.
@@ -32,7 +32,7 @@ pub struct Grains {
     pub skin: Option<f64>,
 }
 
-/// Where the grains are at the start, and how they were prepared: exactly one of `cloud`, `grown`, `rained`, `lattice`
+/// Positions of the grains at the start, and their preparation: exactly one of `cloud`, `grown`, `rained`, `lattice`
 /// and `file`. The clock of the run starts when they are ready.
 #[parameters(crate: crate::reexport)]
 pub struct Start {

@@ -3,7 +3,7 @@
 use scene_text::PictureRange;
 use sph_derive::parameters;
 
-/// What a run writes and when.
+/// Files of a run, and the times of writing.
 #[parameters(crate: crate::reexport)]
 pub struct Output {
     /// Simulated time between pictures and files for ParaView, s; a twentieth of the end if left out.
@@ -22,7 +22,7 @@ pub struct Output {
     /// Pictures per second of the film of every field that has pictures, `animations/NAME.gif`; 10 if left out, 0 for no film.
     #[parameter(default, unit: "1/s", min: 0.0, max: 50.0)]
     pub animation: Option<f64>,
-    /// Whether files for ParaView are left out.
+    /// True if files for ParaView are left out.
     #[parameter(default)]
     pub no_vtk: bool,
 }

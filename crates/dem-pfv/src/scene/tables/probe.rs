@@ -13,12 +13,12 @@ pub enum Probe {
         /// Name of the wall.
         wall: String,
     },
-    /// What a wall bears over the buoyant weight of all grains: contacts alone, not the fluid.
+    /// Load of the grains on a wall over the buoyant weight of all grains: contacts alone, not the fluid.
     Borne {
         /// Name of the wall.
         wall: String,
     },
-    /// What the fluid bears of the buoyant weight of all grains: the sum of its forces without buoyancy.
+    /// Share of the buoyant weight of all grains that the fluid carries: the sum of its forces without buoyancy.
     Carried {},
     /// Mean pressure of a layer of pores, Pa.
     Pressure {
@@ -53,7 +53,7 @@ pub enum Probe {
     EffectiveStress {
         /// Axis across the plane.
         axis: Axis,
-        /// Where it is, m.
+        /// Coordinate of the place, m.
         #[parameter(unit: "m")]
         at: f64,
     },
@@ -95,7 +95,7 @@ pub enum Probe {
         #[parameter(unit: "m")]
         to: f64,
     },
-    /// How much lower the mean height of the grains is than at the start, m.
+    /// Decrease of the mean height of the grains since the start, m.
     Settlement {},
     /// Share of the final dry strain that is reached, with `[oedometer]`.
     Consolidation {},
@@ -118,13 +118,14 @@ pub enum Probe {
         #[parameter(unit: "m")]
         high: Triple,
     },
-    /// What flows into the pores through a wall, m³/s, negative if out of them, at the last step.
+    /// Flow into the pores through a wall, m³/s, negative if out of them, at the last step.
     Flux {
         /// Name of a wall of the box.
         wall: String,
     },
-    /// Permeability κ of the packing along an axis, m²: κ = µ Q L/(A Δp) with a pressure Δp between the two walls across the
-    /// axis, others closed, and the grains held, whatever the scene gives at its walls. Every row solves for it.
+    /// Permeability κ of the packing along an axis, m²: κ = µ Q L/(A Δp) with a pressure Δp between the two walls
+    /// across the axis, others closed, and the grains held, for any conditions of the scene at its walls. Every row
+    /// solves for it.
     Permeability {
         /// The axis.
         axis: Axis,

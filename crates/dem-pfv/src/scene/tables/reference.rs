@@ -27,7 +27,7 @@ pub enum Reference {
         probe: String,
         /// The number, in the unit of the probe.
         value: f64,
-        /// What is taken of the rows.
+        /// Statistic of the rows.
         #[parameter(default)]
         of: Statistic,
         /// Time of the first row, s.
@@ -43,9 +43,9 @@ pub enum Reference {
         probe: String,
         /// The table.
         file: String,
-        /// Which rows.
+        /// Geometry of the rows.
         geometry: String,
-        /// Which rows.
+        /// Quantity of the rows.
         quantity: String,
     },
     /// A straight line through the rows of two probes: 1 − R².
@@ -72,7 +72,7 @@ pub enum Reference {
     },
 }
 
-/// What is taken of the rows of a probe.
+/// Statistic of the rows of a probe.
 #[parameters(crate: crate::reexport)]
 #[serde(rename_all = "lowercase")]
 pub enum Statistic {

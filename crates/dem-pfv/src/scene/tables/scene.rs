@@ -6,18 +6,18 @@ use sph_derive::parameters;
 
 use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
 
-/// Which grains, between which walls, in which fluid, for how long, and what is written.
+/// Grains, walls, fluid, times and output of a scene.
 #[parameters(crate: crate::reexport)]
 pub struct Scene {
     /// The scene in one line, with its publication.
     pub title: String,
     /// Subject of the scene and its results.
     pub description: Option<String>,
-    /// How long the scene runs and how carefully.
+    /// Duration and accuracy of the run.
     pub run: Run,
     /// The grains and the law of their contacts.
     pub grains: Grains,
-    /// Where they are at the start, and how they were prepared.
+    /// Positions of the grains at the start, and their preparation.
     pub start: Start,
     /// A box of six walls, `left`, `right`, `front`, `back`, `bottom`, `top`.
     pub r#box: Option<Box>,
@@ -36,12 +36,12 @@ pub struct Scene {
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub reference: Plugins,
-    /// What is written and when.
+    /// Files of a run, and the times of writing.
     #[parameter(default)]
     pub output: Output,
 }
 
-/// How long the scene runs and how carefully.
+/// Duration and accuracy of the run.
 #[parameters(crate: crate::reexport)]
 pub struct Run {
     /// Simulated time at which the run ends, s, counted from the end of the preparation.
@@ -61,8 +61,8 @@ pub struct Run {
     pub checkpoint_every: Option<f64>,
 }
 
-/// A sudden load on a piston, and what its answer is measured with: the strain under the same load when it comes
-/// slowly and dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
+/// A sudden load on a piston, and the measures of its answer: the strain under the same load when it comes slowly and
+/// dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
 #[parameters(crate: crate::reexport)]
 pub struct Oedometer {
     /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.

@@ -25,7 +25,7 @@ pub struct Box {
     pub contact: Plugins,
 }
 
-/// What more there is to a wall of the box; or a plane with `point` and `normal`; or a surface of triangles from a
+/// Further properties of a wall of the box; or a plane with `point` and `normal`; or a surface of triangles from a
 /// `file`.
 #[parameters(crate: crate::reexport)]
 pub struct Wall {
@@ -44,7 +44,7 @@ pub struct Wall {
     /// Factor on the coordinates of the `file`, instead of a unit.
     #[parameter(default, unit: "1", above: 0.0)]
     pub scale: Option<f64>,
-    /// Shift of what is in the `file`, after it is scaled, m.
+    /// Shift of the surface of the `file`, after scaling, m.
     #[parameter(default, unit: "m")]
     pub translate: Option<Triple>,
     /// Velocity, m/s.
@@ -66,7 +66,7 @@ pub struct Wall {
     /// Rate of strain between this wall and the one that faces it, 1/s, positive when they approach; give it to both.
     #[parameter(default, unit: "1/s")]
     pub strain_rate: Option<f64>,
-    /// Whether it is there during the preparation only: a gate.
+    /// True for a gate, which is there during the preparation only.
     #[parameter(default)]
     pub removed: bool,
     /// Pressure of the fluid there, Pa.
@@ -81,7 +81,7 @@ pub struct Wall {
     /// Pressure from a table, such as the series of a scene with a free surface.
     #[parameter(default)]
     pub recorded: Option<RecordedLoad>,
-    /// Whether fluid sticks to it.
+    /// True if fluid sticks to it.
     #[parameter(default)]
     pub sticks: bool,
 }
@@ -153,7 +153,7 @@ pub struct RecordedLoad {
     /// Axis along which the places are.
     #[parameter(default)]
     pub axis: Axis,
-    /// Where the pressures were taken, m.
+    /// Coordinates of the measured pressures, m.
     #[schemars(extend("minItems" = 1))]
     #[parameter(unit: "m")]
     pub places: Vec<f64>,
@@ -162,7 +162,7 @@ pub struct RecordedLoad {
     /// Time of the table at which the run starts, s.
     #[parameter(default, unit: "s")]
     pub start: f64,
-    /// What is taken off all pressures, Pa.
+    /// Pressure that is subtracted from all pressures, Pa.
     #[parameter(default, unit: "Pa")]
     pub less: f64,
 }

@@ -110,7 +110,7 @@ fn the_end_is_where_it_is_held_and_the_stiffness_is_the_slope() {
     assert!(worst.1 < 1e-4, "slopes are off by {:e}", worst.1);
 }
 
-/// What hangs straight down carries its own weight: z = V/w + V²/(2 EA w).
+/// A line that hangs straight down carries its own weight: z = V/w + V²/(2 EA w).
 #[test]
 fn a_slack_line_carries_what_hangs() {
     let chain = Catenary {

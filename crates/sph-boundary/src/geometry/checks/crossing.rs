@@ -13,7 +13,7 @@ use crate::limits::MOST_PAIRS;
 struct Edge {
     wall: usize,
     edge: usize,
-    /// Whether it is an image of another edge across a periodic side.
+    /// True if it is an image of another edge across a periodic side.
     image: bool,
     ends: [[f64; 2]; 2],
 }
@@ -100,7 +100,7 @@ fn edges(polylines: &[Polyline], domain: &PeriodicBox) -> Vec<Edge> {
     edges
 }
 
-/// Where two edges cross, if the ends of each are on opposite sides of the other.
+/// Intersection of two edges, if the ends of each are on opposite sides of the other.
 fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2], tolerance: f64) -> Option<[f64; 2]> {
     let [to_a, to_b] = [a, b].map(|p| distance_to_line(p, c, d));
     let [to_c, to_d] = [c, d].map(|p| distance_to_line(p, a, b));

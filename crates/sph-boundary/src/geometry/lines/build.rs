@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::joints::{Continuation, Joints, joints};
 use crate::error::BoundaryError;
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
-use crate::geometry::mesh::{Element, Measured, Mesh, Node, SAME_PLACE};
+use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::wall_end::{FreeEnd, WallEnd};
@@ -100,7 +100,7 @@ fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usi
         .collect()
 }
 
-impl Measured for Mesh<2> {
+impl ElementMeasures for Mesh<2> {
     fn measure(&mut self, segment: usize) {
         let [a, b] = self.corners(segment);
         let (x, y) = (b[0] - a[0], b[1] - a[1]);

@@ -17,7 +17,7 @@ pub(super) enum Continuation {
     Start { wall: usize, image: [i32; 2] },
 }
 
-/// For every wall, what follows its last point, and whether its first point is free.
+/// For every wall, the continuation of its last point, and true if its first point is free.
 pub(super) struct Joints {
     pub after: Vec<Continuation>,
     pub starts_free: Vec<bool>,
@@ -98,7 +98,7 @@ pub(super) fn joints(
 fn near(tree: &BoxTree<2>, place: [f64; 2], tolerance: f64, domain: &PeriodicBox) -> Vec<usize> {
     // Twice the tolerance: wrapping rounds.
     let around = widened([place; 2], 2.0 * tolerance);
-    // What is just within one side of the box is at the place of what is just within the other.
+    // A point just within one side of the box is at the place of one just within the other.
     let mut found = Vec::new();
     for image in domain.images_within([domain.lower, domain.upper], around) {
         let shift = domain.shift(image);

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::mesh::{Mesh, Outside, SAME_HEIGHT, Sides};
+use crate::geometry::mesh::{Mesh, RayQueries, SAME_HEIGHT, Sides};
 
-impl Outside<2> for Mesh<2> {
+impl RayQueries<2> for Mesh<2> {
     fn crossing([a, b]: [[f64; 2]; 2], normal: [f64; 2], along: usize) -> Option<(f64, i32)> {
         let x = [a[1 - along], b[1 - along]];
         if (x[0] <= 0.0) == (x[1] <= 0.0) {

@@ -118,7 +118,7 @@ pub struct Opening {
 /// equal parts, alike for all faces that share them, also between walls of one group and across
 /// periodic sides, where nodes are merged. Inside a face are points of a square lattice along its
 /// longest edge; a rectangle of whole spacings gets exactly the lattice of the spacing. Where walls
-/// of one group touch face to face, what they have in common is left out of both, so that the mesh
+/// of one group touch face to face, the common part is left out of both, so that the mesh
 /// is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
 #[derive(Clone, Debug)]
 pub struct Mesh<const D: usize> {
@@ -151,7 +151,7 @@ pub struct Mesh<const D: usize> {
     pub(crate) reference_normals: Vec<Point>,
     /// Present poses, one per wall.
     pub poses: Vec<Pose<D>>,
-    /// How each wall moves; only changes of its shape matter.
+    /// Motion of each wall; only changes of its shape matter.
     pub(crate) motions: Vec<RigidMotion<D>>,
     /// The beds that walls follow, as they are.
     pub(crate) beds: Vec<Bed>,

@@ -24,28 +24,28 @@ const RIM: f64 = 1e-9;
 const ENCLOSED: f64 = 0.5;
 
 /// Queries of a ray and the eye to a mesh of one dimension.
-pub trait Outside<const D: usize> {
+pub trait RayQueries<const D: usize> {
     /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
     /// of it and −1 where it is on the far side.
     fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
-    /// Whether the fluid lies beyond all walls along the positive direction of an axis.
+    /// True if the fluid lies beyond all walls along the positive direction of an axis.
     fn is_fluid_beyond(&self, along: usize) -> bool;
     /// Winding number of a place where walls end freely.
     fn wind(&self, sides: &mut Sides<D>);
-    /// How far walls that end freely enclose a place.
+    /// Winding number of walls that end freely, around a place.
     fn wound(&self, sides: &Sides<D>, point: [f64; D]) -> Option<f64>;
 }
 
 impl<const D: usize> Mesh<D>
 where
-    Self: Outside<D>,
+    Self: RayQueries<D>,
 {
-    /// Whether a point is in the fluid, as the walls see it.
+    /// True if a point is in the fluid, as the walls see it.
     ///
     /// A ray goes from the point along an axis that is not periodic (the last one if it may choose). Among the
     /// crossings at one height opposite ones cancel, as do the faces of a plate of zero thickness or
-    /// of two blocks that touch; the first height where one is left decides by the side that faces the point. A ray that meets
-    /// nothing asks the wall that reaches furthest along it; if all axes are periodic, it goes on
+    /// of two blocks that touch; the first height where one is left decides by the side that faces the point. For a ray
+    /// without a crossing the wall that reaches furthest along it decides; if all axes are periodic, it goes on
     /// along the next axis until it meets a wall. Without walls every point is in the fluid.
     ///
     /// Walls with free edges in space have a front: if there are any, the element nearest to the point decides
@@ -74,14 +74,14 @@ where
         sides.beyond
     }
 
-    /// How far walls with free ends or edges enclose a point: their winding number, positive where they face it, in the
-    /// plane Σ α/2π, α the angle in which the point sees an edge. None of walls that are closed, of lines in a periodic box,
-    /// or of surfaces that repeat themselves in two directions.
+    /// Winding number of walls with free ends or edges around a point, positive where they face it, in the plane Σ
+    /// α/2π, α the angle in which the point sees an edge. None of walls that are closed, of lines in a periodic box, or
+    /// of surfaces that repeat themselves in two directions.
     pub fn enclosed(&self, point: [f64; D]) -> Option<f64> {
         self.wound(self.sides(), point)
     }
 
-    /// The axes that a ray may take, and what decides where there are none.
+    /// The axes that a ray may take, and the decision where there are none.
     fn sides(&self) -> &Sides<D> {
         self.sides.get_or_init(|| {
             let open = (0..D).rev().find(|k| !self.domain.periodic[*k]);
@@ -127,7 +127,7 @@ where
         Rays::new(along, images, rim)
     }
 
-    /// Whether the first wall that a ray meets faces the point; none if it meets nothing.
+    /// True if the first wall that a ray meets faces the point; none if it meets nothing.
     fn faced(&self, rays: &Rays<D>, point: [f64; D]) -> Option<bool> {
         let mut crossings = self.crossings(rays, point);
         crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -165,7 +165,7 @@ where
         crossings
     }
 
-    /// Whether the nearest element has the point in front of it; none if all are far.
+    /// True if the nearest element has the point in front of it; none if all are far.
     ///
     /// At an edge or a node the mean normal decides, weighted with the angle of each element
     /// there: Bærentzen and Aanæs, IEEE Trans. Vis. Comput. Graph. 11 (2005) 243.

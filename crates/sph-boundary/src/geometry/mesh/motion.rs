@@ -14,7 +14,7 @@ pub(crate) fn bed_of(beds: &[Bed], wall: usize) -> Option<&Bed> {
 }
 
 /// Measures of the elements of a mesh.
-pub trait Measured {
+pub trait ElementMeasures {
     /// Measure, centre and normal of an element from the positions of its nodes.
     fn measure(&mut self, element: usize);
     /// Changes of nodes and faces by walls that moved.
@@ -23,7 +23,7 @@ pub trait Measured {
 
 impl<const D: usize> Mesh<D>
 where
-    Self: Measured,
+    Self: ElementMeasures,
 {
     /// Moves every wall to its pose, one per wall, given with respect to the reference position.
     ///

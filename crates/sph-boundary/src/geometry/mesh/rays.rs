@@ -17,7 +17,7 @@ pub(crate) struct Rays<const D: usize> {
 }
 
 impl<const D: usize> Rays<D> {
-    /// Of elements with their boxes flat across the axis, and what rounding may move their rims by, m.
+    /// Of elements with their boxes flat across the axis, and the largest shift of their rims by rounding, m.
     pub fn new(along: usize, images: Vec<(NearElement<D>, Corners<D>)>, rim: f64) -> Self {
         let (entries, boxes): (Vec<_>, Vec<_>) = images.into_iter().unzip();
         Rays {

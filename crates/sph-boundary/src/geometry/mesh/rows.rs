@@ -21,7 +21,7 @@ impl<const D: usize> Grid<D> {
     /// For every point the images of elements that may be nearer than `radius`, because the spheres around them are: their
     /// number, and all of them one behind the other, each point's by image and element. `radius` at most the reach of the grid.
     ///
-    /// The grid is walked once, and what it holds is sorted once, for neighbouring points that follow one another; each
+    /// The grid is walked once, and its contents are sorted once, for neighbouring points that follow one another; each
     /// takes what is in its own reach.
     pub fn rows(
         &self,
@@ -34,7 +34,7 @@ impl<const D: usize> Grid<D> {
         let mut candidates = Candidates::default();
         let mut rest = points;
         while !rest.is_empty() {
-            let (group, after) = rest.split_at(together(rest, TOGETHER * radius));
+            let (group, after) = rest.split_at(count_within(rest, TOGETHER * radius));
             rest = after;
             self.gather(group, radius, &mut candidates);
             for point in group {
@@ -82,8 +82,8 @@ impl<const D: usize> Candidates<D> {
     }
 }
 
-/// How many points from the first on lie in a box of at most this diagonal, m.
-fn together<const D: usize>(points: &[[f64; D]], diagonal: f64) -> usize {
+/// Number of points from the first on that lie in a box of at most this diagonal, m.
+fn count_within<const D: usize>(points: &[[f64; D]], diagonal: f64) -> usize {
     let (mut lower, mut upper) = (points[0], points[0]);
     let apart = |point: &[f64; D]| {
         lower = std::array::from_fn(|k| lower[k].min(point[k]));
@@ -128,8 +128,8 @@ mod tests {
     #[test]
     fn points_go_together_while_their_box_is_small() {
         let points = [0.0, 0.4, -0.3, 0.8, 0.9].map(|x| [x, 0.1, 0.0]);
-        assert_eq!(together(&points, 0.75), 3);
-        assert_eq!(together(&points[3..], 0.75), 2);
-        assert_eq!(together(&points, 0.0), 1);
+        assert_eq!(count_within(&points, 0.75), 3);
+        assert_eq!(count_within(&points[3..], 0.75), 2);
+        assert_eq!(count_within(&points, 0.0), 1);
     }
 }

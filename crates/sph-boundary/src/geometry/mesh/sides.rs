@@ -13,9 +13,9 @@ pub struct Sides<const D: usize> {
     pub(super) rays: Vec<Rays<D>>,
     /// The centre of that element, m.
     pub(super) target: [f64; D],
-    /// Whether the fluid lies beyond all walls.
+    /// True if the fluid lies beyond all walls.
     pub(super) beyond: bool,
-    /// Where there are free edges, what finds the nearest wall.
+    /// The search for the nearest wall, where there are free edges.
     pub(super) front: Option<Grid<D>>,
     /// Of the plane, where walls end freely: first and last node of every straight edge.
     pub(crate) lines: Vec<[usize; 2]>,

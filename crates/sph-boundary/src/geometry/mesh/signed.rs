@@ -42,7 +42,7 @@ impl<const D: usize> SeenElement<D> {
         for element in seen {
             let (centre, radius) = element.sphere;
             let apart = sub(centre, place);
-            // What may be equally near is looked at.
+            // Elements that may be equally near are examined.
             let limit = distance.min(within) * (1.0 + 1e-6) + radius;
             if dot(apart, apart) > limit * limit {
                 continue;

@@ -7,9 +7,9 @@ use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, Site};
 use super::removal::remove_contacts;
-use super::wetted::{Touched, seen};
+use super::wetted::{FaceContacts, wetted_pieces};
 use crate::error::BoundaryError;
-use crate::geometry::mesh::{Element, Face, FaceEdge, Measured, Mesh, Node, SAME_PLACE};
+use crate::geometry::mesh::{Element, ElementMeasures, Face, FaceEdge, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{double_area, norm};
 use crate::parallel::*;
@@ -39,7 +39,7 @@ impl Mesh<3> {
         let mut places = Places::new(tolerance, domain);
         let (mut patches, touched) = planar_pieces(surfaces, groups, spacing, &mut places)?;
         let cuts = Cuts::new(&patches, &places, spacing);
-        let seen = seen(&patches, &cuts, &places, &touched);
+        let seen = wetted_pieces(&patches, &cuts, &places, &touched);
         let unseen = unseen_faces(surfaces, &patches, &seen);
         let mut kept = seen.iter();
         patches.retain(|_| kept.next() == Some(&true));
@@ -142,7 +142,7 @@ fn planar_pieces(
     groups: &[usize],
     spacing: f64,
     places: &mut Places,
-) -> Result<(Vec<Patch>, Touched), BoundaryError> {
+) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
     let tolerance = SAME_PLACE * spacing;
     for surface in surfaces {
         check_input(surface)?;
@@ -264,7 +264,7 @@ impl Mesh<3> {
     }
 }
 
-impl Measured for Mesh<3> {
+impl ElementMeasures for Mesh<3> {
     fn measure(&mut self, triangle: usize) {
         let corners = self.corners(triangle);
         let double = double_area(corners);

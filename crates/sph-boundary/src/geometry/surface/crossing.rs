@@ -31,7 +31,7 @@ enum Intersection {
     Cover { opposite: bool, at: Point },
 }
 
-/// Where walls touch face to face; refuses triangles that cross and pieces drawn twice.
+/// Contacts of walls face to face; refuses triangles that cross and pieces drawn twice.
 ///
 /// Walls of different groups may cover each other, but not cross. A corner within `tolerance` of
 /// the other triangle's plane is on it.
@@ -95,7 +95,7 @@ pub(super) fn contacts(
     Ok(contacts)
 }
 
-/// Whether two triangles of walls that move together touch, the first one moved by a shift.
+/// True if two triangles of walls that move together touch, the first one moved by a shift.
 ///
 /// # Errors
 /// If they cross, or one covers the other where it must not.

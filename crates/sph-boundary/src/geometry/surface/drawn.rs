@@ -116,7 +116,7 @@ pub(super) fn weld(
     group: usize,
     places: &mut Places,
 ) -> Result<Vec<Drawn>, BoundaryError> {
-    // In the order of the points: the first of those at one place says where its node is.
+    // In the order of the points: the first of those at one place sets the place of its node.
     let mut used = vec![false; surface.points.len()];
     for corner in surface.triangles.iter().flatten() {
         used[*corner as usize] = true;

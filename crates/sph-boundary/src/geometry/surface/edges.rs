@@ -79,7 +79,7 @@ impl Nodes {
     }
 }
 
-/// Where every edge of the patches is cut by corners of the patches of its group.
+/// Cuts of every edge of the patches by corners of the patches of its group.
 pub(super) struct Cuts {
     /// Corners along the edge, both ends included, from the key's first end.
     chains: HashMap<EdgeKey, Vec<Site>>,

@@ -39,7 +39,7 @@ pub(super) struct Filling {
 /// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each
 /// other. Inside are the points of a square
 /// lattice along its longest edge, joined by a constrained Delaunay triangulation; a rectangle gets
-/// a lattice that meets the nodes of all its sides. Says what is wrong if that is impossible.
+/// a lattice that meets the nodes of all its sides. The reason if that is impossible.
 pub(super) fn fill(
     patch: &Patch,
     sides: &[Vec<Site>],

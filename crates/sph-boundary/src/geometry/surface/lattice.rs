@@ -100,7 +100,7 @@ impl Lattice {
     }
 
     /// Gives all cells whose two triangles are among these the diagonal that points away from the middle of the lattice
-    /// points, so that what is its own mirror image stays so; in the middle that from the lower left to the upper right.
+    /// points, so that a symmetric cell stays symmetric; in the middle that from the lower left to the upper right.
     pub fn align_diagonals(&self, triangles: &mut [[usize; 3]], points: &[[f64; 2]]) {
         let index: Vec<Option<[i64; 2]>> = points.iter().map(|p| self.index(*p)).collect();
         let known = || index.iter().flatten();

@@ -131,8 +131,9 @@ impl Rims {
         }
     }
 
-    /// Whether a point is behind an edge and its distance, the edge and the place on it, if within the radius: of the
-    /// nearest in front of which the point is, for that wall should go on there, else of the nearest.
+    /// Edge near a point, if one is within the radius: true if the point is behind it, the distance, the edge and the
+    /// place on it: of the nearest in front of which the point is, for that wall should go on there, else of the
+    /// nearest.
     fn nearest(&self, point: Point) -> Option<((bool, f64), usize, Point)> {
         let mut near = Vec::new();
         self.tree

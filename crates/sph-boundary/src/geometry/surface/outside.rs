@@ -2,13 +2,13 @@
 
 use sph_core::Winding;
 
-use crate::geometry::mesh::{Mesh, Outside, SAME_DISTANCE, SAME_HEIGHT, Sides, angle};
+use crate::geometry::mesh::{Mesh, RayQueries, SAME_DISTANCE, SAME_HEIGHT, Sides, angle};
 use crate::geometry::vector::{Point, add, bounds, norm, sub};
 
 /// Images of a periodic wall on either side reach this many extents of it, and are so many at most.
 const IMAGES: (f64, f64) = (5.0, 16.0);
 
-impl Outside<3> for Mesh<3> {
+impl RayQueries<3> for Mesh<3> {
     /// Seen along the ray, the point is within a triangle if it is on the left of all edges or on
     /// the right of all. Both triangles at an edge compute the same number but for its sign, and a
     /// point on an edge counts as moved by an infinitely small step, so that a ray through an edge

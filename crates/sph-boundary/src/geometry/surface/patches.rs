@@ -6,7 +6,7 @@ use super::drawn::{Drawn, Neighbours};
 use super::places::{Places, Site};
 use crate::geometry::vector::{Point, along, cross, distance_to_segment, dot, sub, unit};
 
-/// Neighbours whose normals differ by more are never one plane, whatever the size.
+/// Neighbours whose normals differ by more are never one plane, at any size.
 const SAME_DIRECTION: f64 = 0.99;
 
 /// A planar piece of a wall.

@@ -51,9 +51,9 @@ pub(super) struct HalfEdge {
     pub triangle: u32,
     /// Its first corner.
     pub edge: u8,
-    /// Whether it is travelled like the key.
+    /// True if it is travelled like the key.
     pub forward: bool,
-    /// Where the key's first end is drawn.
+    /// Cell of the key's first end as drawn.
     pub at: [i32; 3],
 }
 
@@ -99,7 +99,7 @@ impl Places {
         }
     }
 
-    /// Where a site is, m.
+    /// Position of a site, m.
     pub fn at(&self, site: Site) -> Point {
         let position = self.positions[site.id as usize];
         if site.image == [0; 3] {

@@ -10,23 +10,23 @@ use i_overlay::i_float::int::point::IntPoint;
 use super::crossing::Contact;
 use super::patches::{Patch, in_plane, in_space};
 use super::places::{Places, Site, edge_key};
-use super::wetted::Touched;
+use super::wetted::FaceContacts;
 use crate::geometry::vector::sub;
 
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
 const BITS: i32 = 44;
 
-/// Takes from every patch what patches of other walls cover with opposite normals.
+/// Takes from every patch the part that patches of other walls cover with opposite normals.
 ///
 /// The difference of polygons is taken in whole numbers; corners that come out of it are welded to
-/// those that are known, so that what is left of both walls meets in the same edges. Returns where they touched.
+/// those that are known, so that the rests of both walls meet in the same edges. Returns where they touched.
 pub(super) fn remove_contacts(
     patches: &mut Vec<Patch>,
     patch_of: &[u32],
     contacts: &[Contact],
     places: &mut Places,
     groups: &[usize],
-) -> Touched {
+) -> FaceContacts {
     let mut covers: BTreeMap<u32, BTreeSet<(u32, [i32; 3])>> = BTreeMap::new();
     for contact in contacts {
         let [a, b] = [contact.triangle, contact.other].map(|t| patch_of[t as usize]);
@@ -35,7 +35,7 @@ pub(super) fn remove_contacts(
         covers.entry(b).or_default().insert((a, back));
     }
     if covers.is_empty() {
-        return Touched::default();
+        return FaceContacts::default();
     }
     let covered = covers.keys().flat_map(|p| &patches[*p as usize].boundary);
     let edges = covered.map(|[a, b]| edge_key(*a, *b).0).collect();
@@ -49,7 +49,7 @@ pub(super) fn remove_contacts(
         patches.extend(rest.cloned().unwrap_or_else(|| vec![patch]));
         pieces.resize(patches.len(), rest.is_some());
     }
-    Touched { edges, pieces }
+    FaceContacts { edges, pieces }
 }
 
 /// The rest of a patch without others, each moved by whole periods.

@@ -127,8 +127,8 @@ impl Mesh<3> {
 /// Two sides are at right angles if their cosine is below this.
 const RIGHT: f64 = 1e-6;
 
-/// Parts of a triangle that its corners answer for: thirds, and of half a rectangle what is nearest to each corner, so that the
-/// rectangle's corners have a quarter of it each, whichever way it is cut.
+/// Parts of a triangle that its corners answer for: thirds, and of half a rectangle the part nearest to each corner, so
+/// that the rectangle's corners have a quarter of it each, whichever way it is cut.
 fn parts(corners: [Point; 3]) -> [f64; 3] {
     let right = |k: usize| {
         let sides = [1, 2].map(|n| sub(corners[(k + n) % 3], corners[k]));

@@ -9,22 +9,27 @@ use crate::geometry::sets::Sets;
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 
-/// Where walls touched face to face.
+/// Contacts of walls face to face.
 #[derive(Default)]
-pub(super) struct Touched {
+pub(super) struct FaceContacts {
     /// Edges of the pieces that touched, as they were.
     pub edges: HashSet<EdgeKey>,
-    /// By piece: whether it is what is left of one that touched.
+    /// By piece: true if it is the rest of one that touched.
     pub pieces: Vec<bool>,
 }
 
 /// By piece, whether it bounds the fluid.
 ///
 /// Around an edge a wedge of fluid lies between two faces that look at each other, and these belong together. Where an
-/// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and what
-/// closes it. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
+/// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and the
+/// closing face. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
 /// pipe. It ends there on the back of another wall, so that no fluid can be before it.
-pub(super) fn seen(pieces: &[Patch], cuts: &Cuts, places: &Places, touched: &Touched) -> Vec<bool> {
+pub(super) fn wetted_pieces(
+    pieces: &[Patch],
+    cuts: &Cuts,
+    places: &Places,
+    touched: &FaceContacts,
+) -> Vec<bool> {
     let mut runs: BTreeMap<EdgeKey, Vec<(usize, bool)>> = BTreeMap::new();
     for (piece, patch) in pieces.iter().enumerate() {
         for edge in &patch.boundary {

@@ -50,7 +50,7 @@ impl Ring {
         sigma: f64,
     ) -> Self {
         let middle = 0.5 * (inner + outer);
-        let f: Vec<f64> = taylor::about(piece, middle)
+        let f: Vec<f64> = taylor::expand_about(piece, middle)
             .iter()
             .map(|c| c * sigma)
             .collect();

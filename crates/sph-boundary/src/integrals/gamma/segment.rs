@@ -5,10 +5,10 @@ use sph_kernels::lanes::{Lane, atan2, ln};
 use super::primitives::End;
 use super::renormalisation::Renormalisation2d;
 
-/// Below this distance over h the logarithmic terms, of order a² ln a, are no longer counted.
+/// Below this distance over h the logarithmic terms, of order a² ln a, are left out.
 const NO_LOGARITHM: f64 = 1e-30;
 
-/// Where a segment contains the point that looks at it.
+/// Position of a point on a segment.
 ///
 /// A segment that contains the point has Γ_as = 0; the point's θ accounts for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct SegmentIntegral {
     pub kernel: f64,
     /// Γ_as, to be subtracted from θ; positive for a point on the fluid's side.
     pub gamma: f64,
-    /// Whether the point is on the segment.
+    /// Position of the point on the segment.
     pub contact: Contact,
 }
 

@@ -7,7 +7,7 @@ type Pair = [f64; 2];
 ///
 /// By repeated Horner division in twice the precision of f64: the monomials may cancel by thirty
 /// digits. Source: Dekker (1971), Numerische Mathematik 18, doi:10.1007/BF01397083.
-pub(super) fn about(coefficients: &[f64], centre: f64) -> Vec<f64> {
+pub(super) fn expand_about(coefficients: &[f64], centre: f64) -> Vec<f64> {
     let mut c: Vec<Pair> = coefficients.iter().map(|c| [*c, 0.0]).collect();
     for first in 0..c.len() {
         for n in (first..c.len() - 1).rev() {
@@ -38,10 +38,13 @@ fn normalised(a: f64, b: f64) -> Pair {
 fn a_root_of_high_order_is_found_exactly() {
     // (q − 3)⁶ about 3.
     let monomials = [729.0, -1458.0, 1215.0, -540.0, 135.0, -18.0, 1.0];
-    assert_eq!(about(&monomials, 3.0), [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(
+        expand_about(&monomials, 3.0),
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    );
     // About 0.1, where nothing is representable: the value and the first slope.
-    let shifted = about(&monomials, 0.1);
+    let shifted = expand_about(&monomials, 0.1);
     assert!((shifted[0] / 2.9f64.powi(6) - 1.0).abs() < 1e-15);
     assert!((shifted[1] / (-6.0 * 2.9f64.powi(5)) - 1.0).abs() < 1e-15);
-    assert!(about(&[], 1.0).is_empty());
+    assert!(expand_about(&[], 1.0).is_empty());
 }

@@ -4,7 +4,7 @@ use super::knot::End;
 use super::winding::Winding;
 use crate::geometry::vector::{Point, along, cross, dot};
 
-/// Below this distance over h the logarithmic terms, of order A² ln A, are no longer counted.
+/// Below this distance over h the logarithmic terms, of order A² ln A, are left out.
 const NO_LOGARITHM: f64 = 1e-30;
 
 /// An edge in the frame of its line, everything over h.
@@ -97,7 +97,7 @@ impl Edge {
         (self.offset * (y2 - y1)).atan2(cos)
     }
 
-    /// φ of what a clip has cut off.
+    /// φ of the part that a clip has cut off.
     #[inline]
     pub fn angle_outside(&self, from: End, to: End) -> f64 {
         let d = self.offset;

@@ -44,7 +44,7 @@ pub(super) struct End {
     pub q: f64,
 }
 
-/// Σ b_n U_{n+2} of both sums, split by what is still to be multiplied on.
+/// Σ b_n U_{n+2} of both sums, split by the factor that is still to come.
 pub(super) struct Primitives {
     /// Factors of D.
     pub plain: [f64; 2],

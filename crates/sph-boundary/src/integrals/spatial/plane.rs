@@ -88,7 +88,7 @@ impl Circle {
         x * x + y * y
     }
 
-    /// Whether it meets the disc of the plane within the support.
+    /// True if it meets the disc of the plane within the support.
     #[inline(always)]
     pub fn meets(&self, foot: &Foot) -> bool {
         let [x, y] = foot.to(self.centre);
@@ -97,7 +97,7 @@ impl Circle {
     }
 }
 
-/// Where a point stands over a plane, and how much of the plane it sees.
+/// Foot of a point on a plane, and the part of the plane in its sight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Foot {
     /// Coordinates of the foot of the perpendicular, m.

@@ -51,7 +51,7 @@ const TWELVE_MIXED_WEIGHT: f64 = 0.082_851_075_618_374;
 /// |c + Σ λ_i ξ_i|² = c² + Σ λ_i t_i + |Σ λ_i ξ_i|²,   t_i = 2 c·ξ_i
 /// ```
 #[derive(Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct SquaredDistances {
     /// c².
     pub centre: f64,
     /// t_i.
@@ -75,7 +75,7 @@ impl Renormalisation3d {
         let [a, b, c] = corners;
         let centre = along(along(a, 1.0, b), 1.0, c).map(|x| x * (1.0 / 3.0));
         let arms = corners.map(|corner| along(corner, -1.0, centre));
-        let seen = Seen {
+        let seen = SquaredDistances {
             centre: dot(centre, centre),
             slopes: arms.map(|arm| 2.0 * dot(centre, arm)),
             arms: arms.map(|arm| dot(arm, arm)),
@@ -86,7 +86,7 @@ impl Renormalisation3d {
 
     /// None where only the closed form is accurate.
     #[inline(always)]
-    fn by_rule(&self, seen: &Seen, area: f64) -> Option<f64> {
+    fn by_rule(&self, seen: &SquaredDistances, area: f64) -> Option<f64> {
         match self.rule(seen.centre, area) {
             Rule::Six => {
                 let squares = six(seen.centre, seen.slopes, seen.arms);
@@ -113,7 +113,7 @@ impl Renormalisation3d {
     }
 
     #[inline(never)]
-    pub(super) fn mean_of_twelve(&self, seen: &Seen) -> f64 {
+    pub(super) fn mean_of_twelve(&self, seen: &SquaredDistances) -> f64 {
         let mut squares = [0.0; 12];
         for i in 0..3 {
             squares[i] = seen.orbit(TWELVE_ORBITS[0][0], i);
@@ -129,7 +129,7 @@ impl Renormalisation3d {
     }
 }
 
-/// How a triangle is weighed.
+/// Quadrature rule of a triangle.
 pub(super) enum Rule {
     /// By six points.
     Six,
@@ -139,7 +139,7 @@ pub(super) enum Rule {
     Exact,
 }
 
-/// Whether [`Rule::Six`] holds for all lanes: squared distances of the centres and areas, m², and 1/h².
+/// True if [`Rule::Six`] holds for all lanes: squared distances of the centres and areas, m², and 1/h².
 #[inline(always)]
 pub(super) fn is_far<L: Lane>(centre: L, area: L, per_h2: f64) -> bool {
     let near = centre.any_less(L::splat(SIX.distance) * area);
@@ -173,7 +173,7 @@ pub(super) fn six<L: Lane>(centre: L, slopes: [L; 3], arms: [L; 3]) -> [L; POINT
     squares
 }
 
-impl Seen {
+impl SquaredDistances {
     /// With λ in the place i and (1 − λ)/2 in the others: Σ λ_i ξ_i = ξ_i (3λ − 1)/2.
     #[inline(always)]
     fn orbit(&self, single: f64, i: usize) -> f64 {
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn the_rules_have_their_degree() {
         // ∫ λⁿ dA / area = 2 n! / (n + 2)!; without arms a square is a linear function.
-        let value = Seen {
+        let value = SquaredDistances {
             centre: 1.0 / 3.0,
             slopes: [-1.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0],
             arms: [0.0; 3],
@@ -248,7 +248,7 @@ mod tests {
         };
         let centre = [0, 1, 2].map(|x: usize| corners.iter().map(|c| c[x]).sum::<f64>() / 3.0);
         let arms = corners.map(|c| along(c, -1.0, centre));
-        let seen = Seen {
+        let seen = SquaredDistances {
             centre: dot(centre, centre),
             slopes: arms.map(|arm| 2.0 * dot(centre, arm)),
             arms: arms.map(|arm| dot(arm, arm)),

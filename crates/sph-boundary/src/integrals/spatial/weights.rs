@@ -4,9 +4,9 @@ use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
 use super::plane::{Circle, Foot, Patch};
-use super::weight::{POINTS, Rule, Seen, is_far, mean_of_six, six};
+use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six, six};
 
-/// The triangles of a plane that a point sees, and what each weighs; buffers that are used again and again.
+/// The triangles of a plane that a point sees, and their weights; buffers for reuse.
 #[derive(Debug, Default)]
 pub struct Weights {
     near: Vec<u32>,
@@ -79,7 +79,9 @@ impl Weights {
             let patch = &patches[triangle as usize];
             match of.rule(patch.distance2(foot), patch.area) {
                 Rule::Six => {}
-                Rule::Twelve => *weight = patch.area * of.mean_of_twelve(&patch.seen(foot)),
+                Rule::Twelve => {
+                    *weight = patch.area * of.mean_of_twelve(&patch.squared_distances(foot))
+                }
                 Rule::Exact => {
                     *weight = of.triangle(patch.corners(foot), [0.0, 0.0, 1.0]).kernel;
                 }
@@ -104,8 +106,7 @@ struct Squares<'a> {
 }
 
 impl Body for Squares<'_> {
-    /// How many lanes were filled, the last ones over and over with the last triangle, and whether six points are enough
-    /// for all.
+    /// Number of lanes filled, the last ones repeatedly with the last triangle; true if six points are enough for all.
     type Output = (usize, bool);
 
     #[inline(always)]
@@ -181,11 +182,11 @@ impl Patch {
     }
 
     #[inline(always)]
-    fn seen(&self, foot: &Foot) -> Seen {
+    fn squared_distances(&self, foot: &Foot) -> SquaredDistances {
         let ([x, y], [a, b]) = (self.from(foot), self.arms);
         let first = 2.0 * (x * a[0] + y * a[1]);
         let second = 2.0 * (x * b[0] + y * b[1]);
-        Seen {
+        SquaredDistances {
             centre: self.distance2(foot),
             slopes: [first, second, -(first + second)],
             arms: self.squares,

@@ -12,7 +12,7 @@ pub struct Difference {
     file: String,
     column: String,
     unit: String,
-    /// Whether all its bits are the same.
+    /// True if all its bits are the same.
     pub same: bool,
     /// The largest |a − b|; infinite where one of them is no number.
     largest: f64,
@@ -20,12 +20,12 @@ pub struct Difference {
     relative: f64,
     /// The numbers that differ most.
     pair: [f64; 2],
-    place: Place,
+    place: DifferencePlace,
 }
 
 /// Place of a difference.
 #[derive(Clone, Default)]
-struct Place {
+struct DifferencePlace {
     time: Option<f64>,
     /// Identity of the particle, or number of the row.
     particle: Option<u64>,
@@ -33,7 +33,7 @@ struct Place {
     position: Vec<f64>,
 }
 
-/// Of every column that both tables have how it differs; what only one has, and how many rows.
+/// Differences of all common columns of two tables; columns of only one, and the numbers of rows.
 pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<String>) {
     let mut remarks = Vec::new();
     let rows: HashMap<u64, usize> = b
@@ -108,7 +108,7 @@ fn difference(
         largest: -1.0,
         relative: 0.0,
         pair: [0.0; 2],
-        place: Place::default(),
+        place: DifferencePlace::default(),
     };
     let mut range: f64 = 0.0;
     for &(row, twin) in pairs {
@@ -130,7 +130,7 @@ fn difference(
                 found.pair = [x, y];
                 let over_time = table.over_time;
                 let key = table.keys.get(row).copied();
-                found.place = Place {
+                found.place = DifferencePlace {
                     time: match over_time {
                         true => key.map(f64::from_bits),
                         false => table.time,
@@ -154,7 +154,7 @@ fn difference(
 }
 
 impl Difference {
-    /// Whether it is of the same column of the same file.
+    /// True if it is of the same column of the same file.
     pub fn is_of(&self, other: &Difference) -> bool {
         self.file == other.file && self.column == other.column
     }
@@ -177,8 +177,8 @@ impl Difference {
         vec![
             self.file.clone(),
             self.column.clone(),
-            format!("{}{unit}", short(self.largest)),
-            short(self.relative),
+            format!("{}{unit}", four_digits(self.largest)),
+            four_digits(self.relative),
             format!("{:?}", self.pair[0]),
             format!("{:?}", self.pair[1]),
             self.place.label(),
@@ -204,14 +204,14 @@ impl Difference {
     }
 }
 
-fn short(x: f64) -> String {
+fn four_digits(x: f64) -> String {
     match x.is_finite() {
         true => format!("{x:.2e}"),
         false => "no number".into(),
     }
 }
 
-impl Place {
+impl DifferencePlace {
     fn label(&self) -> String {
         let mut parts = Vec::new();
         if let Some(time) = self.time {

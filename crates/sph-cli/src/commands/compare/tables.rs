@@ -13,7 +13,7 @@ pub struct Table {
     pub places: Vec<Vec<f64>>,
     /// The time of a frame, s.
     pub time: Option<f64>,
-    /// Whether the keys are times.
+    /// True if the keys are times.
     pub over_time: bool,
 }
 

@@ -8,7 +8,7 @@ use crate::terminal::layout::{columns, columns_and_below, paragraph, parameters}
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 
-/// Shows what a scene is made of.
+/// Shows the parts of a scene.
 pub fn output(loaded: &Loaded) -> Result<CommandOutput, Trouble> {
     let examined = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(CommandOutput {

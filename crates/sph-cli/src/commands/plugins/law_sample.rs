@@ -1,4 +1,4 @@
-//! Laws with the parameters of their examples, and what is put on top of them.
+//! Laws with the parameters of their examples, and their overrides.
 
 use serde_json::Value as Json;
 use sph_core::{PluginInfo, RegistryError, number, suggestion};
@@ -11,7 +11,7 @@ use crate::terminal::trouble::Trouble;
 
 /// A law to be sheared.
 pub struct LawSample {
-    /// Name, and what it differs in from its neighbours.
+    /// Name, and its difference from its neighbours.
     pub label: String,
     /// The law itself.
     pub law: Box<dyn Rheology>,
@@ -86,7 +86,7 @@ fn specimen(plugin: &PluginInfo, table: &Table, label: String) -> Result<LawSamp
     Ok(LawSample { label, law })
 }
 
-/// Which law an override is for, and the override within its own table.
+/// Law that an override is for, and the override within its own table.
 fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override), Trouble> {
     if plugins.len() == 1 {
         return Ok((0, set.clone()));
@@ -122,7 +122,7 @@ fn example(plugin: &PluginInfo) -> Table {
     table.cloned().unwrap_or_default()
 }
 
-/// How a value of `--vary` stands in a legend: `{a = {b = 1}}` as `a b = 1`.
+/// Form of a value of `--vary` in a legend: `{a = {b = 1}}` as `a b = 1`.
 fn plainly(value: &Value) -> String {
     let entry = |(key, value): (&String, &Value)| match value {
         Value::Table(inner) => format!("{key} {}", table(inner)),

@@ -6,12 +6,12 @@ use serde_json::Value as Json;
 
 use super::{KERNELS, LAWS};
 
-/// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, what is seen.
+/// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, description.
 const DRAWN: [(&str, &str, &str); 2] = [
     (LAWS, "law", "sheared alone"),
     (KERNELS, "kernel", "and its slope"),
 ];
-/// Pictures of runs and walls: kind, name, file in `docs/images`, what is seen.
+/// Pictures of runs and walls: kind, name, file in `docs/images`, description.
 const SHOWN: [(&str, &str, &str, &str); 8] = [
     (
         "eddy-viscosity",
@@ -164,7 +164,7 @@ fn line(page: &mut String, text: &str) {
 fn wrapped(text: &str, indent: &str) -> String {
     let mut pieces: Vec<String> = Vec::new();
     for word in text.split(' ') {
-        // What begins a list or a heading must not begin a line: it stays with the word before it.
+        // Characters that begin a list or a heading must not begin a line: it stays with the word before it.
         let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
         let begins = number || word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
         match pieces.last_mut().filter(|_| begins) {

@@ -29,7 +29,7 @@ pub fn toml_lines(kind: &str, plugin: &PluginInfo) -> String {
     }
 }
 
-/// `name = value   # unit`; what may be left out and has no default is commented out.
+/// `name = value   # unit`; optional keys without a default are commented out.
 fn key(parameter: &Parameter, schema: &Json) -> String {
     let name = &parameter.name;
     let required = required(schema, name);
@@ -143,7 +143,7 @@ mod tests {
 
     use super::*;
 
-    /// Why a value does not fit a node of a schema, if it does not.
+    /// Reason that a value does not fit a node of a schema, if it does not.
     fn misfit(value: &Json, node: &Json, root: &Json) -> Option<String> {
         let target = node["$ref"].as_str().and_then(|r| r.strip_prefix('#'));
         if let Some(target) = target.and_then(|t| root.pointer(t)) {

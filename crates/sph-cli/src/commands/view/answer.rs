@@ -36,7 +36,7 @@ fn refused(status: &'static str) -> Answer {
 
 /// The answer to a request with this head.
 ///
-/// Only names of this machine are answered: a page from elsewhere whose name leads here learns nothing.
+/// Only names of this machine are answered: a page from elsewhere whose name leads here gets no data.
 pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
     let mut lines = head.lines();
     let mut words = lines.next().unwrap_or_default().split(' ');

@@ -9,7 +9,7 @@ const PARTS: usize = 1000;
 /// Rows at the end, all of which are kept.
 const LAST: usize = 8;
 
-/// The head of a series and, row by row, what a curve of a column needs: the first row, of every part the lowest and
+/// The head of a series and, row by row, the data for a curve of a column: the first row, of every part the lowest and
 /// the highest, and the last ones. Without such a column it is the one after the time.
 pub fn thinned(file: &Path, column: &str) -> Result<String> {
     let lines = || Ok::<_, std::io::Error>(BufReader::new(File::open(file)?).lines());

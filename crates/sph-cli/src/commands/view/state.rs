@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 
 use crate::commands::file_list::names;
 
-/// Pictures by field, plots, whether there is a series and what of it is shown first, the summary if there is one.
+/// Pictures by field, plots, whether there is a series and its first shown column, the summary if there is one.
 pub fn folder_state(folder: &Path) -> Json {
     let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
     let summary: Option<Json> = summary.and_then(|text| serde_json::from_str(&text).ok());

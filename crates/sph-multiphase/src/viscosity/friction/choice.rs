@@ -94,7 +94,7 @@ pub trait PairOperator<const D: usize>: Send {
     type Formula: PairFriction<D>;
     /// Its [stiffness](ViscousOperator::stiffness).
     const STIFFNESS: f64;
-    /// Whether it [leaves rotations](ViscousOperator::leaves_rotations) alone.
+    /// True if it [leaves rotations](ViscousOperator::leaves_rotations) alone.
     const LEAVES_ROTATIONS: bool = false;
     /// The formula.
     fn formula(&self) -> Self::Formula;

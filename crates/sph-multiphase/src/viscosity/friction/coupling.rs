@@ -36,7 +36,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         strengths.map(|s| -(s * eta))
     }
 
-    /// κ from what the explicit term sums.
+    /// κ from the sums of the explicit term.
     fn correction_of(&self, here: &OwnValues<D>, rows: &Neighbourhood<'_, D>) -> f64 {
         if here.nearest.is_none() {
             return 1.0;

@@ -15,7 +15,7 @@ const LEAST_DISTANCE: f64 = 0.5;
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// Whether fluid passes an element.
+    /// True if fluid passes an element.
     #[inline(always)]
     pub(super) fn is_open(&self, element: u32) -> bool {
         !self.open.is_empty() && self.open.contains(&self.elements.wall[element as usize])
@@ -45,7 +45,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 
     /// Unit vector along the velocity relative to an element, in its plane.
     #[inline(always)]
-    pub(super) fn along(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
+    pub(super) fn slip_direction(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
         let s = nearest.element as usize;
         let slip = self.velocity[i] - self.elements.velocity[s];
         let normal = &self.elements.normal[s];
@@ -117,11 +117,11 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 }
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// The unit vector along the slip past the nearest wall, where it is looked at.
+    /// Unit vector along the slip past the nearest wall, where it is needed.
     #[inline(always)]
     pub(super) fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
         match (F::DIRECTIONAL, nearest) {
-            (true, Some(nearest)) => self.along(i, nearest),
+            (true, Some(nearest)) => self.slip_direction(i, nearest),
             _ => Vect::zeros(),
         }
     }

@@ -2,18 +2,18 @@
 
 use sph_boundary::Wall;
 use sph_core::Vect;
-use sph_scene::{Body, Filled, Offset, Region, Scene, fill};
+use sph_scene::{Body, BodyParticles, Offset, Region, Scene, fill};
 
 /// A body that fills less or more than this off its space is remarked upon.
 const OFF: f64 = 0.015;
-/// Samples that are looked at, at most: finer lattices find the space to a smaller share of its surface.
+/// Largest number of samples: finer lattices find the space to a smaller share of its surface.
 const SAMPLES: usize = 100_000;
 /// Samples per spacing, at most.
 const FINEST: usize = 16;
 
-/// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity: there
-/// is no surface then that could fall or rise, and what is missing opens as a void or lowers the pressure by ρc² times its
-/// share. Of walls with points of their own, which have volumes, nothing is said.
+/// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity:
+/// there is no surface then that could fall or rise, and the missing volume opens as a void or lowers the pressure by
+/// ρc² times its share. Walls with points of their own, which have volumes, get no remark.
 pub fn shares<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
@@ -32,7 +32,7 @@ pub fn shares<const D: usize>(
     }
     let step = spacing / finer as f64;
     let samples = fill(regions, step, Offset::Half, periodic);
-    let share = |filled: &Filled<D>| {
+    let share = |filled: &BodyParticles<D>| {
         let inside = filled.positions.iter().map(|x| Vect::from(*x));
         let inside = inside.filter(|x| walls.contains(x)).count() as f64;
         kept[filled.body] as f64 * (finer as f64).powi(D as i32) / inside

@@ -5,7 +5,7 @@ use sph_contribution::{
 };
 use sph_core::AnyField;
 use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
-use sph_multiphase::viscosity::{ImplicitViscosity, Lagged, ViscousLimit};
+use sph_multiphase::viscosity::{ImplicitViscosity, PicardUpdates, ViscousLimit};
 
 use super::Materials;
 use crate::stress::{Blend, Blended, StrainRate, ViscosityStage};
@@ -119,7 +119,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
             stages.push(Box::new(StrainRate));
             stages.push(Box::new(self.viscosity_stage()));
         }
-        let lagged = Lagged {
+        let lagged = PicardUpdates {
             stages,
             stiffens: materials.ahead(),
             may_hold: setting.delayed_yield,

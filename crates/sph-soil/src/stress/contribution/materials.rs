@@ -21,13 +21,13 @@ pub struct Materials<const D: usize> {
     pub gradient: Option<Arc<dyn VelocityGradient<D>>>,
     /// The viscous operator, for friction.
     pub operator: Box<dyn ViscousOperator<D>>,
-    /// What makes forces of elastic stresses, where a law has them.
+    /// Force of elastic stresses, where a law has them.
     pub force: Option<Box<dyn ElasticForce<D>>>,
-    /// Whether eddies have a viscosity.
+    /// True if eddies have a viscosity.
     pub eddies: bool,
     /// Share of the friction that is of the end of the step, where it is solved for.
     pub implicit_share: Option<f64>,
-    /// Whether the pressure between grains is another than that of the equation of state.
+    /// True if the pressure between grains is another than that of the equation of state.
     pub grain_pressure: bool,
 }
 
@@ -70,7 +70,7 @@ impl<const D: usize> Materials<D> {
         }
     }
 
-    /// Whether stresses are those of the end of the step.
+    /// True if stresses are those of the end of the step.
     pub(crate) fn ahead(&self) -> bool {
         self.force.as_ref().is_some_and(|force| force.implicit())
     }
@@ -95,7 +95,7 @@ impl<const D: usize> Materials<D> {
         }
     }
 
-    /// Whether nothing has a viscosity.
+    /// True if nothing has a viscosity.
     pub(crate) fn inviscid(&self) -> bool {
         self.viscosity() == Viscosity::Uniform(0.0)
     }
@@ -112,7 +112,7 @@ impl<const D: usize> Materials<D> {
         Some(GradientStage { formula, phases })
     }
 
-    /// Whether no stage reads strain rates before the interactions, which may then leave them for terms that do it
+    /// True if no stage reads strain rates before the interactions, which may then leave them for terms that do it
     /// later.
     pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
         let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
