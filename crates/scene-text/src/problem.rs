@@ -36,8 +36,8 @@ impl Problems {
         self.0.push(SceneProblem::new(path, message));
     }
 
-    /// Whether exactly one of the keys that give `what` is there; `all` are those that may be, and there is `advice` where
-    /// there are several.
+    /// Checks that exactly one of the keys of `what` is given; `all` are the valid ones, and `advice` stands where several
+    /// are given.
     pub fn one_of(
         &mut self,
         given: &[&str],

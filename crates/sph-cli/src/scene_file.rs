@@ -142,7 +142,7 @@ pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<SceneSour
 /// The text of a scene, and the folder that its data were unpacked to.
 struct Located {
     name: String,
-    /// What messages call it: its file, or its name if it is compiled in.
+    /// Name in messages: its file, or its name if it is compiled in.
     shown: String,
     /// The file by which it names its data.
     file: String,

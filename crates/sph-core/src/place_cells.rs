@@ -1,4 +1,4 @@
-//! What lies at places, sorted into cells.
+//! Values sorted into cells by their places.
 
 use std::collections::HashMap;
 

@@ -114,7 +114,7 @@ fn oedometer(scene: &Scene, found: &mut Problems) {
 }
 
 fn files(scene: &Scene, source: &Source, found: &mut Problems) {
-    for (key, file) in crate::scene::read::files(scene) {
+    for (key, file) in scene.files() {
         if let Err(problem) = source.resolve(&key, &file) {
             found.add(key, problem.to_string());
         }

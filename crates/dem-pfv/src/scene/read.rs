@@ -11,7 +11,7 @@ use toml::{Table, Value};
 use crate::scene::check;
 use crate::scene::error::DemError;
 use crate::scene::schema::of_scene;
-use crate::scene::tables::{Plugins, Probe, Reference, Scene};
+use crate::scene::tables::{Probe, Reference, Scene};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -161,7 +161,7 @@ impl Loaded {
             let message = format!("there is no file `{}`", path.display());
             (!path.is_file()).then(|| SceneProblem::new(key, message))
         };
-        let mut problems: Vec<_> = self.files().into_iter().filter_map(missing).collect();
+        let mut problems: Vec<_> = self.scene.files().into_iter().filter_map(missing).collect();
         // Nothing is read from a file that is missing.
         let whole = problems.is_empty();
         for (name, wall) in self.scene.wall.iter().filter(|_| whole) {
@@ -177,31 +177,4 @@ impl Loaded {
             false => Err(DemError::Scene(problems)),
         }
     }
-
-    /// Every file that the scene names, as it names it, with the key that does.
-    pub fn files(&self) -> Vec<(String, String)> {
-        files(&self.scene)
-    }
-}
-
-/// The files that a scene names, by their keys.
-pub(crate) fn files(scene: &Scene) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    let start = scene.start.file.iter();
-    found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
-    for (name, wall) in &scene.wall {
-        let file = wall.file.iter();
-        found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
-        let recorded = wall.recorded.iter();
-        found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
-    }
-    let of = |plugins: &Plugins, what: &str| {
-        let named = plugins.iter().filter_map(|(name, table)| {
-            let file = table.get("file")?.as_str()?.to_string();
-            Some((format!("{what}.{name}.file"), file))
-        });
-        named.collect::<Vec<_>>()
-    };
-    found.extend(of(&scene.reference, "reference"));
-    found
 }

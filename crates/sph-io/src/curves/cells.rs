@@ -1,4 +1,4 @@
-//! What lies at places in space, sorted into cells.
+//! Values sorted into cells by their places.
 
 use std::collections::HashMap;
 

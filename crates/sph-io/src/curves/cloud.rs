@@ -39,7 +39,7 @@ pub struct Cloud<'a> {
     /// Their distance, m.
     pub spacing: f64,
     cells: PlaceCells<u32>,
-    /// Whether they lie in a plane of constant z.
+    /// True if they lie in a plane of constant z.
     pub planar: bool,
 }
 

@@ -4,7 +4,7 @@ use scene_text::Problems;
 use sph_core::unit_factor;
 
 use crate::checks::dimension::Dimension;
-use crate::geometry::course::Given;
+use crate::geometry::course::ImposedCourse;
 use crate::geometry::wall_geometry::has_ending;
 use crate::tables::motion::CourseRows;
 use crate::{Levels, Motion};
@@ -77,7 +77,7 @@ fn check_levels(levels: &Levels, rest: &Motion, of: Dimension, path: &str, found
 
 /// There is exactly one course, the times of a table rise, and the keys of the form of a file need one; a unit and a
 /// factor are the same thing.
-fn course(given: &Given<'_>, path: &str, found: &mut Problems) {
+fn course(given: &ImposedCourse<'_>, path: &str, found: &mut Problems) {
     let all = "`speed`, `ramp`, `sine`, `table` or `file`";
     found.one_of(&given.keys(), path, "course", [all, ""]);
     if let Some(table) = &given.rows.table {

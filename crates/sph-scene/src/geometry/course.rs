@@ -75,8 +75,8 @@ impl Motion {
     }
 }
 
-/// What a translation and a rotation have in common, with other units.
-pub(crate) struct Given<'a> {
+/// Course of a translation or a rotation, by its keys.
+pub(crate) struct ImposedCourse<'a> {
     speed: Option<f64>,
     /// Speed and the time in which it is reached.
     ramp: Option<[f64; 2]>,
@@ -87,8 +87,8 @@ pub(crate) struct Given<'a> {
 }
 
 impl Translate {
-    pub(crate) fn given(&self) -> Given<'_> {
-        Given {
+    pub(crate) fn given(&self) -> ImposedCourse<'_> {
+        ImposedCourse {
             speed: self.speed,
             ramp: self.ramp.map(|r| [r.speed, r.over]),
             sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
@@ -99,8 +99,8 @@ impl Translate {
 }
 
 impl Rotation {
-    pub(crate) fn given(&self) -> Given<'_> {
-        Given {
+    pub(crate) fn given(&self) -> ImposedCourse<'_> {
+        ImposedCourse {
             speed: self.speed,
             ramp: self.ramp.map(|r| [r.speed, r.over]),
             sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
@@ -110,7 +110,7 @@ impl Rotation {
     }
 }
 
-impl Given<'_> {
+impl ImposedCourse<'_> {
     /// The keys of courses that are given.
     pub fn keys(&self) -> Vec<&'static str> {
         given([

@@ -116,7 +116,7 @@ pub struct Wedge {
     pub up: Option<Face>,
 }
 
-/// A polygon drawn out along an axis.
+/// A polygon, given either way round, drawn out along an axis.
 #[parameters]
 pub struct ExtrusionWall {
     /// The polygon, either way round, and its ends.
