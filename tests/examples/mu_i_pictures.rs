@@ -80,7 +80,7 @@ fn law(images: &Path) -> Result<(), Box<dyn Error>> {
         series,
         ..Plot::default()
     };
-    Ok(plot.save_png(images.join("mu-i-law.png"))?)
+    Ok(plot.save(images.join("mu-i-law.png"))?)
 }
 
 /// Δr/r₀ over a.
@@ -119,5 +119,5 @@ fn run_out(table: &str, images: &Path) -> Result<(), Box<dyn Error>> {
         ],
         ..Plot::default()
     };
-    Ok(plot.save_png(images.join("columns-runout.png"))?)
+    Ok(plot.save(images.join("columns-runout.png"))?)
 }

@@ -72,7 +72,7 @@ fn contacts_alone(bencher: divan::Bencher, grains: usize) {
 #[divan::bench(args = [5_000], sample_count = 5, sample_size = 1)]
 fn flowing(bencher: divan::Bencher, grains: usize) {
     let mut system = packing(grains, LinearElastic::new(MODULUS, 0.5, 0.5));
-    for (i, velocity) in system.velocities_mut().iter_mut().enumerate() {
+    for (i, velocity) in system.grains.velocity.iter_mut().enumerate() {
         let shake = |k: usize| ((i * 7919 + k * 104_729) % 1000) as f64 / 500.0 - 1.0;
         *velocity = 2.0 * dem_pfv::grains::Vector::new(shake(1), shake(2), shake(3));
     }

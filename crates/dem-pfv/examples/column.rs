@@ -36,7 +36,7 @@ fn smooth() -> LinearElastic {
 
 /// The length within which this share of the grains lies, m.
 fn reach(system: &GrainSystem, share: f64) -> f64 {
-    let mut along: Vec<f64> = system.grains().positions().iter().map(|x| x.x).collect();
+    let mut along: Vec<f64> = system.grains.position.iter().map(|x| x.x).collect();
     along.sort_by(f64::total_cmp);
     let last = ((along.len() as f64 * share) as usize).min(along.len() - 1);
     along[last] + 0.5 * DIAMETER
@@ -47,8 +47,8 @@ fn reach(system: &GrainSystem, share: f64) -> f64 {
 fn deposit(system: &GrainSystem) -> f64 {
     let bin = 2.0 * DIAMETER;
     let mut volumes = vec![0.0; 1000];
-    let g = system.grains();
-    for (x, r) in g.positions().iter().zip(g.radii()) {
+    let g = &system.grains;
+    for (x, r) in g.position.iter().zip(&g.radius) {
         if let Some(volume) = volumes.get_mut((x.x / bin) as usize) {
             *volume += 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
         }
@@ -59,7 +59,7 @@ fn deposit(system: &GrainSystem) -> f64 {
 }
 
 fn top(system: &GrainSystem, within: f64) -> f64 {
-    let near = system.grains().positions().iter().filter(|x| x.x < within);
+    let near = system.grains.position.iter().filter(|x| x.x < within);
     near.map(|x| x.z + 0.5 * DIAMETER).fold(0.0, f64::max)
 }
 
@@ -88,17 +88,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("# {count} grains, L_0 = {length:.4} m, H_0 = {height:.4} m, a = {aspect:.3}");
 
     // The gate is gone at once.
-    system.walls_mut()[2].point = Vector::x() * 1e3;
-    let start = system.time();
+    system.walls[2].point = Vector::x() * 1e3;
+    let start = system.time;
     let fall = (height / 9.81).sqrt();
     println!(
         "# t / sqrt(H_0/g), front of 99.5 % of the grains (m), height at the wall (m), kinetic energy (J)"
     );
     let mut next = 0.0;
-    while system.time() < start + 8.0 * fall {
+    while system.time < start + 8.0 * fall {
         let step = 0.6 * system.current_limit();
         system.step(step)?;
-        if system.time() - start >= next * fall {
+        if system.time - start >= next * fall {
             let energy = system.kinetic_energy();
             let front = deposit(&system);
             println!(

@@ -14,9 +14,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .nth(1)
         .ok_or("name a file of spheres, x y z r")?;
     let mut grains = common::boxed(common::spheres(&file)?, 0.0)?;
-    let (count, porosity) = (grains.grains().len(), grains.porosity().unwrap_or_default());
-    let mass = 0.1 * grains.grains().masses().iter().sum::<f64>();
-    grains.walls_mut()[5].control = Control::Piston {
+    let (count, porosity) = (grains.grains.len(), grains.porosity().unwrap_or_default());
+    let mass = 0.1 * grains.grains.mass.iter().sum::<f64>();
+    grains.walls[5].control = Control::Piston {
         stress: 1.5e4,
         mass,
     };
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut system = CoupledSystem::new(grains, setup.clone())?;
     let made = start.elapsed();
     let limit = system.step_limit()?;
-    let cells = system.pores().volumes().len();
+    let cells = system.pores().volumes.len();
     println!("# {count} grains, {cells} cells, porosity {porosity:.4}");
     println!(
         "mesh, throats, factorisation  {:8.2} ms",

@@ -35,10 +35,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         system.step(1e-6)?;
         let cells = system
             .pores()
-            .mesh()
-            .cells()
+            .mesh
+            .cells
             .iter()
-            .zip(system.pores().centres());
+            .zip(&system.pores().centres);
         let (mut square, mut sum, mut count) = (0.0, 0.0, 0.0);
         for ((cell, at), p) in cells.zip(system.pressures()) {
             if cell.walls() == 0 {

@@ -12,8 +12,8 @@ type Failure = Box<dyn std::error::Error>;
 
 /// Loads the top, a piston of a twentieth of the grains' mass.
 fn press(grains: &mut GrainSystem, stress: f64) {
-    let mass = 0.05 * grains.grains().masses().iter().sum::<f64>();
-    grains.walls_mut()[5].control = Control::Piston { stress, mass };
+    let mass = 0.05 * grains.grains.mass.iter().sum::<f64>();
+    grains.walls[5].control = Control::Piston { stress, mass };
 }
 
 fn sample(file: &str, stress: f64) -> Result<GrainSystem, Failure> {
@@ -48,7 +48,7 @@ fn main() -> Result<(), Failure> {
     let mut grains = sample(&file, confining)?;
     grains.set_damping(0.0)?;
     press(&mut grains, confining + load);
-    let (high, start) = (height(&grains), grains.time());
+    let (high, start) = (height(&grains), grains.time);
     let drained = || WallBoundary::drained(0.0);
     let setup = FlowSetup::new(Fluid::new(viscosity, 0.0))
         .side(4, drained())
@@ -56,8 +56,8 @@ fn main() -> Result<(), Failure> {
     let mut system = CoupledSystem::new(grains, setup)?;
     let mobility = system.mobility(2)?;
     let coefficient = mobility * load / strain;
-    let count = system.grains().grains().len();
-    let diameter = 2.0 * system.grains().grains().radii().iter().sum::<f64>() / count as f64;
+    let count = system.grains().grains.len();
+    let diameter = 2.0 * system.grains().grains.radius.iter().sum::<f64>() / count as f64;
     let plain = Terzaghi {
         coefficient,
         drainage: 0.5 * high,
@@ -93,7 +93,7 @@ fn main() -> Result<(), Failure> {
                 theory.consolidation(time)
             );
         }
-        println!("  {} {}", system.grains().steps(), system.meshes());
+        println!("  {} {}", system.grains().steps, system.meshes());
     }
     at_last(&mut system, [mobility, load, strain, high], short, &settled)
 }

@@ -34,12 +34,7 @@ fn main() -> Result<(), GrainError> {
     println!(
         "# {count} spheres grown to {stress} Pa with E = 15 MPa, {degrees} degrees, in {steps} steps; n = {porosity:.4}"
     );
-    for (x, r) in system
-        .grains()
-        .positions()
-        .iter()
-        .zip(system.grains().radii())
-    {
+    for (x, r) in system.grains.position.iter().zip(&system.grains.radius) {
         println!("{} {} {} {r}", x.x, x.y, x.z);
     }
     Ok(())

@@ -37,7 +37,7 @@ fn sample(grains: usize, degrees: f64) -> Result<GrainSystem, GrainError> {
 }
 
 fn compress(system: &mut GrainSystem, rate: f64) -> Result<(), GrainError> {
-    for (number, wall) in system.walls_mut().iter_mut().enumerate() {
+    for (number, wall) in system.walls.iter_mut().enumerate() {
         wall.control = if number < 4 {
             Control::Stress {
                 stress: STRESS,

@@ -23,7 +23,7 @@
 //! let water = FlowSetup::new(Fluid::new(100.0, 1000.0)).side(5, WallBoundary::drained(0.0));
 //! let mut system = CoupledSystem::new(grains, water)?;
 //! system.run_to(0.05, 0.8)?;
-//! let speed = -system.grains().grains().velocities()[0].z;
+//! let speed = -system.grains().grains.velocity[0].z;
 //! assert!(speed > 0.0 && speed < 9.81 * 0.05 * (1.0 - 1.0 / 2.6));
 //! # Ok::<(), dem_pfv::coupled::CoupledError>(())
 //! ```

@@ -26,7 +26,7 @@
 //! for _ in 0..2000 {
 //!     system.step(step)?;
 //! }
-//! let overlap = 0.1 - system.grains().positions()[0].z;
+//! let overlap = 0.1 - system.grains.position[0].z;
 //! assert!((overlap - 9.81 / 1e5).abs() < 1e-12); // m g / k
 //! # Ok::<(), dem_pfv::grains::GrainError>(())
 //! ```

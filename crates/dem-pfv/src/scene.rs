@@ -32,7 +32,7 @@
 //! let source = scene_text::Source::new(text, "ball.toml", &[]);
 //! let loaded = dem_pfv::scene::read(source).expect("a scene");
 //! let model = dem_pfv::scene::assemble(&loaded, &mut |_| {})?.model;
-//! assert_eq!(model.grains().grains().radii(), [0.1]);
+//! assert_eq!(model.grains().grains.radius, [0.1]);
 //!
 //! let source = scene_text::Source::new(&text.replace("friction", "fricton"), "ball.toml", &[]);
 //! let (_, mistakes) = dem_pfv::scene::read(source).unwrap_err();
@@ -77,7 +77,7 @@ pub use examine::{Examination, examine};
 pub use forecast::Cost;
 pub use model::{Load, Model, Saved, StepOutcome};
 pub use origin::Origin;
-pub use read::{Loaded, is_grain_scene, kinds_of_probes, kinds_of_references, read};
+pub use read::{Loaded, is_grain_scene, read};
 pub use run::{identity, run};
 pub use schema::editor_schema;
 pub use subject::DiscreteElements;

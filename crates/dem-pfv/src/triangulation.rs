@@ -27,7 +27,7 @@
 //! }
 //! let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
 //! let mesh = Triangulation::within(&spheres, &walls)?;
-//! let inner = mesh.cells().iter().filter(|cell| cell.walls() == 0).count();
+//! let inner = mesh.cells.iter().filter(|cell| cell.walls() == 0).count();
 //! assert!(inner == 5 || inner == 6); // the two ways to cut a cube
 //! # Ok::<(), dem_pfv::triangulation::TriangulationError>(())
 //! ```

@@ -46,7 +46,7 @@ pub use names::{nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
 pub use paths::{PathProblem, within};
 pub use picture_range::PictureRange;
-pub use problem::{MOST_PROBLEMS, SceneProblem};
+pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
 pub use text::{FILE_BYTES, read_text};

@@ -29,17 +29,20 @@ fn single() -> Vec<Vec<&'static str>> {
 /// use scene_text::Override;
 ///
 /// let set = Override::parse("wall.tank.polyline[0][1]=30 cm").unwrap();
-/// assert_eq!(set.path(), "wall.tank.polyline[0][1]");
-/// assert_eq!(set.value().as_str(), Some("30 cm"));
+/// assert_eq!(set.path, "wall.tank.polyline[0][1]");
+/// assert_eq!(set.value.as_str(), Some("30 cm"));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Override {
-    text: String,
-    path: String,
+    /// The override as it was written.
+    pub text: String,
+    /// Dotted path of the key.
+    pub path: String,
     segments: Vec<Segment>,
-    value: Value,
+    /// The value.
+    pub value: Value,
     /// True if it stood on the command line.
-    users: bool,
+    pub(crate) users: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -85,26 +88,6 @@ impl Override {
             value,
             users: false,
         })
-    }
-
-    /// The override as it was written.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// Dotted path of the key.
-    pub fn path(&self) -> &str {
-        &self.path
-    }
-
-    /// The value.
-    pub fn value(&self) -> &Value {
-        &self.value
-    }
-
-    /// True if it stood on the command line.
-    pub(crate) fn is_the_users(&self) -> bool {
-        self.users
     }
 
     /// True if the value of a key is its own or within its own.

@@ -26,6 +26,46 @@ impl SceneProblem {
     }
 }
 
+/// Problems that checks find.
+#[derive(Debug, Default)]
+pub struct Problems(pub Vec<SceneProblem>);
+
+impl Problems {
+    /// A problem at a key.
+    pub fn add(&mut self, path: impl Into<String>, message: impl Into<String>) {
+        self.0.push(SceneProblem::new(path, message));
+    }
+
+    /// Checks that exactly one of the keys of `what` is given; `all` are the valid ones, and `advice` stands where several
+    /// are given.
+    pub fn one_of(
+        &mut self,
+        given: &[&str],
+        path: &str,
+        what: &str,
+        [all, advice]: [&str; 2],
+    ) -> bool {
+        match given {
+            [] => self.add(path, format!("a {what} is missing: {all}")),
+            [_] => return true,
+            [_, .., last] => {
+                let message = format!(
+                    "only one {what} can stand here, found {}{advice}",
+                    given.join(", ")
+                );
+                self.add(format!("{path}.{last}"), message);
+            }
+        }
+        false
+    }
+}
+
+/// The names of the keys that are given.
+pub fn given<const N: usize>(keys: [(&'static str, bool); N]) -> Vec<&'static str> {
+    let given = keys.into_iter().filter(|(_, given)| *given);
+    given.map(|(name, _)| name).collect()
+}
+
 /// A value in a message.
 pub(crate) fn describe(value: &Value) -> String {
     match value {

@@ -15,9 +15,11 @@ use crate::{MOST_PROBLEMS, SceneProblem};
 /// The text of a scene file and the overrides on top of it.
 #[derive(Clone, Debug)]
 pub struct Source {
-    file: String,
+    /// Name of the scene file.
+    pub file: String,
     text: Arc<str>,
-    overrides: Vec<Override>,
+    /// The overrides, in the order they were given.
+    pub overrides: Vec<Override>,
     allowed: Vec<PathBuf>,
 }
 
@@ -38,19 +40,9 @@ impl Source {
         self
     }
 
-    /// Name of the scene file.
-    pub fn file(&self) -> &str {
-        &self.file
-    }
-
     /// Text of the scene file.
     pub fn text(&self) -> &str {
         &self.text
-    }
-
-    /// The overrides, in the order they were given.
-    pub fn overrides(&self) -> &[Override] {
-        &self.overrides
     }
 
     /// The text that the span of a diagnostic is in.
@@ -69,7 +61,7 @@ impl Source {
     fn text_at(&self, origin: Origin) -> &str {
         match origin {
             Origin::File => &self.text,
-            Origin::Override(k) => self.overrides.get(k).map_or("", Override::text),
+            Origin::Override(k) => self.overrides.get(k).map_or("", |o| &o.text),
         }
     }
 
@@ -93,15 +85,14 @@ impl Source {
             rest.is_some_and(|r| outer.is_empty() || r.is_empty() || r.starts_with(['.', '[']))
         };
         let path = problem.path.as_str();
-        let set_by =
-            |hit: &dyn Fn(&str) -> bool| self.overrides.iter().rposition(|o| hit(o.path()));
+        let set_by = |hit: &dyn Fn(&str) -> bool| self.overrides.iter().rposition(|o| hit(&o.path));
         let in_file = locate(table, path);
         let by = set_by(&|o| within(path, o)).or_else(|| match in_file.exact {
             true => None,
             false => set_by(&|o| within(o, path)),
         });
         let (origin, span) = match by {
-            Some(k) => (Origin::Override(k), 0..self.overrides[k].text().len()),
+            Some(k) => (Origin::Override(k), 0..self.overrides[k].text.len()),
             None => (Origin::File, in_file.span),
         };
         self.diagnostic(origin, span, path, &problem.message)
@@ -147,7 +138,7 @@ impl Source {
     pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, PathProblem> {
         let folder = Path::new(&self.file).parent().unwrap_or(Path::new(""));
         let by = self.overrides.iter().rfind(|o| o.gives(key));
-        match by.is_some_and(Override::is_the_users) {
+        match by.is_some_and(|o| o.users) {
             true => joined(folder, file),
             false => within(folder, file, &self.allowed),
         }

@@ -39,7 +39,7 @@ impl Source {
         }
         let mut table: Table = toml::from_str(text).map_err(|e| vec![syntax(&e)])?;
         let apply = |o: &Override| o.apply(&mut table).err();
-        let problems: Vec<_> = self.overrides().iter().filter_map(apply).collect();
+        let problems: Vec<_> = self.overrides.iter().filter_map(apply).collect();
         match problems.is_empty() {
             true => Ok(table),
             false => Err(self.diagnose(&problems)),

@@ -90,8 +90,8 @@ pub fn run(
     observer: &mut Watch<'_>,
 ) -> Result<(Ended, PathBuf), Trouble> {
     let file = match &opened.scene {
-        AnyScene::Particles(loaded) => loaded.source.file(),
-        AnyScene::Grains(loaded) => loaded.source.file(),
+        AnyScene::Particles(loaded) => &loaded.source.file,
+        AnyScene::Grains(loaded) => &loaded.source.file,
     };
     let arguments = RunArguments {
         scene: request.scene_arguments(file),

@@ -7,11 +7,11 @@ use sph_core::suggestion;
 use sph_io::Scratch;
 use sph_particles::Particles;
 use sph_run::Method;
-use sph_scene::{LoadError, Override, Source, read_text, within};
+use sph_scene::{Override, Source, read_text, within};
 use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
-use crate::shipped::{self, Shipped};
+use crate::shipped::{self, Content};
 use crate::terminal::diagnostics;
 use crate::terminal::trouble::Trouble;
 
@@ -94,22 +94,13 @@ pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
 pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
-    let path = Path::new(&arguments.scene);
-    // A pipe is as good as a file.
-    if path.exists() && !path.is_dir() {
-        return from_file(path, &overrides, allowed);
-    }
-    match shipped::find(&arguments.scene) {
-        Some(Shipped {
-            file: Some(file), ..
-        }) => from_file(&file, &overrides, allowed),
-        Some(Shipped {
-            name,
-            text: Some(text),
-            ..
-        }) => compiled_in(&name, text, &overrides, allowed),
-        _ => Err(Trouble::Usage(not_found(&arguments.scene))),
-    }
+    let found = located(Path::new(&arguments.scene), &arguments.scene).map_err(Trouble::Usage)?;
+    Ok(OpenScene {
+        scene: read(Source::new(&found.text, &found.file, &overrides).allowing(allowed))?,
+        stem: found.name,
+        shown: found.shown,
+        _unpacked: found.unpacked,
+    })
 }
 
 /// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
@@ -135,45 +126,58 @@ pub struct SceneSource {
 /// allowed one, or by the name of a shipped one.
 pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<SceneSource, String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
-    let file = match path.exists() && !path.is_dir() {
-        true => Some(path),
-        false => None,
+    let found = located(&path, scene)?;
+    Ok(SceneSource {
+        scene: SceneText {
+            method: method(&found.text, &found.shown),
+            name: found.name,
+            text: found.text,
+            file: found.file,
+            allowed: allowed.to_vec(),
+        },
+        _unpacked: found.unpacked,
+    })
+}
+
+/// The text of a scene, and the folder that its data were unpacked to.
+struct Located {
+    name: String,
+    /// Name in messages: its file, or its name if it is compiled in.
+    shown: String,
+    /// The file by which it names its data.
+    file: String,
+    text: String,
+    unpacked: Option<Scratch>,
+}
+
+/// The scene at a path, else the shipped one of a name.
+fn located(path: &Path, scene: &str) -> Result<Located, String> {
+    // A pipe is as good as a file.
+    let (name, content) = match path.exists() && !path.is_dir() {
+        true => (stem(path).to_string(), Content::File(path.to_path_buf())),
+        false => {
+            let found = shipped::find(scene).ok_or_else(|| not_found(scene))?;
+            (found.name, found.content)
+        }
     };
-    let shipped = || shipped::find(scene).ok_or_else(|| not_found(scene));
-    let (name, file, text) = match file {
-        Some(file) => (stem(&file).to_string(), Some(file), None),
-        None => shipped().map(|s| (s.name, s.file, s.text))?,
-    };
-    match (file, text) {
-        (Some(file), _) => {
+    let (shown, file, text, unpacked) = match content {
+        Content::File(file) => {
             let shown = file.display().to_string();
             let text = read_text(&file).map_err(|why| format!("cannot read `{shown}`: {why}"))?;
-            Ok(SceneSource {
-                scene: SceneText {
-                    name,
-                    method: method(&text, &shown),
-                    text,
-                    file: shown,
-                    allowed: allowed.to_vec(),
-                },
-                _unpacked: None,
-            })
+            (shown.clone(), shown, text, None)
         }
-        (None, text) => {
-            let text = text.unwrap_or_default().to_string();
-            let (file, unpacked) = unpacked(&name, &text)?;
-            Ok(SceneSource {
-                scene: SceneText {
-                    method: method(&text, &name),
-                    name,
-                    text,
-                    file,
-                    allowed: allowed.to_vec(),
-                },
-                _unpacked: unpacked,
-            })
+        Content::CompiledIn(text) => {
+            let (file, unpacked) = unpacked(&name, text)?;
+            (name.clone(), file, text.to_string(), unpacked)
         }
-    }
+    };
+    Ok(Located {
+        name,
+        shown,
+        file,
+        text,
+        unpacked,
+    })
 }
 
 /// Method that computes the scene of a text in a study; the name is for messages.
@@ -188,40 +192,6 @@ pub fn method(text: &str, name: &str) -> &'static dyn Method {
 
 fn stem(path: &Path) -> &str {
     path.file_stem().and_then(|s| s.to_str()).unwrap_or("scene")
-}
-
-fn from_file(
-    path: &Path,
-    overrides: &[Override],
-    allowed: &[PathBuf],
-) -> Result<OpenScene, Trouble> {
-    let file = path.display().to_string();
-    let text = read_text(path).map_err(|reason| {
-        let file = file.clone();
-        Trouble::Usage(LoadError::Unreadable { file, reason }.to_string())
-    })?;
-    Ok(OpenScene {
-        scene: read(Source::new(&text, &file, overrides).allowing(allowed))?,
-        stem: stem(path).to_string(),
-        shown: file,
-        _unpacked: None,
-    })
-}
-
-/// A scene in the program; the data it is compared with are put where it can read them.
-fn compiled_in(
-    name: &str,
-    text: &str,
-    overrides: &[Override],
-    allowed: &[PathBuf],
-) -> Result<OpenScene, Trouble> {
-    let (file, unpacked) = unpacked(name, text).map_err(Trouble::Usage)?;
-    Ok(OpenScene {
-        scene: read(Source::new(text, &file, overrides).allowing(allowed))?,
-        stem: name.to_string(),
-        shown: name.to_string(),
-        _unpacked: unpacked,
-    })
 }
 
 /// The file name by which a compiled-in scene names its data, put into a folder if it has any.

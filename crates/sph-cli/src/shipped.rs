@@ -7,15 +7,22 @@ include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 /// Folder in which scenes are looked for before the compiled-in ones.
 const FOLDER: &str = "scenes";
 
-/// A shipped scene: a file in ./scenes, or a text in the program.
+/// A shipped scene or study.
 #[derive(Clone, Debug)]
 pub struct Shipped {
     /// Name without extension.
     pub name: String,
-    /// The file, if it is one.
-    pub file: Option<PathBuf>,
-    /// Its text, if it is compiled in.
-    pub text: Option<&'static str>,
+    /// Its text.
+    pub content: Content,
+}
+
+/// A file in ./scenes or ./studies, or a text in the program.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// The file.
+    File(PathBuf),
+    /// The text that is compiled in.
+    CompiledIn(&'static str),
 }
 
 /// The scenes of ./scenes if there are any, else those compiled in; sorted by name.
@@ -27,8 +34,7 @@ pub fn all() -> Vec<Shipped> {
         .filter_map(|p| {
             Some(Shipped {
                 name: p.file_stem()?.to_str()?.to_string(),
-                file: Some(p),
-                text: None,
+                content: Content::File(p),
             })
         })
         .collect();
@@ -42,8 +48,7 @@ pub fn all() -> Vec<Shipped> {
 fn compiled_in() -> Vec<Shipped> {
     let scene = |(file, text): &(&str, &'static str)| Shipped {
         name: file.trim_end_matches(".toml").to_string(),
-        file: None,
-        text: Some(*text),
+        content: Content::CompiledIn(text),
     };
     SCENES.iter().map(scene).collect()
 }
@@ -70,16 +75,14 @@ pub fn find_study(name: &str) -> Option<Shipped> {
     let text = STUDIES
         .iter()
         .find(|(f, _)| f.trim_end_matches(".toml") == name);
-    let shipped = |file, text| Shipped {
-        name: name.to_string(),
-        file,
-        text,
+    let content = match file.is_file() {
+        true => Content::File(file),
+        false => Content::CompiledIn(text?.1),
     };
-    match (file.is_file(), text) {
-        (true, _) => Some(shipped(Some(file), None)),
-        (false, Some((_, text))) => Some(shipped(None, Some(*text))),
-        (false, None) => None,
-    }
+    Some(Shipped {
+        name: name.to_string(),
+        content,
+    })
 }
 
 /// Names of the compiled-in studies.

@@ -2,6 +2,7 @@
 
 pub mod console;
 pub mod diagnostics;
+pub mod display;
 pub mod layout;
 pub mod output;
 pub mod progress;

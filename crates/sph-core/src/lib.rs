@@ -43,6 +43,7 @@ mod kinds;
 mod limit;
 #[cfg(feature = "plugins")]
 mod parcel;
+pub mod place_cells;
 #[cfg(feature = "plugins")]
 mod plan;
 #[cfg(feature = "plugins")]

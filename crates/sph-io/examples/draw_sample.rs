@@ -95,8 +95,8 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
 
     for (plot, name) in [(probe(), "probe"), (convergence(), "convergence")] {
         let start = Instant::now();
-        plot.save_png(file(&format!("{name}.png")))?;
-        plot.save_svg(file(&format!("{name}.svg")))?;
+        plot.save(file(&format!("{name}.png")))?;
+        plot.save(file(&format!("{name}.svg")))?;
         println!("{name} in {:?}", start.elapsed());
     }
     Ok(())

@@ -117,13 +117,13 @@ fn fluid<'a>(points: &'a [[f64; 3]], velocity: &'a [[f64; 3]]) -> Piece<'a> {
 fn walls() -> Piece<'static> {
     let corners = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
     let points: Vec<[f64; 3]> = corners.iter().map(|c| [c[0], c[1], 0.0]).collect();
-    let normals = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]];
+    let normals = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]].concat();
     Piece {
         name: "walls & <floor>".into(),
         points: points.into(),
         cells: Cells::Segments(vec![[0, 1], [1, 2], [2, 3]].into()),
         fields: vec![
-            FieldData::planar_vector("normal", "", &normals).at_cells(),
+            FieldData::tensor("normal", "", 3, normals).at_cells(),
             FieldData::scalar("gamma", "", vec![0.5, 0.25, 0.25, 0.5]),
         ],
     }

@@ -92,6 +92,15 @@ impl ColumnData {
         self.len() == 0
     }
 
+    /// All of them as reals.
+    pub fn reals(&self) -> Vec<f64> {
+        match self {
+            Self::F64(v) => v.clone(),
+            Self::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
+            Self::U64(v) => v.iter().map(|x| *x as f64).collect(),
+        }
+    }
+
     fn kind(&self) -> Kind {
         match self {
             Self::F64(_) => Kind::F64,

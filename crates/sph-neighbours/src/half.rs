@@ -33,11 +33,6 @@ impl SweepHalf {
         }
     }
 
-    /// True if this is the second one.
-    pub fn is_second(&self) -> bool {
-        self.inner
-    }
-
     /// True if a particle is requested.
     #[inline]
     pub fn includes(&self, particle: usize) -> bool {

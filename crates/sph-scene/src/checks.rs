@@ -11,7 +11,6 @@ pub(crate) mod motion;
 pub(crate) mod names;
 pub(crate) mod outlets;
 pub(crate) mod overlap;
-pub(crate) mod problems;
 pub(crate) mod shapes;
 pub(crate) mod time;
 pub(crate) mod walls;

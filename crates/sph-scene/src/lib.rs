@@ -72,12 +72,12 @@ pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
     Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
 };
-pub use tables::body::{Body, Cutout, Filling, Pressure};
+pub use tables::body::{Body, BodyShape, Filling, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::erodible::Erodible;
 pub use tables::gravity::{GravityOverTime, GravitySine};
 pub use tables::motion::{
-    AngularRamp, AngularSine, Levels, Motion, Ramp, Rotation, Sine, Translate,
+    AngularRamp, AngularSine, CourseRows, Levels, Motion, Ramp, Rotation, Sine, Translate,
 };
 pub use tables::numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
 pub use tables::outlet::Outlet;

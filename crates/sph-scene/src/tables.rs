@@ -3,7 +3,6 @@
 pub(crate) mod body;
 pub(crate) mod body_shapes;
 pub(crate) mod erodible;
-pub(crate) mod given_keys;
 pub(crate) mod gravity;
 pub(crate) mod motion;
 pub(crate) mod numerics;

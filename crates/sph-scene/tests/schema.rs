@@ -147,9 +147,8 @@ fn every_key_is_described() {
 
 #[test]
 fn norms_have_the_names_of_the_schema() {
-    for norm in Norm::ALL {
-        assert_eq!(serde_json::to_value(norm).unwrap(), norm.name());
-    }
+    let names = [Norm::RmsOverRange, Norm::L2Mean, Norm::Linf].map(Norm::name);
+    assert_eq!(names, ["rms-over-range", "l2-mean", "linf"]);
 }
 
 #[test]

@@ -6,7 +6,6 @@ use crate::grains::GrainSystem;
 
 impl CoupledSystem {
     /// The grains, their walls and contacts; the fluid's forces are the external ones.
-    #[must_use]
     pub fn grains(&self) -> &GrainSystem {
         &self.grains
     }
@@ -19,54 +18,41 @@ impl CoupledSystem {
     }
 
     /// The grains without the fluid and its forces.
-    #[must_use]
     pub fn into_grains(mut self) -> GrainSystem {
-        self.grains.external_forces_mut().fill(Vector::zeros());
-        for wall in self.grains.walls_mut() {
+        self.grains.grains.external_force.fill(Vector::zeros());
+        for wall in &mut self.grains.walls {
             wall.external_force = Vector::zeros();
         }
         self.grains
     }
 
     /// The fluid, the conditions and the criterion for meshes.
-    #[must_use]
     pub fn setup(&self) -> &FlowSetup {
         &self.setup
     }
 
     /// Cells and throats of the mesh; grains have moved a little since it was made.
-    #[must_use]
     pub fn pores(&self) -> &PoreGeometry {
         &self.pores.geometry
     }
 
     /// Pressures of all cells at the last step, Pa.
-    #[must_use]
     pub fn pressures(&self) -> &[f64] {
         &self.clock.pressures
     }
 
     /// Volumes of all cells where the grains are now, m³; they add up to the box.
-    #[must_use]
     pub fn volumes(&self) -> &[f64] {
         &self.clock.volumes
     }
 
     /// Rates at which the volumes changed in the last step, m³/s.
-    #[must_use]
     pub fn volume_rates(&self) -> &[f64] {
         &self.clock.rates
     }
 
     /// Number of meshes made, the first included.
-    #[must_use]
     pub fn meshes(&self) -> u64 {
         self.clock.meshes
-    }
-
-    /// Largest strain of a pore per step, summed since the mesh was made.
-    #[must_use]
-    pub fn strain_since_mesh(&self) -> f64 {
-        self.clock.strain
     }
 }

@@ -65,7 +65,6 @@ pub struct Wave {
 
 impl Wave {
     /// Pressure (Pa) at a place (m) and a time (s).
-    #[must_use]
     pub fn pressure(&self, place: &Vector, time: f64) -> f64 {
         let phase = PI * (place[self.axis] - self.crest) / self.half_length;
         let swing = self.period.map_or(1.0, |t| (2.0 * PI * time / t).sin());
@@ -75,7 +74,6 @@ impl Wave {
 
 impl WallBoundary {
     /// No flow, and no grip.
-    #[must_use]
     pub fn closed() -> Self {
         Self {
             condition: FlowCondition::Closed,
@@ -84,7 +82,6 @@ impl WallBoundary {
     }
 
     /// A given pressure (Pa) without grip.
-    #[must_use]
     pub fn drained(pressure: f64) -> Self {
         Self {
             condition: FlowCondition::Pressure(pressure),
@@ -193,7 +190,7 @@ pub(crate) fn boundary(sides: &[WallBoundary], pores: &PoreGeometry, time: f64) 
 /// Flux into the pores through every wall, m³/s, from that through each cell with a given pressure.
 pub(crate) fn inflows(sides: &[WallBoundary], pores: &PoreGeometry, influx: &[f64]) -> Vec<f64> {
     let mut owners = vec![usize::MAX; influx.len()];
-    let around = |wall: usize| pores.mesh().cells_around(Vertex::Wall(wall)).iter();
+    let around = |wall: usize| pores.mesh.cells_around(Vertex::Wall(wall)).iter();
     for (wall, _) in sides.iter().enumerate().filter(|(_, s)| s.presses()) {
         around(wall).for_each(|c| owners[*c as usize] = wall);
     }

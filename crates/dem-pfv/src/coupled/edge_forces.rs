@@ -60,12 +60,12 @@ impl EdgeForces {
 
     /// Forces of the velocities of now; every body sums its edges in their order.
     pub fn apply(&self, grains: &GrainSystem, fluid: &Fluid) -> Loads {
-        let g = grains.grains();
+        let g = &grains.grains;
         let zero = vec![Vector::zeros(); g.len()];
         let mut loads = Loads {
             forces: zero.clone(),
             torques: zero,
-            walls: vec![Vector::zeros(); grains.walls().len()],
+            walls: vec![Vector::zeros(); grains.walls.len()],
         };
         for edge in &self.edges {
             let Some(gap) = gap(edge, grains, fluid) else {
@@ -73,12 +73,12 @@ impl EdgeForces {
             };
             let k = edge.sphere;
             let there = |sphere: usize, lever: f64| {
-                g.velocities()[sphere] + g.spins()[sphere].cross(&(lever * gap.normal))
+                g.velocity[sphere] + g.spin[sphere].cross(&(lever * gap.normal))
             };
             let [lever, beyond] = gap.levers;
             let other = match edge.other {
                 Vertex::Sphere(l) => there(l, -beyond),
-                Vertex::Wall(w) => grains.walls()[w].velocity,
+                Vertex::Wall(w) => grains.walls[w].velocity,
             };
             let difference = other - there(k, lever);
             let along = difference.dot(&gap.normal) * gap.normal;
@@ -105,13 +105,13 @@ impl EdgeForces {
     ///
     /// since c |a_k − a_l|² ≤ c (s_k + s_l) (|a_k|²/s_k + |a_l|²/s_l), and |v + ω × r|² ≤ s (m v² + J ω²).
     pub fn rate(&self, grains: &GrainSystem, fluid: &Fluid) -> (f64, usize) {
-        let g = grains.grains();
+        let g = &grains.grains;
         let mut sums = vec![0.0; g.len()];
         let mobility = |sphere: usize, lever: f64| {
-            if g.held()[sphere] {
+            if g.held[sphere] {
                 return [0.0; 2];
             }
-            let mass = 1.0 / g.masses()[sphere];
+            let mass = 1.0 / g.mass[sphere];
             [mass + lever * lever / g.inertia(sphere), mass]
         };
         for edge in &self.edges {
@@ -141,7 +141,7 @@ impl EdgeForces {
 }
 
 fn wall_mobility(grains: &GrainSystem, wall: usize) -> f64 {
-    match grains.walls()[wall].control {
+    match grains.walls[wall].control {
         crate::grains::Control::Piston { mass, .. } => 1.0 / mass,
         _ => 0.0,
     }
@@ -149,16 +149,16 @@ fn wall_mobility(grains: &GrainSystem, wall: usize) -> f64 {
 
 /// The present gap between two neighbours; nothing where their centres coincide.
 fn gap(edge: &Edge, grains: &GrainSystem, fluid: &Fluid) -> Option<Gap> {
-    let g = grains.grains();
-    let (x, radius) = (g.positions()[edge.sphere], g.radii()[edge.sphere]);
+    let g = &grains.grains;
+    let (x, radius) = (g.position[edge.sphere], g.radius[edge.sphere]);
     let (between, smaller, reduced, far) = match edge.other {
         Vertex::Sphere(l) => {
-            let other = g.radii()[l];
+            let other = g.radius[l];
             let reduced = radius * other / (radius + other);
-            (g.positions()[l] - x, radius.min(other), reduced, other)
+            (g.position[l] - x, radius.min(other), reduced, other)
         }
         Vertex::Wall(w) => {
-            let wall = &grains.walls()[w];
+            let wall = &grains.walls[w];
             let foot = -wall.normal * wall.normal.dot(&(x - wall.point));
             (foot, radius, radius, 0.0)
         }

@@ -102,8 +102,8 @@ struct Bodies {
 
 impl Bodies {
     fn new(system: &GrainSystem) -> Self {
-        let grains = system.grains();
-        let held = grains.held().iter().zip(grains.masses());
+        let grains = &system.grains;
+        let held = grains.held.iter().zip(&grains.mass);
         let wall = |w: &crate::grains::Wall| match w.control {
             Control::Piston { mass, .. } => mass,
             _ => f64::INFINITY,
@@ -112,8 +112,8 @@ impl Bodies {
             grains: held
                 .map(|(held, m)| if *held { f64::INFINITY } else { *m })
                 .collect(),
-            walls: system.walls().iter().map(wall).collect(),
-            smallest: grains.radii().iter().copied().fold(f64::INFINITY, f64::min),
+            walls: system.walls.iter().map(wall).collect(),
+            smallest: grains.radius.iter().copied().fold(f64::INFINITY, f64::min),
         }
     }
 

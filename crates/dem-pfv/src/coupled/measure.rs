@@ -6,14 +6,12 @@ use crate::flow::{FlowSystem, Solver};
 
 impl CoupledSystem {
     /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
-    #[must_use]
     pub fn pore_places(&self) -> Vec<Vector> {
         self.pores.middles()
     }
 
     /// Mean pressure (Pa) of the cells whose places lie between two places along an axis (m), by their volumes; none
     /// without such cells.
-    #[must_use]
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
         let cells = self.cells(axis, |x| (from..to).contains(&x[axis]));
         let sums = cells.iter().fold((0.0, 0.0), |(v, pv), (_, volume, p)| {
@@ -35,7 +33,6 @@ impl CoupledSystem {
 
     /// Slope −dp/dx of the pressure along an axis (Pa/m): least squares over the cells whose places (m) are inside, by
     /// their volumes; none with fewer than two.
-    #[must_use]
     pub fn gradient(&self, axis: usize, inside: impl Fn(&Vector) -> bool) -> Option<f64> {
         let [mut w, mut x1, mut p1, mut xx, mut xp] = [0.0; 5];
         for (x, volume, p) in self.cells(axis, inside) {
@@ -50,20 +47,18 @@ impl CoupledSystem {
     }
 
     /// Sum of the fluid's forces on all grains, buoyancy apart, N.
-    #[must_use]
     pub fn drag(&self) -> Vector {
-        let grains = self.grains.grains();
-        let total: Vector = grains.external_forces().iter().sum();
-        total + self.setup.fluid.density * self.grains.gravity() * grains.volume()
+        let grains = &self.grains.grains;
+        let total: Vector = grains.external_force.iter().sum();
+        total + self.setup.fluid.density * self.grains.gravity * grains.volume()
     }
 
     /// Weight of the grains less buoyancy Σ (ρ_s − ρ_f) V g, N.
-    #[must_use]
     pub fn buoyant_weight(&self) -> Vector {
-        let grains = self.grains.grains();
-        let solid: f64 = grains.masses().iter().sum();
-        let fluid: f64 = grains.radii().iter().map(|r| sphere(*r)).sum();
-        self.grains.gravity() * (solid - self.setup.fluid.density * fluid)
+        let grains = &self.grains.grains;
+        let solid: f64 = grains.mass.iter().sum();
+        let fluid: f64 = grains.radius.iter().map(|r| sphere(*r)).sum();
+        self.grains.gravity * (solid - self.setup.fluid.density * fluid)
     }
 
     /// Makes every further step measure the flow through walls.
@@ -75,7 +70,6 @@ impl CoupledSystem {
     /// wall frees counts: through all walls together, the rate of the box's volume and the storage of the fluid. Where
     /// walls with pressures meet, the later one counts. None before the first step after
     /// [`CoupledSystem::measure_inflow`].
-    #[must_use]
     pub fn inflow(&self, wall: usize) -> Option<f64> {
         self.inflows.as_ref()?.get(wall).copied()
     }
@@ -88,7 +82,7 @@ impl CoupledSystem {
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
         let mut sides = vec![crate::coupled::WallBoundary::closed(); 6];
-        let walls = self.grains.walls().iter().enumerate();
+        let walls = self.grains.walls.iter().enumerate();
         let facing = |sign: f64| {
             let found = walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
             found.map(|(number, _)| number)

@@ -21,9 +21,9 @@ pub(crate) struct Places {
 
 impl Places {
     pub fn from_grains(grains: &GrainSystem) -> Self {
-        let walls = grains.walls().iter();
+        let walls = grains.walls.iter();
         Self {
-            centres: grains.grains().positions().to_vec(),
+            centres: grains.grains.position.to_vec(),
             walls: walls.map(|w| (w.normal, w.normal.dot(&w.point))).collect(),
         }
     }
@@ -125,28 +125,28 @@ impl Pores {
 
     /// Volumes of the cells of this mesh with grains and walls elsewhere, m³.
     pub fn volumes(&self, places: &Places) -> Vec<f64> {
-        cell_volumes(self.geometry.mesh(), &places.centres, &places.planes())
+        cell_volumes(&self.geometry.mesh, &places.centres, &places.planes())
     }
 
     /// A place inside each cell (m): the mean of its centres, half-way to its walls.
     pub fn middles(&self) -> Vec<Vector> {
-        let mesh = self.geometry.mesh();
+        let mesh = &self.geometry.mesh;
         let middle = |cell: &crate::triangulation::Cell| {
             let vertices = cell.vertices();
             let spheres = vertices.iter().filter_map(|v| match v {
-                Vertex::Sphere(k) => Some(mesh.spheres()[*k].centre),
+                Vertex::Sphere(k) => Some(mesh.spheres[*k].centre),
                 Vertex::Wall(_) => None,
             });
             let count = 4 - cell.walls();
             let mean = spheres.sum::<Vector>() / count as f64;
             vertices.iter().fold(mean, |at, v| match v {
                 Vertex::Wall(w) => {
-                    let wall = &mesh.walls()[*w];
+                    let wall = &mesh.walls[*w];
                     at - 0.5 * wall.distance(mean) * wall.normal
                 }
                 Vertex::Sphere(_) => at,
             })
         };
-        mesh.cells().iter().map(middle).collect()
+        mesh.cells.iter().map(middle).collect()
     }
 }

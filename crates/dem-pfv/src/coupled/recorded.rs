@@ -18,7 +18,6 @@ pub struct Recorded {
 
 impl Recorded {
     /// Pressure (Pa) at a place (m) and a time (s).
-    #[must_use]
     pub fn pressure(&self, place: f64, time: f64) -> f64 {
         let width = self.places.len();
         let (row, next, share) = bracket(&self.times, time);
@@ -30,7 +29,6 @@ impl Recorded {
     }
 
     /// The fault of the record, if there is one.
-    #[must_use]
     pub fn problem(&self) -> Option<&'static str> {
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         let whole = self.places.len() * self.times.len();

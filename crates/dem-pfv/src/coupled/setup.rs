@@ -43,7 +43,6 @@ pub struct Lubrication {
 
 impl Fluid {
     /// A viscosity (Pa s) and a density (kg/m³).
-    #[must_use]
     pub fn new(viscosity: f64, density: f64) -> Self {
         Self {
             viscosity,
@@ -126,7 +125,6 @@ impl Default for Remeshing {
 
 impl Remeshing {
     /// At a strain.
-    #[must_use]
     pub fn at(strain: f64) -> Self {
         Self {
             strain: Some(strain),
@@ -135,13 +133,11 @@ impl Remeshing {
     }
 
     /// At every step.
-    #[must_use]
     pub fn always() -> Self {
         Self::at(0.0)
     }
 
     /// Never: for comparison, and for grains that are held.
-    #[must_use]
     pub fn never() -> Self {
         Self {
             strain: None,
@@ -172,7 +168,6 @@ pub struct FlowSetup {
 
 impl FlowSetup {
     /// A fluid in a box whose six walls are closed and smooth.
-    #[must_use]
     pub fn new(fluid: Fluid) -> Self {
         Self {
             fluid,

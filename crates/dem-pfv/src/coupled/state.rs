@@ -25,7 +25,6 @@ pub struct State {
 
 impl CoupledSystem {
     /// State to resume.
-    #[must_use]
     pub fn save(&self) -> State {
         let setup = &self.setup;
         State {
@@ -70,15 +69,13 @@ impl CoupledSystem {
             problem: problem.to_string(),
         };
         let (places, clock) = (state.places, state.clock);
-        if places.centres.len() != grains.grains().len()
-            || places.walls.len() != grains.walls().len()
-        {
+        if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
             return Err(bad("the mesh is that of other grains or walls"));
         }
-        let now = [grains.time(), clock.storage_step];
-        let radii = grains.grains().radii();
+        let now = [grains.time, clock.storage_step];
+        let radii = &grains.grains.radius;
         let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
-        let cells = pores.geometry.volumes().len();
+        let cells = pores.geometry.volumes.len();
         if [&clock.volumes, &clock.rates, &clock.pressures]
             .iter()
             .any(|c| c.len() != cells)

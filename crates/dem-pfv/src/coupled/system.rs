@@ -79,18 +79,18 @@ impl CoupledSystem {
         check(&grains, &setup)?;
         let places = Places::from_grains(&grains);
         let storage_step = 0.1 * grains.critical_step();
-        let radii = grains.grains().radii();
+        let radii = &grains.grains.radius;
         let pores = Pores::new(
             places,
             radii,
             &setup,
             &*law,
-            [grains.time(), storage_step],
+            [grains.time, storage_step],
             GIVEN,
         )?;
-        let cells = pores.geometry.volumes().len();
+        let cells = pores.geometry.volumes.len();
         let clock = Clock {
-            volumes: pores.geometry.volumes().to_vec(),
+            volumes: pores.geometry.volumes.to_vec(),
             rates: vec![0.0; cells],
             pressures: vec![0.0; cells],
             strain: 0.0,
@@ -239,7 +239,7 @@ impl CoupledSystem {
     /// Pressures of the rates of now, and the fluid's forces on grains and walls.
     fn press(&mut self) -> Result<(), CoupledError> {
         if self.setup.sides.iter().any(WallBoundary::varies) {
-            self.pores.refresh(&self.setup, self.grains.time());
+            self.pores.refresh(&self.setup, self.grains.time);
         }
         let (pores, clock) = (&mut self.pores, &mut self.clock);
         pores.system.start_from(&clock.pressures)?;
@@ -253,29 +253,31 @@ impl CoupledSystem {
         }
         clock.pressures = pressures;
         let forces = pores.forces.apply(&clock.pressures);
-        let (on_grains, on_walls) = forces.split_at(self.grains.grains().len());
-        let lift = -self.setup.fluid.density * self.grains.gravity();
-        let radii = self.grains.grains().radii();
+        let (on_grains, on_walls) = forces.split_at(self.grains.grains.len());
+        let lift = -self.setup.fluid.density * self.grains.gravity;
+        let radii = &self.grains.grains.radius;
         let buoyancy: Vec<_> = radii.iter().map(|r| lift * sphere(*r)).collect();
         for ((external, f), b) in self
             .grains
-            .external_forces_mut()
+            .grains
+            .external_force
             .iter_mut()
             .zip(on_grains)
             .zip(buoyancy)
         {
             *external = f + b;
         }
-        for (wall, f) in self.grains.walls_mut().iter_mut().zip(on_walls) {
+        for (wall, f) in self.grains.walls.iter_mut().zip(on_walls) {
             wall.external_force = *f;
         }
         if let Some(edges) = &pores.edges {
             let loads = edges.apply(&self.grains, &self.setup.fluid);
-            add(self.grains.external_forces_mut(), &loads.forces);
+            add(&mut self.grains.grains.external_force, &loads.forces);
             self.grains
-                .external_torques_mut()
+                .grains
+                .external_torque
                 .copy_from_slice(&loads.torques);
-            for (wall, f) in self.grains.walls_mut().iter_mut().zip(&loads.walls) {
+            for (wall, f) in self.grains.walls.iter_mut().zip(&loads.walls) {
                 wall.external_force += f;
             }
         }
@@ -311,12 +313,12 @@ impl CoupledSystem {
 
     /// Makes the mesh anew where the grains are; rates are left to the caller.
     fn rebuild(&mut self, places: Places) -> Result<(), CoupledError> {
-        let now = [self.grains.time(), self.clock.storage_step];
-        let radii = self.grains.grains().radii();
+        let now = [self.grains.time, self.clock.storage_step];
+        let radii = &self.grains.grains.radius;
         let pores = Pores::new(places, radii, &self.setup, &*self.law, now, PRESSED)?;
         let clock = &mut self.clock;
         clock.pressures = transferred(&self.pores, &clock.pressures, &pores);
-        clock.volumes = pores.geometry.volumes().to_vec();
+        clock.volumes = pores.geometry.volumes.to_vec();
         clock.rates = vec![0.0; clock.volumes.len()];
         (clock.strain, clock.age, clock.fresh) = (0.0, 0, false);
         clock.meshes += 1;
@@ -347,10 +349,10 @@ impl CoupledSystem {
         };
         let old = std::mem::replace(slot, side.clone());
         let done = if old.like(&side) {
-            self.pores.refresh(&self.setup, self.grains.time());
+            self.pores.refresh(&self.setup, self.grains.time);
             Ok(())
         } else if old.sticks == side.sticks {
-            let (time, step) = (self.grains.time(), self.clock.storage_step);
+            let (time, step) = (self.grains.time, self.clock.storage_step);
             self.clock.fresh = false;
             self.pores.reassemble(&self.setup, &*self.law, time, step)
         } else {
@@ -363,9 +365,8 @@ impl CoupledSystem {
     }
 
     /// Time, s.
-    #[must_use]
     pub fn time(&self) -> f64 {
-        self.grains.time()
+        self.grains.time
     }
 }
 
@@ -381,12 +382,12 @@ pub(crate) fn sphere(radius: f64) -> f64 {
 }
 
 pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
-    if !grains.meshes().is_empty() {
-        let meshes = grains.meshes().len();
+    if !grains.meshes.is_empty() {
+        let meshes = grains.meshes.len();
         return Err(CoupledError::Meshes { meshes });
     }
-    if let Some(axis) = grains.period().iter().position(Option::is_some) {
+    if let Some(axis) = grains.period.iter().position(Option::is_some) {
         return Err(CoupledError::Periodic { axis });
     }
-    setup.check(grains.walls().len())
+    setup.check(grains.walls.len())
 }

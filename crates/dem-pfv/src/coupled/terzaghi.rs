@@ -16,26 +16,22 @@ pub struct Terzaghi {
 
 impl Terzaghi {
     /// Time factor T_v of a time, s.
-    #[must_use]
     pub fn factor(&self, time: f64) -> f64 {
         self.coefficient * time / (self.drainage * self.drainage)
     }
 
     /// Time (s) of a time factor T_v.
-    #[must_use]
     pub fn time(&self, factor: f64) -> f64 {
         factor * self.drainage * self.drainage / self.coefficient
     }
 
     /// p/Δσ at the distance `z` (m) from the drained face: Σ (2/M) sin(M z/L) exp(−M² T_v), M = π (2m + 1)/2.
-    #[must_use]
     pub fn pressure(&self, z: f64, time: f64) -> f64 {
         let z = z / self.drainage;
         series(self.factor(time), |m| 2.0 / m * (m * z).sin()).clamp(0.0, 1.0)
     }
 
     /// Degree of consolidation U = 1 − Σ (2/M²) exp(−M² T_v), the settlement over the final one.
-    #[must_use]
     pub fn consolidation(&self, time: f64) -> f64 {
         1.0 - series(self.factor(time), |m| 2.0 / (m * m))
     }

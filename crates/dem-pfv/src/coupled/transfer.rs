@@ -8,7 +8,7 @@ use crate::triangulation::{Triangulation, Vertex};
 ///
 /// A fluid that gives way needs it, and conjugate gradients start from it; a factorisation of stiff fluid does not.
 pub(crate) fn transferred(old: &Pores, pressures: &[f64], new: &Pores) -> Vec<f64> {
-    let (before, after) = (old.geometry.mesh(), new.geometry.mesh());
+    let (before, after) = (&old.geometry.mesh, &new.geometry.mesh);
     let (places, middles) = (old.middles(), new.middles());
     let value = |cell: usize| {
         let vertices = sorted(after, cell);
@@ -30,11 +30,11 @@ pub(crate) fn transferred(old: &Pores, pressures: &[f64], new: &Pores) -> Vec<f6
         }
         nearest.1
     };
-    (0..after.cells().len()).map(value).collect()
+    (0..after.cells.len()).map(value).collect()
 }
 
 fn sorted(mesh: &Triangulation, cell: usize) -> [Vertex; 4] {
-    let mut vertices = mesh.cells()[cell].vertices();
+    let mut vertices = mesh.cells[cell].vertices();
     vertices.sort_unstable();
     vertices
 }

@@ -25,9 +25,9 @@ const TASK: usize = 256;
 
 impl UnitForces {
     pub fn new(pores: &PoreGeometry) -> Self {
-        let mesh = pores.mesh();
-        let mut slots = vec![[Vector::zeros(); 4]; mesh.cells().len()];
-        for throat in pores.throats() {
+        let mesh = &pores.mesh;
+        let mut slots = vec![[Vector::zeros(); 4]; mesh.cells.len()];
+        for throat in &pores.throats {
             let wetted = throat.wetted.iter().sum::<f64>();
             for (c, vertex) in throat.vertices.iter().enumerate() {
                 let share = if throat.open {
@@ -37,23 +37,23 @@ impl UnitForces {
                 };
                 let vector = (throat.sectors[c] + throat.fluid_area * share) * throat.normal;
                 for (cell, sign) in throat.cells.into_iter().zip([1.0, -1.0]) {
-                    let vertices = mesh.cells()[cell].vertices();
+                    let vertices = mesh.cells[cell].vertices();
                     if let Some(place) = vertices.iter().position(|v| v == vertex) {
                         slots[cell][place] += sign * vector;
                     }
                 }
             }
         }
-        let spheres = (0..mesh.spheres().len()).map(Vertex::Sphere);
-        let bodies = spheres.chain((0..mesh.walls().len()).map(Vertex::Wall));
+        let spheres = (0..mesh.spheres.len()).map(Vertex::Sphere);
+        let bodies = spheres.chain((0..mesh.walls.len()).map(Vertex::Wall));
         let (mut starts, mut cells, mut vectors) = (vec![0], Vec::new(), Vec::new());
         for body in bodies {
             for &cell in mesh.cells_around(body) {
-                let vertices = mesh.cells()[cell as usize].vertices();
+                let vertices = mesh.cells[cell as usize].vertices();
                 let place = vertices.iter().position(|v| *v == body).unwrap_or(0);
                 let mut vector = slots[cell as usize][place];
                 if let Vertex::Wall(w) = body {
-                    vector -= pores.area_on_wall(cell as usize, w) * mesh.walls()[w].normal;
+                    vector -= pores.area_on_wall(cell as usize, w) * mesh.walls[w].normal;
                 }
                 cells.push(cell);
                 vectors.push(vector);

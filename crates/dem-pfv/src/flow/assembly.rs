@@ -25,7 +25,7 @@ pub fn conductances(
             }),
         }
     };
-    geometry.throats().iter().map(conductance).collect()
+    geometry.throats.iter().map(conductance).collect()
 }
 
 /// The lowest cell of every group that pairs join.

@@ -14,9 +14,8 @@ pub struct Boundary {
 
 impl Boundary {
     /// All walls closed, no sources.
-    #[must_use]
     pub fn closed(geometry: &PoreGeometry) -> Self {
-        let cells = geometry.mesh().cells().len();
+        let cells = geometry.mesh.cells.len();
         Self {
             pressures: vec![None; cells],
             sources: vec![0.0; cells],
@@ -31,8 +30,8 @@ impl Boundary {
         wall: usize,
         value: impl Fn(Vector3<f64>) -> Option<f64>,
     ) {
-        for &c in geometry.mesh().cells_around(Vertex::Wall(wall)) {
-            if let Some(p) = value(geometry.centres()[c as usize]) {
+        for &c in geometry.mesh.cells_around(Vertex::Wall(wall)) {
+            if let Some(p) = value(geometry.centres[c as usize]) {
                 self.pressures[c as usize] = Some(p);
             }
         }
@@ -48,8 +47,8 @@ impl Boundary {
         part: impl Fn(Vector3<f64>) -> bool,
     ) -> f64 {
         let mut total = 0.0;
-        for &c in geometry.mesh().cells_around(Vertex::Wall(wall)) {
-            if part(geometry.centres()[c as usize]) {
+        for &c in geometry.mesh.cells_around(Vertex::Wall(wall)) {
+            if part(geometry.centres[c as usize]) {
                 let rate = velocity * geometry.area_on_wall(c as usize, wall);
                 self.sources[c as usize] += rate;
                 total += rate;

@@ -26,7 +26,6 @@ pub trait Conductance: Send + Sync {
 inventory::collect!(Entry<dyn Conductance>);
 
 /// Every conductance registered in this binary, sorted by name.
-#[must_use]
 pub fn conductances() -> Vec<&'static Entry<dyn Conductance>> {
     entries()
 }
@@ -109,7 +108,6 @@ register_law!(
 
 impl EffectiveRadius {
     /// R, m.
-    #[must_use]
     pub fn radius(throat: &Throat) -> f64 {
         0.25 * ((throat.fluid_area.max(0.0) / PI).sqrt() + throat.inscribed_radius)
     }

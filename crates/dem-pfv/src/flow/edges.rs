@@ -22,10 +22,9 @@ impl PoreGeometry {
     /// surface reaches up to the wall above them.
     ///
     /// The pyramids over all faces with tips at the spheres fill the room.
-    #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
-        let mut parts: Vec<Edge> = Vec::with_capacity(3 * self.throats().len());
-        for throat in self.throats() {
+        let mut parts: Vec<Edge> = Vec::with_capacity(3 * self.throats.len());
+        for throat in &self.throats {
             for c in 0..3 {
                 let (a, b) = (throat.vertices[c], throat.vertices[(c + 1) % 3]);
                 let Vertex::Sphere(sphere) = a.min(b) else {
@@ -55,18 +54,18 @@ impl PoreGeometry {
     /// Area (m²) of the triangle of a throat's power centres and the point where the edge meets its face, with the sign
     /// of the turn around the edge: over all throats around it these add up to the face.
     fn part(&self, throat: &Throat, sphere: usize, other: Vertex, third: Vertex) -> f64 {
-        let mesh = self.mesh();
+        let mesh = &self.mesh;
         let along = edge(mesh, sphere, other);
         let Some(direction) = along.try_normalize(0.0) else {
             return 0.0;
         };
-        let Sphere { centre, radius } = mesh.spheres()[sphere];
+        let Sphere { centre, radius } = mesh.spheres[sphere];
         let distance = match other {
-            Vertex::Sphere(l) => face_distance(along.norm(), radius, mesh.spheres()[l].radius),
+            Vertex::Sphere(l) => face_distance(along.norm(), radius, mesh.spheres[l].radius),
             Vertex::Wall(_) => along.norm(),
         };
         let middle = centre + distance * direction;
-        let [i, j] = throat.cells.map(|c| self.centres()[c] - middle);
+        let [i, j] = throat.cells.map(|c| self.centres[c] - middle);
         let turn = throat
             .normal
             .dot(&direction.cross(&edge(mesh, sphere, third)));

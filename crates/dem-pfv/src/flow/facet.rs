@@ -6,10 +6,10 @@ use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
 /// From a sphere's centre to another vertex: to a centre, or to its own foot on a wall.
 pub fn edge(mesh: &Triangulation, k: usize, other: Vertex) -> Vector3<f64> {
-    let x = mesh.spheres()[k].centre;
+    let x = mesh.spheres[k].centre;
     match other {
-        Vertex::Sphere(l) => mesh.spheres()[l].centre - x,
-        Vertex::Wall(w) => mesh.walls()[w].projection(x) - x,
+        Vertex::Sphere(l) => mesh.spheres[l].centre - x,
+        Vertex::Wall(w) => mesh.walls[w].projection(x) - x,
     }
 }
 
@@ -24,8 +24,8 @@ impl<'a> Facet<'a> {
         let (mut spheres, mut walls) = (Vec::new(), Vec::new());
         for v in vertices {
             match v {
-                Vertex::Sphere(k) => spheres.push(&mesh.spheres()[*k]),
-                Vertex::Wall(w) => walls.push(&mesh.walls()[*w]),
+                Vertex::Sphere(k) => spheres.push(&mesh.spheres[*k]),
+                Vertex::Wall(w) => walls.push(&mesh.walls[*w]),
             }
         }
         Self { spheres, walls }

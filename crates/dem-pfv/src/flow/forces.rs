@@ -29,18 +29,17 @@ pub struct Forces {
 
 impl Forces {
     /// Forces of the pressures of all cells, Pa.
-    #[must_use]
     pub fn new(geometry: &PoreGeometry, pressures: &[f64]) -> Self {
-        let mesh = geometry.mesh();
-        let spheres = vec![Vector3::zeros(); mesh.spheres().len()];
-        let walls = vec![Vector3::zeros(); mesh.walls().len()];
+        let mesh = &geometry.mesh;
+        let spheres = vec![Vector3::zeros(); mesh.spheres.len()];
+        let walls = vec![Vector3::zeros(); mesh.walls.len()];
         let mut forces = Self {
             pressure: spheres.clone(),
             viscous: spheres,
             wall_pressure: walls.clone(),
             wall_viscous: walls,
         };
-        for throat in geometry.throats() {
+        for throat in &geometry.throats {
             let [i, j] = throat.cells;
             let drop = (pressures[i] - pressures[j]) * throat.normal;
             let wetted = throat.wetted.iter().sum::<f64>();
@@ -60,7 +59,7 @@ impl Forces {
                 }
             }
         }
-        for (w, wall) in mesh.walls().iter().enumerate() {
+        for (w, wall) in mesh.walls.iter().enumerate() {
             for &c in mesh.cells_around(Vertex::Wall(w)) {
                 let area = geometry.area_on_wall(c as usize, w);
                 forces.wall_pressure[w] -= pressures[c as usize] * area * wall.normal;
@@ -70,7 +69,6 @@ impl Forces {
     }
 
     /// Sum of both parts on a sphere, N.
-    #[must_use]
     pub fn on_sphere(&self, sphere: usize) -> Vector3<f64> {
         self.pressure[sphere] + self.viscous[sphere]
     }

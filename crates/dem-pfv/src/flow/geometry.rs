@@ -14,11 +14,16 @@ const DEEPEST: f64 = 0.1;
 /// Cells and throats of a triangulation in a room whose walls meet at right angles.
 #[derive(Clone, Debug)]
 pub struct PoreGeometry {
-    mesh: Triangulation,
-    centres: Vec<Vector3<f64>>,
-    volumes: Vec<f64>,
-    void_volumes: Vec<f64>,
-    throats: Vec<Throat>,
+    /// The triangulation.
+    pub mesh: Triangulation,
+    /// Power centre of every cell, m.
+    pub centres: Vec<Vector3<f64>>,
+    /// Volume of every cell, m³; the sum is that of the room.
+    pub volumes: Vec<f64>,
+    /// Volume of fluid in every cell, m³.
+    pub void_volumes: Vec<f64>,
+    /// All throats.
+    pub throats: Vec<Throat>,
 }
 
 impl PoreGeometry {
@@ -46,20 +51,20 @@ impl PoreGeometry {
         angles: SolidAngles,
         deepest: f64,
     ) -> Result<Self, FlowError> {
-        if grips.len() != mesh.walls().len() {
+        if grips.len() != mesh.walls.len() {
             return Err(FlowError::Length {
                 what: "grips of walls",
                 given: grips.len(),
-                needed: mesh.walls().len(),
+                needed: mesh.walls.len(),
             });
         }
         check_walls(&mesh)?;
         check_overlaps(&mesh, deepest)?;
-        let cells = 0..mesh.cells().len();
+        let cells = 0..mesh.cells.len();
         let centres: Vec<_> = cells.map(|c| mesh.power_centre(c)).collect();
-        let positions: Vec<_> = mesh.spheres().iter().map(|s| s.centre).collect();
-        let volumes = cell_volumes(&mesh, &positions, mesh.walls());
-        let solids = mesh.cells().iter().map(|c| solid_volume(&mesh, c));
+        let positions: Vec<_> = mesh.spheres.iter().map(|s| s.centre).collect();
+        let volumes = cell_volumes(&mesh, &positions, &mesh.walls);
+        let solids = mesh.cells.iter().map(|c| solid_volume(&mesh, c));
         let void_volumes = volumes.iter().zip(solids).map(|(v, s)| v - s).collect();
         let pores = Pores {
             mesh: &mesh,
@@ -77,51 +82,20 @@ impl PoreGeometry {
         })
     }
 
-    /// The triangulation.
-    #[must_use]
-    pub fn mesh(&self) -> &Triangulation {
-        &self.mesh
-    }
-
-    /// Power centre of every cell, m.
-    #[must_use]
-    pub fn centres(&self) -> &[Vector3<f64>] {
-        &self.centres
-    }
-
-    /// Volume of every cell, m³; the sum is that of the room.
-    #[must_use]
-    pub fn volumes(&self) -> &[f64] {
-        &self.volumes
-    }
-
-    /// Volume of fluid in every cell, m³.
-    #[must_use]
-    pub fn void_volumes(&self) -> &[f64] {
-        &self.void_volumes
-    }
-
-    /// All throats.
-    #[must_use]
-    pub fn throats(&self) -> &[Throat] {
-        &self.throats
-    }
-
     /// Share (m²) of a cell in a wall: the projection of the facet opposite; zero if it has no part in the wall.
-    #[must_use]
     pub fn area_on_wall(&self, cell: usize, wall: usize) -> f64 {
-        let v = self.mesh.cells()[cell].vertices();
+        let v = self.mesh.cells[cell].vertices();
         let Some(i) = v.iter().position(|v| *v == Vertex::Wall(wall)) else {
             return 0.0;
         };
         let others = std::array::from_fn(|k| v[if k < i { k } else { k + 1 }]);
         let area = Facet::new(&self.mesh, &others).area();
-        area.dot(&self.mesh.walls()[wall].normal).abs()
+        area.dot(&self.mesh.walls[wall].normal).abs()
     }
 }
 
 fn check_walls(mesh: &Triangulation) -> Result<(), FlowError> {
-    let walls = mesh.walls();
+    let walls = &mesh.walls;
     for (first, v) in walls.iter().enumerate() {
         for (second, w) in walls.iter().enumerate().skip(first + 1) {
             let cosine = v.normal.dot(&w.normal).abs();
@@ -137,14 +111,14 @@ fn check_walls(mesh: &Triangulation) -> Result<(), FlowError> {
 }
 
 fn check_overlaps(mesh: &Triangulation, deepest: f64) -> Result<(), FlowError> {
-    for cell in mesh.cells() {
+    for cell in &mesh.cells {
         for v in cell.vertices() {
             let Vertex::Sphere(first) = v else { continue };
-            let a = &mesh.spheres()[first];
+            let a = &mesh.spheres[first];
             for other in cell.vertices() {
                 match other {
                     Vertex::Sphere(second) if second > first => {
-                        let b = &mesh.spheres()[second];
+                        let b = &mesh.spheres[second];
                         let overlap = a.radius + b.radius - (a.centre - b.centre).norm();
                         if overlap > deepest * a.radius.min(b.radius) {
                             return Err(FlowError::Overlap {
@@ -156,7 +130,7 @@ fn check_overlaps(mesh: &Triangulation, deepest: f64) -> Result<(), FlowError> {
                         }
                     }
                     Vertex::Wall(wall) => {
-                        let overlap = a.radius - mesh.walls()[wall].distance(a.centre);
+                        let overlap = a.radius - mesh.walls[wall].distance(a.centre);
                         if overlap > deepest * a.radius {
                             return Err(FlowError::InWall {
                                 sphere: first,

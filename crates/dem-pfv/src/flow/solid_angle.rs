@@ -11,7 +11,6 @@ use nalgebra::Vector3;
 /// positive if a, b, c turn right-handed around a + b + c. The quadrant matters: where the denominator is
 /// negative, the plain arc tangent is wrong by up to 2π. Lengths of a, b, c do not matter. Source: Van Oosterom
 /// & Strackee 1983.
-#[must_use]
 pub fn solid_angle(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> f64 {
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(&c));

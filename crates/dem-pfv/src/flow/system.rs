@@ -113,12 +113,12 @@ impl FlowSystem {
         positive("viscosity", viscosity)?;
         let conductances = conductances(geometry, law, viscosity)?;
         let ends: Vec<_> = geometry
-            .throats()
+            .throats
             .iter()
             .map(|t| t.cells.map(|c| c as u32))
             .collect();
-        let open = geometry.throats().iter().zip(&ends).filter(|(t, _)| t.open);
-        let pores = joined(geometry.volumes().len(), open.map(|(_, e)| *e));
+        let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
+        let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
         let given = given(boundary, &pores);
         if storage.is_none() {
             reachable(&conductances, &ends, &given, &pores)?;
@@ -133,7 +133,7 @@ impl FlowSystem {
             unknowns,
             given: boundary.pressures.iter().map(Option::is_some).collect(),
             givers,
-            void_volumes: geometry.void_volumes().to_vec(),
+            void_volumes: geometry.void_volumes.to_vec(),
             storage,
             diagonal,
             matrix,
@@ -143,7 +143,7 @@ impl FlowSystem {
         };
         if system.solver == Solver::Direct && count > 0 {
             let mut places = vec![Default::default(); count];
-            for (&u, at) in system.unknowns.iter().zip(geometry.centres()) {
+            for (&u, at) in system.unknowns.iter().zip(&geometry.centres) {
                 if u != GIVEN {
                     places[u as usize] = *at;
                 }
@@ -217,13 +217,11 @@ impl FlowSystem {
     }
 
     /// Number of unknown pressures.
-    #[must_use]
     pub fn unknowns(&self) -> usize {
         self.matrix.len()
     }
 
     /// k of every throat, m³ Pa⁻¹ s⁻¹; zero for open ones, whose cells have one pressure.
-    #[must_use]
     pub fn conductances(&self) -> &[f64] {
         &self.conductances
     }
@@ -315,7 +313,6 @@ impl FlowSystem {
     /// Flux (m³/s) into the room through each cell with a given pressure, zero in others: its flow to others, its gain
     /// of volume and its storage, less its source. With the sources they add up to the rates of all volumes and the
     /// storage. Arguments as those of [`FlowSystem::step`] that gave the pressures (Pa).
-    #[must_use]
     pub fn influx(
         &self,
         boundary: &Boundary,
@@ -341,11 +338,10 @@ impl FlowSystem {
     }
 
     /// Flux (m³/s) into the room through a wall with given pressures: the flow from the pores on it to others.
-    #[must_use]
     pub fn inflow(&self, geometry: &PoreGeometry, wall: usize, pressures: &[f64]) -> f64 {
         let mut on_wall = vec![false; self.pores.len()];
         let wall = crate::triangulation::Vertex::Wall(wall);
-        for &c in geometry.mesh().cells_around(wall) {
+        for &c in geometry.mesh.cells_around(wall) {
             on_wall[self.pores[c as usize] as usize] |= self.given[c as usize];
         }
         let throats = self.conductances.iter().zip(&self.ends);

@@ -61,7 +61,6 @@ pub struct Throat {
 
 impl Throat {
     /// Hydraulic radius R = φ/γ, m. Source: Catalano 2012, Eq. (3.5).
-    #[must_use]
     pub fn hydraulic_radius(&self) -> f64 {
         self.fluid_volume / self.wetted.iter().sum::<f64>()
     }
@@ -111,13 +110,13 @@ impl Pores<'_> {
         let along = self.centres[j] - self.centres[i];
         let far = along.norm() > NO_LENGTH * area.norm().sqrt();
         let base = facet.vertices.iter().find_map(|v| match v {
-            Vertex::Sphere(k) => Some(self.mesh.spheres()[*k].centre),
+            Vertex::Sphere(k) => Some(self.mesh.spheres[*k].centre),
             Vertex::Wall(_) => None,
         });
-        let direction = match self.mesh.cells()[i].vertices()[facet.opposite] {
+        let direction = match self.mesh.cells[i].vertices()[facet.opposite] {
             _ if far => along,
-            Vertex::Sphere(k) => base.unwrap_or_default() - self.mesh.spheres()[k].centre,
-            Vertex::Wall(w) => self.mesh.walls()[w].normal,
+            Vertex::Sphere(k) => base.unwrap_or_default() - self.mesh.spheres[k].centre,
+            Vertex::Wall(w) => self.mesh.walls[w].normal,
         };
         if area.dot(&direction) < 0.0 {
             -area
@@ -137,7 +136,7 @@ impl Pores<'_> {
         let mut among_spheres = 0;
         for (c, v) in facet.vertices.iter().enumerate() {
             let Vertex::Sphere(k) = *v else { continue };
-            let radius = self.mesh.spheres()[k].radius;
+            let radius = self.mesh.spheres[k].radius;
             let [l, m] = [1, 2].map(|t| edge(self.mesh, k, facet.vertices[(c + t) % 3]));
             let omega = self.solid_angle(k, l, m, facet.cells, area);
             sectors[c] = 0.5 * radius * radius * angle(l, m) - shape.across(among_spheres);
@@ -158,7 +157,7 @@ impl Pores<'_> {
         cells: [usize; 2],
         area: Vector3<f64>,
     ) -> f64 {
-        let x = self.mesh.spheres()[k].centre;
+        let x = self.mesh.spheres[k].centre;
         let [pi, pj] = cells.map(|c| self.centres[c] - x);
         let (first, second) = (solid_angle(l, pi, pj), solid_angle(m, pi, pj));
         match self.angles {
@@ -172,7 +171,7 @@ impl Pores<'_> {
     fn walls(&self, facet: &crate::triangulation::Facet, wetted: &mut [f64; 3]) {
         let [pi, pj] = facet.cells.map(|c| self.centres[c]);
         let spheres = facet.vertices.iter().filter_map(|v| match v {
-            Vertex::Sphere(k) => Some(self.mesh.spheres()[*k].centre),
+            Vertex::Sphere(k) => Some(self.mesh.spheres[*k].centre),
             Vertex::Wall(_) => None,
         });
         let spheres: Vec<_> = spheres.collect();
@@ -188,7 +187,7 @@ impl Pores<'_> {
                 wetted[c] = 0.5
                     * (pi - pj)
                         .cross(&across)
-                        .dot(&self.mesh.walls()[w].normal)
+                        .dot(&self.mesh.walls[w].normal)
                         .abs();
             }
         }

@@ -18,10 +18,9 @@ use crate::triangulation::{Cell, Triangulation, Vertex, Wall};
 ///
 /// A volume is negative if the cell has turned inside out. Rates follow by differences in time, from
 /// volumes of the same mesh. Source: the exact limit of Catalano 2012, §3.1.
-#[must_use]
 pub fn cell_volumes(mesh: &Triangulation, centres: &[Vector3<f64>], walls: &[Wall]) -> Vec<f64> {
     let volume = |cell: &Cell| volume(cell, centres, walls);
-    mesh.cells().iter().map(volume).collect()
+    mesh.cells.iter().map(volume).collect()
 }
 
 fn volume(cell: &Cell, centres: &[Vector3<f64>], walls: &[Wall]) -> f64 {
@@ -80,7 +79,7 @@ pub fn solid_volume(mesh: &Triangulation, cell: &Cell) -> f64 {
                 .next()
                 .map_or(Vector3::zeros(), |o| edge(mesh, k, *o))
         });
-        mesh.spheres()[k].radius.powi(3) / 3.0 * solid_angle(a, b, c).abs()
+        mesh.spheres[k].radius.powi(3) / 3.0 * solid_angle(a, b, c).abs()
     };
     vertices.iter().map(share).sum()
 }

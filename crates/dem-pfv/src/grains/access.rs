@@ -1,31 +1,8 @@
 //! Readings of a system of grains, and its changes from outside.
 
-use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, Wall};
+use crate::grains::{ContactLaw, GrainError, GrainSystem, Vector};
 
 impl GrainSystem {
-    /// The grains.
-    #[must_use]
-    pub fn grains(&self) -> &Grains {
-        &self.grains
-    }
-
-    /// The walls.
-    #[must_use]
-    pub fn walls(&self) -> &[Wall] {
-        &self.walls
-    }
-
-    /// The walls, to steer them.
-    pub fn walls_mut(&mut self) -> &mut [Wall] {
-        &mut self.walls
-    }
-
-    /// The meshes.
-    #[must_use]
-    pub fn meshes(&self) -> &[Mesh] {
-        &self.meshes
-    }
-
     /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
     ///
     /// # Errors
@@ -47,44 +24,9 @@ impl GrainSystem {
         moved.check(mesh)
     }
 
-    /// Axes along which the box repeats itself.
-    #[must_use]
-    pub fn period(&self) -> &crate::grains::Period {
-        &self.period
-    }
-
-    /// Time, s.
-    #[must_use]
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Steps made.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// Number of times that the lists of neighbours were made.
-    #[must_use]
-    pub fn renewals(&self) -> u64 {
-        self.renewals
-    }
-
     /// Sets the clock to zero, as when a preparation is over. Nothing else changes.
     pub fn restart_clock(&mut self) {
         (self.time, self.steps, self.limit_due) = (0.0, 0, 0);
-    }
-
-    /// Gravity, m/s².
-    #[must_use]
-    pub fn gravity(&self) -> Vector {
-        self.gravity
-    }
-
-    /// Sets gravity, m/s².
-    pub fn set_gravity(&mut self, gravity: Vector) {
-        self.gravity = gravity;
     }
 
     /// Sets the coefficient of non-viscous damping; zero where a fluid damps.
@@ -131,36 +73,6 @@ impl GrainSystem {
         *slot = law;
         self.limit = None;
         self.check()
-    }
-
-    /// Centres, m, to move grains without forces. The next evaluation finds their contacts.
-    pub fn positions_mut(&mut self) -> &mut [Vector] {
-        &mut self.grains.position
-    }
-
-    /// Velocities, m/s.
-    pub fn velocities_mut(&mut self) -> &mut [Vector] {
-        &mut self.grains.velocity
-    }
-
-    /// Angular velocities, rad/s.
-    pub fn spins_mut(&mut self) -> &mut [Vector] {
-        &mut self.grains.spin
-    }
-
-    /// Grains that keep their velocity under any force.
-    pub fn held_mut(&mut self) -> &mut [bool] {
-        &mut self.grains.held
-    }
-
-    /// Forces from outside, N, one per grain: those of a fluid. They stay until they are changed.
-    pub fn external_forces_mut(&mut self) -> &mut [Vector] {
-        &mut self.grains.external_force
-    }
-
-    /// Moments from outside, N m, one per grain.
-    pub fn external_torques_mut(&mut self) -> &mut [Vector] {
-        &mut self.grains.external_torque
     }
 
     /// Multiplies all radii; masses and moments of inertia follow with their third and fifth power.

@@ -15,7 +15,6 @@ pub struct Cloud {
 
 impl Cloud {
     /// Between two corners, m; spheres stay inside.
-    #[must_use]
     pub fn new(low: [f64; 3], high: [f64; 3]) -> Self {
         Self {
             low: low.into(),
@@ -88,7 +87,6 @@ impl Cloud {
 }
 
 /// Radii drawn evenly from an interval, m; the same for the same seed.
-#[must_use]
 pub fn uniform_radii(count: usize, smallest: f64, largest: f64, seed: u64) -> Vec<f64> {
     let mut draw = Draw(seed ^ 0x5eed);
     (0..count)

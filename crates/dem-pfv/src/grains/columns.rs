@@ -9,19 +9,28 @@ use crate::grains::{Grain, Vector};
 /// Columns of the grains, all of the same length and order.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Grains {
-    pub(crate) position: Vec<Vector>,
-    pub(crate) velocity: Vec<Vector>,
-    pub(crate) spin: Vec<Vector>,
-    /// Quaternions (w, x, y, z).
-    pub(crate) orientation: Vec<[f64; 4]>,
-    pub(crate) radius: Vec<f64>,
+    /// Centres, m.
+    pub position: Vec<Vector>,
+    /// Velocities, m/s; half a step behind the positions while a system steps.
+    pub velocity: Vec<Vector>,
+    /// Angular velocities, rad/s.
+    pub spin: Vec<Vector>,
+    /// Orientations, unit quaternions (w, x, y, z) from the start to now.
+    pub orientation: Vec<[f64; 4]>,
+    /// Radii R, m.
+    pub radius: Vec<f64>,
     pub(crate) density: Vec<f64>,
-    pub(crate) mass: Vec<f64>,
-    pub(crate) held: Vec<bool>,
-    pub(crate) contact_force: Vec<Vector>,
+    /// Masses, kg.
+    pub mass: Vec<f64>,
+    /// Grains that keep their velocity whatever acts on them.
+    pub held: Vec<bool>,
+    /// Sums of the contact forces at the last evaluation, N.
+    pub contact_force: Vec<Vector>,
     pub(crate) contact_torque: Vec<Vector>,
-    pub(crate) external_force: Vec<Vector>,
-    pub(crate) external_torque: Vec<Vector>,
+    /// Forces from outside, N, such as those of a fluid. They stay until they are changed.
+    pub external_force: Vec<Vector>,
+    /// Moments from outside, N m.
+    pub external_torque: Vec<Vector>,
 }
 
 /// J / (m R²) of a homogeneous sphere.
@@ -75,91 +84,21 @@ impl Grains {
     }
 
     /// Number of grains.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
     /// True if there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
 
-    /// Centres, m.
-    #[must_use]
-    pub fn positions(&self) -> &[Vector] {
-        &self.position
-    }
-
-    /// Velocities, m/s; half a step behind the positions while a system steps.
-    #[must_use]
-    pub fn velocities(&self) -> &[Vector] {
-        &self.velocity
-    }
-
-    /// Angular velocities, rad/s.
-    #[must_use]
-    pub fn spins(&self) -> &[Vector] {
-        &self.spin
-    }
-
-    /// Orientations, unit quaternions (w, x, y, z) from the start to now.
-    #[must_use]
-    pub fn orientations(&self) -> &[[f64; 4]] {
-        &self.orientation
-    }
-
-    /// Radii R, m.
-    #[must_use]
-    pub fn radii(&self) -> &[f64] {
-        &self.radius
-    }
-
-    /// Masses, kg.
-    #[must_use]
-    pub fn masses(&self) -> &[f64] {
-        &self.mass
-    }
-
     /// Moment of inertia J = (2/5) m R² of a grain, kg m².
-    #[must_use]
     pub fn inertia(&self, grain: usize) -> f64 {
         INERTIA * self.mass[grain] * self.radius[grain].powi(2)
     }
 
-    /// Grains that keep their velocity under any force.
-    #[must_use]
-    pub fn held(&self) -> &[bool] {
-        &self.held
-    }
-
-    /// Sums of the contact forces at the last evaluation, N.
-    #[must_use]
-    pub fn contact_forces(&self) -> &[Vector] {
-        &self.contact_force
-    }
-
-    /// Sums of the moments of contacts at the last evaluation, N m.
-    #[must_use]
-    pub fn contact_torques(&self) -> &[Vector] {
-        &self.contact_torque
-    }
-
-    /// Forces from outside, N.
-    #[must_use]
-    pub fn external_forces(&self) -> &[Vector] {
-        &self.external_force
-    }
-
-    /// Moments from outside, N m.
-    #[must_use]
-    pub fn external_torques(&self) -> &[Vector] {
-        &self.external_torque
-    }
-
     /// Volume of all grains Σ (4/3) π R³, m³.
-    #[must_use]
     pub fn volume(&self) -> f64 {
         self.radius.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
     }

@@ -38,7 +38,6 @@ const EVERY: u64 = 10;
 
 impl Growth {
     /// The custom: m_fast = 1 + 2·10⁴ Pa/E, m_slow = 1 + 2·10³ Pa/E with the micro modulus E in Pa.
-    #[must_use]
     pub fn new(target: Target, modulus: f64) -> Self {
         Self {
             target,
@@ -78,7 +77,7 @@ impl Growth {
                         1.0 + (1.0 - stress / goal) * (most - 1.0)
                     }
                     Target::Porosity(goal) => {
-                        let (volume, solid) = (system.box_volume(), system.grains().volume());
+                        let (volume, solid) = (system.box_volume(), system.grains.volume());
                         let volume = volume.ok_or(GrainError::NoArea { wall: 0 })?;
                         let left = ((1.0 - goal) * volume / solid).cbrt();
                         if left <= 1.0 && still {

@@ -45,7 +45,6 @@ const NAME: &str = "hertz-mindlin";
 
 impl HertzMindlin {
     /// Springs and friction, without dashpots or resistance to rolling.
-    #[must_use]
     pub fn new(shear_modulus: f64, poisson: f64, friction: f64) -> Self {
         Self {
             shear_modulus,
@@ -57,7 +56,6 @@ impl HertzMindlin {
     }
 
     /// E* = G / (1 − ν), Pa.
-    #[must_use]
     pub fn contact_modulus(&self) -> f64 {
         self.shear_modulus / (1.0 - self.poisson)
     }

@@ -52,7 +52,6 @@ pub(crate) struct Turn {
 impl Contact {
     /// A tangential vector of the last evaluation, turned with the contact: from the old normal to the new
     /// one, then by θ = ½ Δt n · (ω_A + ω_B) about it. Both turns keep its length.
-    #[must_use]
     pub fn carried(&self, vector: Vector) -> Vector {
         let Turn {
             axis,
@@ -72,25 +71,21 @@ impl Contact {
     }
 
     /// v − (v · n) n.
-    #[must_use]
     pub fn tangential(&self, vector: Vector) -> Vector {
         vector - self.normal * vector.dot(&self.normal)
     }
 
     /// m* = m₁ m₂ / (m₁ + m₂), kg; the grain's own mass at a wall.
-    #[must_use]
     pub fn reduced_mass(&self) -> f64 {
         1.0 / (1.0 / self.mass[0] + 1.0 / self.mass[1])
     }
 
     /// R* = R₁ R₂ / (R₁ + R₂), m; the grain's own radius at a wall.
-    #[must_use]
     pub fn reduced_radius(&self) -> f64 {
         reduced(self.radius)
     }
 
     /// Three remembered numbers from `first` on.
-    #[must_use]
     pub fn remembered(&self, first: usize) -> Vector {
         Vector::new(
             self.memory[first],
@@ -149,7 +144,6 @@ pub trait ContactLaw: Debug + Send + Sync {
 inventory::collect!(Entry<dyn ContactLaw>);
 
 /// Every contact law registered in this binary, sorted by name.
-#[must_use]
 pub fn contact_laws() -> Vec<&'static Entry<dyn ContactLaw>> {
     entries()
 }

@@ -45,7 +45,6 @@ const NAME: &str = "linear-elastic";
 
 impl LinearElastic {
     /// Springs and friction, without dashpots or resistance to rolling.
-    #[must_use]
     pub fn new(modulus: f64, stiffness_ratio: f64, friction: f64) -> Self {
         Self {
             modulus,
@@ -57,7 +56,6 @@ impl LinearElastic {
     }
 
     /// k_n, N/m. Source: Catalano 2012, Eq. (4.1).
-    #[must_use]
     pub fn normal_stiffness(&self, radius: [f64; 2]) -> f64 {
         let [r1, mut r2] = radius;
         if r2.is_infinite() {

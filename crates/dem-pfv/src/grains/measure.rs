@@ -73,7 +73,6 @@ impl GrainSystem {
     }
 
     /// Σ ½ m v² + ½ J ω², J, with the velocities in the middle of the last step.
-    #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         let g = &self.grains;
         let one = |i: usize| {
@@ -85,7 +84,6 @@ impl GrainSystem {
 
     /// λ, the mean resultant force on a grain over the mean contact force; infinite without contacts. Held grains do
     /// not count. Source: Catalano 2012, Eq. (2.16), with the norms inside the sums, without which both vanish.
-    #[must_use]
     pub fn unbalanced_force(&self) -> f64 {
         match self.mean_forces() {
             (_, 0.0) => f64::INFINITY,
@@ -94,7 +92,6 @@ impl GrainSystem {
     }
 
     /// Contacts per grain, those between grains counted for both.
-    #[must_use]
     pub fn coordination(&self) -> f64 {
         let pairs = self.table.part(0);
         let weight = |k: usize| if pairs.contains(&k) { 2.0 } else { 1.0 };
@@ -115,7 +112,6 @@ impl GrainSystem {
 
     /// Mean stress in each grain, Pa, positive in compression: σ = −(1/V) Σ_c (x^C − x) ⊗ F^c with the grain's
     /// volume V. Source: Catalano 2012, Eqs. (2.17), (2.18), with the other sign.
-    #[must_use]
     pub fn grain_stresses(&self) -> Vec<Matrix3<f64>> {
         let volume = |i: usize| 4.0 / 3.0 * std::f64::consts::PI * self.grains.radius[i].powi(3);
         (0..self.grains.len())
@@ -124,7 +120,6 @@ impl GrainSystem {
     }
 
     /// Love–Weber stress of all contacts in a volume (m³), Pa, positive in compression: (1/V) Σ_grains Σ_c l n ⊗ F.
-    #[must_use]
     pub fn stress(&self, volume: f64) -> Matrix3<f64> {
         let mut sum = Matrix3::zeros();
         for grain in 0..self.grains.len() {
@@ -146,7 +141,6 @@ impl GrainSystem {
     }
 
     /// Lengths of the box between walls along the axes and periods, m, if it is closed.
-    #[must_use]
     pub fn box_lengths(&self) -> Option<[f64; 3]> {
         Some([self.length(0)?, self.length(1)?, self.length(2)?])
     }
@@ -167,14 +161,14 @@ impl GrainSystem {
     /// # Errors
     /// If the box is not closed.
     pub fn effective_stress(&self, axis: usize, at: f64) -> Result<f64, GrainError> {
-        let above = |grain: usize| self.grains().positions()[grain][axis] >= at;
+        let above = |grain: usize| self.grains.position[grain][axis] >= at;
         let mut force = 0.0;
         for touch in self.contacts() {
             let first = above(touch.grain);
             let second = match touch.partner {
                 Partner::Grain(other) => above(other),
                 Partner::Wall(wall) => {
-                    let wall = &self.walls()[wall];
+                    let wall = &self.walls[wall];
                     match wall.normal[axis].abs() > 0.5 {
                         true => wall.point[axis] >= at,
                         false => first,
@@ -194,13 +188,11 @@ impl GrainSystem {
     }
 
     /// Volume of the box, m³, if it is closed.
-    #[must_use]
     pub fn box_volume(&self) -> Option<f64> {
         Some(self.box_lengths()?.iter().product())
     }
 
     /// n = 1 − Σ (4/3) π R³ / V of the box. Source: Catalano 2012, Eq. (1.1).
-    #[must_use]
     pub fn porosity(&self) -> Option<f64> {
         Some(1.0 - self.grains.volume() / self.box_volume()?)
     }

@@ -25,7 +25,6 @@ pub struct Mesh {
 
 impl Mesh {
     /// At rest; vertices in m.
-    #[must_use]
     pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         Self {
             vertices: vertices.into_iter().map(Vector::from).collect(),
@@ -40,19 +39,16 @@ impl Mesh {
     }
 
     /// Force of the grains on it, N.
-    #[must_use]
     pub fn force(&self) -> Vector {
         self.force
     }
 
     /// Moment of the grains' forces about its centre, N m.
-    #[must_use]
     pub fn torque(&self) -> Vector {
         self.torque
     }
 
     /// Velocity of the point of it that is now there, m/s.
-    #[must_use]
     pub fn velocity_at(&self, point: &Vector) -> Vector {
         self.velocity + self.spin.cross(&(point - self.centre))
     }

@@ -23,7 +23,6 @@ pub struct Grain {
 
 impl Grain {
     /// At rest; radius in m, density in kg/m³.
-    #[must_use]
     pub fn new(position: [f64; 3], radius: f64, density: f64) -> Self {
         Self {
             position: position.into(),
@@ -104,7 +103,6 @@ pub struct Setup {
 
 impl Setup {
     /// Grains that follow one law, without walls, gravity or damping.
-    #[must_use]
     pub fn new(grains: Vec<Grain>, law: impl ContactLaw + 'static) -> Self {
         Self {
             grains,

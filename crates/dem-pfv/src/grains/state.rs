@@ -29,7 +29,6 @@ pub struct State {
 
 impl GrainSystem {
     /// State to resume.
-    #[must_use]
     pub fn save(&self) -> State {
         State {
             grains: self.grains.clone(),

@@ -18,7 +18,6 @@ impl GrainSystem {
     /// grain at a wall it is the exact 2/ω. Catalano 2012, Eqs. (2.13), (2.14), takes √(m/K) with the same sums;
     /// his Δt_cr is shorter for normal contact, but without the coupling of shift and spin. Dashpots multiply
     /// it by √(1 + ζ²) − ζ. Every grain counts as if it touched another of its size at least.
-    #[must_use]
     pub fn critical_step(&self) -> f64 {
         stability::critical(
             &self.grains,
@@ -33,7 +32,6 @@ impl GrainSystem {
     /// Step (s) in which no grain goes further than a share of its radius, under the forces of the last evaluation:
     /// |v| Δt + ½ |F/m + g| Δt² ≤ share · R. Contacts are looked for once per step, so a grain that goes further can
     /// pass through another or through a wall; stability alone does not forbid it where contacts are soft.
-    #[must_use]
     pub fn motion_limit(&self, share: f64) -> f64 {
         let g = &self.grains;
         let forces = (&g.contact_force, &g.external_force);

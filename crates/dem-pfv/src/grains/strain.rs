@@ -10,7 +10,6 @@ use crate::grains::Vector;
 /// grain takes the mean of its tetrahedra, weighted by their volumes, and zero if it has none. Tetrahedra that
 /// name a grain that is not there or are flat are left out. Source: Catalano 2012, Eqs. (2.20), (2.21), in space; the
 /// printed factor 1/L there is 1/S.
-#[must_use]
 pub fn strains(
     tetrahedra: &[[usize; 4]],
     positions: &[Vector],

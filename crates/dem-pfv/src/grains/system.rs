@@ -13,23 +13,31 @@ use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector,
 /// threads: a contact is computed once, and each grain sums its own contacts in the order of their numbers.
 #[derive(Debug)]
 pub struct GrainSystem {
-    pub(crate) grains: Grains,
+    /// The grains; the next evaluation finds the contacts of those that were moved.
+    pub grains: Grains,
     pub(crate) laws: Vec<Box<dyn ContactLaw>>,
-    pub(crate) walls: Vec<Wall>,
-    pub(crate) meshes: Vec<Mesh>,
-    pub(crate) period: Period,
-    pub(crate) gravity: Vector,
+    /// The walls.
+    pub walls: Vec<Wall>,
+    /// The meshes.
+    pub meshes: Vec<Mesh>,
+    /// Axes along which the box repeats itself.
+    pub period: Period,
+    /// Gravity, m/s².
+    pub gravity: Vector,
     pub(crate) damping: f64,
     pub(crate) skin: f64,
-    pub(crate) time: f64,
-    pub(crate) steps: u64,
+    /// Time, s.
+    pub time: f64,
+    /// Steps made.
+    pub steps: u64,
     /// Motion since the last evaluation, s.
     pub(crate) last_step: f64,
     pub(crate) limit: Option<Limit>,
     /// Step at which the limit is found anew.
     pub(crate) limit_due: u64,
     pub(crate) table: Table,
-    pub(crate) renewals: u64,
+    /// Number of times that the lists of neighbours were made.
+    pub renewals: u64,
 }
 
 impl GrainSystem {

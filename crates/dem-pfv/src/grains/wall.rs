@@ -61,7 +61,6 @@ const RELAXATION: f64 = 0.01;
 
 impl Wall {
     /// A wall at rest through a point (m) with a normal towards the grains, which is made a unit vector.
-    #[must_use]
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Self {
         let normal = Vector::from(normal);
         Self {
@@ -79,7 +78,6 @@ impl Wall {
     }
 
     /// The six walls of a box between two corners, m: x₋, x₊, y₋, y₊, z₋, z₊.
-    #[must_use]
     pub fn cuboid(low: [f64; 3], high: [f64; 3]) -> [Wall; 6] {
         std::array::from_fn(|w| {
             let mut normal = [0.0; 3];
@@ -103,19 +101,16 @@ impl Wall {
     }
 
     /// Force of the grains on it, N.
-    #[must_use]
     pub fn force(&self) -> Vector {
         self.force
     }
 
     /// Signed distance of a point, m.
-    #[must_use]
     pub fn distance(&self, point: &Vector) -> f64 {
         (point - self.point).dot(&self.normal)
     }
 
     /// Force with which grains and fluid push it outward, N.
-    #[must_use]
     pub fn push(&self) -> f64 {
         -(self.force + self.external_force).dot(&self.normal)
     }

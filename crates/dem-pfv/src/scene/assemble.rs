@@ -84,12 +84,12 @@ pub fn loads(scene: &Scene) -> Vec<Load> {
 
 /// Controls of the walls in the run.
 fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
-    let mass: f64 = grains.grains().masses().iter().sum();
+    let mass: f64 = grains.grains.mass.iter().sum();
     for (number, name) in planes(scene).iter().enumerate() {
         let Some(table) = scene.wall.get(name) else {
             continue;
         };
-        let wall = &mut grains.walls_mut()[number];
+        let wall = &mut grains.walls[number];
         if table.removed {
             // Out of reach: the system keeps its walls.
             let away = wall.normal * FAR;

@@ -6,7 +6,7 @@ mod walls;
 
 use std::collections::BTreeMap;
 
-use scene_text::{SceneProblem, Source, suggestion};
+use scene_text::{Problems, SceneProblem, Source, suggestion};
 
 use crate::scene::error::DemError;
 use crate::scene::laws::{Laws, throats};
@@ -20,13 +20,13 @@ pub fn scene(
     references: &BTreeMap<String, Reference>,
     source: &Source,
 ) -> Vec<SceneProblem> {
-    let mut found = Vec::new();
+    let mut found = Problems::default();
     for problems in [Laws::from_scene(scene).err(), throats(scene).err()]
         .into_iter()
         .flatten()
     {
         if let DemError::Scene(problems) = problems {
-            found.extend(problems);
+            found.0.extend(problems);
         }
     }
     start::start(scene, &mut found);
@@ -42,45 +42,35 @@ pub fn scene(
     for (name, reference) in references {
         measurements::reference(scene, probes, name, reference, &mut found);
     }
-    files(scene, references, source, &mut found);
+    files(scene, source, &mut found);
     output(scene, &mut found);
-    found
+    found.0
 }
 
-fn add(found: &mut Vec<SceneProblem>, path: impl Into<String>, message: impl Into<String>) {
-    found.push(SceneProblem::new(path, message));
-}
-
-fn fluid(scene: &Scene, found: &mut Vec<SceneProblem>) {
+fn fluid(scene: &Scene, found: &mut Problems) {
     let Some(fluid) = &scene.fluid else { return };
     let Some(given) = &scene.r#box else {
-        return add(found, "fluid", "the fluid fills a box: `[box]` is missing");
+        return found.add("fluid", "the fluid fills a box: `[box]` is missing");
     };
     if let Some(axis) = given.periodic.first() {
         let message = format!("the fluid needs six walls, and the box is periodic along {axis:?}");
-        add(found, "box.periodic", message.to_lowercase());
+        found.add("box.periodic", message.to_lowercase());
     }
     if !given.open.is_empty() {
-        add(
-            found,
+        found.add(
             "box.open",
             "the fluid needs six walls: give a wall a `pressure` instead",
         );
     }
     for (name, wall) in &scene.wall {
         if !BOX.contains(&name.as_str()) {
-            add(
-                found,
+            found.add(
                 format!("wall.{name}"),
                 "the fluid has the six walls of the box alone",
             );
         }
         if wall.removed {
-            add(
-                found,
-                format!("wall.{name}.removed"),
-                "the fluid needs six walls",
-            );
+            found.add(format!("wall.{name}.removed"), "the fluid needs six walls");
         }
     }
     let pressed = scene
@@ -90,78 +80,50 @@ fn fluid(scene: &Scene, found: &mut Vec<SceneProblem>) {
     if !pressed && fluid.bulk_modulus.is_none() {
         let message = "no wall has a `pressure`, a `wave` or what was `recorded`: pressures would be known but for a constant; give one, \
                        or a `bulk_modulus`";
-        add(found, "fluid", message);
+        found.add("fluid", message);
     }
 }
 
-fn oedometer(scene: &Scene, found: &mut Vec<SceneProblem>) {
+fn oedometer(scene: &Scene, found: &mut Problems) {
     let Some(test) = &scene.oedometer else { return };
     let wall = scene.wall.get(&test.wall);
     match wall.and_then(|w| w.piston.as_ref()) {
         None => {
             let pistons = scene.wall.iter().filter(|(_, w)| w.piston.is_some());
             let near = suggestion(&test.wall, pistons.map(|(n, _)| n.as_str()));
-            add(
-                found,
+            found.add(
                 "oedometer.wall",
                 format!("there is no piston `{}`{near}", test.wall),
             );
         }
         Some(piston) if piston.prepared.is_none() => {
             let message = "`prepared` is missing: the load is the step from it to `stress`";
-            add(found, format!("wall.{}.piston", test.wall), message);
+            found.add(format!("wall.{}.piston", test.wall), message);
         }
         Some(_) => {}
     }
     if scene.fluid.is_none() {
-        add(found, "oedometer", "needs a `[fluid]`");
+        found.add("oedometer", "needs a `[fluid]`");
     }
     if scene.start.settle.is_none_or(|tolerance| tolerance >= 1.0) {
-        add(
-            found,
+        found.add(
             "start",
             "an oedometer test starts from rest: give `settle` below 1",
         );
     }
 }
 
-fn files(
-    scene: &Scene,
-    references: &BTreeMap<String, Reference>,
-    source: &Source,
-    found: &mut Vec<SceneProblem>,
-) {
-    let start = scene
-        .start
-        .file
-        .iter()
-        .map(|f| ("start.file".to_string(), f));
-    let walls = scene
-        .wall
-        .iter()
-        .filter_map(|(name, wall)| Some((format!("wall.{name}.file"), wall.file.as_ref()?)));
-    let compared = references
-        .iter()
-        .filter_map(|(name, reference)| match reference {
-            Reference::Scaling { file, .. } | Reference::Curve { file, .. } => {
-                Some((format!("reference.{name}.file"), file))
-            }
-            _ => None,
-        });
-    let recorded = scene.wall.iter().filter_map(|(name, wall)| {
-        let load = wall.recorded.as_ref()?;
-        Some((format!("wall.{name}.recorded.file"), &load.file))
-    });
-    for (key, file) in start.chain(walls).chain(recorded).chain(compared) {
-        if let Err(problem) = source.resolve(&key, file) {
-            add(found, key, problem.to_string());
+fn files(scene: &Scene, source: &Source, found: &mut Problems) {
+    for (key, file) in scene.files() {
+        if let Err(problem) = source.resolve(&key, &file) {
+            found.add(key, problem.to_string());
         }
     }
 }
 
-fn output(scene: &Scene, found: &mut Vec<SceneProblem>) {
+fn output(scene: &Scene, found: &mut Problems) {
     if let Some(colours) = &scene.output.picture_range {
-        found.extend(colours.falling("output.picture_range"));
+        found.0.extend(colours.falling("output.picture_range"));
     }
     let wet = scene.fluid.is_some();
     let names = || crate::scene::fields::names(wet);
@@ -174,7 +136,7 @@ fn output(scene: &Scene, found: &mut Vec<SceneProblem>) {
             let near = suggestion(field, names());
             let known = names().collect::<Vec<_>>().join(", ");
             let message = format!("there is no field `{field}`{near} (there are: {known})");
-            add(found, path, message);
+            found.add(path, message);
         }
     }
 }

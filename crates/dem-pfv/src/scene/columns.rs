@@ -53,8 +53,8 @@ pub fn row(loaded: &Loaded, model: &Model, origin: &Origin, dt: f64) -> Vec<f64>
     let grains = model.grains();
     let scene = &loaded.scene;
     let own = common(scene).into_iter().map(|(name, _)| match name {
-        "time" => grains.time(),
-        "step" => grains.steps() as f64,
+        "time" => grains.time,
+        "step" => grains.steps as f64,
         "dt" => dt,
         "kinetic_energy" => grains.kinetic_energy(),
         "unbalanced_force" => grains.unbalanced_force(),

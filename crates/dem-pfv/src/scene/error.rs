@@ -41,7 +41,6 @@ impl DemError {
     }
 
     /// 2 where nothing was run because of a wrong request, 1 otherwise.
-    #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Scene(_) | Self::Resume(_) => 2,

@@ -104,7 +104,6 @@ fn start(scene: &Scene) -> &'static str {
 }
 
 /// Every contact law and conductance in force.
-#[must_use]
 pub fn plugins(scene: &Scene) -> Vec<PluginInForce> {
     let mut all = Vec::new();
     let mut add = |kind: &str, of: &str, given: Option<(String, serde_json::Value)>| {

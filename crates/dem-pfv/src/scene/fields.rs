@@ -30,10 +30,10 @@ pub fn unit(name: &str) -> &'static str {
 /// One number per grain; zeros for a name that is none.
 pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
     let system = model.grains();
-    let grains = system.grains();
+    let grains = &system.grains;
     match name {
-        "radius" => grains.radii().to_vec(),
-        "speed" => grains.velocities().iter().map(|v| v.norm()).collect(),
+        "radius" => grains.radius.to_vec(),
+        "speed" => grains.velocity.iter().map(|v| v.norm()).collect(),
         // A third of the trace: the mean stress in the grain.
         "stress" => system
             .grain_stresses()
@@ -57,7 +57,7 @@ fn length(u: [f64; 3]) -> f64 {
 
 /// Displacements since the start, m; those across the ends of a periodic axis by the nearest image.
 pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
-    let period = system.period();
+    let period = &system.period;
     let from = |(x, start): (&crate::grains::Vector, &[f64; 3])| {
         std::array::from_fn(|k| {
             let shift = x[k] - start[k];
@@ -68,8 +68,8 @@ pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
         })
     };
     system
-        .grains()
-        .positions()
+        .grains
+        .position
         .iter()
         .zip(&origin.positions)
         .map(from)
@@ -77,7 +77,7 @@ pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
 }
 
 fn contacts(system: &GrainSystem) -> Vec<f64> {
-    let mut count = vec![0.0; system.grains().len()];
+    let mut count = vec![0.0; system.grains.len()];
     for touch in system.contacts() {
         count[touch.grain] += 1.0;
         if let Partner::Grain(other) = touch.partner {
@@ -89,9 +89,9 @@ fn contacts(system: &GrainSystem) -> Vec<f64> {
 
 /// Mean pressure of the pores around each grain, by their volumes, Pa.
 fn pore_pressures(model: &Model) -> Vec<f64> {
-    let mut sums = vec![[0.0; 2]; model.grains().grains().len()];
+    let mut sums = vec![[0.0; 2]; model.grains().grains.len()];
     if let Some(system) = model.wet() {
-        let cells = system.pores().mesh().cells().iter();
+        let cells = system.pores().mesh.cells.iter();
         for ((cell, p), volume) in cells.zip(system.pressures()).zip(system.volumes()) {
             for vertex in cell.vertices() {
                 if let crate::triangulation::Vertex::Sphere(k) = vertex {
@@ -109,12 +109,12 @@ fn pore_pressures(model: &Model) -> Vec<f64> {
 /// Sizes of the fluid's forces, buoyancy apart, N.
 fn fluid_forces(model: &Model) -> Vec<f64> {
     let system = model.grains();
-    let grains = system.grains();
+    let grains = &system.grains;
     let Some(wet) = model.wet() else {
         return vec![0.0; grains.len()];
     };
-    let lift = system.gravity() * wet.setup().fluid.density;
+    let lift = system.gravity * wet.setup().fluid.density;
     let volume = |r: &f64| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
-    let all = grains.external_forces().iter().zip(grains.radii());
+    let all = grains.external_force.iter().zip(&grains.radius);
     all.map(|(f, r)| (f + lift * volume(r)).norm()).collect()
 }

@@ -23,8 +23,8 @@ pub fn pieces(model: &Model, origin: &Origin) -> Vec<Piece<'static>> {
 
 fn points(system: &GrainSystem) -> Vec<[f64; 3]> {
     system
-        .grains()
-        .positions()
+        .grains
+        .position
         .iter()
         .map(|x| [x.x, x.y, x.z])
         .collect()
@@ -36,12 +36,8 @@ fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
     let vector = |name: &'static str, unit: &'static str, all: Vec<f64>| {
         FieldData::tensor(name, unit, 3, all)
     };
-    let velocity = system
-        .grains()
-        .velocities()
-        .iter()
-        .flat_map(|v| [v.x, v.y, v.z]);
-    let spin = system.grains().spins().iter().flat_map(|v| [v.x, v.y, v.z]);
+    let velocity = system.grains.velocity.iter().flat_map(|v| [v.x, v.y, v.z]);
+    let spin = system.grains.spin.iter().flat_map(|v| [v.x, v.y, v.z]);
     let mut fields = vec![
         vector("velocity", "m/s", velocity.collect()),
         vector("spin", "1/s", spin.collect()),
@@ -56,7 +52,7 @@ fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
     }
     fields.push(FieldData::integer(
         "grain",
-        (0..system.grains().len() as u32).collect::<Vec<_>>(),
+        (0..system.grains.len() as u32).collect::<Vec<_>>(),
     ));
     Piece {
         name: "spheres".into(),
@@ -70,14 +66,13 @@ fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
 fn contacts(system: &GrainSystem) -> Piece<'static> {
     let mut ends = Vec::new();
     let (mut normal, mut shear, mut wall) = (Vec::new(), Vec::new(), Vec::new());
-    let all = system.grains();
+    let all = &system.grains;
     for touch in system.contacts() {
-        let from = all.positions()[touch.grain];
+        let from = all.position[touch.grain];
         // The nearest image, which lies across the end of a periodic axis or does not.
         let to = match touch.partner {
             Partner::Grain(other) => {
-                from - touch.normal
-                    * (all.radii()[touch.grain] + all.radii()[other] - touch.overlap)
+                from - touch.normal * (all.radius[touch.grain] + all.radius[other] - touch.overlap)
             }
             _ => touch.point,
         };
@@ -105,13 +100,13 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
 /// Tetrahedra between four grains; a vertex that is a wall is put on it, below the mean of the grains.
 fn pores(model: &Model) -> Option<Piece<'static>> {
     let system = model.wet()?;
-    let mesh = system.pores().mesh();
+    let mesh = &system.pores().mesh;
     let mut places = points(model.grains());
     let mut cells = Vec::new();
-    for cell in mesh.cells() {
+    for cell in &mesh.cells {
         let vertices = cell.vertices();
         let centres = vertices.iter().filter_map(|v| match v {
-            Vertex::Sphere(k) => Some(mesh.spheres()[*k].centre),
+            Vertex::Sphere(k) => Some(mesh.spheres[*k].centre),
             Vertex::Wall(_) => None,
         });
         let count = (4 - cell.walls()).max(1) as f64;
@@ -119,7 +114,7 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
         cells.push(vertices.map(|v| match v {
             Vertex::Sphere(k) => k as u32,
             Vertex::Wall(w) => {
-                let wall = &mesh.walls()[w];
+                let wall = &mesh.walls[w];
                 let foot = mean - wall.normal * wall.distance(mean);
                 places.push([foot.x, foot.y, foot.z]);
                 places.len() as u32 - 1
@@ -128,7 +123,7 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
     }
     let rates = system.volume_rates().iter().zip(system.volumes());
     let rates: Vec<f64> = rates.map(|(rate, volume)| rate / volume).collect();
-    let voids = system.pores().void_volumes().to_vec();
+    let voids = system.pores().void_volumes.to_vec();
     Some(Piece {
         name: "pores".into(),
         points: places.into(),
@@ -150,7 +145,7 @@ fn throats(model: &Model) -> Option<Piece<'static>> {
         .iter()
         .map(|x| [x.x, x.y, x.z])
         .collect();
-    let all = system.pores().throats();
+    let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
     let difference = all.iter().map(|t| {
         let [i, j] = t.cells;
@@ -194,7 +189,7 @@ pub fn picture(
     let system = model.grains();
     let points = points(system);
     let values = values(field, model, origin);
-    let diameters: Vec<f64> = system.grains().radii().iter().map(|r| 2.0 * r).collect();
+    let diameters: Vec<f64> = system.grains.radius.iter().map(|r| 2.0 * r).collect();
     let label = match unit(field) {
         "" => field.replace('_', " "),
         unit => format!("{} [{unit}]", field.replace('_', " ")),
@@ -202,7 +197,7 @@ pub fn picture(
     let walls = walls(system, &points);
     let picture = Picture {
         title,
-        time: Some(system.time()),
+        time: Some(system.time),
         label: &label,
         diameter: origin.diameter,
         diameters: &diameters,
@@ -217,14 +212,14 @@ pub fn picture(
 
 /// Walls across x and z as lines around the contents.
 fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
-    let largest = system.grains().radii().iter().copied().fold(0.0, f64::max);
+    let largest = system.grains.radius.iter().copied().fold(0.0, f64::max);
     let ends = |axis: usize| {
         let all = points.iter().map(|p| p[axis]).filter(|x| x.is_finite());
         let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
             (l.min(x), h.max(x))
         });
         let near = system
-            .walls()
+            .walls
             .iter()
             .filter(|w| w.normal[axis].abs() > 0.99 && w.point[axis].abs() < FAR_ENOUGH);
         near.map(|w| w.point[axis])
@@ -243,7 +238,7 @@ fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
         }
     };
     system
-        .walls()
+        .walls
         .iter()
         .filter(|w| standing(w))
         .map(line)

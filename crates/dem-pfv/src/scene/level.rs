@@ -13,8 +13,8 @@ pub fn level(
     axis: usize,
     [from, to]: [f64; 2],
 ) -> Option<f64> {
-    let all = grains.grains();
-    let radius = all.radii().iter().sum::<f64>() / all.len() as f64;
+    let all = &grains.grains;
+    let radius = all.radius.iter().sum::<f64>() / all.len() as f64;
     let (mut first, mut last) = ([low[0], low[1]], [high[0], high[1]]);
     first[axis] = from.max(low[axis]);
     last[axis] = to.min(high[axis]);
@@ -26,7 +26,7 @@ pub fn level(
     let steps = [0, 1].map(|k| length(k) / counts[k] as f64);
     let place = |k: usize, n: usize| first[k] + (n as f64 + 0.5) * steps[k];
     let mut heights = vec![low[2]; counts[0] * counts[1]];
-    for (x, r) in all.positions().iter().zip(all.radii()) {
+    for (x, r) in all.position.iter().zip(&all.radius) {
         let under = |k: usize| {
             let begin = ((x[k] - r - first[k]) / steps[k] - 0.5).ceil().max(0.0) as usize;
             let end = ((x[k] + r - first[k]) / steps[k] + 0.5).max(0.0) as usize;

@@ -34,7 +34,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
     let grains = model.grains();
     let wall = |name: &str| {
         let number = planes(scene).iter().position(|p| p == name)?;
-        Some((number, grains.walls().get(number)?))
+        Some((number, grains.walls.get(number)?))
     };
     match probe {
         Probe::Stress { wall: name } => grains.wall_stress(wall(name)?.0).ok(),
@@ -45,7 +45,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
         }
         Probe::Carried {} => {
             let (wet, weight) = (model.wet()?, buoyant_weight(model));
-            let up = -grains.gravity().normalize();
+            let up = -grains.gravity.normalize();
             (weight > 0.0).then(|| wet.drag().dot(&up) / weight)
         }
         Probe::Pressure {
@@ -106,7 +106,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
         }
         Probe::Amplitude { wall: name } => {
             let wave = scene.wall.get(name)?.wave.as_ref()?;
-            Some(wave.amplitude + wave.ramp * grains.time())
+            Some(wave.amplitude + wave.ramp * grains.time)
         }
     }
 }
@@ -115,9 +115,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
 pub fn buoyant_weight(model: &Model) -> f64 {
     match model {
         Model::Wet(system) => system.buoyant_weight().norm(),
-        Model::Dry(system) => {
-            system.gravity().norm() * system.grains().masses().iter().sum::<f64>()
-        }
+        Model::Dry(system) => system.gravity.norm() * system.grains.mass.iter().sum::<f64>(),
     }
 }
 
@@ -131,7 +129,7 @@ fn gradient(
     let system = model.wet()?;
     let inside = |x: &Vector| (from..to).contains(&x[axis]) && (left..=right).contains(&x.x);
     let grains = model.grains();
-    let solid: f64 = grains.grains().radii().iter().map(|r| sphere(*r)).sum();
+    let solid: f64 = grains.grains.radius.iter().map(|r| sphere(*r)).sum();
     let weight = buoyant_weight(model) / solid * (1.0 - porosity(grains, axis, from, to)?);
     let slope = system.gradient(axis, inside)?;
     (weight > 0.0).then(|| slope / weight)
@@ -163,8 +161,8 @@ fn cap_volume(radius: f64, up: f64) -> f64 {
 fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64> {
     let lengths = grains.box_lengths()?;
     let area = lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3];
-    let all = grains.grains();
-    let parts = all.positions().iter().zip(all.radii());
+    let all = &grains.grains;
+    let parts = all.position.iter().zip(&all.radius);
     let solid: f64 = parts
         .map(|(x, r)| cap_volume(*r, to - x[axis]) - cap_volume(*r, from - x[axis]))
         .sum();
@@ -174,27 +172,27 @@ fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64
 /// Length of a deposit along an axis, m: from its start to the first slice of two diameters that holds less than a layer
 /// of grains would with six tenths of its places taken.
 fn deposit(grains: &GrainSystem, axis: usize) -> f64 {
-    let all = grains.grains();
-    let diameter = 2.0 * all.radii().iter().sum::<f64>() / all.len() as f64;
+    let all = &grains.grains;
+    let diameter = 2.0 * all.radius.iter().sum::<f64>() / all.len() as f64;
     let slice = 2.0 * diameter;
     let across = if axis == 0 { 1 } else { 0 };
-    let width = match grains.period()[across] {
+    let width = match grains.period[across] {
         Some([low, high]) => high - low,
         None => {
             let ends = all
-                .positions()
+                .position
                 .iter()
-                .zip(all.radii())
+                .zip(&all.radius)
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, r)| {
                     (low.min(x[across] - r), high.max(x[across] + r))
                 });
             ends.1 - ends.0
         }
     };
-    let begin = grains.walls().iter().find(|w| w.normal[axis] > 0.5);
+    let begin = grains.walls.iter().find(|w| w.normal[axis] > 0.5);
     let begin = begin.map_or(0.0, |w| w.point[axis]);
     let mut volumes: Vec<f64> = Vec::new();
-    for (x, r) in all.positions().iter().zip(all.radii()) {
+    for (x, r) in all.position.iter().zip(&all.radius) {
         let place = (x[axis] - begin) / slice;
         // Beyond ten thousand slices nothing belongs to a deposit.
         if !(0.0..1e4).contains(&place) {

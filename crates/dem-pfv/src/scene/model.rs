@@ -64,7 +64,6 @@ impl Load {
 
 impl Model {
     /// The grains.
-    #[must_use]
     pub fn grains(&self) -> &GrainSystem {
         match self {
             Self::Dry(system) => system,
@@ -80,7 +79,6 @@ impl Model {
     }
 
     /// The coupled system, if there is a fluid.
-    #[must_use]
     pub fn wet(&self) -> Option<&CoupledSystem> {
         match self {
             Self::Dry(_) => None,
@@ -98,8 +96,8 @@ impl Model {
     /// Sets the loads of the time that is now.
     pub fn apply(&mut self, loads: &[Load]) {
         for load in loads {
-            let stress = load.stress(self.grains().time());
-            if let Some(wall) = self.grains_mut().walls_mut().get_mut(load.wall)
+            let stress = load.stress(self.grains().time);
+            if let Some(wall) = self.grains_mut().walls.get_mut(load.wall)
                 && let Control::Piston { mass, .. } = wall.control
             {
                 wall.control = Control::Piston { stress, mass };
@@ -117,7 +115,7 @@ impl Model {
     }
 
     fn try_advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, CoupledError> {
-        let left = (end - self.grains().time()).max(0.0);
+        let left = (end - self.grains().time).max(0.0);
         // The last step is shortened, but not to nothing.
         let cut = |step: f64| {
             if left < step {
@@ -159,10 +157,10 @@ impl Model {
     fn failure(&self, error: CoupledError) -> Failure {
         let grains = self.grains();
         let grain = grain_of(&error);
-        let position = grain.and_then(|k| grains.grains().positions().get(k));
+        let position = grain.and_then(|k| grains.grains.position.get(k));
         Failure {
-            time: grains.time(),
-            step: grains.steps(),
+            time: grains.time,
+            step: grains.steps,
             position: position.map(|x| [x.x, x.y, x.z]),
             grain,
             error,
@@ -171,7 +169,6 @@ impl Model {
     }
 
     /// State to go on bit for bit.
-    #[must_use]
     pub fn save(&self) -> Saved {
         match self {
             Self::Dry(system) => Saved::Dry(Box::new(system.save())),

@@ -27,16 +27,15 @@ pub struct Origin {
 
 impl Origin {
     /// Of grains that are ready.
-    #[must_use]
     pub fn new(scene: &Scene, grains: &GrainSystem) -> Self {
-        let all = grains.grains();
+        let all = &grains.grains;
         let test = scene.oedometer.as_ref();
         let piston = test.and_then(|t| scene.wall.get(&t.wall)?.piston.as_ref());
         Self {
             lengths: grains.box_lengths(),
-            positions: all.positions().iter().map(|x| [x.x, x.y, x.z]).collect(),
+            positions: all.position.iter().map(|x| [x.x, x.y, x.z]).collect(),
             top: highest(grains),
-            diameter: 2.0 * all.radii().iter().sum::<f64>() / all.len() as f64,
+            diameter: 2.0 * all.radius.iter().sum::<f64>() / all.len() as f64,
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
             dry_strain: None,
             mobility: None,
@@ -44,7 +43,6 @@ impl Origin {
     }
 
     /// C_v = K Δσ / ε, m²/s.
-    #[must_use]
     pub fn consolidation(&self) -> Option<f64> {
         Some(self.mobility? * self.load? / self.dry_strain?)
     }

@@ -59,10 +59,10 @@ pub fn grains(
             most_steps: scene.start.most_steps,
         };
         // Under its own weight a heap would press on the floor before there is a packing.
-        let gravity = system.gravity();
-        system.set_gravity(Default::default());
+        let gravity = system.gravity;
+        system.gravity = Default::default();
         let steps = growth.run(&mut system);
-        system.set_gravity(gravity);
+        system.gravity = gravity;
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
         tell(&format!("grown in {steps} steps{}", porosity(&system)));
     }
@@ -100,18 +100,18 @@ fn settled(
         return Ok(());
     }
     tell("letting the grains settle");
-    let mass: f64 = system.grains().masses().iter().sum();
+    let mass: f64 = system.grains.mass.iter().sum();
     for (number, name) in planes(scene).iter().enumerate() {
         if let Some(table) = scene.wall.get(name)
             && table.piston.is_some()
         {
             let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
-            system.walls_mut()[number].control = before;
+            system.walls[number].control = before;
         }
     }
-    let gravity = system.gravity();
+    let gravity = system.gravity;
     if let Some(fluid) = &scene.fluid {
-        system.set_gravity(gravity * (1.0 - fluid.density / scene.grains.density));
+        system.gravity = gravity * (1.0 - fluid.density / scene.grains.density);
     }
     let steps = step_to_rest(
         system,
@@ -119,7 +119,7 @@ fn settled(
         tolerance,
         scene.start.most_steps,
     );
-    system.set_gravity(gravity);
+    system.gravity = gravity;
     let steps = steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
     tell(&format!("settled in {steps} steps"));
     Ok(())
@@ -146,7 +146,7 @@ fn lower_the_top(
         );
         return Err(DemError::at("box.high", message));
     }
-    system.walls_mut()[top].point.z = at;
+    system.walls[top].point.z = at;
     Ok(())
 }
 
@@ -302,12 +302,12 @@ pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Resu
     };
     let height = |s: &GrainSystem| s.box_lengths().map_or(f64::NAN, |l| l[2]);
     let before = piston.prepared.unwrap_or(piston.stress);
-    let mass = piston.mass_share * grains.grains().masses().iter().sum::<f64>();
+    let mass = piston.mass_share * grains.grains.mass.iter().sum::<f64>();
     let (safety, most) = (0.8, scene.start.most_steps);
     for part in 1..=test.parts {
         let share = f64::from(part) / f64::from(test.parts);
         let stress = before + (piston.stress - before) * share;
-        dry.walls_mut()[wall].control = crate::grains::Control::Piston { stress, mass };
+        dry.walls[wall].control = crate::grains::Control::Piston { stress, mass };
         step_to_rest(&mut dry, safety, 1e-4, most).map_err(told)?;
     }
     step_to_rest(&mut dry, safety, 1e-6, most).map_err(told)?;

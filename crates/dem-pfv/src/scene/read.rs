@@ -11,7 +11,7 @@ use toml::{Table, Value};
 use crate::scene::check;
 use crate::scene::error::DemError;
 use crate::scene::schema::of_scene;
-use crate::scene::tables::{Plugins, Probe, Reference, Scene};
+use crate::scene::tables::{Probe, Reference, Scene};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -29,7 +29,6 @@ pub struct Loaded {
 }
 
 /// True if a table is that of a scene of grains.
-#[must_use]
 pub fn is_grain_scene(table: &Table) -> bool {
     table.contains_key("grains")
 }
@@ -151,28 +150,6 @@ fn one<T: DeserializeOwned>(
         .map_err(|e: toml::de::Error| told("", e.message().to_string()))
 }
 
-/// Kinds of probes or references with their descriptions, for listings.
-#[must_use]
-pub fn kinds_of_probes() -> Vec<(String, String)> {
-    kinds(&schemars::schema_for!(Probe).to_value())
-}
-
-/// The same for references.
-#[must_use]
-pub fn kinds_of_references() -> Vec<(String, String)> {
-    kinds(&schemars::schema_for!(Reference).to_value())
-}
-
-fn kinds(root: &Json) -> Vec<(String, String)> {
-    let variants = root["oneOf"].as_array().into_iter().flatten();
-    let told = |v: &Json| {
-        let kind = v["properties"]["kind"]["const"].as_str()?.to_string();
-        let text = v["description"].as_str().unwrap_or_default();
-        Some((kind, text.replace('\n', " ")))
-    };
-    variants.filter_map(told).collect()
-}
-
 impl Loaded {
     /// Checks that every file of the scene exists, and that those with loads hold the columns of the scene.
     ///
@@ -184,7 +161,7 @@ impl Loaded {
             let message = format!("there is no file `{}`", path.display());
             (!path.is_file()).then(|| SceneProblem::new(key, message))
         };
-        let mut problems: Vec<_> = self.files().into_iter().filter_map(missing).collect();
+        let mut problems: Vec<_> = self.scene.files().into_iter().filter_map(missing).collect();
         // Nothing is read from a file that is missing.
         let whole = problems.is_empty();
         for (name, wall) in self.scene.wall.iter().filter(|_| whole) {
@@ -199,28 +176,5 @@ impl Loaded {
             true => Ok(()),
             false => Err(DemError::Scene(problems)),
         }
-    }
-
-    /// Every file that the scene names, as it names it, with the key that does.
-    #[must_use]
-    pub fn files(&self) -> Vec<(String, String)> {
-        let mut found = Vec::new();
-        let start = self.scene.start.file.iter();
-        found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
-        for (name, wall) in &self.scene.wall {
-            let file = wall.file.iter();
-            found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
-            let recorded = wall.recorded.iter();
-            found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
-        }
-        let of = |plugins: &Plugins, what: &str| {
-            let named = plugins.iter().filter_map(|(name, table)| {
-                let file = table.get("file")?.as_str()?.to_string();
-                Some((format!("{what}.{name}.file"), file))
-            });
-            named.collect::<Vec<_>>()
-        };
-        found.extend(of(&self.scene.reference, "reference"));
-        found
     }
 }

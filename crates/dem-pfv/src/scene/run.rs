@@ -29,7 +29,6 @@ use crate::scene::tables::Probe;
 const SCHEMA_VERSION: u32 = 1;
 
 /// Identity of the checkpoints of a scene.
-#[must_use]
 pub fn identity(loaded: &Loaded) -> Identity {
     Identity::of_text(loaded.table.to_string())
 }
@@ -135,11 +134,11 @@ impl<'a> Running<'a> {
     fn now(&self) -> Result<ModelTime, DemError> {
         let grains = self.parts()?.model.grains();
         Ok(ModelTime {
-            time: grains.time(),
-            steps: grains.steps(),
+            time: grains.time,
+            steps: grains.steps,
             dt: self.progress.dt,
             limiter: self.limiter,
-            size: grains.grains().len(),
+            size: grains.grains.len(),
         })
     }
 }
@@ -172,7 +171,7 @@ impl sph_run::Model for Running<'_> {
         let end = self.loaded.scene.run.end;
         let interval = self.loaded.scene.output.interval(end);
         Ok(RunCounters {
-            time: self.parts()?.model.grains().time(),
+            time: self.parts()?.model.grains().time,
             rows: progress.rows,
             last_row: progress.last_row,
             series: progress.series,
@@ -219,7 +218,7 @@ impl sph_run::Model for Running<'_> {
         observer: &mut Watch<'_>,
     ) -> Result<(), DemError> {
         let Assembled { model, origin, .. } = self.parts()?;
-        let (time, scene) = (model.grains().time(), &self.loaded.scene);
+        let (time, scene) = (model.grains().time, &self.loaded.scene);
         if let Some(frames) = frames {
             if frames.lists() {
                 frames.add(time, frames::pieces(model, origin), 1)?;
@@ -313,7 +312,7 @@ impl Running<'_> {
         );
         let spheres = frames::pieces(model, origin).into_iter().next();
         let saved = spheres.map_or(Ok(()), |piece| {
-            let time = model.grains().time();
+            let time = model.grains().time;
             Ok(sph_io::write_vtu(out.join(BAD_STATE), &piece, time)?)
         });
         // The failure itself matters more than an error of writing about it.
@@ -332,10 +331,10 @@ impl Running<'_> {
         let parts = self.parts()?;
         let model = &parts.model;
         let grains = model.grains();
-        let steps = grains.steps();
+        let steps = grains.steps;
         let wall = books.wall_seconds;
         let stepping = wall - self.progress.preparation_seconds;
-        let count = grains.grains().len();
+        let count = grains.grains.len();
         let limited = self.progress.limited.iter();
         let errors = match status {
             Status::Failed => BTreeMap::new(),
@@ -356,7 +355,7 @@ impl Running<'_> {
             porosity: grains.porosity(),
             unbalanced_force: finite(grains.unbalanced_force()),
             steps,
-            simulated_seconds: grains.time(),
+            simulated_seconds: grains.time,
             wall_seconds: wall,
             preparation_seconds: self.progress.preparation_seconds,
             threads: rayon::current_num_threads(),

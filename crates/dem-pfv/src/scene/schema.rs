@@ -14,7 +14,6 @@ pub(crate) fn of_scene() -> Json {
 }
 
 /// The schema for editors, with the plugins of this binary. Numbers may also be strings with a unit.
-#[must_use]
 pub fn editor_schema() -> Json {
     let mut root = of_scene();
     let mut shared = Map::new();

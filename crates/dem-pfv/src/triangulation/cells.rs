@@ -33,7 +33,6 @@ pub struct Cell {
 
 impl Cell {
     /// Its vertices.
-    #[must_use]
     pub fn vertices(&self) -> [Vertex; 4] {
         self.vertices.map(|v| {
             if v & WALL == 0 {
@@ -45,13 +44,11 @@ impl Cell {
     }
 
     /// The cell across the facet that lacks vertex `i`; none across the hull and in the corner of a room.
-    #[must_use]
     pub fn neighbour(&self, i: usize) -> Option<usize> {
         (self.neighbours[i] != NONE).then_some(self.neighbours[i] as usize)
     }
 
     /// Number of walls among its vertices, 0 to 3.
-    #[must_use]
     pub fn walls(&self) -> usize {
         self.vertices.iter().filter(|v| **v & WALL != 0).count()
     }
@@ -71,9 +68,12 @@ pub struct Facet {
 /// The regular triangulation of spheres.
 #[derive(Clone, Debug)]
 pub struct Triangulation {
-    spheres: Vec<Sphere>,
-    walls: Vec<Wall>,
-    cells: Vec<Cell>,
+    /// The spheres, in the order given.
+    pub spheres: Vec<Sphere>,
+    /// The walls, in the order given.
+    pub walls: Vec<Wall>,
+    /// All cells.
+    pub cells: Vec<Cell>,
     /// Cells of sphere k: `incident[first[k]..first[k + 1]]`; walls follow the spheres.
     first: Vec<usize>,
     incident: Vec<u32>,
@@ -157,26 +157,7 @@ impl Triangulation {
         })
     }
 
-    /// The spheres, in the order given.
-    #[must_use]
-    pub fn spheres(&self) -> &[Sphere] {
-        &self.spheres
-    }
-
-    /// The walls, in the order given.
-    #[must_use]
-    pub fn walls(&self) -> &[Wall] {
-        &self.walls
-    }
-
-    /// All cells.
-    #[must_use]
-    pub fn cells(&self) -> &[Cell] {
-        &self.cells
-    }
-
     /// The numbers of the cells around a vertex, ascending.
-    #[must_use]
     pub fn cells_around(&self, vertex: Vertex) -> &[u32] {
         let k = match vertex {
             Vertex::Sphere(k) => k,
@@ -209,7 +190,6 @@ impl Triangulation {
     ///
     /// solved by Cramer's rule. Source: Catalano 2012, §3.1; the wall's row is the limit of a tangent
     /// sphere of infinite radius.
-    #[must_use]
     pub fn power_centre(&self, cell: usize) -> Vector3<f64> {
         let vertices = self.cells[cell].vertices();
         let sphere = |v: &Vertex| match v {

@@ -13,7 +13,6 @@ pub struct Sphere {
 
 impl Sphere {
     /// A sphere with this centre and radius, m.
-    #[must_use]
     pub fn new(centre: [f64; 3], radius: f64) -> Self {
         Self {
             centre: centre.into(),
@@ -22,7 +21,6 @@ impl Sphere {
     }
 
     /// Power of a point z: |z − x|² − R², m². Negative inside the sphere.
-    #[must_use]
     pub fn power(&self, z: Vector3<f64>) -> f64 {
         (z - self.centre).norm_squared() - self.radius * self.radius
     }
@@ -39,7 +37,6 @@ pub struct Wall {
 
 impl Wall {
     /// The wall through a point with an inward normal, which need not be of length 1.
-    #[must_use]
     pub fn through(point: [f64; 3], normal: [f64; 3]) -> Self {
         let normal = Vector3::from(normal).normalize();
         Self {
@@ -49,7 +46,6 @@ impl Wall {
     }
 
     /// The six walls of a box along the axes, in the order x₋, x₊, y₋, y₊, z₋, z₊.
-    #[must_use]
     pub fn cuboid(low: [f64; 3], high: [f64; 3]) -> [Self; 6] {
         std::array::from_fn(|w| {
             let (axis, upper) = (w / 2, w % 2 == 1);
@@ -61,13 +57,11 @@ impl Wall {
     }
 
     /// Signed distance n · x − c of a point, m; positive in the room.
-    #[must_use]
     pub fn distance(&self, x: Vector3<f64>) -> f64 {
         self.normal.dot(&x) - self.offset
     }
 
     /// Foot of the perpendicular from a point, m.
-    #[must_use]
     pub fn projection(&self, x: Vector3<f64>) -> Vector3<f64> {
         x - self.distance(x) * self.normal
     }

@@ -32,7 +32,7 @@ pub(crate) struct Corner {
 
 impl Corner {
     pub fn new(mesh: &Mesh<3>, node: usize, image: [i32; 3]) -> Self {
-        let position = mesh.nodes()[node].position.into();
+        let position = mesh.nodes[node].position.into();
         Corner { position, image }
     }
 }
@@ -41,13 +41,13 @@ impl Planes {
     /// For the present position of the walls.
     pub fn new(mesh: &Mesh<3>) -> Self {
         let mut all = Self::default();
-        for face in mesh.faces() {
+        for face in &mesh.faces {
             let corner = |e: &FaceEdge, k: usize| Corner::new(mesh, e.nodes[k], e.images[k]);
             let edges = face.edges.iter().map(|e| [corner(e, 0), corner(e, 1)]);
             all.edges.push(edges.collect());
         }
         // Triangles are stored face by face.
-        for (t, triangle) in mesh.elements().iter().enumerate() {
+        for (t, triangle) in mesh.elements.iter().enumerate() {
             let corners = mesh.corners(t);
             if all.planes.len() <= triangle.face {
                 let plane = Plane::new(corners[0], triangle.normal);

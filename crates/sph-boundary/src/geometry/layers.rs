@@ -26,7 +26,7 @@ pub(crate) fn layers(
         let index = |x: f64| (x / spacing).floor() as i64;
         (index(p[0]), index(p[1]))
     };
-    let domain = mesh.domain();
+    let domain = &mesh.domain;
     let inside_period = |p: [f64; 2]| {
         (0..2).all(|k| {
             !domain.periodic[k]
@@ -36,7 +36,7 @@ pub(crate) fn layers(
     };
     for row in 0..rows {
         let depth = (row as f64 + 0.5) * spacing;
-        for (s, segment) in mesh.elements().iter().enumerate() {
+        for (s, segment) in mesh.elements.iter().enumerate() {
             let [start, _] = mesh.corners(s);
             let tangent = segment.tangent();
             // A segment is about one spacing long: its own place is in its middle, and both

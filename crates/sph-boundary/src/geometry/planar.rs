@@ -125,7 +125,7 @@ impl WallMesh<2> for Walls<2> {
     }
 
     fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
-        if poses == self.mesh.poses() {
+        if poses == self.mesh.poses {
             return Ok(());
         }
         self.mesh.move_walls(poses)?;

@@ -154,7 +154,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
 
     /// Names of the walls.
     fn names(&self) -> &[String] {
-        self.walls().mesh.walls()
+        &self.walls().mesh.walls
     }
 
     /// All nodes at the present position of the walls.
@@ -261,7 +261,7 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
 
     /// Remarks on the walls.
     fn warnings(&self) -> Vec<String> {
-        let all = self.walls().mesh.warnings().iter();
+        let all = self.walls().mesh.warnings.iter();
         all.map(ToString::to_string).collect()
     }
 }

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 use sph_core::Vect;
+use sph_core::place_cells::offsets;
 
 use crate::geometry::wall_mesh::{MeshElement, WallMesh};
 use crate::treatment::contract::ThinWall;
@@ -43,11 +44,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let filled: HashSet<[i64; D]> = points.iter().map(cell).collect();
         let wet = |x: Vect<D>| {
             let middle = cell(&x);
-            (0..3_usize.pow(D as u32)).any(|n| {
-                let near: [i64; D] =
-                    std::array::from_fn(|k| middle[k] + (n / 3_usize.pow(k as u32) % 3) as i64 - 1);
-                filled.contains(&near)
-            })
+            let near = |d: [i64; D]| std::array::from_fn(|k| middle[k] + d[k]);
+            offsets().any(|d| filled.contains::<[i64; D]>(&near(d)))
         };
         let off = 1.5 * self.spacing;
         let both = |t: f64, e: &MeshElement<D>| {

@@ -23,35 +23,35 @@ fn message(lines: &[Polyline]) -> String {
 #[test]
 fn a_square_is_cut_into_equal_segments() {
     let mesh = build(&[Polyline::closed("tank", SQUARE.to_vec())]).unwrap();
-    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (16, 16));
-    for (s, segment) in mesh.elements().iter().enumerate() {
+    assert_eq!((mesh.elements.len(), mesh.nodes.len()), (16, 16));
+    for (s, segment) in mesh.elements.iter().enumerate() {
         assert_eq!(
             (segment.measure, segment.face, segment.wall),
             (0.5, s / 4, 0)
         );
         assert_eq!(segment.nodes, [s, (s + 1) % 16]);
     }
-    assert_eq!(mesh.elements()[5].normal, [-1.0, 0.0], "into the square");
-    for (v, vertex) in mesh.nodes().iter().enumerate() {
+    assert_eq!(mesh.elements[5].normal, [-1.0, 0.0], "into the square");
+    for (v, vertex) in mesh.nodes.iter().enumerate() {
         assert_eq!(vertex.theta, if v % 4 == 0 { 0.25 } else { 0.5 });
         assert_eq!(mesh.beside(v), [Some((v + 15) % 16), Some(v)]);
     }
     let outside = build(&[Polyline::closed("block", SQUARE.to_vec()).reversed()]).unwrap();
-    assert_eq!(outside.nodes()[0].theta, 0.75, "re-entrant");
+    assert_eq!(outside.nodes[0].theta, 0.75, "re-entrant");
 }
 
 #[test]
 fn a_wall_along_a_period_closes_onto_itself() {
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [4.0, 0.0]]);
     let mesh = Mesh::<2>::build(&[floor], 0.5, &channel()).unwrap();
-    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (8, 8));
-    assert!(mesh.free_ends().is_empty());
-    let last = mesh.elements()[7];
+    assert_eq!((mesh.elements.len(), mesh.nodes.len()), (8, 8));
+    assert!(mesh.free_ends.is_empty());
+    let last = mesh.elements[7];
     assert_eq!(
         (last.nodes, last.images, last.centre),
         ([7, 0], [[0, 0], [1, 0]], [3.75, 0.0])
     );
-    assert!(mesh.nodes().iter().all(|v| v.theta == 0.5));
+    assert!(mesh.nodes.iter().all(|v| v.theta == 0.5));
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_slope_across_the_seam_gets_its_angle_from_the_other_side() {
     let roof = Polyline::open("roof", vec![[0.0, 0.0], [2.0, 2.0], [4.0, 0.0]]);
     let mesh = Mesh::<2>::build(&[roof], 0.5, &channel()).unwrap();
     assert!(
-        (mesh.nodes()[0].theta - 0.25).abs() < 1e-15,
+        (mesh.nodes[0].theta - 0.25).abs() < 1e-15,
         "a valley at the seam"
     );
 }
@@ -69,9 +69,9 @@ fn open_walls_are_joined_end_to_end() {
     let floor = Polyline::open("floor", vec![[0.0, 2.0], [0.0, 0.0], [2.0, 0.0]]);
     let rest = Polyline::open("rest", vec![[2.0, 0.0], [2.0, 2.0], [0.0, 2.0 + 1e-9]]);
     let mesh = build(&[floor.clone(), rest.clone()]).unwrap();
-    assert_eq!((mesh.elements().len(), mesh.nodes().len()), (16, 16));
-    assert!(mesh.free_ends().is_empty());
-    assert_eq!(mesh.elements()[15].nodes, [15, 0]);
+    assert_eq!((mesh.elements.len(), mesh.nodes.len()), (16, 16));
+    assert!(mesh.free_ends.is_empty());
+    assert_eq!(mesh.elements[15].nodes, [15, 0]);
     let opposed = message(&[floor.clone(), rest.reversed()]);
     assert!(
         opposed.starts_with("the first end of wall `floor` meets the first end of wall `rest`")
@@ -83,9 +83,9 @@ fn open_walls_are_joined_end_to_end() {
 #[test]
 fn free_ends_are_refused_near_particles_only() {
     let mesh = build(&[Polyline::open("floor", vec![[0.0, 0.0], [9.0, 0.0]])]).unwrap();
-    let ends: Vec<WallEnd> = mesh.free_ends().iter().map(|free| free.end).collect();
+    let ends: Vec<WallEnd> = mesh.free_ends.iter().map(|free| free.end).collect();
     assert_eq!(ends, [WallEnd::First, WallEnd::Last]);
-    assert_eq!(mesh.nodes()[0].theta, 0.5);
+    assert_eq!(mesh.nodes[0].theta, 0.5);
     mesh.check_free_ends(&[[4.0, 0.5], [2.1, 0.5]], 2.0)
         .unwrap();
     let refused = mesh.check_free_ends(&[[4.0, 0.5], [8.5, 1.0], [8.5, 0.0]], 2.0);
@@ -114,7 +114,7 @@ fn degenerate_walls_are_named() {
     let repeated = Polyline::closed("gate", vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
     assert!(message(&[repeated]).contains("points 3 and 0"));
     assert!(Mesh::<2>::build(&[], 0.0, &PeriodicBox::none()).is_err());
-    assert!(build(&[]).unwrap().elements().is_empty());
+    assert!(build(&[]).unwrap().elements.is_empty());
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn crossings_are_named_and_touching_is_allowed() {
 fn a_closed_wall_without_area_must_be_a_plate() {
     let plate = Polyline::closed("plate", vec![[0.0, 0.0], [1.0, 2.0]]);
     let mesh = build(&[plate]).unwrap();
-    assert_eq!(mesh.nodes()[0].theta, 1.0);
+    assert_eq!(mesh.nodes[0].theta, 1.0);
     // Two triangles of opposite orientation that meet in a point.
     let bow = [
         [-2.0, -1.0],
@@ -175,8 +175,8 @@ fn a_closed_wall_without_area_must_be_a_plate() {
 fn short_edges_are_remarked_upon() {
     let plate = thin_plate("plate", &[[0.0, 0.0], [2.0, 0.0]], 0.01).unwrap();
     let mesh = build(&[plate]).unwrap();
-    assert_eq!(mesh.elements().len(), 10, "caps are one segment");
-    let warnings: Vec<String> = mesh.warnings().iter().map(ToString::to_string).collect();
+    assert_eq!(mesh.elements.len(), 10, "caps are one segment");
+    let warnings: Vec<String> = mesh.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
         warnings[0],
         "edge 1 of wall `plate` is 0.01 m long, far shorter than the spacing 0.5 m"
@@ -204,7 +204,7 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
             .map(|near| (near.index(), near.image[0]))
             .collect();
         let mut expected = Vec::new();
-        for s in 0..mesh.elements().len() {
+        for s in 0..mesh.elements.len() {
             for image in -2..=2 {
                 let ends = mesh
                     .corners(s)
@@ -274,19 +274,19 @@ fn walls_move_from_their_reference() {
     let at_rest = mesh.clone();
     let lifted = Pose::translated([0.0, 0.7]);
     mesh.move_walls(&[Pose::default(), lifted]).unwrap();
-    assert_eq!(mesh.nodes()[..16], at_rest.nodes()[..16]);
+    assert_eq!(mesh.nodes[..16], at_rest.nodes[..16]);
     assert_eq!(
-        mesh.nodes()[16].position[1],
-        at_rest.nodes()[16].position[1] + 0.7
+        mesh.nodes[16].position[1],
+        at_rest.nodes[16].position[1] + 0.7
     );
-    assert_eq!(mesh.elements()[16].normal, at_rest.elements()[16].normal);
+    assert_eq!(mesh.elements[16].normal, at_rest.elements[16].normal);
     let turn = Pose::turned_about([0.0, 0.0, 1.0], std::f64::consts::PI, [1.0, 0.75]);
     mesh.move_walls(&[Pose::default(), turn]).unwrap();
-    let opposite = mesh.elements()[16].normal;
-    assert!((opposite[0] + at_rest.elements()[16].normal[0]).abs() < 1e-14);
+    let opposite = mesh.elements[16].normal;
+    assert!((opposite[0] + at_rest.elements[16].normal[0]).abs() < 1e-14);
     mesh.move_walls(&[Pose::default(); 2]).unwrap();
-    assert_eq!(mesh.nodes(), at_rest.nodes(), "exactly back");
-    assert_eq!(mesh.elements(), at_rest.elements(), "exactly back");
+    assert_eq!(&mesh.nodes, &at_rest.nodes, "exactly back");
+    assert_eq!(&mesh.elements, &at_rest.elements, "exactly back");
     assert!(matches!(
         mesh.move_walls(&[]),
         Err(BoundaryError::Count { what: "pose", .. })

@@ -64,7 +64,7 @@ fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
     let path = picture("out", &arguments.out, &["png"])?;
     let frames = frames(&arguments.results)?;
     let mut identities = arguments.identity.clone();
-    let first = &frames.entries()[0];
+    let first = &frames.entries[0];
     if !arguments.near.is_empty() || identities.is_empty() {
         let start = frames.read(first).map_err(trouble)?;
         for text in &arguments.near {

@@ -42,7 +42,8 @@ fn listing(folder: &Path) -> Vec<Vec<String>> {
             "probes beside their references",
         ),
     ] {
-        let files = names(&folder.join(sub), extension);
+        let mut files = names(&folder.join(sub), extension);
+        files.sort();
         match files.as_slice() {
             [] => {}
             [only] => rows.push(row(format!("{sub}/{only}"), one)),
@@ -57,13 +58,12 @@ fn listing(folder: &Path) -> Vec<Vec<String>> {
     rows
 }
 
-fn names(folder: &Path, extension: &str) -> Vec<String> {
+/// Names of the files of a kind in a folder, in the order of their numbers.
+pub fn names(folder: &Path, extension: &str) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let files = entries.map(|e| e.path());
-    let mut names: Vec<String> = files
-        .filter(|p| p.extension().is_some_and(|e| e == extension))
-        .filter_map(|p| Some(p.file_name()?.to_str()?.to_string()))
-        .collect();
-    names.sort();
+    let names = entries.filter_map(|e| e.file_name().into_string().ok());
+    let of_kind = |name: &String| Path::new(name).extension().is_some_and(|e| e == extension);
+    let mut names: Vec<String> = names.filter(of_kind).collect();
+    names.sort_by_key(|n| (n.len(), n.clone()));
     names
 }

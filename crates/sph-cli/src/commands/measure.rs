@@ -40,7 +40,7 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     let frames = frames(&arguments.results)?;
     let mut unit = String::new();
     let mut rows: Vec<Vec<f64>> = Vec::new();
-    for entry in frames.entries() {
+    for entry in &frames.entries {
         let frame = frames.read(entry).map_err(trouble)?;
         let column = quantity(&frame, &arguments.field)?;
         let counted = counted(&frame, &column, arguments.weight, phase, &bounds)?;

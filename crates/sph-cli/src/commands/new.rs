@@ -8,7 +8,7 @@ use sph_scene::Source;
 
 use crate::arguments::NewArguments;
 use crate::scene_file::{self, AnyScene};
-use crate::shipped;
+use crate::shipped::{self, Content};
 use crate::terminal::console;
 use crate::terminal::trouble::Trouble;
 
@@ -57,14 +57,10 @@ fn target(name: &Path) -> Result<PathBuf, Trouble> {
 fn origin(from: &str) -> Result<(String, Option<PathBuf>), Trouble> {
     let file = match Path::new(from) {
         path if path.is_file() => path.to_path_buf(),
-        _ => match shipped::find(from) {
-            Some(shipped::Shipped {
-                file: Some(file), ..
-            }) => file,
-            Some(shipped::Shipped {
-                text: Some(text), ..
-            }) => return Ok((text.to_string(), None)),
-            _ => {
+        _ => match shipped::find(from).map(|found| found.content) {
+            Some(Content::File(file)) => file,
+            Some(Content::CompiledIn(text)) => return Ok((text.to_string(), None)),
+            None => {
                 let all = shipped::all();
                 let near = sph_core::suggestion(from, all.iter().map(|s| s.name.as_str()));
                 let message = format!("there is no scene `{from}` to start from{near}");
@@ -99,7 +95,7 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
     let loaded = match scene_file::read(Source::new(text, &name, &[])) {
         Ok(AnyScene::Particles(loaded)) => loaded,
         Ok(AnyScene::Grains(loaded)) => {
-            let files = loaded.files();
+            let files = loaded.scene.files();
             let placed = files.iter().filter_map(|(key, file)| {
                 let path = loaded.source.resolve(key, file).ok()?;
                 Some((file.clone(), path))

@@ -8,7 +8,7 @@ use sph_scene::{Source, read_text};
 use crate::arguments::ScenesArguments;
 use crate::gallery::Gallery;
 use crate::scene_file::{self, AnyScene};
-use crate::shipped::{self, Shipped};
+use crate::shipped::{self, Content, Shipped};
 use crate::terminal::layout::columns;
 use crate::terminal::trouble::Trouble;
 use crate::terminal::{console, diagnostics};
@@ -29,12 +29,9 @@ pub fn command(arguments: &ScenesArguments) -> Result<(), Trouble> {
 }
 
 fn read(shipped: &Shipped) -> Result<AnyScene, String> {
-    let (text, file) = match (&shipped.file, shipped.text) {
-        (Some(file), _) => (read_text(file)?, file.display().to_string()),
-        (None, text) => {
-            let name = format!("{}.toml", shipped.name);
-            (text.unwrap_or_default().to_string(), name)
-        }
+    let (text, file) = match &shipped.content {
+        Content::File(file) => (read_text(file)?, file.display().to_string()),
+        Content::CompiledIn(text) => ((*text).to_string(), format!("{}.toml", shipped.name)),
     };
     let scene = scene_file::read(Source::new(&text, &file, &[]));
     scene.map_err(|trouble| match trouble {
@@ -44,7 +41,10 @@ fn read(shipped: &Shipped) -> Result<AnyScene, String> {
 }
 
 fn entry(gallery: &Gallery, shipped: &Shipped) -> Json {
-    let file = shipped.file.as_ref().map(|f| f.display().to_string());
+    let file = match &shipped.content {
+        Content::File(file) => Some(file.display().to_string()),
+        Content::CompiledIn(_) => None,
+    };
     let mut all = json!({ "name": shipped.name, "file": file });
     match read(shipped) {
         Ok(scene) => {

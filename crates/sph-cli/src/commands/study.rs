@@ -12,7 +12,7 @@ use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, exe
 use crate::arguments::StudyArguments;
 use crate::interrupt;
 use crate::scene_file::{SceneSource, allowed, find, overrides};
-use crate::shipped;
+use crate::shipped::{self, Content};
 use crate::terminal::console;
 use crate::terminal::layout::columns;
 use crate::terminal::output::CommandOutput;
@@ -142,11 +142,12 @@ fn read(
              {known})"
         ))
     })?;
-    let path = study.file.clone();
-    let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.toml", study.name)));
-    Ok(match study.text {
-        None => Study::read(&path, &look, &set, &arguments.only)?,
-        Some(text) => Study::parse(text, &path, &look, &set, &arguments.only)?,
+    Ok(match study.content {
+        Content::File(path) => Study::read(&path, &look, &set, &arguments.only)?,
+        Content::CompiledIn(text) => {
+            let path = PathBuf::from(format!("{}.toml", study.name));
+            Study::parse(text, &path, &look, &set, &arguments.only)?
+        }
     })
 }
 

@@ -4,28 +4,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sph_io::clean;
 use sph_run::{Command, Observer, Progress};
 
-use crate::terminal::console;
-
 use crate::number;
+use crate::terminal::display::Display;
 
-/// Wall-clock time between two updates of the bar.
-const BAR: Duration = Duration::from_millis(100);
 /// Wall-clock time between two lines.
 const LINE: Duration = Duration::from_secs(5);
 /// Wall-clock time over which rates are averaged, s.
 const MEMORY: f64 = 10.0;
-/// Divisions of the bar.
-const DIVISIONS: u64 = 1000;
-
-enum Display {
-    Bar(ProgressBar),
-    Lines,
-    Silent,
-}
 
 /// Watches a run and passes Ctrl-C on.
 pub struct Watcher {
@@ -44,11 +31,7 @@ pub struct Watcher {
 impl Watcher {
     /// A watcher that stops the run once the flag is raised.
     pub fn new(quiet: bool, start: String, stop: Arc<AtomicBool>) -> Self {
-        let (display, every) = match (quiet, console::terminal()) {
-            (true, _) => (Display::Silent, LINE),
-            (false, true) => (Display::Bar(bar()), BAR),
-            (false, false) => (Display::Lines, LINE),
-        };
+        let (display, every) = Display::new(quiet, LINE);
         Watcher {
             display,
             start: Some(start),
@@ -78,31 +61,16 @@ impl Watcher {
         }
     }
 
-    fn say(&self, text: &str) {
-        match &self.display {
-            Display::Bar(bar) => bar.println(clean(text)),
-            Display::Lines => console::err(text),
-            Display::Silent => {}
-        }
-    }
-
     fn announce(&mut self) {
         if let Some(start) = self.start.take() {
-            self.say(&start);
+            self.display.say(&start);
         }
     }
 
     fn print(&self, progress: &Progress, meter: &Meter) {
         let share = progress.time / progress.end;
         let text = line(progress, meter, self.noun);
-        match &self.display {
-            Display::Bar(bar) => {
-                bar.set_position((share * DIVISIONS as f64) as u64);
-                bar.set_message(text);
-            }
-            Display::Lines => console::err(&format!("{:5.1} %  {text}", 100.0 * share)),
-            Display::Silent => {}
-        }
+        self.display.show(share, &text);
     }
 }
 
@@ -126,15 +94,8 @@ impl Observer for Watcher {
 
     fn message(&mut self, text: &str) {
         self.announce();
-        self.say(text);
+        self.display.say(text);
     }
-}
-
-fn bar() -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar
 }
 
 fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {

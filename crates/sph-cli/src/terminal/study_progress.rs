@@ -5,27 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sph_io::clean;
 use sph_run::Progress;
 use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
 
-use crate::terminal::console;
-
 use crate::number;
+use crate::terminal::display::Display;
 
-/// Wall-clock time between two updates of the bar.
-const BAR: Duration = Duration::from_millis(100);
 /// Wall-clock time between two lines within a variant.
 const LINE: Duration = Duration::from_secs(30);
-/// Divisions of the bar.
-const DIVISIONS: u64 = 1000;
-
-enum Display {
-    Bar(ProgressBar),
-    Lines,
-    Silent,
-}
 
 /// Watches a study and passes Ctrl-C on.
 pub struct Watcher {
@@ -96,11 +83,7 @@ struct State {
 impl Watcher {
     /// A watcher that stops the study once the flag is raised.
     pub fn new(quiet: bool, study: &Study, options: &Options, stop: Arc<AtomicBool>) -> Self {
-        let (display, every) = match (quiet, console::terminal()) {
-            (true, _) => (Display::Silent, LINE),
-            (false, true) => (Display::Bar(bar()), BAR),
-            (false, false) => (Display::Lines, LINE),
-        };
+        let (display, every) = Display::new(quiet, LINE);
         let file = &study.file;
         let open = to_run(study, options);
         let wanted = study.variants.iter().filter(|v| v.wanted).count();
@@ -124,7 +107,7 @@ impl Watcher {
                 repetition: BTreeMap::new(),
             }),
         };
-        watcher.say(&format!(
+        watcher.display.say(&format!(
             "{}: {} variants, {} to run, into {}",
             file.title,
             study.variants.len(),
@@ -145,7 +128,7 @@ impl Watcher {
         if let Some(name) = self.names.get(k) {
             state.cost.insert(name.clone(), work.max(1e-3));
             if let Display::Bar(bar) = &self.display {
-                bar.set_message(clean(&format!("checked {name}")).into_owned());
+                bar.set_message(sph_io::clean(&format!("checked {name}")).into_owned());
             }
         }
         state.started = Instant::now();
@@ -153,21 +136,11 @@ impl Watcher {
 
     /// Removes the bar.
     pub fn finish(&self) {
-        if let Display::Bar(bar) = &self.display {
-            bar.finish_and_clear();
-        }
+        self.display.finish();
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn say(&self, text: &str) {
-        match &self.display {
-            Display::Bar(bar) => bar.println(clean(text)),
-            Display::Lines => console::err(text),
-            Display::Silent => {}
-        }
     }
 
     fn print(&self, state: &State, variant: &str) {
@@ -186,14 +159,7 @@ impl Watcher {
             self.total,
             100.0 * own
         );
-        match &self.display {
-            Display::Bar(bar) => {
-                bar.set_position((share * DIVISIONS as f64) as u64);
-                bar.set_message(clean(&text).into_owned());
-            }
-            Display::Lines => console::err(&format!("{:5.1} %  {text}", 100.0 * share)),
-            Display::Silent => {}
-        }
+        self.display.show(share, &text);
     }
 }
 
@@ -237,7 +203,7 @@ impl sph_study::Watcher for Watcher {
         // Notes of every variant, and tries of those that are meant to break, would bury the study; a
         // summary keeps them.
         if !text.starts_with("note: ") && variant.rung.is_none() {
-            self.say(&format!("{}: {text}", variant.name));
+            self.display.say(&format!("{}: {text}", variant.name));
         }
     }
 
@@ -265,17 +231,10 @@ impl sph_study::Watcher for Watcher {
             "{} of {}  {}: {what}{time}",
             state.settled, self.total, variant.name
         );
-        self.say(&text);
+        self.display.say(&text);
     }
 
     fn stop(&self) -> bool {
         self.stop.load(Ordering::SeqCst)
     }
-}
-
-fn bar() -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar
 }

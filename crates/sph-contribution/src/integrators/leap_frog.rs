@@ -49,21 +49,3 @@ impl Integrator for LeapFrog {
         system.kick(0.5 * dt)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::integrators::trial::StatedOrders;
-
-    #[test]
-    fn orders_stability_and_energy_are_as_stated() {
-        let promise = StatedOrders {
-            sound: 2.0,
-            both: 2.0,
-            friction: 2.0,
-            stable: 2.0,
-            energy: 2e-3,
-        };
-        promise.check(&mut LeapFrog::default());
-    }
-}

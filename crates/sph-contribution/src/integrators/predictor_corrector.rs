@@ -53,21 +53,3 @@ impl Integrator for PredictorCorrector {
         system.drift(dt)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::integrators::trial::StatedOrders;
-
-    #[test]
-    fn orders_stability_and_energy_are_as_stated() {
-        let promise = StatedOrders {
-            sound: 1.0,
-            both: 1.0,
-            friction: 2.0,
-            stable: 2.0,
-            energy: 0.06,
-        };
-        promise.check(&mut PredictorCorrector::default());
-    }
-}

@@ -1,8 +1,8 @@
 //! Values between particles.
 
-use std::collections::HashMap;
-
 use nalgebra::{Matrix4, Vector4};
+
+use crate::curves::cells::PlaceCells;
 
 /// Radius of the fit, in spacings: some 20 particles in the plane and 65 in space.
 const RADIUS: f64 = 2.5;
@@ -34,10 +34,13 @@ pub type Weights = Vec<(u32, f64)>;
 /// assert!(cloud.weights([3.0, 0.0, 0.0]).is_none());
 /// ```
 pub struct Cloud<'a> {
-    points: &'a [[f64; 3]],
-    spacing: f64,
-    cells: HashMap<[i64; 3], Vec<u32>>,
-    planar: bool,
+    /// The points, m.
+    pub points: &'a [[f64; 3]],
+    /// Their distance, m.
+    pub spacing: f64,
+    cells: PlaceCells<u32>,
+    /// True if they lie in a plane of constant z.
+    pub planar: bool,
 }
 
 impl<'a> Cloud<'a> {
@@ -46,52 +49,29 @@ impl<'a> Cloud<'a> {
     pub fn new(points: &'a [[f64; 3]], spacing: f64) -> Self {
         let first = points.first().map_or(0.0, |p| p[2]);
         let planar = points.iter().all(|p| p[2] == first);
-        let mut cloud = Cloud {
-            points,
-            spacing,
-            cells: HashMap::new(),
-            planar,
-        };
+        let mut cells = PlaceCells::new(RADIUS * spacing);
         for (k, point) in points.iter().enumerate() {
             if point.iter().all(|x| x.is_finite()) {
-                let cell = cloud.cell(*point);
-                cloud.cells.entry(cell).or_default().push(k as u32);
+                cells.add(*point, k as u32);
             }
         }
-        cloud
-    }
-
-    /// The points, m.
-    pub fn points(&self) -> &[[f64; 3]] {
-        self.points
-    }
-
-    /// Their distance, m.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
-    /// True if they lie in a plane of constant z.
-    pub fn planar(&self) -> bool {
-        self.planar
-    }
-
-    fn cell(&self, x: [f64; 3]) -> [i64; 3] {
-        x.map(|x| (x / (RADIUS * self.spacing)).floor() as i64)
+        Cloud {
+            points,
+            spacing,
+            cells,
+            planar,
+        }
     }
 
     /// The points nearer to `x` than the radius of the fit, with r_j − x.
     fn neighbours(&self, x: [f64; 3]) -> impl Iterator<Item = (u32, [f64; 3])> {
-        let middle = self.cell(x);
         let reach = RADIUS * self.spacing;
-        let cells = (0..27).map(move |k| [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1]);
-        let here = cells.filter_map(move |d| self.cells.get(&[0, 1, 2].map(|k| middle[k] + d[k])));
         let apart = move |&j: &u32| {
             let r = self.points[j as usize];
             (j, [0, 1, 2].map(|k| r[k] - x[k]))
         };
-        here.flatten()
-            .map(apart)
+        let here = self.cells.around(x);
+        here.map(apart)
             .filter(move |(_, d)| square(d) < reach * reach)
     }
 

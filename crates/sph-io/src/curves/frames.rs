@@ -20,9 +20,9 @@ pub struct Entry {
 #[derive(Clone, Debug)]
 pub struct Frames {
     /// The frames, at least one.
-    entries: Vec<Entry>,
-    /// Spacing of the particles at the start, m.
-    spacing: f64,
+    pub entries: Vec<Entry>,
+    /// Distance of particles at the start, m: the median distance to the nearest one.
+    pub spacing: f64,
 }
 
 /// Largest number of frames for a range of colours.
@@ -57,16 +57,6 @@ impl Frames {
         let (piece, _) = crate::read_piece(&first.particles)?;
         let spacing = spacing(&piece.points);
         Ok(Frames { entries, spacing })
-    }
-
-    /// All of them.
-    pub fn entries(&self) -> &[Entry] {
-        &self.entries
-    }
-
-    /// Distance of particles at the start, m: the median distance to the nearest one.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
     }
 
     /// The frame nearest to a time (s), or the last one.

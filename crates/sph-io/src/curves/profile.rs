@@ -76,11 +76,7 @@ pub fn draw_profile(
         plot.series
             .push(Series::line(format!("t = {time} s"), points));
     }
-    let svg = path.extension().is_some_and(|e| e == "svg");
-    match svg {
-        true => plot.save_svg(path)?,
-        false => plot.save_png(path)?,
-    }
+    plot.save(path)?;
     let columns = [
         ("time", "s"),
         ("distance", "m"),

@@ -67,7 +67,7 @@ impl Snapshot {
     pub fn velocity(&self) -> Result<Vec<f64>, DrawError> {
         let field = self.field("velocity")?;
         match field.components {
-            3 => Ok(reals(&field.data)),
+            3 => Ok(field.data.reals()),
             _ => Err(self.missing("velocity")),
         }
     }
@@ -86,7 +86,7 @@ impl Snapshot {
             ("speed", Err(_)) => self.field("velocity"),
             (_, found) => found,
         }?;
-        let all = reals(&field.data);
+        let all = field.data.reals();
         let per = field.components;
         let one = |component: &str| {
             let axis = ["x", "y", "z"].iter().position(|a| *a == component);
@@ -142,14 +142,5 @@ impl Snapshot {
             view: if planar { View::Plane } else { View::Front },
             ..Picture::new(points, values)
         }
-    }
-}
-
-/// A column as reals.
-fn reals(values: &FieldValues<'_>) -> Vec<f64> {
-    match values {
-        FieldValues::F64(v) => v.to_vec(),
-        FieldValues::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
-        FieldValues::I64(v) => v.iter().map(|x| *x as f64).collect(),
     }
 }

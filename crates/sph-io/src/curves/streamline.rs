@@ -1,8 +1,8 @@
 //! Lines along the velocity of one moment.
 
-use std::collections::HashMap;
 use std::path::Path;
 
+use crate::curves::cells::PlaceCells;
 use crate::curves::cloud::square;
 use crate::curves::{Cloud, DrawError, Frames, Snapshot};
 
@@ -35,20 +35,20 @@ pub fn streamlines(
         still: STILL * fastest(velocity),
     };
     let speed = |k: u32| square(&flow.own(k));
-    let mut seeds: Vec<u32> = (0..cloud.points().len() as u32).collect();
+    let mut seeds: Vec<u32> = (0..cloud.points.len() as u32).collect();
     // The same on every machine: particles of one speed keep their order.
     seeds.sort_by(|a, b| speed(*b).total_cmp(&speed(*a)).then(a.cmp(b)));
     let mut drawn = PointCells::new(apart);
     let mut lines = Vec::new();
     for seed in seeds {
-        let start = cloud.points()[seed as usize];
+        let start = cloud.points[seed as usize];
         if drawn.near(start, apart) {
             continue;
         }
         let line = flow.through(start, &drawn, apart);
         // Shorter ones are blots.
-        if line.len() as f64 * STEP * cloud.spacing() > apart {
-            line.iter().for_each(|x| drawn.add(*x));
+        if line.len() as f64 * STEP * cloud.spacing > apart {
+            line.iter().for_each(|x| drawn.add(*x, *x));
             lines.push(line);
         }
     }
@@ -102,7 +102,7 @@ impl Flow<'_> {
 
     /// The line through a place, against the flow and along it.
     fn through(&self, start: [f64; 3], drawn: &PointCells, apart: f64) -> Vec<[f64; 3]> {
-        let step = STEP * self.cloud.spacing();
+        let step = STEP * self.cloud.spacing;
         let (mut line, closed) = self.followed(start, step, drawn, apart);
         if closed {
             return line;
@@ -141,7 +141,7 @@ impl Flow<'_> {
             if let Some(past) = line.len().checked_sub(lag + 1).map(|k| line[k])
                 && home(&past) > crowded
             {
-                own.add(past);
+                own.add(past, past);
             }
         }
         (line, false)
@@ -149,34 +149,13 @@ impl Flow<'_> {
 }
 
 /// Points of lines, sorted into cells.
-struct PointCells {
-    side: f64,
-    cells: HashMap<[i64; 3], Vec<[f64; 3]>>,
-}
+type PointCells = PlaceCells<[f64; 3]>;
 
 impl PointCells {
-    fn new(side: f64) -> Self {
-        PointCells {
-            side,
-            cells: HashMap::new(),
-        }
-    }
-
-    fn cell(&self, x: [f64; 3]) -> [i64; 3] {
-        x.map(|x| (x / self.side).floor() as i64)
-    }
-
-    fn add(&mut self, x: [f64; 3]) {
-        self.cells.entry(self.cell(x)).or_default().push(x);
-    }
-
     /// True if a point is nearer than `reach`, which is at most a side of a cell.
     fn near(&self, x: [f64; 3], reach: f64) -> bool {
-        let middle = self.cell(x);
-        let around = (0..27).map(|k| [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1]);
-        let here = around.filter_map(|d| self.cells.get(&[0, 1, 2].map(|k| middle[k] + d[k])));
-        here.flatten()
-            .any(|p| square(&[0, 1, 2].map(|k| p[k] - x[k])) < reach * reach)
+        let apart = |p: &[f64; 3]| square(&[0, 1, 2].map(|k| p[k] - x[k]));
+        self.around(x).any(|p| apart(p) < reach * reach)
     }
 }
 
@@ -202,15 +181,15 @@ pub fn draw_streamlines(
         .map(|[lo, hi]| hi - lo);
     let apart = apart.unwrap_or(sides.iter().fold(0.0_f64, |m, s| m.max(*s)) / 40.0);
     let apart = apart.max(snapshot.spacing);
-    let flat = if cloud.planar() { 2 } else { 1 };
+    let flat = if cloud.planar { 2 } else { 1 };
     let [near, far] = ends(&snapshot, flat);
     let level = plane.unwrap_or(0.5 * (near + far));
     // Lines of a slice begin at its own particles, moved into it.
     let (mut points, mut values, mut moving) = (Vec::new(), Vec::new(), Vec::new());
     for (k, point) in snapshot.points().iter().enumerate() {
-        if cloud.planar() || (point[flat] - level).abs() <= 0.5 * snapshot.spacing {
+        if cloud.planar || (point[flat] - level).abs() <= 0.5 * snapshot.spacing {
             let mut point = *point;
-            if !cloud.planar() {
+            if !cloud.planar {
                 point[flat] = level;
             }
             points.push(point);

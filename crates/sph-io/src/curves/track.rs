@@ -23,7 +23,7 @@ pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>, DrawErr
         places: Vec::new(),
     };
     let mut all: Vec<Track> = identities.iter().map(start).collect();
-    for entry in frames.entries() {
+    for entry in &frames.entries {
         let snapshot = frames.read(entry)?;
         for (identity, place) in snapshot.identities()?.iter().zip(snapshot.points()) {
             // Few are followed: a list is as good as a map.

@@ -2,10 +2,8 @@
 
 use std::path::Path;
 
-use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{DrawTarget, Rect};
-use crate::drawing::plot::Plot;
-use crate::drawing::svg::Svg;
+use crate::drawing::plot::{Plot, save};
 use crate::error::{IoError, Result};
 
 /// Pixels of one panel.
@@ -48,15 +46,7 @@ impl Panels {
         }
         self.0.iter().try_for_each(|plot| plot.check(path))?;
         let width = PANEL[0] * self.0.len() as u32;
-        if path.extension().is_some_and(|e| e == "svg") {
-            let mut svg = Svg::new(width, PANEL[1]);
-            self.draw(&mut svg);
-            return svg.save(path);
-        }
-        let canvas = Canvas::new(width, PANEL[1]);
-        let mut canvas = canvas.ok_or_else(|| IoError::input(path, "no memory for the plots"))?;
-        self.draw(&mut canvas);
-        canvas.save(path)
+        save(path, [width, PANEL[1]], |on| self.draw(on))
     }
 
     fn draw(&self, on: &mut dyn DrawTarget) {

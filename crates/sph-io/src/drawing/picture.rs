@@ -13,7 +13,7 @@ use crate::drawing::canvas::{Canvas, SIDES};
 use crate::drawing::class_bar::ClassBar;
 use crate::drawing::colour::{Colour, ColourMap};
 use crate::drawing::colour_bar::ColourBar;
-use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::extent;
 use crate::drawing::relief;
 use crate::drawing::text;
@@ -258,11 +258,14 @@ impl<'a> Picture<'a> {
     fn draw_walls(&self, canvas: &mut Canvas, axes: &Axes) {
         let pen = Pen::solid(Colour::WALL, axes.size / 7.0);
         for ends in self.walls {
-            let [a, b] = ends.map(|p| self.flat(p)).map(|[x, y]| axes.spot(x, y));
-            if let Some(inside) = axes.frame.clipped(a, b) {
-                canvas.line(&inside, pen);
-            }
+            self.draw_line(canvas, axes, ends, pen);
         }
+    }
+
+    fn draw_line(&self, canvas: &mut Canvas, axes: &Axes, line: &[[f64; 3]], pen: Pen) {
+        let spots = line.iter().map(|p| self.flat(*p));
+        let spots: Vec<_> = spots.map(|[x, y]| axes.spot(x, y)).collect();
+        draw_within(canvas, &axes.frame, &spots, pen);
     }
 
     /// Dark lines with a light edge, which shows on dark ground.
@@ -270,13 +273,7 @@ impl<'a> Picture<'a> {
         for (colour, width) in [(Colour::WHITE, 0.16), (Colour::INK, 0.08)] {
             let pen = Pen::solid(colour, width * axes.size);
             for line in self.lines {
-                let spots = line.iter().map(|p| self.flat(*p));
-                let spots: Vec<_> = spots.map(|[x, y]| axes.spot(x, y)).collect();
-                for ends in spots.windows(2) {
-                    if let Some(inside) = axes.frame.clipped(ends[0], ends[1]) {
-                        canvas.line(&inside, pen);
-                    }
-                }
+                self.draw_line(canvas, axes, line, pen);
             }
         }
     }
@@ -284,15 +281,8 @@ impl<'a> Picture<'a> {
     /// Coloured lines with a light edge, and texts.
     fn draw_strokes(&self, canvas: &mut Canvas, axes: &Axes) {
         for (points, colour) in self.strokes {
-            let spots = points.iter().map(|p| self.flat(*p));
-            let spots: Vec<_> = spots.map(|[x, y]| axes.spot(x, y)).collect();
             for (colour, width) in [(Colour::WHITE, 0.2), (*colour, 0.11)] {
-                let pen = Pen::solid(colour, width * axes.size);
-                for ends in spots.windows(2) {
-                    if let Some(inside) = axes.frame.clipped(ends[0], ends[1]) {
-                        canvas.line(&inside, pen);
-                    }
-                }
+                self.draw_line(canvas, axes, points, Pen::solid(colour, width * axes.size));
             }
         }
         let size = 0.8 * axes.size;
@@ -342,9 +332,7 @@ impl<'a> Picture<'a> {
         for (colour, width) in [(Colour::WHITE, 0.3), (Colour::RING, 0.15)] {
             let pen = Pen::solid(colour, width * axes.size);
             for line in &lines {
-                if let Some(inside) = axes.frame.clipped(line[0], line[1]) {
-                    canvas.line(&inside, pen);
-                }
+                draw_within(canvas, &axes.frame, line, pen);
             }
         }
     }
@@ -381,6 +369,15 @@ impl<'a> Picture<'a> {
             View::Plane => [x, y],
             View::Front => [x, z],
             View::Above => relief::project([x, y, z]).0,
+        }
+    }
+}
+
+/// The parts of a line that lie in the frame.
+fn draw_within(canvas: &mut Canvas, frame: &Rect, spots: &[Spot], pen: Pen) {
+    for ends in spots.windows(2) {
+        if let Some(inside) = frame.clipped(ends[0], ends[1]) {
+            canvas.line(&inside, pen);
         }
     }
 }

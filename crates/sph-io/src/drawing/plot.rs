@@ -33,8 +33,8 @@ const LETTERS: f64 = 22.0;
 ///     log_y: true,
 ///     series: vec![Series::line("second order", vec![[0.01, 1e-4], [0.1, 1e-2]])],
 /// };
-/// plot.save_png(folder.path().join("convergence.png"))?;
-/// plot.save_svg(folder.path().join("convergence.svg"))?;
+/// plot.save(folder.path().join("convergence.png"))?;
+/// plot.save(folder.path().join("convergence.svg"))?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,26 +54,17 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// Writes the plot as a picture of 1200 by 800 pixels.
-    pub fn save_png(&self, path: impl AsRef<Path>) -> Result<()> {
+    /// Writes the plot as vectors, texts as texts, if the name ends in `.svg`, else as a PNG of 1200 by 800 pixels.
+    ///
+    /// # Errors
+    /// If the series do not fit together, or the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         self.check(path)?;
-        let canvas = Canvas::new(SIZE[0], SIZE[1]);
-        let mut canvas = canvas.ok_or_else(|| IoError::input(path, "no memory for the plot"))?;
-        self.draw(&mut canvas, &whole());
-        canvas.save(path)
+        save(path, SIZE, |on| self.draw(on, &whole()))
     }
 
-    /// Writes the plot as vectors, texts as texts.
-    pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path.as_ref();
-        self.check(path)?;
-        let mut svg = Svg::new(SIZE[0], SIZE[1]);
-        self.draw(&mut svg, &whole());
-        svg.save(path)
-    }
-
-    /// The document that [`save_svg`](Self::save_svg) writes, to stand in a page.
+    /// The document that [`save`](Self::save) writes as vectors, to stand in a page.
     ///
     /// # Errors
     /// If the series do not fit together.
@@ -174,6 +165,23 @@ impl Plot {
 }
 
 /// The place of a plot that stands alone.
+/// Draws into a file of so many pixels: vectors if its name ends in `.svg`, else a PNG.
+pub(crate) fn save(
+    path: &Path,
+    [width, height]: [u32; 2],
+    draw: impl Fn(&mut dyn DrawTarget),
+) -> Result<()> {
+    if path.extension().is_some_and(|e| e == "svg") {
+        let mut svg = Svg::new(width, height);
+        draw(&mut svg);
+        return svg.save(path);
+    }
+    let canvas = Canvas::new(width, height);
+    let mut canvas = canvas.ok_or_else(|| IoError::input(path, "no memory for the plot"))?;
+    draw(&mut canvas);
+    canvas.save(path)
+}
+
 fn whole() -> Rect {
     Rect {
         left: 0.0,

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::error::{IoError, Result};
+use crate::error::Result;
 use crate::files::atomic::{Durability, write_atomic};
-use crate::files::series::headings;
+use crate::files::series::{headings, line};
 
 /// Writes a CSV file with a header `x[m],height[m],…`, all or nothing.
 ///
@@ -25,17 +25,10 @@ pub fn write_table<N: AsRef<str>, U: AsRef<str>>(
 ) -> Result<()> {
     let path = path.as_ref();
     let cells = headings(path, columns)?;
-    if let Some(row) = rows.iter().find(|row| row.len() != cells.len()) {
-        let problem = format!("a row of {} values for {} columns", row.len(), cells.len());
-        return Err(IoError::input(path, problem));
-    }
+    let lines = rows.iter().map(|row| line(path, row, cells.len()));
+    let text = (cells.join(",") + "\n") + &lines.collect::<Result<String>>()?;
     write_atomic(path, Durability::Process, |file| {
-        writeln!(file, "{}", cells.join(","))?;
-        for row in rows {
-            let cells: Vec<String> = row.iter().map(|v| format!("{v:?}")).collect();
-            writeln!(file, "{}", cells.join(","))?;
-        }
-        Ok(())
+        file.write_all(text.as_bytes())
     })
 }
 

@@ -118,13 +118,8 @@ impl SeriesWriter {
 
     /// Appends one row and hands it to the operating system.
     pub fn row(&mut self, values: &[f64]) -> Result<()> {
-        if values.len() != self.columns {
-            let (found, wanted) = (values.len(), self.columns);
-            let problem = format!("a row of {found} values for {wanted} columns");
-            return Err(IoError::input(&self.path, problem));
-        }
-        let cells: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
-        self.append(&(cells.join(",") + "\n"))
+        let line = line(&self.path, values, self.columns)?;
+        self.append(&line)
     }
 
     /// Length of the file in bytes; give it to
@@ -162,6 +157,16 @@ fn difference(header: &str, cells: &[String]) -> Option<String> {
         (None, Some(cell)) => Some(format!("its column `{cell}` is no longer measured")),
         (None, None) => Some("its columns are in another order".into()),
     }
+}
+
+/// A row of a table with so many columns.
+pub(crate) fn line(path: &Path, values: &[f64], columns: usize) -> Result<String> {
+    if values.len() != columns {
+        let problem = format!("a row of {} values for {columns} columns", values.len());
+        return Err(IoError::input(path, problem));
+    }
+    let cells: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
+    Ok(cells.join(",") + "\n")
 }
 
 /// The cells of a header for columns given as (name, unit).

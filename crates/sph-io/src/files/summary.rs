@@ -1,12 +1,11 @@
 //! Anything serialisable as pretty JSON, all or nothing.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde::Serialize;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::{AtomicFile, Durability};
+use crate::files::atomic::{Durability, write_atomic};
 
 /// Writes `value` to `path` as indented JSON with a final newline.
 ///
@@ -18,9 +17,7 @@ pub fn write_json(path: impl AsRef<Path>, value: &(impl Serialize + ?Sized)) -> 
         source,
     })?;
     text.push(b'\n');
-    let mut file = AtomicFile::create(path)?;
-    file.write_all(&text).map_err(|e| IoError::write(path, e))?;
-    file.commit(Durability::Process)
+    write_atomic(path, Durability::Process, |file| file.write_all(&text))
 }
 
 #[cfg(test)]

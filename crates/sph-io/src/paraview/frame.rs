@@ -80,7 +80,7 @@ pub enum FieldValues<'a> {
 
 impl FieldValues<'_> {
     /// Number of values.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match self {
             Self::F64(v) => v.len(),
             Self::U32(v) => v.len(),
@@ -88,9 +88,22 @@ impl FieldValues<'_> {
         }
     }
 
-    /// True if there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
+    /// All of them as reals.
+    pub fn reals(&self) -> Vec<f64> {
+        match self {
+            Self::F64(v) => v.to_vec(),
+            Self::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
+            Self::I64(v) => v.iter().map(|x| *x as f64).collect(),
+        }
+    }
+
+    /// VTK's name of their type.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::F64(_) => "Float64",
+            Self::U32(_) => "UInt32",
+            Self::I64(_) => "Int64",
+        }
     }
 }
 
@@ -111,16 +124,6 @@ impl<'a> FieldData<'a> {
         data: &'a [[f64; 3]],
     ) -> Self {
         Self::new(name, unit, 3, FieldValues::F64(data.as_flattened().into()))
-    }
-
-    /// Two reals per point, padded with a zero: ParaView takes vectors of three.
-    pub fn planar_vector(
-        name: impl Into<Cow<'a, str>>,
-        unit: impl Into<Cow<'a, str>>,
-        data: &[[f64; 2]],
-    ) -> Self {
-        let padded: Vec<f64> = data.iter().flat_map(|v| [v[0], v[1], 0.0]).collect();
-        Self::new(name, unit, 3, FieldValues::F64(padded.into()))
     }
 
     /// Some reals per point: a tensor, as its components stand in the data.
@@ -163,21 +166,20 @@ impl<'a> FieldData<'a> {
 impl Cells<'_> {
     /// Number of cells over `points` points.
     pub fn len(&self, points: usize) -> usize {
-        match self {
-            Self::Vertices => points,
-            Self::Segments(cells) => cells.len(),
-            Self::Triangles(cells) => cells.len(),
-            Self::Tetrahedra(cells) => cells.len(),
+        match self.corners() {
+            (_, 1, _) => points,
+            (_, each, all) => all.len() / each,
         }
     }
 
-    /// The largest point number used.
-    fn last_point(&self) -> Option<u32> {
+    /// VTK's number of the type, the number of corners of a cell, and the corners of all cells in turn; those of
+    /// vertices are not kept.
+    pub(crate) fn corners(&self) -> (u8, usize, &[u32]) {
         match self {
-            Self::Vertices => None,
-            Self::Segments(cells) => cells.as_flattened().iter().max().copied(),
-            Self::Triangles(cells) => cells.as_flattened().iter().max().copied(),
-            Self::Tetrahedra(cells) => cells.as_flattened().iter().max().copied(),
+            Self::Vertices => (1, 1, &[]),
+            Self::Segments(cells) => (3, 2, cells.as_flattened()),
+            Self::Triangles(cells) => (5, 3, cells.as_flattened()),
+            Self::Tetrahedra(cells) => (10, 4, cells.as_flattened()),
         }
     }
 }
@@ -188,7 +190,14 @@ impl Piece<'_> {
         let points = self.points.len();
         let cells = self.cells.len(points);
         let piece = &self.name;
-        if let Some(last) = self.cells.last_point().filter(|&p| p as usize >= points) {
+        if let Some(last) = self
+            .cells
+            .corners()
+            .2
+            .iter()
+            .max()
+            .filter(|&&p| p as usize >= points)
+        {
             return Err(format!(
                 "a cell of piece `{piece}` uses point {last} but there are only {points} points"
             ));
@@ -247,14 +256,5 @@ mod tests {
         let outside = Cells::Segments(vec![[0, 3]].into());
         let said = piece(outside, vec![]).check().unwrap_err();
         assert!(said.contains("point 3"), "{said}");
-    }
-
-    #[test]
-    fn planar_vectors_get_a_third_component() {
-        let field = FieldData::planar_vector("velocity", "m/s", &[[1.0, 2.0], [3.0, 4.0]]);
-        let FieldValues::F64(data) = &field.data else {
-            panic!("reals expected")
-        };
-        assert_eq!(data[..], [1.0, 2.0, 0.0, 3.0, 4.0, 0.0]);
     }
 }

@@ -61,7 +61,7 @@ pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize)
     ] {
         xml.push_str(&format!("    <{tag}>\n"));
         for field in piece.fields.iter().filter(|f| f.location == location) {
-            let (kind, name) = (kind(&field.data), escape(&field.name));
+            let (kind, name) = (field.data.kind(), escape(&field.name));
             xml.push_str(&format!(
                 "      <PDataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{}\"/>\n",
                 field.components
@@ -81,14 +81,6 @@ pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize)
     write_atomic(path, Durability::Process, |file| {
         file.write_all(xml.as_bytes())
     })
-}
-
-fn kind(values: &FieldValues) -> &'static str {
-    match values {
-        FieldValues::F64(_) => "Float64",
-        FieldValues::U32(_) => "UInt32",
-        FieldValues::I64(_) => "Int64",
-    }
 }
 
 /// Reads a piece that one process wrote, or several, and its time (s); its name is that of the file without its number.

@@ -88,40 +88,23 @@ impl Document {
     }
 
     fn field(&mut self, field: &FieldData) -> std::io::Result<()> {
-        let (kind, data) = match &field.data {
-            FieldValues::F64(v) => ("Float64", bytes(v, f64::to_le_bytes)),
-            FieldValues::U32(v) => ("UInt32", bytes(v, u32::to_le_bytes)),
-            FieldValues::I64(v) => ("Int64", bytes(v, i64::to_le_bytes)),
+        let data = match &field.data {
+            FieldValues::F64(v) => bytes(v, f64::to_le_bytes),
+            FieldValues::U32(v) => bytes(v, u32::to_le_bytes),
+            FieldValues::I64(v) => bytes(v, i64::to_le_bytes),
         };
+        let kind = field.data.kind();
         let shape = format!(" NumberOfComponents=\"{}\"", field.components);
         self.array(&field.name, kind, &shape, &field.unit, data)
     }
 
     fn cells(&mut self, cells: &Cells, count: usize) -> std::io::Result<()> {
-        // VTK's numbers for vertex, line, triangle and tetrahedron.
-        let (kind, corners, joined) = match cells {
-            Cells::Vertices => (
-                1_u8,
-                1,
-                (0..count as i64).flat_map(i64::to_le_bytes).collect(),
-            ),
-            Cells::Segments(c) => (
-                3,
-                2,
-                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
-            ),
-            Cells::Triangles(c) => (
-                5,
-                3,
-                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
-            ),
-            Cells::Tetrahedra(c) => (
-                10,
-                4,
-                bytes(c.as_flattened(), |p| i64::from(p).to_le_bytes()),
-            ),
+        let (kind, each, corners) = cells.corners();
+        let joined = match cells {
+            Cells::Vertices => (0..count as i64).flat_map(i64::to_le_bytes).collect(),
+            _ => bytes(corners, |p| i64::from(p).to_le_bytes()),
         };
-        let ends = (1..=count as i64).map(|i| i * corners);
+        let ends = (1..=count as i64).map(|i| i * each as i64);
         let offsets: Vec<u8> = ends.flat_map(i64::to_le_bytes).collect();
         self.line("      <Cells>");
         self.array("connectivity", "Int64", "", "", joined)?;

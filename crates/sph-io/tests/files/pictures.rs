@@ -186,8 +186,8 @@ fn plot() -> Plot {
 fn plots_come_as_pixels_and_as_vectors() {
     let folder = tempfile::tempdir().unwrap();
     let (png, svg) = (folder.path().join("a.png"), folder.path().join("a.svg"));
-    plot().save_png(&png).unwrap();
-    plot().save_svg(&svg).unwrap();
+    plot().save(&png).unwrap();
+    plot().save(&svg).unwrap();
     let map = Pixmap::load_png(&png).unwrap();
     assert_eq!((map.width(), map.height()), (1200, 800));
     assert!(
@@ -222,15 +222,15 @@ fn odd_plots_do_no_harm() {
                 series,
                 ..Plot::default()
             };
-            plot.save_png(&png).unwrap();
-            plot.save_svg(&svg).unwrap();
+            plot.save(&png).unwrap();
+            plot.save(&svg).unwrap();
             let text = fs::read_to_string(&svg).unwrap();
             assert!(!text.contains("NaN"), "{text}");
         }
     }
     let mut uneven = plot();
     uneven.series[2].style = Style::Band(vec![]);
-    assert!(matches!(uneven.save_png(&png), Err(IoError::Input { .. })));
+    assert!(matches!(uneven.save(&png), Err(IoError::Input { .. })));
 }
 
 #[test]

@@ -84,7 +84,7 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
             series: vec![given, Series::line("this run", pairs(times, &values))],
             ..Plot::default()
         };
-        plot.save_png(plots.join(format!("{name}.png")))?;
+        plot.save(plots.join(format!("{name}.png")))?;
     }
     Ok(())
 }

@@ -82,7 +82,7 @@ fn entry(value: f64, reference: &Reference, samples: usize, window: [f64; 2]) ->
     };
     ErrorEntry {
         value: value.is_finite().then_some(value),
-        norm: reference.norm().name().to_string(),
+        norm: reference.norm().name(),
         unit: "1".into(),
         samples,
         window,

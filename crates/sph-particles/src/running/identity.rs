@@ -13,8 +13,8 @@ const LONGEST: u64 = 512 << 20;
 /// A file that cannot be read, at its key.
 pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
     let source = &loaded.source;
-    let set = source.overrides().iter();
-    let set = set.map(|o| format!("\n--set {}", o.text()));
+    let set = source.overrides.iter();
+    let set = set.map(|o| format!("\n--set {}", &o.text));
     let text = std::iter::once(source.text().to_string()).chain(set);
     Ok(Identity {
         files: marks(loaded)?,

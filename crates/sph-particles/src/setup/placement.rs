@@ -2,10 +2,9 @@
 
 mod filled_share;
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 use sph_boundary::Wall;
+use sph_core::place_cells::PlaceCells;
 use sph_core::{SceneProblem, Vect};
 use sph_scene::{Body, Offset, Region, Scene, disturb, fill};
 
@@ -173,21 +172,11 @@ fn nearest<'a, const D: usize>(
 /// The particles that are joined to the seed by steps of at most 1½ spacings.
 fn connected<const D: usize>(all: Vec<Vect<D>>, seed: &Vect<D>, spacing: f64) -> Vec<Vect<D>> {
     let reach = 1.5 * spacing;
-    let cell = |x: &Vect<D>| -> [i64; D] { std::array::from_fn(|k| (x[k] / reach).floor() as i64) };
-    let mut cells: HashMap<[i64; D], Vec<usize>> = HashMap::new();
-    for (i, x) in all.iter().enumerate() {
-        cells.entry(cell(x)).or_default().push(i);
-    }
+    let places = all.iter().enumerate().map(|(i, x)| ((*x).into(), i));
+    let cells = PlaceCells::new(reach, places);
     let around = |x: &Vect<D>| -> Vec<usize> {
-        let middle = cell(x);
-        let neighbours = (0..3_usize.pow(D as u32)).flat_map(|n| {
-            let shifted: [i64; D] =
-                std::array::from_fn(|k| middle[k] + (n / 3_usize.pow(k as u32) % 3) as i64 - 1);
-            cells.get(&shifted).into_iter().flatten().copied()
-        });
-        neighbours
-            .filter(|i| (all[*i] - x).norm() <= reach)
-            .collect()
+        let near = cells.around((*x).into()).copied();
+        near.filter(|i| (all[*i] - x).norm() <= reach).collect()
     };
     let mut reached = vec![false; all.len()];
     let mut open = around(seed);

@@ -1,8 +1,7 @@
 //! Remarks on the soils of a scene before they move.
 
-use std::collections::HashMap;
-
-use sph_core::{Vect, fields};
+use sph_core::fields;
+use sph_core::place_cells::PlaceCells;
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_solver::{Flow, SolverError};
@@ -144,23 +143,14 @@ fn hanging<const D: usize>(
     let phase = Phases::new(flow)?;
     let position = world.free.get(fields::POSITION)?;
     let reach = GAP * world.spacing;
-    let cell = |x: &Vect<D>| -> [i64; D] { std::array::from_fn(|k| (x[k] / reach).floor() as i64) };
-    let mut cells: HashMap<[i64; D], Vec<usize>> = HashMap::new();
-    for (k, x) in position.iter().enumerate() {
-        cells.entry(cell(x)).or_default().push(k);
-    }
+    let places = position.iter().enumerate().map(|(k, x)| ((*x).into(), k));
+    let cells = PlaceCells::new(reach, places);
     // A particle within reach, less than 60° from straight below.
     let beneath = |k: usize| {
         let x = &position[k];
-        let middle = cell(x);
-        (0..3_usize.pow(D as u32)).any(|n| {
-            let shifted: [i64; D] =
-                std::array::from_fn(|d| middle[d] + (n / 3_usize.pow(d as u32) % 3) as i64 - 1);
-            let near = cells.get(&shifted).into_iter().flatten();
-            near.copied().any(|j| {
-                let apart = position[j] - x;
-                j != k && apart.norm() <= reach && -apart.dot(&up) > 0.5 * apart.norm()
-            })
+        cells.around((*x).into()).any(|&j| {
+            let apart = position[j] - x;
+            j != k && apart.norm() <= reach && -apart.dot(&up) > 0.5 * apart.norm()
         })
     };
     let grains = (0..position.len()).filter(|k| phase.number(*k) == number);

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use scene_text::Problems;
 use sph_core::suggestion;
 
 use crate::Wall;
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
 
 /// Checks the beds among the walls of a scene.
 pub(crate) fn check(walls: &BTreeMap<String, Wall>, of: Dimension, found: &mut Problems) {

@@ -1,8 +1,8 @@
 //! Bodies against the periodic box, the domain and the spacing.
 
+use scene_text::Problems;
 use sph_core::plausible::Quantity;
 
-use crate::checks::problems::Problems;
 use crate::checks::wave;
 use crate::geometry::periodic_place::{ROUNDING, spans};
 use crate::{Region, Scene};
@@ -17,7 +17,7 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
         let Some(region) = Region::<D>::from_body(body) else {
             continue;
         };
-        let key = body.keys().given()[0];
+        let key = body.shape.given()[0];
         let path = format!("body.{name}.{key}");
         let (lo, hi) = region.base.bounds();
         let far = lo

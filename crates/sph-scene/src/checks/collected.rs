@@ -1,19 +1,19 @@
 //! All checks beyond the schema of a scene.
 
+use scene_text::Problems;
 use sph_core::{Place, SceneProblem, kinds};
 use toml::{Table, Value};
 
 use crate::checks::geometry;
 use crate::checks::names::{self, inside};
 use crate::checks::overlap;
-use crate::checks::problems::Problems;
 use crate::checks::time;
 use crate::reading::plugins::holders;
 use crate::{Scene, Source};
 
 /// Checks that need no types: names, and one plugin where there is to be one.
 pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
-    let mut found = Problems(Vec::new());
+    let mut found = Problems::default();
     for kind in kinds().into_iter().filter(|k| k.place != Place::Any) {
         for (path, held) in holders(kind, scene) {
             single(held, &path, &mut found);
@@ -46,7 +46,7 @@ fn single(plugins: &Value, path: &str, found: &mut Problems) {
 
 /// Checks of a scene whose form is right; also fills in the paths of its files.
 pub(crate) fn scene(scene: &mut Scene, source: &Source) -> Vec<SceneProblem> {
-    let mut found = Problems(Vec::new());
+    let mut found = Problems::default();
     names::references(scene, source, &mut found);
     time::check(scene, &mut found);
     geometry::check(scene, &mut found);

@@ -1,7 +1,8 @@
 //! Chains of corners and polygons.
 
+use scene_text::Problems;
+
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
 use crate::geometry::polygon::crossing;
 use crate::geometry::vector::{array, point};
 use crate::{Polygon, Shape};

@@ -1,6 +1,6 @@
 //! Vectors and shapes against the number of dimensions.
 
-use crate::checks::problems::Problems;
+use scene_text::Problems;
 
 /// The number of dimensions of the scene, against which vectors are held.
 #[derive(Clone, Copy)]

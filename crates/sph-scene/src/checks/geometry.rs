@@ -1,12 +1,13 @@
 //! Vectors, shapes, walls and periodic boxes.
 
+use scene_text::Problems;
+
 use crate::Scene;
 use crate::checks::beds;
 use crate::checks::bounds::within_bounds;
 use crate::checks::dimension::Dimension;
 use crate::checks::gravity;
 use crate::checks::outlets::outlets;
-use crate::checks::problems::Problems;
 use crate::checks::shapes::body_geometry;
 use crate::checks::walls::wall_geometry;
 

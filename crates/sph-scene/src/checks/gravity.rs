@@ -1,29 +1,26 @@
 //! Gravity over time, and the frame of the scene.
 
+use scene_text::Problems;
+
 use crate::checks::dimension::Dimension;
 use crate::checks::motion;
-use crate::checks::problems::Problems;
 use crate::{GravityOverTime, Motion};
 
 /// Checks the change of gravity.
 pub(crate) fn over_time(given: &GravityOverTime, of: Dimension, found: &mut Problems) {
     let path = "numerics.gravity_over_time";
-    let courses = [
+    let courses = scene_text::given([
         ("sine", given.sine.is_some()),
         ("table", given.table.is_some()),
         ("file", given.file.is_some()),
-    ];
-    let mut names = courses
-        .iter()
-        .filter(|(_, some)| *some)
-        .map(|(name, _)| *name);
-    match (names.next(), names.next_back()) {
-        (None, _) => found.add(path, "a course is missing: `sine`, `table` or `file`"),
-        (Some(first), Some(last)) => {
+    ]);
+    match courses.as_slice() {
+        [] => found.add(path, "a course is missing: `sine`, `table` or `file`"),
+        [_] => {}
+        [first, .., last] => {
             let message = format!("only one course can stand here, found {first} and {last}");
             found.add(format!("{path}.{last}"), message);
         }
-        _ => {}
     }
     if let Some(sine) = &given.sine {
         of.vector(&sine.amplitude, &format!("{path}.sine.amplitude"), found);

@@ -1,10 +1,12 @@
 //! The motion of walls.
 
+use scene_text::Problems;
 use sph_core::unit_factor;
 
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
+use crate::geometry::course::ImposedCourse;
 use crate::geometry::wall_geometry::has_ending;
+use crate::tables::motion::CourseRows;
 use crate::{Levels, Motion};
 
 /// Endings of files that are tables of numbers.
@@ -32,28 +34,13 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
     for (k, translate) in motion.translate.iter().enumerate() {
         let path = motion.translate_path(path, k);
         of.direction(&translate.along, &format!("{path}.along"), found);
-        course(&translate.given(), &translate.table, &path, found);
-        csv(&translate.file, &path, found);
-        of_file(
-            translate.file.is_some(),
-            &translate.in_force(),
-            &path,
-            found,
-        );
-        if let Err((key, why)) = translate.form() {
-            found.add(format!("{path}.{key}"), why);
-        }
+        course(&translate.given(), &path, found);
     }
     if let Some(rotate) = &motion.rotate {
         let path = format!("{path}.rotate");
         of.vector(&rotate.centre, &format!("{path}.centre"), found);
         of.axis(&rotate.axis, true, &path, found);
-        course(&rotate.given(), &rotate.table, &path, found);
-        csv(&rotate.file, &path, found);
-        of_file(rotate.file.is_some(), &rotate.in_force(), &path, found);
-        if let Err((key, why)) = rotate.form() {
-            found.add(format!("{path}.{key}"), why);
-        }
+        course(&rotate.given(), &path, found);
         if turns {
             let message = "the rotation is given here and by `angular_velocity`: choose one";
             found.add(path, message);
@@ -88,12 +75,38 @@ fn check_levels(levels: &Levels, rest: &Motion, of: Dimension, path: &str, found
     }
 }
 
-/// There is exactly one course, and the times of a table rise.
-fn course(given: &[&str], table: &Option<Vec<[f64; 2]>>, path: &str, found: &mut Problems) {
+/// There is exactly one course, the times of a table rise, and the keys of the form of a file need one; a unit and a
+/// factor are the same thing.
+fn course(given: &ImposedCourse<'_>, path: &str, found: &mut Problems) {
     let all = "`speed`, `ramp`, `sine`, `table` or `file`";
-    found.one_of(given, path, "course", [all, ""]);
-    let Some(rows) = table else { return };
-    let place = format!("{path}.table");
+    found.one_of(&given.keys(), path, "course", [all, ""]);
+    if let Some(table) = &given.rows.table {
+        rising(table, &format!("{path}.table"), found);
+    }
+    let CourseRows {
+        file, unit, scale, ..
+    } = given.rows;
+    csv(file, path, found);
+    let of_file = scene_text::given([
+        ("unit", unit.is_some()),
+        ("scale", scale.is_some()),
+        ("time_unit", given.rows.time_unit.is_some()),
+        ("columns", given.rows.columns.is_some()),
+    ]);
+    if let Some(key) = of_file.first().filter(|_| file.is_none()) {
+        let message = "this says how a `file` is read, and there is none";
+        found.add(format!("{path}.{key}"), message);
+    }
+    if unit.is_some() && scale.is_some() {
+        let message = "the numbers have a `unit` or a `scale`, not both";
+        found.add(format!("{path}.unit"), message);
+    }
+    if let Err((key, why)) = given.form() {
+        found.add(format!("{path}.{key}"), why);
+    }
+}
+
+fn rising(rows: &[[f64; 2]], place: &str, found: &mut Problems) {
     if rows.len() < 2 {
         let message = format!("a course needs at least 2 rows, found {}", rows.len());
         return found.add(place, message);
@@ -102,20 +115,6 @@ fn course(given: &[&str], table: &Option<Vec<[f64; 2]>>, path: &str, found: &mut
         let (before, after) = (rows[k][0], rows[k + 1][0]);
         let message = format!("times must rise, {after} s follows {before} s");
         found.add(format!("{place}[{}]", k + 1), message);
-    }
-}
-
-/// Keys of the form of a file: they need one, and a unit and a factor are the same thing.
-fn of_file(file: bool, given: &[&str], path: &str, found: &mut Problems) {
-    if let Some(key) = given.first().filter(|_| !file) {
-        found.add(
-            format!("{path}.{key}"),
-            "this says how a `file` is read, and there is none",
-        );
-    }
-    if given.contains(&"unit") && given.contains(&"scale") {
-        let message = "the numbers have a `unit` or a `scale`, not both";
-        found.add(format!("{path}.unit"), message);
     }
 }
 

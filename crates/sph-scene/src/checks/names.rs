@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use scene_text::{Problems, given};
 use sph_core::suggestion;
 use toml::{Table, Value};
 
-use crate::checks::problems::Problems;
 use crate::{Motion, Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
@@ -125,7 +125,8 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
 fn files_of_motion(motion: &mut Motion, motion_path: &str, source: &Source, found: &mut Problems) {
     for k in 0..motion.translate.len() {
         let path = motion.translate_path(motion_path, k);
-        motion.translate[k].path = located(&motion.translate[k].file, &path, source, found);
+        let rows = &mut motion.translate[k].rows;
+        rows.path = located(&rows.file, &path, source, found);
     }
     if let Some(levels) = &mut motion.levels {
         let path = format!("{motion_path}.levels");
@@ -133,7 +134,8 @@ fn files_of_motion(motion: &mut Motion, motion_path: &str, source: &Source, foun
     }
     if let Some(rotate) = &mut motion.rotate {
         let path = format!("{motion_path}.rotate");
-        rotate.path = located(&rotate.file, &path, source, found);
+        let rows = &mut rotate.rows;
+        rows.path = located(&rows.file, &path, source, found);
     }
 }
 
@@ -188,12 +190,11 @@ fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
         );
     }
     if reference.file.is_none() {
-        let keys = [
+        for key in given([
             ("columns", reference.columns.is_some()),
             ("lower", reference.lower.is_some()),
             ("upper", reference.upper.is_some()),
-        ];
-        for (key, _) in keys.iter().filter(|(_, given)| *given) {
+        ]) {
             found.add(format!("{path}.{key}"), "columns belong to a `file`");
         }
     }
@@ -240,13 +241,13 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
             found.add(format!("{path}.{key}"), message);
         }
     }
-    let about = |norm: &str, what: &str| format!("the norm `{norm}` is for {what}");
+    let about = |norm: Norm, what: &str| format!("the norm `{}` is for {what}", norm.name());
     match (reference.norm(), &reference.field, &reference.probe) {
         (norm @ (Norm::L2Mean | Norm::Rms), None, Some(_)) => {
-            found.add(format!("{path}.norm"), about(norm.name(), "fields"));
+            found.add(format!("{path}.norm"), about(norm, "fields"));
         }
         (norm, Some(_), None) if reference.stands_alone() => {
-            found.add(format!("{path}.norm"), about(norm.name(), "probes"));
+            found.add(format!("{path}.norm"), about(norm, "probes"));
         }
         _ => {}
     }

@@ -1,8 +1,9 @@
 //! Checks of outlets.
 
+use scene_text::{Problems, given};
+
 use crate::Scene;
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
 
 /// Checks the geometry of all outlets.
 pub(crate) fn outlets(scene: &Scene, of: Dimension, found: &mut Problems) {
@@ -21,11 +22,10 @@ pub(crate) fn outlets(scene: &Scene, of: Dimension, found: &mut Problems) {
             (None, Some(_)) => {}
         }
         if outlet.bounds.is_some() {
-            let keys = [
+            for key in given([
                 ("axis", outlet.axis.is_some()),
                 ("direction", outlet.direction.is_some()),
-            ];
-            for (key, _) in keys.iter().filter(|(_, given)| *given) {
+            ]) {
                 found.add(format!("{path}.{key}"), "it belongs to `beyond`");
             }
         }

@@ -1,6 +1,7 @@
 //! Bodies that claim the same place.
 
-use crate::checks::problems::Problems;
+use scene_text::Problems;
+
 use crate::geometry::periodic_place::PeriodicRegion;
 use crate::geometry::vector::point;
 use crate::{Region, Scene};

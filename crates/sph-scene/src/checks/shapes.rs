@@ -1,10 +1,11 @@
 //! Bodies: their shapes, and how they are filled.
 
+use scene_text::Problems;
+
 use crate::checks::corners::polygon;
 use crate::checks::dimension::Dimension;
-use crate::checks::problems::Problems;
 use crate::checks::wave;
-use crate::tables::body::ShapeKeys;
+use crate::tables::body::BodyShape;
 use crate::{Body, LevelSurface, Pressure, Scene};
 
 /// Checks the keys of a body in space.
@@ -18,7 +19,7 @@ pub(crate) fn body_geometry(
     match body.fill {
         Some(_) => filling(body, of, path, found),
         None => {
-            shape(body.keys(), of, path, found);
+            shape(&body.shape, of, path, found);
             if body.seed.is_some() {
                 let message = "a seed belongs to `fill = \"walls\"`";
                 found.add(format!("{path}.seed"), message);
@@ -43,7 +44,7 @@ pub(crate) fn body_geometry(
         }
     }
     for (k, cut) in body.subtract.iter().enumerate() {
-        shape(cut.keys(), of, &format!("{path}.subtract[{k}]"), found);
+        shape(cut, of, &format!("{path}.subtract[{k}]"), found);
     }
     of.optional(&body.velocity, &format!("{path}.velocity"), found);
     if body.velocity.is_some() && !body.initial.is_empty() {
@@ -71,19 +72,19 @@ pub(crate) fn body_geometry(
 
 /// A body that fills the walls has no shape but a box that bounds it.
 fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
-    for key in body.keys().given().into_iter().filter(|key| *key != "box") {
+    for key in body.shape.given().into_iter().filter(|key| *key != "box") {
         found.add(
             format!("{path}.{key}"),
             "what `fill = \"walls\"` fills can be bounded by a `box` only",
         );
     }
-    if let Some(corners) = &body.bounds {
+    if let Some(corners) = &body.shape.bounds {
         of.corners(corners, &format!("{path}.box"), found);
     }
     let Some(seed) = &body.seed else { return };
     let place = format!("{path}.seed");
     if of.vector(seed, &place, found)
-        && let Some([lo, hi]) = &body.bounds
+        && let Some([lo, hi]) = &body.shape.bounds
         && (0..of.0).any(|k| {
             !lo.get(k)
                 .zip(hi.get(k))
@@ -94,7 +95,7 @@ fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
     }
 }
 
-fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
+fn shape(keys: &BodyShape, of: Dimension, path: &str, found: &mut Problems) {
     let all = match of.0 {
         2 => "`box`, `polygon`, `disc` or `ellipse`",
         _ => "`box`, `sphere`, `cylinder`, `cone` or `extrusion`",
@@ -105,21 +106,21 @@ fn shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
 }
 
 /// Checks the keys of a shape.
-pub(crate) fn keys_of_shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, found: &mut Problems) {
+pub(crate) fn keys_of_shape(keys: &BodyShape, of: Dimension, path: &str, found: &mut Problems) {
     let at = |key: &str| format!("{path}.{key}");
-    if let Some(corners) = keys.bounds {
+    if let Some(corners) = &keys.bounds {
         of.corners(corners, &at("box"), found);
     }
     for (round, key, what, dimension) in [
-        (keys.disc, "disc", "a disc", 2),
-        (keys.sphere, "sphere", "a sphere", 3),
+        (&keys.disc, "disc", "a disc", 2),
+        (&keys.sphere, "sphere", "a sphere", 3),
     ] {
-        let Some((centre, _)) = round else { continue };
+        let Some(round) = round else { continue };
         if of.is(dimension, what, &at(key), found) {
-            of.vector(centre, &at(&format!("{key}.centre")), found);
+            of.vector(&round.centre, &at(&format!("{key}.centre")), found);
         }
     }
-    if let Some(ellipse) = keys.ellipse
+    if let Some(ellipse) = &keys.ellipse
         && of.is(2, "an ellipse", &at("ellipse"), found)
     {
         of.vector(&ellipse.centre, &at("ellipse.centre"), found);
@@ -128,27 +129,27 @@ pub(crate) fn keys_of_shape(keys: ShapeKeys<'_>, of: Dimension, path: &str, foun
             found.add(at("ellipse.semi_axes"), message);
         }
     }
-    if let Some(points) = keys.polygon
+    if let Some(points) = &keys.polygon
         && of.is(2, "a polygon", &at("polygon"), found)
     {
         polygon(points, &at("polygon"), found);
     }
-    for (drawn_out, key, what, names) in [
-        (keys.cylinder, "cylinder", "a cylinder", ["from", "to"]),
-        (keys.cone, "cone", "a cone", ["base", "apex"]),
-    ] {
-        let Some((ends, _)) = drawn_out else { continue };
-        if of.is(3, what, &at(key), found) {
-            let [first, second] = [0, 1].map(|k| (names[k], ends[k]));
-            of.apart(first, second, &at(key), found);
-        }
+    if let Some(c) = &keys.cylinder
+        && of.is(3, "a cylinder", &at("cylinder"), found)
+    {
+        of.apart(("from", &c.from), ("to", &c.to), &at("cylinder"), found);
     }
-    if let Some((points, _, [from, to])) = keys.extrusion
+    if let Some(c) = &keys.cone
+        && of.is(3, "a cone", &at("cone"), found)
+    {
+        of.apart(("base", &c.base), ("apex", &c.apex), &at("cone"), found);
+    }
+    if let Some(e) = &keys.extrusion
         && of.is(3, "an extrusion", &at("extrusion"), found)
     {
-        polygon(points, &at("extrusion.polygon"), found);
-        if from == to {
-            let message = format!("`from` and `to` must differ, found {from} twice");
+        polygon(&e.polygon, &at("extrusion.polygon"), found);
+        if e.from == e.to {
+            let message = format!("`from` and `to` must differ, found {} twice", e.from);
             found.add(at("extrusion.to"), message);
         }
     }

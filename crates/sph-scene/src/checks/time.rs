@@ -1,6 +1,7 @@
 //! Times and intervals: inside the run, in order.
 
-use crate::checks::problems::Problems;
+use scene_text::Problems;
+
 use crate::{Numerics, Scene};
 
 /// Most outputs of fields in a run.

@@ -1,14 +1,13 @@
 //! Walls: one geometry each, of the scene's dimension, and keys that go with it.
 
+use scene_text::{Problems, given};
 use sph_core::unit_factor;
 
 use crate::checks::corners::{chain, crossed};
 use crate::checks::dimension::Dimension;
 use crate::checks::motion::{self, TABLES};
-use crate::checks::problems::Problems;
 use crate::checks::shapes::keys_of_shape;
 use crate::geometry::wall_geometry::has_ending;
-use crate::tables::given_keys::given;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{FluidSide, SlipCondition, Wall};
 
@@ -20,7 +19,7 @@ pub(crate) fn wall_geometry(wall: &Wall, of: Dimension, path: &str, found: &mut 
     };
     let advice = "; a wall of several parts is several walls";
     if found.one_of(&wall.geometries(), path, "geometry", [all, advice]) {
-        keys_of_shape(wall.keys(), of, path, found);
+        keys_of_shape(&wall.shape(), of, path, found);
         drawn(wall, of, path, found);
         companions(wall, path, found);
     }

@@ -1,6 +1,7 @@
 //! Waves that bodies carry at the start.
 
-use crate::checks::problems::Problems;
+use scene_text::Problems;
+
 use crate::geometry::periodic_place::ROUNDING;
 use crate::{Body, Pressure, Region, Scene, Wave};
 

@@ -1,6 +1,6 @@
 //! Filling bodies with particles on a square lattice.
 
-use std::collections::HashMap;
+use sph_core::place_cells::{PlaceCells, offsets};
 
 use crate::Region;
 use crate::filling::nodes::{Nodes, Offset};
@@ -43,7 +43,9 @@ pub fn fill<const D: usize>(
         ),
         Offset::Half => (ROUNDING * spacing, 1e-3 * spacing),
     };
-    let mut taken = OccupiedCells::new(spacing);
+    // Particles near surfaces.
+    let least = 0.75 * spacing;
+    let mut taken = PlaceCells::new(least, []);
     let mut doubtful = Vec::new();
     let mut filled = Vec::with_capacity(bodies.len());
     for (body, region) in placed.iter().enumerate() {
@@ -53,7 +55,7 @@ pub fn fill<const D: usize>(
             if depth >= firm {
                 positions.push(wrapped(&node, periodic));
                 if bodies.len() > 1 && depth < 2.0 * spacing {
-                    taken.insert(node);
+                    taken.add(node, node);
                 }
             } else if bodies.len() > 1 && depth >= -ROUNDING * spacing {
                 doubtful.push((body, node));
@@ -65,9 +67,13 @@ pub fn fill<const D: usize>(
     for (body, node) in doubtful {
         let within = |x: [f64; D]| placed.iter().any(|p| p.depth(&x) >= -ROUNDING * spacing);
         let beside = |d: &[f64; D]| std::array::from_fn(|k| node[k] + reach * d[k]);
-        let free = || !placed[body].shifts().iter().any(|s| taken.near(&node, s));
+        let near = |shift: &[f64; D]| {
+            let x = std::array::from_fn(|k| node[k] + shift[k]);
+            taken.around(x).any(|y| distance(&x, y) < least)
+        };
+        let free = || !placed[body].shifts().iter().any(near);
         if free() && around.iter().all(|d| within(beside(d))) {
-            taken.insert(node);
+            taken.add(node, node);
             filled[body].positions.push(wrapped(&node, periodic));
         }
     }
@@ -76,55 +82,10 @@ pub fn fill<const D: usize>(
 
 /// Unit vectors to all neighbours of a cell.
 fn directions<const D: usize>() -> Vec<[f64; D]> {
-    let all = offsets::<D>()
-        .into_iter()
-        .filter(|o| o.iter().any(|c| *c != 0));
+    let all = offsets::<D>().filter(|o| o.iter().any(|c| *c != 0));
     all.map(|o| {
         let length = o.iter().map(|c| (c * c) as f64).sum::<f64>().sqrt();
         o.map(|c| c as f64 / length)
     })
     .collect()
-}
-
-/// All vectors with entries −1, 0 and 1.
-fn offsets<const D: usize>() -> Vec<[i64; D]> {
-    let digit = |n: usize, k: usize| (n / 3usize.pow(k as u32) % 3) as i64 - 1;
-    (0..3usize.pow(D as u32))
-        .map(|n| std::array::from_fn(|k| digit(n, k)))
-        .collect()
-}
-
-/// Particles near surfaces, in cells as wide as the least distance.
-struct OccupiedCells<const D: usize> {
-    least: f64,
-    cells: HashMap<[i64; D], Vec<[f64; D]>>,
-    around: Vec<[i64; D]>,
-}
-
-impl<const D: usize> OccupiedCells<D> {
-    fn new(spacing: f64) -> Self {
-        OccupiedCells {
-            least: 0.75 * spacing,
-            cells: HashMap::new(),
-            around: offsets(),
-        }
-    }
-
-    fn cell(&self, x: &[f64; D]) -> [i64; D] {
-        x.map(|c| (c / self.least).floor() as i64)
-    }
-
-    fn insert(&mut self, x: [f64; D]) {
-        self.cells.entry(self.cell(&x)).or_default().push(x);
-    }
-
-    fn near(&self, x: &[f64; D], shift: &[f64; D]) -> bool {
-        let x: [f64; D] = std::array::from_fn(|k| x[k] + shift[k]);
-        let home = self.cell(&x);
-        self.around.iter().any(|o| {
-            let cell: [i64; D] = std::array::from_fn(|k| home[k].saturating_add(o[k]));
-            let there = self.cells.get(&cell).into_iter().flatten();
-            there.into_iter().any(|y| distance(&x, y) < self.least)
-        })
-    }
 }

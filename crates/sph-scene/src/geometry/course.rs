@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use scene_text::given;
 use sph_core::course::{self, Course, Translation};
 use sph_core::{SceneProblem, unit_factor};
 
@@ -9,8 +10,7 @@ use crate::drawings::heading::Form;
 use crate::drawings::rows::{self, Row};
 use crate::geometry::vector::{array, unit};
 use crate::reading::limits::TIMES;
-use crate::tables::given_keys::given;
-use crate::tables::motion::{Motion, Rotation, Translate};
+use crate::tables::motion::{CourseRows, Motion, Rotation, Translate};
 
 /// All courses of a motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +43,7 @@ impl Motion {
         }
         for (k, translate) in self.translate.iter().enumerate() {
             let along = array(&unit(&translate.along).unwrap_or_default());
-            let course = translate.course(&self.translate_path(place, k))?;
+            let course = translate.given().course(&self.translate_path(place, k))?;
             translations.push(Translation { along, course });
         }
         let turning = |centre: Option<&[f64]>, axis: &Option<Vec<f64>>, course| course::Rotation {
@@ -56,7 +56,7 @@ impl Motion {
         };
         let rotation = match &self.rotate {
             Some(given) => {
-                let course = given.course(&format!("{place}.rotate"))?;
+                let course = given.given().course(&format!("{place}.rotate"))?;
                 Some(turning(Some(&given.centre), &given.axis, course))
             }
             None if self.angular_velocity != 0.0 => {
@@ -75,95 +75,103 @@ impl Motion {
     }
 }
 
-/// Fields of translations and rotations, with the units of each.
-macro_rules! with_course {
-    ($table:ident, $unit:literal) => {
-        impl $table {
-            /// The keys of courses that are given.
-            pub(crate) fn given(&self) -> Vec<&'static str> {
-                given([
-                    ("speed", self.speed.is_some()),
-                    ("ramp", self.ramp.is_some()),
-                    ("sine", self.sine.is_some()),
-                    ("table", self.table.is_some()),
-                    ("file", self.file.is_some()),
-                ])
-            }
-
-            /// The given keys of the form of a file.
-            pub(crate) fn in_force(&self) -> Vec<&'static str> {
-                given([
-                    ("unit", self.unit.is_some()),
-                    ("scale", self.scale.is_some()),
-                    ("time_unit", self.time_unit.is_some()),
-                    ("columns", self.columns.is_some()),
-                ])
-            }
-
-            fn course(&self, place: &str) -> Result<Course, SceneProblem> {
-                let ramp = self.ramp.map(|r| Course::Ramp {
-                    speed: r.speed,
-                    over: r.over,
-                });
-                let sine = self.sine.map(|s| Course::Sine {
-                    amplitude: s.amplitude,
-                    period: s.period,
-                    phase: s.phase,
-                    ramp: s.ramp,
-                });
-                let steady = self.speed.map(|speed| Course::Steady { speed });
-                let plain = steady.or(ramp).or(sine);
-                chosen(plain, &self.table, || self.rows(), place)
-            }
-
-            /// Keys of the scene for the columns of the file.
-            ///
-            /// # Errors
-            /// The key that is wrong, and why.
-            pub(crate) fn form(&self) -> Result<Form, (&'static str, String)> {
-                let alike = ["s", $unit];
-                let factor = |unit: &Option<String>, k: usize| {
-                    let unit = unit.as_deref();
-                    unit.map(|u| unit_factor(u, alike[k])).transpose()
-                };
-                let value = factor(&self.unit, 1).map_err(|why| ("unit", why))?;
-                let time = factor(&self.time_unit, 0).map_err(|why| ("time_unit", why))?;
-                Ok(Form {
-                    columns: self.columns.clone(),
-                    factors: [time, self.scale.or(value)],
-                    alike,
-                })
-            }
-
-            /// The rows of the file.
-            fn rows(&self) -> Result<Vec<Row>, String> {
-                let path = self.path.as_deref();
-                let path = path.ok_or_else(|| "the course is missing".to_string())?;
-                let form = self.form().map_err(|(_, why)| why)?;
-                course_rows(path, &form)
-            }
-        }
-    };
+/// Course of a translation or a rotation, by its keys.
+pub(crate) struct ImposedCourse<'a> {
+    speed: Option<f64>,
+    /// Speed and the time in which it is reached.
+    ramp: Option<[f64; 2]>,
+    /// Amplitude, period, phase, ramp.
+    sine: Option<[f64; 4]>,
+    pub rows: &'a CourseRows,
+    unit: &'static str,
 }
-with_course!(Translate, "m");
-with_course!(Rotation, "rad");
 
-fn chosen(
-    plain: Option<Course>,
-    table: &Option<Vec<[f64; 2]>>,
-    rows: impl Fn() -> Result<Vec<Row>, String>,
-    place: &str,
-) -> Result<Course, SceneProblem> {
-    if let Some(course) = plain {
-        return Ok(course);
+impl Translate {
+    pub(crate) fn given(&self) -> ImposedCourse<'_> {
+        ImposedCourse {
+            speed: self.speed,
+            ramp: self.ramp.map(|r| [r.speed, r.over]),
+            sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
+            rows: &self.rows,
+            unit: "m",
+        }
     }
-    if let Some(table) = table {
-        let rows = table.as_slice().into();
-        return Ok(Course::Table { rows });
+}
+
+impl Rotation {
+    pub(crate) fn given(&self) -> ImposedCourse<'_> {
+        ImposedCourse {
+            speed: self.speed,
+            ramp: self.ramp.map(|r| [r.speed, r.over]),
+            sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
+            rows: &self.rows,
+            unit: "rad",
+        }
     }
-    let rows = rows().map_err(|why| SceneProblem::new(format!("{place}.file"), why))?;
-    let rows = rows.iter().map(|r| r.values).collect();
-    Ok(Course::Table { rows })
+}
+
+impl ImposedCourse<'_> {
+    /// The keys of courses that are given.
+    pub fn keys(&self) -> Vec<&'static str> {
+        given([
+            ("speed", self.speed.is_some()),
+            ("ramp", self.ramp.is_some()),
+            ("sine", self.sine.is_some()),
+            ("table", self.rows.table.is_some()),
+            ("file", self.rows.file.is_some()),
+        ])
+    }
+
+    fn course(&self, place: &str) -> Result<Course, SceneProblem> {
+        if let Some(speed) = self.speed {
+            return Ok(Course::Steady { speed });
+        }
+        if let Some([speed, over]) = self.ramp {
+            return Ok(Course::Ramp { speed, over });
+        }
+        if let Some([amplitude, period, phase, ramp]) = self.sine {
+            return Ok(Course::Sine {
+                amplitude,
+                period,
+                phase,
+                ramp,
+            });
+        }
+        if let Some(table) = &self.rows.table {
+            let rows = table.as_slice().into();
+            return Ok(Course::Table { rows });
+        }
+        let rows = self.rows();
+        let rows = rows.map_err(|why| SceneProblem::new(format!("{place}.file"), why))?;
+        let rows = rows.iter().map(|r| r.values).collect();
+        Ok(Course::Table { rows })
+    }
+
+    /// Keys of the scene for the columns of the file.
+    ///
+    /// # Errors
+    /// The key that is wrong, and why.
+    pub fn form(&self) -> Result<Form, (&'static str, String)> {
+        let factor = |given: &Option<String>, alike| {
+            let given = given.as_deref();
+            given.map(|unit| unit_factor(unit, alike)).transpose()
+        };
+        let value = factor(&self.rows.unit, self.unit).map_err(|why| ("unit", why))?;
+        let time = factor(&self.rows.time_unit, "s").map_err(|why| ("time_unit", why))?;
+        Ok(Form {
+            columns: self.rows.columns.clone(),
+            factors: [time, self.rows.scale.or(value)],
+            alike: ["s", self.unit],
+        })
+    }
+
+    /// The rows of the file.
+    fn rows(&self) -> Result<Vec<Row>, String> {
+        let path = self.rows.path.as_deref();
+        let path = path.ok_or_else(|| "the course is missing".to_string())?;
+        let form = self.form().map_err(|(_, why)| why)?;
+        course_rows(path, &form)
+    }
 }
 
 /// The rows of a file that is a course.
@@ -193,21 +201,21 @@ impl Motion {
     /// of a motion without a table.
     pub fn told_at(&self, place: &str, time: f64) -> Option<(String, Option<String>)> {
         let mut translations = self.translate.iter().enumerate();
-        let translate = translations.find(|(_, t)| t.path.is_some() || t.table.is_some());
-        let (key, file, table, rows) = match (translate, &self.rotate) {
-            (Some((k, t)), _) => (self.translate_path(place, k), &t.file, &t.table, t.rows()),
-            (None, Some(r)) => (format!("{place}.rotate"), &r.file, &r.table, r.rows()),
+        let told = |rows: &CourseRows| rows.path.is_some() || rows.table.is_some();
+        let (key, given) = match (translations.find(|(_, t)| told(&t.rows)), &self.rotate) {
+            (Some((k, t)), _) => (self.translate_path(place, k), t.given()),
+            (None, Some(r)) => (format!("{place}.rotate"), r.given()),
             (None, None) => return None,
         };
         let before = |t: f64| t <= time - self.start;
-        if let Some(table) = table {
+        if let Some(table) = &given.rows.table {
             let row = table.partition_point(|r| before(r[0])).saturating_sub(1);
             return Some((format!("{key}.table[{row}]"), None));
         }
-        let rows = rows.ok()?;
+        let rows = given.rows().ok()?;
         let after = rows.partition_point(|r| before(r.values[0]));
         let line = rows[after.saturating_sub(1)].line;
-        let file = file.as_deref()?;
+        let file = given.rows.file.as_deref()?;
         Some((
             format!("{key}.file"),
             Some(format!("`{file}`, line {line}")),

@@ -1,6 +1,6 @@
 //! Regions: a shape less other shapes.
 
-use crate::tables::body::Body;
+use crate::tables::body::{Body, BodyShape};
 use crate::{LevelSurface, Shape};
 
 /// A shape less other shapes.
@@ -24,7 +24,7 @@ impl<const D: usize> Region<D> {
     /// The region of a body, if the body gives a shape or bounds its filling by a box.
     pub fn from_body(body: &Body) -> Option<Self> {
         Some(Region {
-            base: body.keys().shape()?,
+            base: body.shape.shape()?,
             cuts: cuts(body),
         })
     }
@@ -36,7 +36,7 @@ impl<const D: usize> Region<D> {
         bounds: Option<([f64; D], [f64; D])>,
     ) -> Result<Self, (&'static str, &'static str)> {
         let (mut lo, mut hi) = bounds.ok_or(("fill", "there are no walls to fill"))?;
-        if let Some([least, most]) = &body.bounds {
+        if let Some([least, most]) = &body.shape.bounds {
             for k in 0..D {
                 lo[k] = lo[k].max(least[k]);
                 hi[k] = hi[k].min(most[k]);
@@ -83,7 +83,7 @@ fn cuts<const D: usize>(body: &Body) -> Vec<Shape<D>> {
     let cut = |surface: &Option<LevelSurface>, above: bool| {
         surface.map(|surface| Shape::Side { surface, above })
     };
-    let given = body.subtract.iter().filter_map(|c| c.keys().shape());
+    let given = body.subtract.iter().filter_map(BodyShape::shape);
     given
         .chain(cut(&body.above, false))
         .chain(cut(&body.below, true))

@@ -103,7 +103,7 @@ impl Wall {
             None => {
                 if let Some(ball) = &self.sphere {
                     // Known before any triangle is made.
-                    let radius = factor * ball.radius;
+                    let radius = factor * ball.shape.radius;
                     let area = 4.0 * std::f64::consts::PI * radius * radius;
                     let corners = [[-radius; 3], [radius; 3]];
                     self.fits(&corners, area / (spacing * spacing), spacing)
@@ -133,14 +133,17 @@ impl Wall {
         let sides = |given: Option<usize>, radius: f64| {
             given.unwrap_or_else(|| divide::sides(radius / spacing))
         };
-        let disc = self.disc.iter().map(|d| sides(d.sides, d.radius));
+        let disc = self.disc.iter().map(|d| sides(d.sides, d.shape.radius));
         let ball = self.sphere.iter().map(|b| {
             let parts = b.subdivisions;
-            let parts = parts.unwrap_or_else(|| divide::subdivisions(b.radius / spacing));
+            let parts = parts.unwrap_or_else(|| divide::subdivisions(b.shape.radius / spacing));
             20 * parts * parts
         });
-        let cylinder = self.cylinder.iter().map(|c| 4 * sides(c.sides, c.radius));
-        let cone = self.cone.iter().map(|c| 2 * sides(c.sides, c.radius));
+        let cylinder = self
+            .cylinder
+            .iter()
+            .map(|c| 4 * sides(c.sides, c.shape.radius));
+        let cone = self.cone.iter().map(|c| 2 * sides(c.sides, c.shape.radius));
         disc.chain(ball).chain(cylinder).chain(cone).sum()
     }
 
@@ -165,9 +168,9 @@ impl Wall {
         if let Some(disc) = &self.disc {
             let sides = disc
                 .sides
-                .unwrap_or_else(|| divide::sides(disc.radius / spacing));
-            let centre: [f64; 2] = array(&disc.centre);
-            let ring = solid::ring(disc.radius, sides, disc.turn);
+                .unwrap_or_else(|| divide::sides(disc.shape.radius / spacing));
+            let centre: [f64; 2] = array(&disc.shape.centre);
+            let ring = solid::ring(disc.shape.radius, sides, disc.turn);
             let points = ring.iter().map(|p| [centre[0] + p[0], centre[1] + p[1]]);
             return Ok(vec![Line::closed(points.collect())]);
         }
@@ -201,21 +204,29 @@ impl Wall {
         if let Some(ball) = &self.sphere {
             let parts = ball
                 .subdivisions
-                .unwrap_or_else(|| divide::subdivisions(ball.radius / spacing));
-            return Some(solid::sphere(array(&ball.centre), ball.radius, parts));
+                .unwrap_or_else(|| divide::subdivisions(ball.shape.radius / spacing));
+            return Some(solid::sphere(
+                array(&ball.shape.centre),
+                ball.shape.radius,
+                parts,
+            ));
         }
         if let Some(c) = &self.cylinder {
-            let ring = solid::ring(c.radius, sides(c.sides, c.radius), c.turn);
+            let ring = solid::ring(c.shape.radius, sides(c.sides, c.shape.radius), c.turn);
             return Some(solid::cylinder(
-                array(&c.from),
-                array(&c.to),
+                array(&c.shape.from),
+                array(&c.shape.to),
                 &ring,
                 c.open_ends,
             ));
         }
         if let Some(c) = &self.cone {
-            let ring = solid::ring(c.radius, sides(c.sides, c.radius), c.turn);
-            return Some(solid::cone(array(&c.base), array(&c.apex), &ring));
+            let ring = solid::ring(c.shape.radius, sides(c.sides, c.shape.radius), c.turn);
+            return Some(solid::cone(
+                array(&c.shape.base),
+                array(&c.shape.apex),
+                &ring,
+            ));
         }
         if let Some(wedge) = &self.wedge {
             let up = wedge.up.unwrap_or(Face::ZPlus);
@@ -229,13 +240,14 @@ impl Wall {
                 false,
             ));
         }
-        let e = self.extrusion.as_ref()?;
+        let whole = self.extrusion.as_ref()?;
+        let e = &whole.shape;
         let polygon: Vec<[f64; 2]> = e.polygon.iter().map(|p| array(p)).collect();
         Some(solid::extrusion(
             &polygon,
             e.axis,
             [e.from, e.to],
-            e.open_ends,
+            whole.open_ends,
         ))
     }
 

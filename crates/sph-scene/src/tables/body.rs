@@ -1,38 +1,22 @@
 //! The table `[body.NAME]`: where a phase is at the start.
 
-use sph_core::{Axis, parameters};
+use scene_text::given;
+use sph_core::parameters;
 
 use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
-use crate::tables::given_keys::given;
-use crate::{LevelSurface, Shape, Wall, Wave};
+use crate::{LevelSurface, Shape, Wave};
 
 /// A piece of a phase at the start: one shape, or the volume that walls enclose, less subtracted shapes.
 #[parameters]
 pub struct Body {
     /// Name of the phase it is made of.
     pub phase: String,
-    /// Lower and upper corner of a box, m.
-    #[serde(rename = "box")]
-    #[parameter(unit: "m")]
-    pub bounds: Option<[Vec<f64>; 2]>,
-    /// Corners of a polygon in order, m; it closes itself. Two dimensions only.
-    #[parameter(unit: "m", min_items: 3)]
-    pub polygon: Option<Vec<Vec<f64>>>,
-    /// Disc by centre and radius. Two dimensions only.
-    pub disc: Option<Round>,
-    /// Ellipse by centre and semi-axes along x and y. Two dimensions only.
-    pub ellipse: Option<Ellipse>,
-    /// Sphere by centre and radius. Three dimensions only.
-    pub sphere: Option<Round>,
-    /// Cylinder between two points. Three dimensions only.
-    pub cylinder: Option<Cylinder>,
-    /// Cone by base and apex. Three dimensions only.
-    pub cone: Option<Cone>,
-    /// Polygon drawn out along an axis. Three dimensions only.
-    pub extrusion: Option<Extrusion>,
+    /// Its shape.
+    #[serde(flatten)]
+    pub shape: BodyShape,
     /// Fills the volume that walls enclose, instead of a shape; a `box` bounds it.
     pub fill: Option<Filling>,
     /// Point, m, in that one of several regions between the walls which `fill` fills; all of them if left out.
@@ -43,7 +27,7 @@ pub struct Body {
     pub clip: bool,
     /// Shapes that are cut out.
     #[parameter(default)]
-    pub subtract: Vec<Cutout>,
+    pub subtract: Vec<BodyShape>,
     /// Surface above which alone the body is filled: bodies of one `box` with the same surface in `below` and `above`
     /// share a lattice.
     pub above: Option<LevelSurface>,
@@ -66,9 +50,9 @@ pub struct Body {
     pub surface: Option<f64>,
 }
 
-/// A shape that is cut out of a body.
+/// The shape of a body, or one that is cut out of it.
 #[parameters]
-pub struct Cutout {
+pub struct BodyShape {
     /// Lower and upper corner of a box, m.
     #[serde(rename = "box")]
     #[parameter(unit: "m")]
@@ -107,27 +91,7 @@ pub enum Pressure {
     Hydrostatic,
 }
 
-/// A polygon, the axis along which it is drawn out, and both ends.
-pub(crate) type ExtrudedPolygon<'a> = (&'a [Vec<f64>], Axis, [f64; 2]);
-
-/// The keys that may give a shape, wherever they stand.
-#[derive(Clone, Copy)]
-pub(crate) struct ShapeKeys<'a> {
-    pub bounds: Option<&'a [Vec<f64>; 2]>,
-    pub polygon: Option<&'a [Vec<f64>]>,
-    /// Centre and radius.
-    pub disc: Option<(&'a [f64], f64)>,
-    pub ellipse: Option<&'a Ellipse>,
-    /// Centre and radius.
-    pub sphere: Option<(&'a [f64], f64)>,
-    /// Both ends and radius.
-    pub cylinder: Option<([&'a [f64]; 2], f64)>,
-    /// Base, apex and radius.
-    pub cone: Option<([&'a [f64]; 2], f64)>,
-    pub extrusion: Option<ExtrudedPolygon<'a>>,
-}
-
-impl ShapeKeys<'_> {
+impl BodyShape {
     /// The keys that are given.
     pub fn given(&self) -> Vec<&'static str> {
         given([
@@ -145,67 +109,49 @@ impl ShapeKeys<'_> {
     /// The shape in D dimensions, if one is given.
     pub fn shape<const D: usize>(&self) -> Option<Shape<D>> {
         let polygon = |points: &[Vec<f64>]| Polygon::new(points.iter().map(|p| array(p)).collect());
-        if let Some([lo, hi]) = self.bounds {
+        if let Some([lo, hi]) = &self.bounds {
             return Some(Shape::Cuboid {
                 lo: array(lo),
                 hi: array(hi),
             });
         }
-        if let Some(points) = self.polygon {
+        if let Some(points) = &self.polygon {
             return Some(Shape::Polygon(polygon(points)));
         }
-        if let Some(e) = self.ellipse {
+        if let Some(e) = &self.ellipse {
             return Some(Shape::Ellipse {
                 centre: array(&e.centre),
                 semi_axes: e.semi_axes,
             });
         }
-        if let Some((ends, radius)) = self.cylinder {
-            let [from, to] = ends.map(array);
-            return Some(Shape::Cylinder { from, to, radius });
-        }
-        if let Some((ends, radius)) = self.cone {
-            let [base, apex] = ends.map(array);
-            return Some(Shape::Cone { base, apex, radius });
-        }
-        if let Some((points, axis, [from, to])) = self.extrusion {
-            return Some(Shape::Extrusion {
-                polygon: polygon(points),
-                axis: axis as usize,
-                ends: [from.min(to), from.max(to)],
+        if let Some(c) = &self.cylinder {
+            return Some(Shape::Cylinder {
+                from: array(&c.from),
+                to: array(&c.to),
+                radius: c.radius,
             });
         }
-        let (centre, radius) = self.disc.or(self.sphere)?;
-        let centre = array(centre);
-        Some(Shape::Ball { centre, radius })
+        if let Some(c) = &self.cone {
+            return Some(Shape::Cone {
+                base: array(&c.base),
+                apex: array(&c.apex),
+                radius: c.radius,
+            });
+        }
+        if let Some(e) = &self.extrusion {
+            return Some(Shape::Extrusion {
+                polygon: polygon(&e.polygon),
+                axis: e.axis as usize,
+                ends: [e.from.min(e.to), e.from.max(e.to)],
+            });
+        }
+        let round = self.disc.as_ref().or(self.sphere.as_ref())?;
+        Some(Shape::Ball {
+            centre: array(&round.centre),
+            radius: round.radius,
+        })
     }
 }
-
-/// Tables that give a shape by the same keys; `ellipse` only where there is one.
-macro_rules! with_shape {
-    ($table:ident $(, $ellipse:ident)?) => {
-        impl $table {
-            pub(crate) fn keys(&self) -> ShapeKeys<'_> {
-                #[allow(unused_mut, reason = "of tables without an ellipse")]
-                let mut keys = ShapeKeys {
-                    bounds: self.bounds.as_ref(),
-                    polygon: self.polygon.as_deref(),
-                    disc: self.disc.as_ref().map(|d| (&d.centre[..], d.radius)),
-                    ellipse: None,
-                    sphere: self.sphere.as_ref().map(|s| (&s.centre[..], s.radius)),
-                    cylinder: self.cylinder.as_ref().map(|c| ([&c.from[..], &c.to], c.radius)),
-                    cone: self.cone.as_ref().map(|c| ([&c.base[..], &c.apex], c.radius)),
-                    extrusion: self.extrusion.as_ref().map(|e| (&e.polygon[..], e.axis, [e.from, e.to])),
-                };
-                $(keys.ellipse = self.$ellipse.as_ref();)?
-                keys
-            }
-        }
-    };
-}
-with_shape!(Body, ellipse);
-with_shape!(Cutout, ellipse);
-with_shape!(Wall);
 
 impl Body {
     /// True if walls bound the filling: `clip` or `fill`.

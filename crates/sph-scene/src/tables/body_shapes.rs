@@ -8,7 +8,7 @@ pub struct Round {
     /// Centre, m.
     #[parameter(unit: "m")]
     pub centre: Vec<f64>,
-    /// Radius, m.
+    /// Radius of the circle or sphere, m; that of a wall goes through its corners.
     #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
 }
@@ -34,7 +34,7 @@ pub struct Cylinder {
     /// Centre of the other end, m.
     #[parameter(unit: "m")]
     pub to: Vec<f64>,
-    /// Radius, m.
+    /// Radius of the circle, m; that of a wall goes through its corners.
     #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
 }
@@ -48,7 +48,7 @@ pub struct Cone {
     /// Tip, m.
     #[parameter(unit: "m")]
     pub apex: Vec<f64>,
-    /// Radius of the base, m.
+    /// Radius of the circle of the base, m; that of a wall goes through its corners.
     #[parameter(unit: "m", above: 0.0)]
     pub radius: f64,
 }

@@ -75,24 +75,9 @@ pub struct Translate {
     pub ramp: Option<Ramp>,
     /// Oscillation.
     pub sine: Option<Sine>,
-    /// Pairs of time, s, and displacement, m; times rise, and the wall is where it is drawn until the first, from which displacements count.
-    #[parameter(unit: "1")]
-    pub table: Option<Vec<[f64; 2]>>,
-    /// CSV file of time and displacement, relative to the scene's folder.
-    pub file: Option<String>,
-    /// Unit of the displacements in the `file`, such as "mm"; that in the head of the column, else metres, if left out.
-    pub unit: Option<String>,
-    /// Factor that turns the file's displacements into metres, instead of a unit.
-    #[parameter(unit: "1")]
-    pub scale: Option<f64>,
-    /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
-    pub time_unit: Option<String>,
-    /// Names of the file's columns of time and displacement, or their numbers from 1; the only two if left out.
-    #[parameter(min_items: 2, max_items: 2)]
-    pub columns: Option<Vec<String>>,
-    /// The file with its folder, set when the scene is read.
-    #[serde(skip)]
-    pub path: Option<PathBuf>,
+    /// Its rows.
+    #[serde(flatten)]
+    pub rows: CourseRows,
 }
 
 /// Rotation about a centre; exactly one of `speed`, `ramp`, `sine`, `table` and `file`.
@@ -111,19 +96,27 @@ pub struct Rotation {
     pub ramp: Option<AngularRamp>,
     /// Oscillation.
     pub sine: Option<AngularSine>,
-    /// Pairs of time, s, and angle, rad; times rise, and the wall is where it is drawn until the first, from which angles count.
+    /// Its rows.
+    #[serde(flatten)]
+    pub rows: CourseRows,
+}
+
+/// A course as rows of time and displacement, m, or angle, rad: in the scene or in a file.
+#[parameters]
+pub struct CourseRows {
+    /// Pairs of time, s, and displacement, m, or angle, rad; times rise, and the wall is where it is drawn until the first, from which they count.
     #[parameter(unit: "1")]
     pub table: Option<Vec<[f64; 2]>>,
-    /// CSV file of time and angle, relative to the scene's folder.
+    /// CSV file of time and displacement or angle, relative to the scene's folder.
     pub file: Option<String>,
-    /// Unit of the angles in the `file`, such as "deg"; that in the head of the column, else radians, if left out.
+    /// Unit of the displacements or angles in the `file`, such as "mm" or "deg"; that in the head of the column, else metres or radians, if left out.
     pub unit: Option<String>,
-    /// Factor that turns the file's angles into radians, instead of a unit.
+    /// Factor that turns the file's numbers into metres or radians, instead of a unit.
     #[parameter(unit: "1")]
     pub scale: Option<f64>,
     /// Unit of the times in the `file`; that in the head of the column, else seconds, if left out.
     pub time_unit: Option<String>,
-    /// Names of the file's columns of time and angle, or their numbers from 1; the only two if left out.
+    /// Names of the file's columns of time and displacement or angle, or their numbers from 1; the only two if left out.
     #[parameter(min_items: 2, max_items: 2)]
     pub columns: Option<Vec<String>>,
     /// The file with its folder, set when the scene is read.

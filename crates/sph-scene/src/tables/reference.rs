@@ -102,46 +102,10 @@ pub enum Norm {
 }
 
 impl Norm {
-    /// Every norm.
-    pub const ALL: [Norm; 16] = [
-        Norm::RmsOverRange,
-        Norm::L2,
-        Norm::L2Mean,
-        Norm::L1,
-        Norm::Linf,
-        Norm::Rms,
-        Norm::Final,
-        Norm::Absolute,
-        Norm::DecayRate,
-        Norm::Range,
-        Norm::Lag,
-        Norm::Mean,
-        Norm::ErrorMean,
-        Norm::Period,
-        Norm::PeakTime,
-        Norm::Band,
-    ];
-
     /// Name in scenes and summaries.
-    pub fn name(self) -> &'static str {
-        match self {
-            Norm::RmsOverRange => "rms-over-range",
-            Norm::L2 => "l2",
-            Norm::L2Mean => "l2-mean",
-            Norm::L1 => "l1",
-            Norm::Linf => "linf",
-            Norm::Rms => "rms",
-            Norm::Final => "final",
-            Norm::Absolute => "absolute",
-            Norm::DecayRate => "decay-rate",
-            Norm::Range => "range",
-            Norm::Lag => "lag",
-            Norm::Mean => "mean",
-            Norm::ErrorMean => "error-mean",
-            Norm::Period => "period",
-            Norm::PeakTime => "peak-time",
-            Norm::Band => "band",
-        }
+    pub fn name(self) -> String {
+        let name = serde_json::to_value(self).unwrap_or_default();
+        name.as_str().unwrap_or_default().to_string()
     }
 }
 

@@ -95,14 +95,9 @@ impl Scene {
     /// The bodies' shapes, in the order of `body`.
     ///
     /// A body that fills the walls has none unless a `box` bounds it and is left out: where
-    /// there is one ([`Scene::fills_walls`]), ask [`Scene::regions_within`].
+    /// there is one ([`Body::fill`]), ask [`Scene::regions_within`].
     pub fn regions<const D: usize>(&self) -> Vec<Region<D>> {
         self.body.values().filter_map(Region::from_body).collect()
-    }
-
-    /// True if a body fills the volume that walls enclose.
-    pub fn fills_walls(&self) -> bool {
-        self.body.values().any(|b| b.fill.is_some())
     }
 
     /// One region for every body, in the order of `body`; `bounds` is the box around all walls, m.

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use scene_text::given;
 use sph_core::parameters;
 
 use crate::reading::plugins::{AnyPlugins, Plugins};
-use crate::tables::given_keys::given;
+use crate::tables::body::BodyShape;
 use crate::tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
@@ -162,6 +163,20 @@ impl Wall {
             ("extrusion", self.extrusion.is_some()),
             ("file", self.file.is_some()),
         ])
+    }
+
+    /// The keys that bodies have as well.
+    pub(crate) fn shape(&self) -> BodyShape {
+        BodyShape {
+            bounds: self.bounds.clone(),
+            polygon: self.polygon.clone(),
+            disc: self.disc.as_ref().map(|d| d.shape.clone()),
+            ellipse: None,
+            sphere: self.sphere.as_ref().map(|s| s.shape.clone()),
+            cylinder: self.cylinder.as_ref().map(|c| c.shape.clone()),
+            cone: self.cone.as_ref().map(|c| c.shape.clone()),
+            extrusion: self.extrusion.as_ref().map(|e| e.shape.clone()),
+        }
     }
 
     /// The side of the fluid in force; none for a polyline.

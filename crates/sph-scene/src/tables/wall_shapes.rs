@@ -1,6 +1,8 @@
 //! Shapes of walls that a scene gives by a few numbers.
 
-use sph_core::{Axis, parameters};
+use sph_core::parameters;
+
+use crate::{Cone, Cylinder, Extrusion, Round};
 
 /// A face of a box, or a direction along an axis.
 #[parameters]
@@ -45,12 +47,9 @@ impl Face {
 /// A disc as a regular polygon, its corners on the circle.
 #[parameters]
 pub struct DiscWall {
-    /// Centre, m.
-    #[parameter(unit: "m")]
-    pub centre: Vec<f64>,
-    /// Radius of the circle through the corners, m.
-    #[parameter(unit: "m", above: 0.0)]
-    pub radius: f64,
+    /// Centre and radius of the circle through the corners.
+    #[serde(flatten)]
+    pub shape: Round,
     /// Number of sides; about one per spacing of the circumference if left out.
     #[parameter(min: 3, max: 100_000)]
     pub sides: Option<usize>,
@@ -62,12 +61,9 @@ pub struct DiscWall {
 /// A sphere as an icosahedron of divided faces, its corners on the sphere.
 #[parameters]
 pub struct SphereWall {
-    /// Centre, m.
-    #[parameter(unit: "m")]
-    pub centre: Vec<f64>,
-    /// Radius of the sphere through the corners, m.
-    #[parameter(unit: "m", above: 0.0)]
-    pub radius: f64,
+    /// Centre and radius of the sphere through the corners.
+    #[serde(flatten)]
+    pub shape: Round,
     /// Number n of parts of every edge of the icosahedron, which gives 20 n² triangles; with edges of about one spacing if left out.
     #[parameter(min: 1, max: 500)]
     pub subdivisions: Option<usize>,
@@ -76,15 +72,9 @@ pub struct SphereWall {
 /// A cylinder as a prism over a regular polygon, its corners on the circle.
 #[parameters]
 pub struct CylinderWall {
-    /// Centre of one end, m.
-    #[parameter(unit: "m")]
-    pub from: Vec<f64>,
-    /// Centre of the other end, m.
-    #[parameter(unit: "m")]
-    pub to: Vec<f64>,
-    /// Radius of the circle through the corners, m.
-    #[parameter(unit: "m", above: 0.0)]
-    pub radius: f64,
+    /// The cylinder through the corners.
+    #[serde(flatten)]
+    pub shape: Cylinder,
     /// Number of sides; about one per spacing of the circumference if left out.
     #[parameter(min: 3, max: 100_000)]
     pub sides: Option<usize>,
@@ -99,15 +89,9 @@ pub struct CylinderWall {
 /// A cone over a regular polygon, its corners on the circle.
 #[parameters]
 pub struct ConeWall {
-    /// Centre of the base, m.
-    #[parameter(unit: "m")]
-    pub base: Vec<f64>,
-    /// Tip, m.
-    #[parameter(unit: "m")]
-    pub apex: Vec<f64>,
-    /// Radius of the circle through the corners of the base, m.
-    #[parameter(unit: "m", above: 0.0)]
-    pub radius: f64,
+    /// The cone through the corners of the base.
+    #[serde(flatten)]
+    pub shape: Cone,
     /// Number of sides, 4 for a pyramid; about one per spacing of the base's circumference if left out.
     #[parameter(min: 3, max: 100_000)]
     pub sides: Option<usize>,
@@ -132,20 +116,12 @@ pub struct Wedge {
     pub up: Option<Face>,
 }
 
-/// A polygon drawn out along an axis.
+/// A polygon, given either way round, drawn out along an axis.
 #[parameters]
 pub struct ExtrusionWall {
-    /// Corners of the polygon in order, m, either way round, as the two coordinates across the axis: (y, z), (x, z) or (x, y).
-    #[parameter(unit: "m", min_items: 3)]
-    pub polygon: Vec<Vec<f64>>,
-    /// Axis along which it is drawn out.
-    pub axis: Axis,
-    /// Coordinate of one end along the axis, m.
-    #[parameter(unit: "m")]
-    pub from: f64,
-    /// Coordinate of the other end along the axis, m.
-    #[parameter(unit: "m")]
-    pub to: f64,
+    /// The polygon, either way round, and its ends.
+    #[serde(flatten)]
+    pub shape: Extrusion,
     /// True if the two flat ends are left out.
     #[parameter(default)]
     pub open_ends: bool,

@@ -37,7 +37,7 @@ fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
         write_both(&scale.plot(&results.title), folder, "cost-against-size")?;
     }
     if let Some(plot) = plots::means(results) {
-        both(&plot, folder, "means")?;
+        write_both(&plot, folder, "means")?;
     }
     if let Some(plot) = plots::convergence(results) {
         write_both(&plot, folder, "error-against-refinement")?;
@@ -46,6 +46,6 @@ fn compared(results: &Results, folder: &Path) -> Result<(), IoError> {
 }
 
 fn write_both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
-    plot.save_svg(folder.join(format!("{name}.svg")))?;
-    plot.save_png(folder.join(format!("{name}.png")))
+    plot.save(folder.join(format!("{name}.svg")))?;
+    plot.save(folder.join(format!("{name}.png")))
 }

@@ -45,7 +45,7 @@ impl StudyAxis {
             rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
         };
         let sets = self.choices.iter().flat_map(|c| &c.sets);
-        let paths = sets.map(|s| s.value.path());
+        let paths = sets.map(|s| &s.value.path);
         paths.into_iter().any(|p| within(p, key) || within(key, p))
     }
 }
@@ -222,7 +222,7 @@ mod tests {
         assert!(axes[0].touches("numerics.spacing") && axes[0].touches("numerics"));
         assert!(!axes[0].touches("numerics.spacing_x"));
         let sets = &axes[1].choices[0].sets;
-        let paths: Vec<_> = sets.iter().map(|s| (s.value.path(), &*s.path)).collect();
+        let paths: Vec<_> = sets.iter().map(|s| (&*s.value.path, &*s.path)).collect();
         assert_eq!(
             paths,
             [

@@ -123,7 +123,7 @@ impl Study {
         let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
         // A mistake without a key of the study still belongs to a variant.
         for mistake in &mut mistakes {
-            if mistake.diagnostic.file != self.source.file() {
+            if mistake.diagnostic.file != self.source.file {
                 let message = &mut mistake.diagnostic.message;
                 *message = format!("variant `{}`: {message}", variant.name);
             }
@@ -189,7 +189,7 @@ impl Parts<'_> {
             scene: scene.name.clone(),
             errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
             refinement: reader.refinement.clone(),
-            set: self.set.iter().map(|o| o.text().to_string()).collect(),
+            set: self.set.iter().map(|o| o.text.to_string()).collect(),
             ladders: Vec::new(),
             axes,
             variants,
@@ -212,7 +212,7 @@ impl Parts<'_> {
             scene: scenes.join(", "),
             errors: Vec::new(),
             refinement: None,
-            set: self.set.iter().map(|o| o.text().to_string()).collect(),
+            set: self.set.iter().map(|o| o.text.to_string()).collect(),
             axes: ladder::columns(),
             ladders,
             variants,

@@ -75,7 +75,7 @@ impl Reader<'_> {
             let Some(count) = times.remove(&diagnostic.to_string()) else {
                 continue;
             };
-            if count < variants && diagnostic.file != self.source.file() {
+            if count < variants && diagnostic.file != self.source.file {
                 diagnostic.message = format!("variant `{name}`: {}", diagnostic.message);
             }
             told.push(mistake);

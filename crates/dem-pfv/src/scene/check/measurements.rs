@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use scene_text::{SceneProblem, suggestion};
+use scene_text::{Problems, suggestion};
 
-use super::add;
 use crate::scene::names::planes;
 use crate::scene::tables::{Axis, Probe, Reference, Scene};
 
 /// Mistakes of a probe.
-pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProblem>) {
+pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Problems) {
     let at = |key: &str| format!("probe.{name}.{key}");
     let wet = "needs a `[fluid]`";
     match probe {
@@ -20,18 +19,14 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
             let names = planes(scene);
             if !names.contains(wall) {
                 let near = suggestion(wall, names.iter().map(String::as_str));
-                add(
-                    found,
-                    at("wall"),
-                    format!("there is no wall `{wall}`{near}"),
-                );
+                found.add(at("wall"), format!("there is no wall `{wall}`{near}"));
             }
             let waves = scene.wall.get(wall).is_some_and(|w| w.wave.is_some());
             if matches!(probe, Probe::Amplitude { .. }) && !waves {
-                add(found, at("wall"), format!("there is no wave on `{wall}`"));
+                found.add(at("wall"), format!("there is no wave on `{wall}`"));
             }
             if matches!(probe, Probe::Flux { .. }) && scene.fluid.is_none() {
-                add(found, at("kind"), wet);
+                found.add(at("kind"), wet);
             }
         }
         Probe::Carried {}
@@ -40,10 +35,10 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
         | Probe::Permeability { .. }
             if scene.fluid.is_none() =>
         {
-            add(found, at("kind"), wet);
+            found.add(at("kind"), wet);
         }
         Probe::Consolidation {} if scene.oedometer.is_none() => {
-            add(found, at("kind"), "needs an `[oedometer]`");
+            found.add(at("kind"), "needs an `[oedometer]`");
         }
         Probe::Strain { .. }
         | Probe::VolumetricStrain {}
@@ -52,11 +47,11 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
         | Probe::Porosity { .. } => {
             let closed = scene.r#box.as_ref().is_some_and(|b| b.open.is_empty());
             if !closed {
-                add(found, at("kind"), "needs a closed `[box]`");
+                found.add(at("kind"), "needs a closed `[box]`");
             }
         }
-        Probe::Level { .. } if scene.r#box.is_none() => add(found, at("kind"), "needs a `[box]`"),
-        Probe::Level { axis: Axis::Z, .. } => add(found, at("axis"), "must be x or y"),
+        Probe::Level { .. } if scene.r#box.is_none() => found.add(at("kind"), "needs a `[box]`"),
+        Probe::Level { axis: Axis::Z, .. } => found.add(at("axis"), "must be x or y"),
         _ => {}
     }
     if let Probe::Pressure { from, to, .. }
@@ -65,8 +60,7 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Vec<SceneProb
     | Probe::Porosity { from, to, .. } = probe
         && from >= to
     {
-        add(
-            found,
+        found.add(
             at("to"),
             format!("must be above `from`: {to} m is not above {from} m"),
         );
@@ -79,20 +73,20 @@ pub fn reference(
     probes: &BTreeMap<String, Probe>,
     name: &str,
     reference: &Reference,
-    found: &mut Vec<SceneProblem>,
+    found: &mut Problems,
 ) {
     let at = |key: &str| format!("reference.{name}.{key}");
     let mut known = |key: &str, probe: &str| {
         if !probes.contains_key(probe) {
             let near = suggestion(probe, probes.keys().map(String::as_str));
-            add(found, at(key), format!("there is no probe `{probe}`{near}"));
+            found.add(at(key), format!("there is no probe `{probe}`{near}"));
         }
     };
     match reference {
         Reference::Terzaghi { probe, .. } => {
             known("probe", probe);
             if scene.oedometer.is_none() {
-                add(found, at("kind"), "needs an `[oedometer]`");
+                found.add(at("kind"), "needs an `[oedometer]`");
             }
         }
         Reference::Line { along, probe, .. } => {
@@ -103,11 +97,7 @@ pub fn reference(
             known("probe", probe);
             let fits = matches!(probes.get(probe), Some(Probe::RunOut { .. }) | None);
             if !fits {
-                add(
-                    found,
-                    at("probe"),
-                    "a probe of the kind `run-out` is needed",
-                );
+                found.add(at("probe"), "a probe of the kind `run-out` is needed");
             }
         }
         Reference::Value { probe, .. } | Reference::Curve { probe, .. } => known("probe", probe),

@@ -1,44 +1,36 @@
 //! Mistakes of the start: its way, numbers and sizes of grains, the box.
 
-use scene_text::{SceneProblem, suggestion};
+use scene_text::{Problems, given, suggestion};
 
-use super::add;
 use crate::scene::names::{BOX, planes};
 use crate::scene::tables::Scene;
 
 /// Mistakes of the start.
-pub fn start(scene: &Scene, found: &mut Vec<SceneProblem>) {
+pub fn start(scene: &Scene, found: &mut Problems) {
     ways(scene, found);
     numbers_and_sizes(scene, found);
     room(scene, found);
 }
 
 /// Checks that the grains get their places in one way alone.
-fn ways(scene: &Scene, found: &mut Vec<SceneProblem>) {
+fn ways(scene: &Scene, found: &mut Problems) {
     let s = &scene.start;
-    let ways = [
+    let given = given([
         ("cloud", s.cloud.is_some()),
         ("grown", s.grown.is_some()),
         ("rained", s.rained.is_some()),
         ("lattice", s.lattice.is_some()),
         ("file", s.file.is_some()),
-    ];
-    let given: Vec<_> = ways
-        .iter()
-        .filter(|(_, given)| *given)
-        .map(|(n, _)| *n)
-        .collect();
+    ]);
     match given.as_slice() {
-        [] => add(
-            found,
+        [] => found.add(
             "start",
             "one of `cloud`, `grown`, `rained`, `lattice`, `file` is missing",
         ),
         [_] => {}
         [.., last] => {
             let told = given.join("`, `");
-            add(
-                found,
+            found.add(
                 format!("start.{last}"),
                 format!("only one of `{told}` can be given"),
             );
@@ -47,47 +39,35 @@ fn ways(scene: &Scene, found: &mut Vec<SceneProblem>) {
 }
 
 /// Number and sizes of the grains, unless the start has them.
-fn numbers_and_sizes(scene: &Scene, found: &mut Vec<SceneProblem>) {
+fn numbers_and_sizes(scene: &Scene, found: &mut Problems) {
     let s = &scene.start;
     let by_height = s.rained.as_ref().is_some_and(|r| r.height.is_some());
     let counted = (s.cloud.is_some() || s.grown.is_some() || s.rained.is_some()) && !by_height;
     match (counted, scene.grains.count) {
-        (true, None) => add(found, "grains", "`count` is missing"),
-        (false, Some(_)) => add(
-            found,
+        (true, None) => found.add("grains", "`count` is missing"),
+        (false, Some(_)) => found.add(
             "grains.count",
             "the start gives the number of grains: leave it out",
         ),
         _ => {}
     }
     if s.unit.is_some() && s.file.is_none() {
-        add(
-            found,
-            "start.unit",
-            "this is the unit of the numbers in a `file`",
-        );
+        found.add("start.unit", "this is the unit of the numbers in a `file`");
     }
     match (s.file.is_some(), scene.grains.radius) {
-        (false, None) => add(
-            found,
+        (false, None) => found.add(
             "grains",
             "`radius` is missing: the smallest and the largest",
         ),
-        (true, Some(_)) => add(
-            found,
-            "grains.radius",
-            "the file has the radii: leave it out",
-        ),
+        (true, Some(_)) => found.add("grains.radius", "the file has the radii: leave it out"),
         (_, Some([low, _])) if low <= 0.0 => {
-            add(
-                found,
+            found.add(
                 "grains.radius",
                 format!("must be more than 0 m, found {low}"),
             );
         }
         (_, Some([low, high])) if low > high => {
-            add(
-                found,
+            found.add(
                 "grains.radius",
                 format!("{low} m to {high} m: the smallest comes first"),
             );
@@ -97,16 +77,12 @@ fn numbers_and_sizes(scene: &Scene, found: &mut Vec<SceneProblem>) {
     if let Some(grown) = &s.grown
         && grown.stress.is_some() == grown.porosity.is_some()
     {
-        add(
-            found,
-            "start.grown",
-            "either `stress` or `porosity` is needed",
-        );
+        found.add("start.grown", "either `stress` or `porosity` is needed");
     }
 }
 
 /// The room that the grains start in.
-fn room(scene: &Scene, found: &mut Vec<SceneProblem>) {
+fn room(scene: &Scene, found: &mut Problems) {
     let s = &scene.start;
     let needs_box = s.grown.is_some() || s.rained.is_some() || s.lattice.is_some();
     let corners = s
@@ -114,22 +90,13 @@ fn room(scene: &Scene, found: &mut Vec<SceneProblem>) {
         .as_ref()
         .is_some_and(|c| c.low.is_some() && c.high.is_some());
     if scene.r#box.is_none() && (needs_box || (s.cloud.is_some() && !corners)) {
-        add(
-            found,
-            "start",
-            "these grains fill a box: `[box]` is missing",
-        );
+        found.add("start", "these grains fill a box: `[box]` is missing");
     }
     if s.headroom.is_some() && !planes(scene).iter().any(|p| p == "top") {
-        add(
-            found,
-            "start.headroom",
-            "there is no wall `top` to be moved",
-        );
+        found.add("start.headroom", "there is no wall `top` to be moved");
     }
     if s.headroom.is_some() && s.settle.is_none() && s.rained.is_none() {
-        add(
-            found,
+        found.add(
             "start.headroom",
             "the grains must come to rest first: give `settle`",
         );
@@ -137,13 +104,13 @@ fn room(scene: &Scene, found: &mut Vec<SceneProblem>) {
 }
 
 /// Mistakes of the box.
-pub fn boxed(scene: &Scene, found: &mut Vec<SceneProblem>) {
+pub fn boxed(scene: &Scene, found: &mut Problems) {
     let Some(given) = &scene.r#box else { return };
     for axis in 0..3 {
         let (low, high) = (given.low[axis], given.high[axis]);
         if low >= high {
             let message = format!("must be above the lower corner: {high} m is not above {low} m");
-            add(found, format!("box.high[{axis}]"), message);
+            found.add(format!("box.high[{axis}]"), message);
         }
     }
     for (k, name) in given.open.iter().enumerate() {
@@ -153,7 +120,7 @@ pub fn boxed(scene: &Scene, found: &mut Vec<SceneProblem>) {
                 "there is no wall `{name}` of a box{near} (there are: {})",
                 BOX.join(", ")
             );
-            add(found, format!("box.open[{k}]"), message);
+            found.add(format!("box.open[{k}]"), message);
         }
     }
 }

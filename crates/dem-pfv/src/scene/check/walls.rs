@@ -1,37 +1,30 @@
 //! Mistakes of walls: their places, their motion, their condition for the fluid.
 
-use scene_text::{SceneProblem, suggestion, unit_factor};
+use scene_text::{Problems, given, suggestion, unit_factor};
 
-use super::add;
 use crate::scene::names::{BOX, periodic};
 use crate::scene::tables::{Scene, Wall};
 
 /// Mistakes of a wall.
-pub fn wall(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
+pub fn wall(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
     place(scene, name, wall, found);
     of_file(name, wall, found);
     motions(name, wall, found);
     conditions(scene, name, wall, found);
 }
 
-fn place(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
+fn place(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
     let at = |key: &str| format!("wall.{name}.{key}");
     let boxed = BOX.iter().position(|b| *b == name);
     match boxed {
         Some(number) => {
-            for (key, given) in [
+            for key in given([
                 ("point", wall.point.is_some()),
                 ("normal", wall.normal.is_some()),
                 ("file", wall.file.is_some()),
                 ("spin", wall.spin.is_some()),
-            ] {
-                if given {
-                    add(
-                        found,
-                        at(key),
-                        "a wall of the box has its place from `[box]`",
-                    );
-                }
+            ]) {
+                found.add(at(key), "a wall of the box has its place from `[box]`");
             }
             let why = match &scene.r#box {
                 None => Some("there is no `[box]`"),
@@ -40,8 +33,7 @@ fn place(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) 
                 Some(_) => None,
             };
             if let Some(why) = why {
-                add(
-                    found,
+                found.add(
                     format!("wall.{name}"),
                     format!("there is no such wall: {why}"),
                 );
@@ -49,7 +41,7 @@ fn place(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) 
         }
         None if wall.file.is_some() => {
             if wall.normal.is_some() {
-                add(found, at("normal"), "a surface from a file has no normal");
+                found.add(at("normal"), "a surface from a file has no normal");
             }
         }
         None => {
@@ -58,60 +50,52 @@ fn place(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) 
                 let message = format!(
                     "a plane needs `point` and `normal`, a surface a `file`; it is no wall of the box{near}"
                 );
-                add(found, format!("wall.{name}"), message);
+                found.add(format!("wall.{name}"), message);
             }
             if wall.normal.is_some_and(|n| n.iter().all(|x| *x == 0.0)) {
-                add(found, at("normal"), "has no direction");
+                found.add(at("normal"), "has no direction");
             }
         }
     }
 }
 
 /// Keys of a surface from a file.
-fn of_file(name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
+fn of_file(name: &str, wall: &Wall, found: &mut Problems) {
     let at = |key: &str| format!("wall.{name}.{key}");
-    for (key, given) in [
+    let of_files = given([
         ("unit", wall.unit.is_some()),
         ("scale", wall.scale.is_some()),
         ("translate", wall.translate.is_some()),
-    ] {
-        if given && wall.file.is_none() {
-            add(found, at(key), "this belongs to a surface from a `file`");
-        }
+    ]);
+    for key in of_files.into_iter().filter(|_| wall.file.is_none()) {
+        found.add(at(key), "this belongs to a surface from a `file`");
     }
     if wall.unit.is_some() && wall.scale.is_some() {
         let message = "the coordinates have a `unit` or a `scale`, not both";
-        add(found, at("unit"), message);
+        found.add(at("unit"), message);
     }
     if let Some(Err(why)) = wall.unit.as_deref().map(|unit| unit_factor(unit, "m")) {
-        add(found, at("unit"), why);
+        found.add(at("unit"), why);
     }
 }
 
-fn motions(name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
-    let motions = [
+fn motions(name: &str, wall: &Wall, found: &mut Problems) {
+    let given = given([
         ("velocity", wall.velocity.is_some()),
         ("piston", wall.piston.is_some()),
         ("servo", wall.servo.is_some()),
         ("strain_rate", wall.strain_rate.is_some()),
         ("removed", wall.removed),
-    ];
-    let given: Vec<_> = motions
-        .iter()
-        .filter(|(_, g)| *g)
-        .map(|(n, _)| *n)
-        .collect();
+    ]);
     if let [_, second, ..] = given.as_slice() {
         let told = given.join("`, `");
-        add(
-            found,
+        found.add(
             format!("wall.{name}.{second}"),
             format!("only one of `{told}` can be given"),
         );
     }
     if wall.file.is_some() && given.iter().any(|g| *g != "velocity") {
-        add(
-            found,
+        found.add(
             format!("wall.{name}"),
             "a surface moves by `velocity` and `spin` only",
         );
@@ -120,15 +104,14 @@ fn motions(name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
         && piston.amplitude != 0.0
         && piston.period.is_none()
     {
-        add(
-            found,
+        found.add(
             format!("wall.{name}.piston"),
             "a stress that swings needs a `period`",
         );
     }
 }
 
-fn conditions(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProblem>) {
+fn conditions(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
     let sides = [
         wall.pressure.is_some(),
         wall.inflow.is_some(),
@@ -137,15 +120,13 @@ fn conditions(scene: &Scene, name: &str, wall: &Wall, found: &mut Vec<SceneProbl
     ];
     let several = sides.iter().filter(|given| **given).count() > 1;
     if several {
-        add(
-            found,
+        found.add(
             format!("wall.{name}"),
             "only one of `pressure`, `inflow`, `wave`, `recorded` can be given",
         );
     }
     if scene.fluid.is_none() && (sides.contains(&true) || wall.sticks) {
-        add(
-            found,
+        found.add(
             format!("wall.{name}"),
             "conditions of the fluid need a `[fluid]`",
         );

@@ -17,7 +17,6 @@ pub enum Axis {
 
 impl Axis {
     /// 0, 1 or 2.
-    #[must_use]
     pub fn number(self) -> usize {
         self as usize
     }

@@ -29,13 +29,11 @@ pub struct Output {
 
 impl Output {
     /// Simulated time between outputs in force, s, for a run of `end` seconds.
-    #[must_use]
     pub fn interval(&self, end: f64) -> f64 {
         self.every.unwrap_or(end / 20.0)
     }
 
     /// Simulated time between rows in force, s.
-    #[must_use]
     pub fn series_interval(&self, end: f64) -> f64 {
         self.series_every.unwrap_or(end / 500.0)
     }

@@ -41,6 +41,26 @@ pub struct Scene {
     pub output: Output,
 }
 
+impl Scene {
+    /// Every file that the scene names, as it names it, with the key that does.
+    pub fn files(&self) -> Vec<(String, String)> {
+        let mut found = Vec::new();
+        let start = self.start.file.iter();
+        found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
+        for (name, wall) in &self.wall {
+            let file = wall.file.iter();
+            found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
+            let recorded = wall.recorded.iter();
+            found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
+        }
+        found.extend(self.reference.iter().filter_map(|(name, table)| {
+            let file = table.get("file")?.as_str()?.to_string();
+            Some((format!("reference.{name}.file"), file))
+        }));
+        found
+    }
+}
+
 /// Duration and accuracy of the run.
 #[parameters(crate: crate::reexport)]
 pub struct Run {

@@ -9,7 +9,7 @@ use crate::coupled::{BOX1000, MODULUS, box_of_laws, boxed, packing};
 fn system() -> CoupledSystem {
     let setup = boxed(packing(BOX1000), MODULUS).gravity([0.0, 0.0, -9.81]);
     let mut grains = GrainSystem::new(setup).expect("grains");
-    grains.walls_mut()[4].control = Control::Piston {
+    grains.walls[4].control = Control::Piston {
         stress: 8e4,
         mass: 100.0,
     };
@@ -36,19 +36,15 @@ fn run(system: &mut CoupledSystem, steps: usize) {
 }
 
 fn bits(system: &CoupledSystem) -> Vec<u64> {
-    let grains = system.grains().grains();
-    let columns = [
-        grains.positions(),
-        grains.velocities(),
-        grains.external_forces(),
-    ];
+    let grains = &system.grains().grains;
+    let columns = [&grains.position, &grains.velocity, &grains.external_force];
     let vectors = columns
         .into_iter()
         .flatten()
         .flat_map(|v| v.iter().copied());
     let walls = system
         .grains()
-        .walls()
+        .walls
         .iter()
         .flat_map(|w| [w.point.z, w.external_force.z]);
     let flow = system

@@ -40,8 +40,8 @@ fn between(
     let mut system = GrainSystem::new(boxed(grains.to_vec(), MODULUS)).expect("grains");
     for (i, grain) in grains.iter().enumerate() {
         let [velocity, spin] = motion(i, grain);
-        system.velocities_mut()[i] = velocity;
-        system.spins_mut()[i] = spin;
+        system.grains.velocity[i] = velocity;
+        system.grains.spin[i] = spin;
     }
     let mut setup = FlowSetup::new(fluid).side(5, WallBoundary::drained(0.0));
     if sticking {
@@ -49,13 +49,13 @@ fn between(
     }
     let mut system = CoupledSystem::new(system, setup).expect("a system");
     system.step_unchecked(1e-9).expect("a step");
-    let grains = system.grains().grains();
+    let grains = &system.grains().grains;
     Between {
-        forces: grains.external_forces().to_vec(),
-        torques: grains.external_torques().to_vec(),
+        forces: grains.external_force.to_vec(),
+        torques: grains.external_torque.to_vec(),
         walls: system
             .grains()
-            .walls()
+            .walls
             .iter()
             .map(|w| w.external_force)
             .collect(),

@@ -28,16 +28,11 @@ fn unit_forces_are_the_forces_of_the_flow() {
     let mut system = CoupledSystem::new(held(BOX200), setup).expect("a system");
     system.step(1e-6).expect("a step");
     let forces = Forces::new(system.pores(), system.pressures());
-    let grains = system
-        .grains()
-        .grains()
-        .external_forces()
-        .iter()
-        .enumerate();
+    let grains = system.grains().grains.external_force.iter().enumerate();
     let worst = grains
         .map(|(k, f)| (f - forces.on_sphere(k)).amax())
         .fold(0.0, f64::max);
-    let walls = system.grains().walls().iter().enumerate();
+    let walls = system.grains().walls.iter().enumerate();
     let wall = |w: usize| forces.wall_pressure[w] + forces.wall_viscous[w];
     let worst = walls
         .map(|(w, x)| (x.external_force - wall(w)).amax())
@@ -69,10 +64,10 @@ fn a_cosine_load_seeps_as_darcy_has_it() {
         system.step(1e-6).expect("a step");
         let pores = system.pores();
         let cells = pores
-            .mesh()
-            .cells()
+            .mesh
+            .cells
             .iter()
-            .zip(pores.centres())
+            .zip(&pores.centres)
             .zip(system.pressures());
         let (mut square, mut sum, mut count) = (0.0, 0.0, 0.0);
         for ((_, at), p) in cells.filter(|((cell, _), _)| cell.walls() == 0) {
@@ -112,8 +107,8 @@ fn profiles_and_waves_press_as_they_say() {
     let mut system = CoupledSystem::new(held(BOX200), setup).expect("a system");
     system.step(1e-6).expect("a step");
     let top = dem_pfv::triangulation::Vertex::Wall(5);
-    for &cell in system.pores().mesh().cells_around(top) {
-        let x = system.pores().centres()[cell as usize].x;
+    for &cell in system.pores().mesh.cells_around(top) {
+        let x = system.pores().centres[cell as usize].x;
         let expected = 10.0 + 20.0 * (x.clamp(0.25, 0.75) - 0.25);
         let p = system.pressures()[cell as usize];
         assert!((p - expected).abs() < 1e-12, "{p} Pa at {x} m");
@@ -157,8 +152,8 @@ fn profiles_and_waves_press_as_they_say() {
 fn a_closed_box_shares_a_load_between_grains_and_fluid() {
     let (confining, load) = (5e4, 500.0);
     let press = |grains: &mut GrainSystem, stress: f64| {
-        let mass = 0.1 * grains.grains().masses().iter().sum::<f64>();
-        grains.walls_mut()[5].control = Control::Piston { stress, mass };
+        let mass = 0.1 * grains.grains.mass.iter().sum::<f64>();
+        grains.walls[5].control = Control::Piston { stress, mass };
     };
     let mut dry = GrainSystem::new(boxed(packing(BOX200), MODULUS).damping(0.4)).expect("grains");
     press(&mut dry, confining);
@@ -196,7 +191,7 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
 #[test]
 fn the_room_loses_what_flows_out() {
     let mut grains = GrainSystem::new(boxed(packing(BOX200), MODULUS)).expect("grains");
-    grains.walls_mut()[5].velocity.z = -0.01;
+    grains.walls[5].velocity.z = -0.01;
     let setup = FlowSetup::new(Fluid::new(10.0, 0.0)).side(4, WallBoundary::drained(0.0));
     let mut system = CoupledSystem::new(grains, setup).expect("a system");
     for _ in 0..20 {

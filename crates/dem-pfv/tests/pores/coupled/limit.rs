@@ -10,7 +10,7 @@ use crate::coupled::{BOX200, BOX1000, DENSITY, MODULUS, boxed, packing};
 /// Drained at both ends of y, along which the page has its flow; all walls stick.
 fn drained(text: &str, viscosity: f64) -> CoupledSystem {
     let mut grains = GrainSystem::new(boxed(packing(text), MODULUS)).expect("grains");
-    for (i, v) in grains.velocities_mut().iter_mut().enumerate() {
+    for (i, v) in grains.grains.velocity.iter_mut().enumerate() {
         *v = dem_pfv::coupled::Vector::from_fn(|k, _| {
             1e-6 * f64::from((i * 7919 + k * 104_729) as u32 % 97)
         });
@@ -78,8 +78,8 @@ fn the_rule_of_the_thesis_is_too_long_as_the_page_has_it() {
         let limit = system.step_limit().expect("a limit");
         let smallest = system
             .grains()
-            .grains()
-            .radii()
+            .grains
+            .radius
             .iter()
             .copied()
             .fold(f64::INFINITY, f64::min);
@@ -109,7 +109,7 @@ fn one_grain_has_the_limit_of_its_own_drag() {
         CoupledSystem::new(GrainSystem::new(setup).expect("a ball"), fluid).expect("a system");
     let limit = system.step_limit().expect("a limit");
     let step = 1e-3 * limit.viscous;
-    let speed = |s: &CoupledSystem| s.grains().grains().velocities()[0].z;
+    let speed = |s: &CoupledSystem| s.grains().grains.velocity[0].z;
     system.step(step).expect("a step");
     let before = speed(&system);
     system.step(step).expect("a step");

@@ -19,8 +19,8 @@ struct Sample {
 
 /// Loads the top, a piston of a twentieth of the grains' mass.
 fn press(grains: &mut GrainSystem, stress: f64) {
-    let mass = 0.05 * grains.grains().masses().iter().sum::<f64>();
-    grains.walls_mut()[5].control = Control::Piston { stress, mass };
+    let mass = 0.05 * grains.grains.mass.iter().sum::<f64>();
+    grains.walls[5].control = Control::Piston { stress, mass };
 }
 
 fn height(grains: &GrainSystem) -> f64 {
@@ -33,7 +33,7 @@ impl Sample {
             GrainSystem::new(boxed(packing(text), MODULUS).damping(0.4)).expect("grains");
         press(&mut grains, confining);
         step_to_rest(&mut grains, 0.8, 1e-5, 100_000).expect("at rest");
-        let (state, time, height) = (grains.save(), grains.time(), height(&grains));
+        let (state, time, height) = (grains.save(), grains.time, height(&grains));
         Self {
             state,
             confining,
@@ -85,18 +85,14 @@ impl Sample {
     fn mean_time(&self, viscosity: f64, load: f64, end: &GrainSystem) -> f64 {
         let start = self.grains();
         let spheres = |grains: &GrainSystem| -> Vec<_> {
-            let columns = grains
-                .grains()
-                .positions()
-                .iter()
-                .zip(grains.grains().radii());
+            let columns = grains.grains.position.iter().zip(&grains.grains.radius);
             columns.map(|(x, r)| Sphere::new((*x).into(), *r)).collect()
         };
         let walls = |g: &GrainSystem| -> Vec<_> {
             let wall = |w: &dem_pfv::grains::Wall| {
                 dem_pfv::triangulation::Wall::through(w.point.into(), w.normal.into())
             };
-            g.walls().iter().map(wall).collect()
+            g.walls.iter().map(wall).collect()
         };
         let mesh = Triangulation::within(&spheres(&start), &walls(&start)).expect("cells");
         let pores = PoreGeometry::new(
@@ -108,10 +104,10 @@ impl Sample {
         let mut boundary = Boundary::closed(&pores);
         boundary.pressure(&pores, 4, |_| Some(0.0));
         boundary.pressure(&pores, 5, |_| Some(0.0));
-        let after = cell_volumes(pores.mesh(), end.grains().positions(), &walls(end));
+        let after = cell_volumes(&pores.mesh, &end.grains.position, &walls(end));
         let rates: Vec<_> = after
             .iter()
-            .zip(pores.volumes())
+            .zip(&pores.volumes)
             .map(|(a, b)| a - b)
             .collect();
         let law = HydraulicRadius::default();
@@ -124,7 +120,7 @@ impl Sample {
         let mut grains = self.grains();
         for part in 1..=40 {
             let share = scale * f64::from(part) / 40.0;
-            for (k, f) in grains.external_forces_mut().iter_mut().enumerate() {
+            for (k, f) in grains.grains.external_force.iter_mut().enumerate() {
                 *f = -forces.on_sphere(k) * share;
             }
             step_to_rest(&mut grains, 0.8, 1e-4, 100_000).expect("at rest");
@@ -189,7 +185,7 @@ fn a_packing_consolidates_as_terzaghi_has_it() {
         coefficient,
         drainage: half,
     };
-    let diameter = 2.0 * system.grains().grains().radii().iter().sum::<f64>() / 1000.0;
+    let diameter = 2.0 * system.grains().grains.radius.iter().sum::<f64>() / 1000.0;
     let rule = Terzaghi {
         coefficient,
         drainage: half - 1.2 * diameter,

@@ -65,7 +65,7 @@ fn grains_that_overlap_or_are_in_walls_are_named() {
         drained(),
     )
     .expect("two");
-    system.grains_mut().positions_mut()[1].x = 0.5;
+    system.grains_mut().grains.position[1].x = 0.5;
     let error = system.remesh().expect_err("overlap");
     assert!(
         matches!(
@@ -203,13 +203,13 @@ fn conditions_and_rooms_that_mean_nothing_are_named() {
 fn a_step_above_the_limit_moves_nothing() {
     let mut system = CoupledSystem::new(one(), drained()).expect("a system");
     let limit = system.step_limit().expect("a limit");
-    let before = system.grains().grains().positions().to_vec();
+    let before = system.grains().grains.position.to_vec();
     let error = system.step(1.001 * limit.step).expect_err("too long");
     assert!(
         matches!(error, CoupledError::StepTooLarge { grain: 0, .. }),
         "{error}"
     );
-    assert_eq!(before, system.grains().grains().positions());
+    assert_eq!(before, system.grains().grains.position);
     assert_eq!(system.time(), 0.0);
 }
 
@@ -220,7 +220,7 @@ fn one_grain_sinks_to_the_floor() {
     ball.set_damping(0.3).expect("damping");
     let mut system = CoupledSystem::new(ball, drained()).expect("a system");
     system.run_to(4.0, 0.8).expect("a run");
-    let floor = -system.grains().walls()[4].force().z;
+    let floor = -system.grains().walls[4].force().z;
     let share = floor / -system.buoyant_weight().z;
     println!("the floor bears {share:.6} of the buoyant weight");
     assert!((share - 1.0).abs() < 0.01, "{share}");

@@ -23,14 +23,14 @@ fn a_closed_box_stores_what_is_pumped_in() {
         Solver::Direct,
     )
     .expect("a system");
-    let mut pressures = vec![5.0; geometry.volumes().len()];
+    let mut pressures = vec![5.0; geometry.volumes.len()];
     for _ in 0..3 {
         pressures = system.step(&boundary, &[], &pressures).expect("pressures");
     }
-    let void: f64 = geometry.void_volumes().iter().sum();
+    let void: f64 = geometry.void_volumes.iter().sum();
     let mean: f64 = pressures
         .iter()
-        .zip(geometry.void_volumes())
+        .zip(&geometry.void_volumes)
         .map(|(p, v)| p * v)
         .sum::<f64>()
         / void;

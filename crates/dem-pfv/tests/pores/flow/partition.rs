@@ -20,7 +20,7 @@ fn worst(geometry: &PoreGeometry, spheres: &[Sphere]) -> f64 {
     let void = 1.0 - solid(spheres);
     let mut wetted = vec![0.0; spheres.len()];
     let mut walls = [0.0; 6];
-    for throat in geometry.throats() {
+    for throat in &geometry.throats {
         for (v, area) in throat.vertices.iter().zip(throat.wetted) {
             match v {
                 Vertex::Sphere(k) => wetted[*k] += area,
@@ -29,12 +29,12 @@ fn worst(geometry: &PoreGeometry, spheres: &[Sphere]) -> f64 {
         }
     }
     let sum = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>();
-    let throats = geometry.throats();
+    let throats = &geometry.throats;
     let mut differences = vec![
-        sum(&mut geometry.volumes().iter().copied()) - 1.0,
+        sum(&mut geometry.volumes.iter().copied()) - 1.0,
         sum(&mut throats.iter().map(|t| t.area * t.length / 3.0)) - 1.0,
         sum(&mut throats.iter().map(|t| t.fluid_volume)) / void - 1.0,
-        sum(&mut geometry.void_volumes().iter().copied()) / void - 1.0,
+        sum(&mut geometry.void_volumes.iter().copied()) / void - 1.0,
     ];
     differences.extend(
         spheres
@@ -44,7 +44,7 @@ fn worst(geometry: &PoreGeometry, spheres: &[Sphere]) -> f64 {
     );
     differences.extend(walls.map(|a| a - 1.0));
     for w in 0..6 {
-        let cells = 0..geometry.volumes().len();
+        let cells = 0..geometry.volumes.len();
         differences.push(sum(&mut cells.map(|c| geometry.area_on_wall(c, w))) - 1.0);
     }
     differences.into_iter().fold(0.0, |m, d| m.max(d.abs()))
@@ -62,7 +62,7 @@ fn signed_parts_fill_the_box_the_void_and_the_surfaces() {
             "{name}: largest relative difference {worst:e}"
         );
         let negative = geometry
-            .throats()
+            .throats
             .iter()
             .filter(|t| t.fluid_volume < 0.0)
             .count();
@@ -79,9 +79,9 @@ fn power_centres_are_on_the_normal_of_their_facet() {
         SolidAngles::Signed,
     );
     let mut worst = 0.0_f64;
-    for t in geometry.throats() {
+    for t in &geometry.throats {
         let [i, j] = t.cells;
-        let along = geometry.centres()[j] - geometry.centres()[i];
+        let along = geometry.centres[j] - geometry.centres[i];
         assert!(along.dot(&t.normal) >= 0.0);
         worst = worst.max(along.cross(&t.normal).norm());
         let parts = t.fluid_area + t.sectors.iter().sum::<f64>();
@@ -102,7 +102,7 @@ fn absolute_parts_miss_as_much_void_as_the_prototype() {
         (BOX200, 0.438_331_171_862_808_1),
     ] {
         let geometry = geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Absolute);
-        let sum: f64 = geometry.throats().iter().map(|t| t.fluid_volume).sum();
+        let sum: f64 = geometry.throats.iter().map(|t| t.fluid_volume).sum();
         assert!((sum / phi - 1.0).abs() < 1e-12, "{sum} of {phi} m³");
     }
 }
@@ -113,7 +113,7 @@ fn absolute_parts_miss_as_much_void_as_the_prototype() {
 fn volumes_of_moved_spheres_fill_the_moved_room() {
     let spheres = spheres(BOX200);
     let geometry = geometry(&spheres, SlipCondition::NoSlip, SolidAngles::Signed);
-    let mut walls = geometry.mesh().walls().to_vec();
+    let mut walls = geometry.mesh.walls.to_vec();
     walls[3].offset = -0.99; // y₊ at 0.99 m
     let moved =
         |i: usize| 1e-3 * Vector3::new((i as f64).sin(), (3.0 * i as f64).cos(), (i as f64).cos());
@@ -122,12 +122,12 @@ fn volumes_of_moved_spheres_fill_the_moved_room() {
         .enumerate()
         .map(|(i, s)| s.centre + moved(i))
         .collect();
-    let volumes = cell_volumes(geometry.mesh(), &centres, &walls);
+    let volumes = cell_volumes(&geometry.mesh, &centres, &walls);
     let sum: f64 = volumes.iter().sum();
     assert!((sum / 0.99 - 1.0).abs() < 1e-13, "{sum} m³");
     let changed = volumes
         .iter()
-        .zip(geometry.volumes())
+        .zip(&geometry.volumes)
         .filter(|(a, b)| a != b)
         .count();
     assert_eq!(changed, volumes.len());
@@ -135,14 +135,12 @@ fn volumes_of_moved_spheres_fill_the_moved_room() {
 
 /// A third of the distance times the area, over both sides of every face.
 fn pyramids(geometry: &PoreGeometry) -> f64 {
-    let mesh = geometry.mesh();
+    let mesh = &geometry.mesh;
     let pyramid = |edge: &dem_pfv::flow::Edge| {
         let height = match edge.other {
             // Both pyramids on one face: their heights add up to the distance of the centres.
-            Vertex::Sphere(l) => {
-                (mesh.spheres()[l].centre - mesh.spheres()[edge.sphere].centre).norm()
-            }
-            Vertex::Wall(w) => mesh.walls()[w].distance(mesh.spheres()[edge.sphere].centre),
+            Vertex::Sphere(l) => (mesh.spheres[l].centre - mesh.spheres[edge.sphere].centre).norm(),
+            Vertex::Wall(w) => mesh.walls[w].distance(mesh.spheres[edge.sphere].centre),
         };
         edge.area * height / 3.0
     };

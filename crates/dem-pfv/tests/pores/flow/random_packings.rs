@@ -93,9 +93,9 @@ fn permeabilities_are_those_of_yade_and_of_the_prototype() {
 /// Takes whole sectors, as the prototype does, in place of those cut at the opposite edge: adds S₀ (p_i − p_j) n to
 /// the two spheres of box1000 that reach across (2.9e-6 of the largest force).
 fn across_obtuse_facets(pores: &PoreGeometry, shown: &mut Permeameter) {
-    for throat in pores.throats() {
+    for throat in &pores.throats {
         let spheres = throat.vertices.map(|v| match v {
-            Vertex::Sphere(k) => Some((k, pores.mesh().spheres()[k])),
+            Vertex::Sphere(k) => Some((k, pores.mesh.spheres[k])),
             Vertex::Wall(_) => None,
         });
         let [Some(a), Some(b), Some(c)] = spheres else {
@@ -227,7 +227,7 @@ fn pressures_of_box200_follow_the_height() {
     let (mut sums, mut heights, mut counts) = ([0.0; 5], [0.0; 5], [0.0; 5]);
     for (c, p) in shown.pressures.iter().enumerate() {
         assert!((0.0..=1.0).contains(p), "cell {c} has {p} Pa");
-        let y = geometry.centres()[c].y;
+        let y = geometry.centres[c].y;
         let slab = ((5.0 * y) as usize).min(4);
         sums[slab] += p;
         heights[slab] += y;
@@ -247,7 +247,7 @@ fn effective_radii_give_half_the_permeability() {
         let geometry = geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Signed);
         let ratio = permeameter(&geometry, &EffectiveRadius {}).kappa
             / permeameter(&geometry, &hydraulic()).kappa;
-        let throats = geometry.throats().iter();
+        let throats = geometry.throats.iter();
         let mut ratios: Vec<_> = throats
             .map(|t| t.hydraulic_radius() / EffectiveRadius::radius(t))
             .collect();

@@ -53,8 +53,8 @@ fn sources_are_reciprocal_and_conserved() {
     let mut bottom = Boundary::closed(&geometry);
     bottom.pressure(&geometry, 2, |_| Some(0.0));
     let mut system = system(&geometry, &bottom, Solver::Direct);
-    let free: Vec<_> = (0..geometry.volumes().len())
-        .filter(|c| geometry.centres()[*c].y > 0.5)
+    let free: Vec<_> = (0..geometry.volumes.len())
+        .filter(|c| geometry.centres[*c].y > 0.5)
         .collect();
     let (i, j) = (free[3], free[20]);
     let mut pressure_at = |source: usize, cell: usize| {
@@ -96,17 +96,17 @@ fn shrinking_pores_press_fluid_out() {
     boundary.pressure(&geometry, 2, |_| Some(0.0));
     let step = 1e-3;
     let centres = geometry
-        .mesh()
-        .spheres()
+        .mesh
+        .spheres
         .iter()
         .map(|s| Vector3::new(s.centre.x, s.centre.y * (1.0 - 1e-3), s.centre.z));
     let centres: Vec<_> = centres.collect();
-    let mut walls = geometry.mesh().walls().to_vec();
+    let mut walls = geometry.mesh.walls.to_vec();
     walls[3].offset = -0.999;
-    let after = dem_pfv::flow::cell_volumes(geometry.mesh(), &centres, &walls);
+    let after = dem_pfv::flow::cell_volumes(&geometry.mesh, &centres, &walls);
     let rates: Vec<_> = after
         .iter()
-        .zip(geometry.volumes())
+        .zip(&geometry.volumes)
         .map(|(b, a)| (b - a) / step)
         .collect();
     let mut system = system(&geometry, &boundary, Solver::Direct);
@@ -129,9 +129,9 @@ fn shrinking_pores_press_fluid_out() {
 
 fn boundary_cells(geometry: &PoreGeometry) -> Vec<bool> {
     let around = geometry
-        .mesh()
+        .mesh
         .cells_around(dem_pfv::triangulation::Vertex::Wall(2));
-    let mut on = vec![false; geometry.volumes().len()];
+    let mut on = vec![false; geometry.volumes.len()];
     around.iter().for_each(|c| on[*c as usize] = true);
     on
 }

@@ -14,7 +14,7 @@ fn head_on(law: impl ContactLaw + 'static, speed: f64, step: f64) -> (f64, f64) 
     ];
     let mut system = GrainSystem::new(Setup::new(grains, law)).expect("a pair");
     let gap = |s: &GrainSystem| {
-        let x = s.grains().positions();
+        let x = &s.grains.position;
         x[1].x - x[0].x - 2.0 * RADIUS
     };
     let mut before = 0.0;
@@ -22,7 +22,7 @@ fn head_on(law: impl ContactLaw + 'static, speed: f64, step: f64) -> (f64, f64) 
         system.step(step).expect("a step");
         let now = gap(&system);
         if now > 0.0 {
-            let opened = system.time() - step * now / (now - before);
+            let opened = system.time - step * now / (now - before);
             let apart = velocity(&system, 1).x - velocity(&system, 0).x;
             return (opened, apart / speed);
         }
@@ -100,7 +100,7 @@ fn unequal_spheres_keep_momentum_and_energy() {
         GrainSystem::new(Setup::new(grains, LinearElastic::new(MODULUS, 0.5, 0.0))).expect("pair");
     let step = 1e-3 * system.critical_step();
     crate::grains::run(&mut system, step, 20_000);
-    let (m1, m2) = (system.grains().masses()[0], system.grains().masses()[1]);
+    let (m1, m2) = (system.grains.mass[0], system.grains.mass[1]);
     close(velocity(&system, 0).x, 0.1 * (m1 - m2) / (m1 + m2), 1e-7);
     close(velocity(&system, 1).x, 0.2 * m1 / (m1 + m2), 1e-7);
 }

@@ -66,15 +66,15 @@ fn heap() -> GrainSystem {
 }
 
 fn bits(system: &GrainSystem) -> Vec<u64> {
-    let g = system.grains();
-    let columns = [g.positions(), g.velocities(), g.spins(), g.contact_forces()];
+    let g = &system.grains;
+    let columns = [&g.position, &g.velocity, &g.spin, &g.contact_force];
     let vectors = columns
         .into_iter()
         .flatten()
         .flat_map(|v| v.iter().copied());
-    let turns = g.orientations().iter().flatten().copied();
+    let turns = g.orientation.iter().flatten().copied();
     let walls = system
-        .walls()
+        .walls
         .iter()
         .flat_map(|w| w.point.iter().copied().collect::<Vec<_>>());
     vectors
@@ -95,7 +95,7 @@ fn one_two_and_four_threads_give_the_same_bits() {
             pool.expect("threads").install(|| {
                 let mut system = heap();
                 run(&mut system, STEP, 300);
-                assert!(system.contacts().count() > 1000 && system.renewals() > 2);
+                assert!(system.contacts().count() > 1000 && system.renewals > 2);
                 bits(&system)
             })
         })
@@ -114,9 +114,9 @@ fn a_resumed_run_goes_on_to_the_same_bits() {
     drop(first);
     let state: State = serde_json::from_str(&text).expect("read");
     let mut second = GrainSystem::resume(state, laws()).expect("resumed");
-    assert_eq!(second.steps(), 157);
+    assert_eq!(second.steps, 157);
     run(&mut second, STEP, 143);
-    assert_eq!(second.time(), whole.time());
+    assert_eq!(second.time, whole.time);
     assert_eq!(bits(&second), bits(&whole));
 }
 
@@ -134,7 +134,7 @@ fn the_skin_changes_no_bit() {
         let walls = Wall::cuboid([-0.1; 3], [1.4; 3]);
         let mut system = GrainSystem::new(setup.walls(walls)).expect("a cloud");
         run(&mut system, 5e-4, 1000);
-        (bits(&system), system.renewals())
+        (bits(&system), system.renewals)
     };
     let (thin, often) = run_with(0.05 * RADIUS);
     let (thick, rarely) = run_with(RADIUS);

@@ -104,12 +104,12 @@ fn a_free_cloud_keeps_its_momentum_and_angular_momentum() {
     }
     let mut system = GrainSystem::new(Setup::new(grains, law(0.5, 0.4, 0.1))).expect("cloud");
     let momenta = |s: &GrainSystem| {
-        let g = s.grains();
+        let g = &s.grains;
         let (mut p, mut l, mut scale) = (Vector::zeros(), Vector::zeros(), 0.0);
         for i in 0..g.len() {
-            let one = g.velocities()[i] * g.masses()[i];
+            let one = g.velocity[i] * g.mass[i];
             p += one;
-            l += g.positions()[i].cross(&one) + g.spins()[i] * g.inertia(i);
+            l += g.position[i].cross(&one) + g.spin[i] * g.inertia(i);
             scale += one.norm();
         }
         (p, l, scale)

@@ -28,7 +28,7 @@ fn a_sliding_ball_ends_rolling_at_five_sevenths() {
     // While it slides it loses µ g.
     let steps = (0.5 * slides / step) as usize;
     run(&mut system, step, steps);
-    let lost = 0.3 * GRAVITY * system.time();
+    let lost = 0.3 * GRAVITY * system.time;
     close(
         velocity(&system, 0).x,
         speed - lost,
@@ -48,7 +48,7 @@ fn a_ball_rolls_down_at_five_sevenths() {
     let mut system = on_slope(law(0.5, friction, 0.1), angle, |g| g);
     let step = 0.2 * system.critical_step();
     run(&mut system, step, 4000);
-    let time = system.time() - 0.5 * step;
+    let time = system.time - 0.5 * step;
     let acceleration = 5.0 / 7.0 * GRAVITY * angle.sin();
     let spring = 2.0 / 7.0 * GRAVITY * angle.sin() / (0.5 * STIFFNESS);
     let expected = acceleration * time;
@@ -66,7 +66,7 @@ fn beyond_seven_halves_of_the_friction_it_slips() {
     let mut system = on_slope(law(0.5, friction, 0.0), angle, |g| g);
     let step = 0.2 * system.critical_step();
     run(&mut system, step, 4000);
-    let time = system.time() - 0.5 * step;
+    let time = system.time - 0.5 * step;
     let acceleration = GRAVITY * (angle.sin() - friction * angle.cos());
     // The spring is taut after µ F_n / k_t.
     let spring = friction * GRAVITY / (0.5 * STIFFNESS);
@@ -114,7 +114,7 @@ fn rolling_resistance_holds_up_to_its_angle() {
     let angle = (1.5 * eta).atan();
     let mut rolling = on_slope(resisting(eta), angle, |g| g);
     run(&mut rolling, step, 20_000);
-    let time = rolling.time() - 0.5 * step;
+    let time = rolling.time - 0.5 * step;
     let expected = 5.0 / 7.0 * GRAVITY * angle.cos() * (angle.tan() - eta) * time;
     // Both springs must first be taut: the rolling one after θ R = η R F_n / (k_t R).
     let springs = (eta + 2.0 / 7.0 * angle.tan()) * GRAVITY / (0.5 * STIFFNESS);
@@ -133,8 +133,8 @@ fn spin_about_the_normal_is_free() {
     run(&mut system, step, 1000);
     assert_eq!(spin(&system, 0).z, 5.0);
     // The orientation turned by ω t, within the third order of Cayley's form.
-    let [w, _, _, z] = system.grains().orientations()[0];
-    let angle = 5.0 * system.time();
+    let [w, _, _, z] = system.grains.orientation[0];
+    let angle = 5.0 * system.time;
     close(
         2.0 * z.atan2(w),
         angle,

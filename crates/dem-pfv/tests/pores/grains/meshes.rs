@@ -47,7 +47,7 @@ fn a_plate_of_triangles_is_a_wall() {
         assert!(apart.norm() < 1e-10, "{apart}");
     }
     assert!(position(&on_wall, 0).x > 0.5);
-    assert!((on_mesh.meshes()[0].force() - on_wall.walls()[0].force()).norm() < 1e-6 * GRAVITY);
+    assert!((on_mesh.meshes[0].force() - on_wall.walls[0].force()).norm() < 1e-6 * GRAVITY);
 }
 
 #[test]
@@ -120,8 +120,8 @@ fn a_turning_mesh_moves_what_lies_on_it() {
     system.step(step).expect("a step");
     system.evaluate().expect("forces");
     // At (0.2, 0) the table moves along +y and takes the ball with it.
-    assert!(system.grains().contact_forces()[0].y > 0.0);
-    let vertex = system.meshes()[0].vertices[0];
+    assert!(system.grains.contact_force[0].y > 0.0);
+    let vertex = system.meshes[0].vertices[0];
     close(vertex.norm(), 2.0_f64.sqrt(), 1e-12);
     close(
         vertex.y.atan2(vertex.x),

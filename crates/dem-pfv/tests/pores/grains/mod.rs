@@ -47,15 +47,15 @@ fn run(system: &mut GrainSystem, step: f64, steps: usize) {
 }
 
 fn position(system: &GrainSystem, grain: usize) -> Vector {
-    system.grains().positions()[grain]
+    system.grains.position[grain]
 }
 
 fn velocity(system: &GrainSystem, grain: usize) -> Vector {
-    system.grains().velocities()[grain]
+    system.grains.velocity[grain]
 }
 
 fn spin(system: &GrainSystem, grain: usize) -> Vector {
-    system.grains().spins()[grain]
+    system.grains.spin[grain]
 }
 
 #[track_caller]

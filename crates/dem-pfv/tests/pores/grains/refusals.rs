@@ -189,8 +189,8 @@ fn steps_and_runaways_are_refused() {
         error.contains("above the critical one") && error.contains("grain 0"),
         "{error}"
     );
-    assert_eq!(system.steps(), 0);
-    system.external_forces_mut()[0] = Vector::repeat(f64::NAN);
+    assert_eq!(system.steps, 0);
+    system.grains.external_force[0] = Vector::repeat(f64::NAN);
     system.step(0.5 * limit).expect("it flies away");
     let error = system.step(0.5 * limit).expect_err("gone");
     assert!(

@@ -78,7 +78,7 @@ fn growth_in_a_periodic_box_ends_at_its_stress() {
     let of_grains: f64 = system
         .grain_stresses()
         .iter()
-        .zip(system.grains().radii())
+        .zip(&system.grains.radius)
         .map(|(s, r)| s.trace() / 3.0 * 4.0 / 3.0 * std::f64::consts::PI * r.powi(3))
         .sum();
     close(of_grains / 5e4, 1.0, 1e-3);
@@ -103,14 +103,14 @@ fn a_pluviated_bed_rests_on_the_floor_with_its_weight() {
     let setup = setup.gravity([0.0, 0.0, -9.81]).damping(0.2);
     let mut system = GrainSystem::new(setup).expect("a bed");
     step_to_rest(&mut system, 0.7, 1e-4, 400_000).expect("rest");
-    let g = system.grains();
-    let weight: f64 = g.masses().iter().map(|m| m * 9.81).sum();
+    let g = &system.grains;
+    let weight: f64 = g.mass.iter().map(|m| m * 9.81).sum();
     // What is not balanced grain by grain is not on the floor.
-    let forces = g.contact_forces().iter().zip(g.masses());
+    let forces = g.contact_force.iter().zip(&g.mass);
     let rest: f64 = forces.map(|(f, m)| (f.z - 9.81 * m).abs()).sum();
-    close(system.walls()[0].push(), weight, rest + 1e-9 * weight);
+    close(system.walls[0].push(), weight, rest + 1e-9 * weight);
     // The bed is a random packing: between the densest lattice and the loosest stable bed of spheres.
-    let top = g.positions().iter().map(|x| x.z).fold(0.0, f64::max);
+    let top = g.position.iter().map(|x| x.z).fold(0.0, f64::max);
     assert!(top < 150.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3) / (0.36 * 0.4));
 }
 
@@ -124,16 +124,16 @@ fn grains_move_without_forces() {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
     let mut system = GrainSystem::new(Setup::new(grains, smooth()).walls(walls)).expect("two");
     system.drift(1.0).expect("moved");
-    close(system.grains().positions()[0].x, 0.3, 1e-15);
-    assert_eq!(system.time(), 0.0);
-    system.positions_mut()[0] = Vector::new(0.401, 0.5, 0.5);
+    close(system.grains.position[0].x, 0.3, 1e-15);
+    assert_eq!(system.time, 0.0);
+    system.grains.position[0] = Vector::new(0.401, 0.5, 0.5);
     system.evaluate().expect("forces");
     let touch = system.contacts().next().expect("a contact");
     close(touch.overlap, 0.001, 1e-12);
     // E R between equal spheres.
     close(touch.force.x, -MODULUS * 0.05 * 0.001, 1e-6);
-    system.held_mut()[1] = true;
-    system.walls_mut()[0].control = Control::Velocity;
+    system.grains.held[1] = true;
+    system.walls[0].control = Control::Velocity;
     system.step(1e-5).expect("a step");
-    assert_eq!(system.grains().positions()[1], Vector::repeat(0.5));
+    assert_eq!(system.grains.position[1], Vector::repeat(0.5));
 }

@@ -27,11 +27,7 @@ fn a_damped_stack_is_as_deep_as_its_weight() {
             let expected = above as f64 * GRAVITY / STIFFNESS;
             close(touch.overlap / expected, 1.0, 1e-9);
         }
-        close(
-            system.walls()[0].push(),
-            8.0 * GRAVITY,
-            1e-9 * 8.0 * GRAVITY,
-        );
+        close(system.walls[0].push(), 8.0 * GRAVITY, 1e-9 * 8.0 * GRAVITY);
     }
 }
 
@@ -72,10 +68,10 @@ fn love_weber_is_wall_stress(system: &GrainSystem) {
     }
     let mut rest = nalgebra::Matrix3::zeros();
     for (x, f) in system
-        .grains()
-        .positions()
+        .grains
+        .position
         .iter()
-        .zip(system.grains().contact_forces())
+        .zip(&system.grains.contact_force)
     {
         rest += x * f.transpose();
     }
@@ -98,7 +94,7 @@ fn servo_walls_reach_their_stress() {
     let mut system = sample(0.3);
     love_weber_is_wall_stress(&system);
     let goals = [6e4, 6e4, 7e4, 7e4, 8e4, 8e4];
-    for (wall, stress) in system.walls_mut().iter_mut().zip(goals) {
+    for (wall, stress) in system.walls.iter_mut().zip(goals) {
         wall.control = Control::Stress {
             stress,
             largest_speed: 0.05,
@@ -126,7 +122,7 @@ fn a_piston_swings_as_its_mass_says() {
     let mut system = GrainSystem::new(setup).expect("a ball");
     let period = std::f64::consts::TAU / (STIFFNESS / mass).sqrt();
     let step = period / 2000.0;
-    let depth = |s: &GrainSystem| RADIUS - s.walls()[0].point.z;
+    let depth = |s: &GrainSystem| RADIUS - s.walls[0].point.z;
     run(&mut system, step, 1000);
     // Half a period later it is at twice the overlap of rest, and after a whole one where it was.
     let rest = stress * area / STIFFNESS;
@@ -141,9 +137,9 @@ fn a_piston_swings_as_its_mass_says() {
 #[test]
 fn a_damped_piston_ends_at_its_stress() {
     let mut system = sample(0.3);
-    let solid: f64 = system.grains().masses().iter().sum();
+    let solid: f64 = system.grains.mass.iter().sum();
     for (number, share) in [(5, 0.02), (5, 0.2)] {
-        system.walls_mut()[number].control = Control::Piston {
+        system.walls[number].control = Control::Piston {
             stress: 6e4,
             mass: share * solid,
         };
@@ -163,7 +159,7 @@ fn external_forces_lift() {
         .gravity([0.0, 0.0, -GRAVITY])
         .damping(0.5);
     let mut system = GrainSystem::new(setup).expect("a ball");
-    system.external_forces_mut()[0] = Vector::z() * (0.4 * GRAVITY);
+    system.grains.external_force[0] = Vector::z() * (0.4 * GRAVITY);
     step_to_rest(&mut system, 0.5, 1e-12, 100_000).expect("rest");
     close(
         RADIUS - position(&system, 0).z,

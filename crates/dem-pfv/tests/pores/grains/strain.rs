@@ -20,7 +20,7 @@ fn a_uniform_strain_is_that_of_every_grain() {
         _ => None,
     };
     let cells: Vec<[usize; 4]> = mesh
-        .cells()
+        .cells
         .iter()
         .filter_map(|cell| {
             let corners: Option<Vec<usize>> = cell.vertices().iter().map(number).collect();

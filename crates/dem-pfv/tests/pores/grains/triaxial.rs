@@ -40,7 +40,7 @@ fn sample(degrees: f64) -> GrainSystem {
 
 /// Rows of axial strain, deviator q = σ_z − σ_x (Pa) and volumetric strain, positive in dilation.
 fn compress(system: &mut GrainSystem, until: f64, rate: f64) -> Vec<[f64; 3]> {
-    for (number, wall) in system.walls_mut().iter_mut().enumerate() {
+    for (number, wall) in system.walls.iter_mut().enumerate() {
         wall.control = if number < 4 {
             Control::Stress {
                 stress: STRESS,
@@ -56,7 +56,7 @@ fn compress(system: &mut GrainSystem, until: f64, rate: f64) -> Vec<[f64; 3]> {
     loop {
         let step = 0.6 * system.current_limit();
         system.step(step).expect("a step");
-        if !system.steps().is_multiple_of(20) {
+        if !system.steps.is_multiple_of(20) {
             continue;
         }
         let stress = |w: usize| system.wall_stress(w).expect("area");

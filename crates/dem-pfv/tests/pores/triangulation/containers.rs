@@ -28,7 +28,7 @@ fn a_column_with_eight_sides_is_filled() {
     let mesh = Triangulation::within(&spheres, &walls).expect("a room");
     assert_consistent(&mesh);
     // One corner cell for each corner of the room, and one sphere each.
-    let corners = mesh.cells().iter().filter(|c| c.walls() == 3).count();
+    let corners = mesh.cells.iter().filter(|c| c.walls() == 3).count();
     assert_eq!(corners, 16);
     let least = least_power(&mesh);
     assert!(least > -1e-12, "least power {least:e} m²");
@@ -38,7 +38,7 @@ fn a_column_with_eight_sides_is_filled() {
 fn one_sphere_in_a_box_has_its_eight_corners() {
     let walls = Wall::cuboid([-1.0; 3], [2.0; 3]);
     let mesh = Triangulation::within(&[Sphere::new([0.0; 3], 0.5)], &walls).expect("a room");
-    assert_eq!((mesh.cells().len(), mesh.facets().count()), (8, 12));
+    assert_eq!((mesh.cells.len(), mesh.facets().count()), (8, 12));
     assert_eq!(mesh.cells_around(Vertex::Sphere(0)).len(), 8);
     for c in 0..8 {
         let corner = mesh.power_centre(c);
@@ -57,7 +57,7 @@ fn a_power_of_two_in_the_units_changes_nothing() {
         });
         let walls = Wall::cuboid([0.0; 3], [unit; 3]);
         let mesh = Triangulation::within(&scaled.collect::<Vec<_>>(), &walls).expect("cells");
-        mesh.cells().to_vec()
+        mesh.cells.to_vec()
     };
     assert_eq!(cells(1.0), cells(2.0_f64.powi(80)));
     assert_eq!(cells(1.0), cells(2.0_f64.powi(-80)));

@@ -59,15 +59,15 @@ fn lattice(side: u32, step: f64) -> Vec<Sphere> {
 /// Least power of any power centre to any sphere that is not a vertex of its cell, m².
 fn least_power(mesh: &Triangulation) -> f64 {
     let mut least = f64::INFINITY;
-    for (c, cell) in mesh.cells().iter().enumerate() {
+    for (c, cell) in mesh.cells.iter().enumerate() {
         let centre = mesh.power_centre(c);
         let vertices = cell.vertices();
         let own = vertices.iter().find_map(|v| match v {
-            Vertex::Sphere(k) => Some(mesh.spheres()[*k].power(centre)),
+            Vertex::Sphere(k) => Some(mesh.spheres[*k].power(centre)),
             Vertex::Wall(_) => None,
         });
         let own = own.expect("a cell has a sphere");
-        for (k, s) in mesh.spheres().iter().enumerate() {
+        for (k, s) in mesh.spheres.iter().enumerate() {
             if !vertices.contains(&Vertex::Sphere(k)) {
                 least = least.min(s.power(centre) - own);
             }
@@ -78,8 +78,8 @@ fn least_power(mesh: &Triangulation) -> f64 {
 
 /// Six times the signed volume of a cell of four spheres, m³; positive if it is oriented as documented.
 fn sixfold_volume(mesh: &Triangulation, cell: usize) -> f64 {
-    let x = mesh.cells()[cell].vertices().map(|v| match v {
-        Vertex::Sphere(k) => mesh.spheres()[k].centre,
+    let x = mesh.cells[cell].vertices().map(|v| match v {
+        Vertex::Sphere(k) => mesh.spheres[k].centre,
         Vertex::Wall(_) => Vector3::repeat(f64::NAN),
     });
     -(x[1] - x[0]).cross(&(x[2] - x[0])).dot(&(x[3] - x[0]))
@@ -87,10 +87,10 @@ fn sixfold_volume(mesh: &Triangulation, cell: usize) -> f64 {
 
 /// Neighbours name each other and share three vertices.
 fn assert_consistent(mesh: &Triangulation) {
-    for (c, cell) in mesh.cells().iter().enumerate() {
+    for (c, cell) in mesh.cells.iter().enumerate() {
         for i in 0..4 {
             let Some(n) = cell.neighbour(i) else { continue };
-            let other = &mesh.cells()[n];
+            let other = &mesh.cells[n];
             assert!((0..4).any(|j| other.neighbour(j) == Some(c)));
             let (own, theirs) = (cell.vertices(), other.vertices());
             for k in (0..4).filter(|k| *k != i) {
@@ -107,7 +107,7 @@ fn canonical(mesh: &Triangulation) -> Vec<[Vertex; 4]> {
         v.sort();
         v
     };
-    let mut cells: Vec<_> = mesh.cells().iter().map(|c| sorted(c.vertices())).collect();
+    let mut cells: Vec<_> = mesh.cells.iter().map(|c| sorted(c.vertices())).collect();
     cells.sort();
     cells
 }

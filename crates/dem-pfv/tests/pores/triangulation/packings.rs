@@ -18,7 +18,7 @@ fn packings_have_the_cells_and_facets_of_yade() {
     ] {
         let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
         let mesh = Triangulation::within(&read(text), &walls).expect("a packing");
-        assert_eq!((mesh.cells().len(), mesh.facets().count()), (cells, facets));
+        assert_eq!((mesh.cells.len(), mesh.facets().count()), (cells, facets));
         assert_consistent(&mesh);
         // No sphere is nearer, in power, to a power centre than its vertices; rounding of 1 m².
         let least = least_power(&mesh);
@@ -31,12 +31,12 @@ fn power_centres_lie_on_walls_and_have_equal_power() {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
     let mesh = Triangulation::within(&read(BOX200), &walls).expect("a packing");
     let mut worst = 0.0_f64;
-    for (c, cell) in mesh.cells().iter().enumerate() {
+    for (c, cell) in mesh.cells.iter().enumerate() {
         let centre = mesh.power_centre(c);
         let mut powers = Vec::new();
         for vertex in cell.vertices() {
             match vertex {
-                Vertex::Sphere(k) => powers.push(mesh.spheres()[k].power(centre)),
+                Vertex::Sphere(k) => powers.push(mesh.spheres[k].power(centre)),
                 Vertex::Wall(w) => worst = worst.max(walls[w].distance(centre).abs()),
             }
         }
@@ -61,9 +61,9 @@ fn cells_around_a_vertex_are_those_that_have_it() {
         assert!(
             around
                 .iter()
-                .all(|c| mesh.cells()[*c as usize].vertices().contains(&vertex))
+                .all(|c| mesh.cells[*c as usize].vertices().contains(&vertex))
         );
         total += around.len();
     }
-    assert_eq!(total, 4 * mesh.cells().len());
+    assert_eq!(total, 4 * mesh.cells.len());
 }

@@ -122,27 +122,35 @@ pub struct Opening {
 /// is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
 #[derive(Clone, Debug)]
 pub struct Mesh<const D: usize> {
-    pub(crate) walls: Vec<String>,
+    /// Names of the walls, in the order given.
+    pub walls: Vec<String>,
     pub(crate) groups: Vec<usize>,
-    pub(crate) spacing: f64,
-    pub(crate) domain: PeriodicBox<D>,
-    pub(crate) nodes: Vec<Node<D>>,
-    pub(crate) elements: Vec<Element<D>>,
+    /// Length at which the walls are cut, m.
+    pub spacing: f64,
+    /// The box and its periodic directions.
+    pub domain: PeriodicBox<D>,
+    /// All nodes.
+    pub nodes: Vec<Node<D>>,
+    /// All elements, face by face.
+    pub elements: Vec<Element<D>>,
     /// Of the plane, by node: the segments that end and begin there.
     pub(crate) beside: Vec<[Option<usize>; 2]>,
     /// Of the plane: ends that nothing continues.
-    pub(crate) free_ends: Vec<FreeEnd>,
-    /// Of space: planar pieces of walls.
-    pub(crate) faces: Vec<Face>,
+    pub free_ends: Vec<FreeEnd>,
+    /// Of space: all planar faces, wall by wall.
+    pub faces: Vec<Face>,
     /// Of space: edges that no other triangle continues.
-    pub(crate) free_edges: Vec<FreeEdge>,
-    pub(crate) openings: Vec<Opening>,
-    pub(crate) warnings: Vec<WallWarning>,
+    pub free_edges: Vec<FreeEdge>,
+    /// Of space: the openings that free edges surround.
+    pub openings: Vec<Opening>,
+    /// Remarks on the walls.
+    pub warnings: Vec<WallWarning>,
     /// Positions of the nodes before any motion, m.
     pub(crate) reference: Vec<[f64; D]>,
     /// Normals of the faces before any motion.
     pub(crate) reference_normals: Vec<Point>,
-    pub(crate) poses: Vec<Pose<D>>,
+    /// Present poses, one per wall.
+    pub poses: Vec<Pose<D>>,
     /// Motion of each wall; only changes of its shape matter.
     pub(crate) motions: Vec<RigidMotion<D>>,
     /// The beds that walls follow, as they are.
@@ -181,36 +189,6 @@ impl<const D: usize> Mesh<D> {
         }
     }
 
-    /// Names of the walls, in the order given.
-    pub fn walls(&self) -> &[String] {
-        &self.walls
-    }
-
-    /// Length at which the walls are cut, m.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
-    /// All nodes.
-    pub fn nodes(&self) -> &[Node<D>] {
-        &self.nodes
-    }
-
-    /// All elements, face by face.
-    pub fn elements(&self) -> &[Element<D>] {
-        &self.elements
-    }
-
-    /// Remarks on the walls.
-    pub fn warnings(&self) -> &[WallWarning] {
-        &self.warnings
-    }
-
-    /// The box and its periodic directions.
-    pub fn domain(&self) -> &PeriodicBox<D> {
-        &self.domain
-    }
-
     /// Corners of an element, m.
     pub fn corners(&self, element: usize) -> [[f64; D]; D] {
         let near = NearElement {
@@ -242,11 +220,6 @@ impl<const D: usize> Mesh<D> {
 }
 
 impl Mesh<2> {
-    /// Ends that nothing continues.
-    pub fn free_ends(&self) -> &[FreeEnd] {
-        &self.free_ends
-    }
-
     /// Segments that end and begin at a node.
     pub fn beside(&self, node: usize) -> [Option<usize>; 2] {
         self.beside[node]
@@ -254,21 +227,6 @@ impl Mesh<2> {
 }
 
 impl Mesh<3> {
-    /// All planar faces, wall by wall.
-    pub fn faces(&self) -> &[Face] {
-        &self.faces
-    }
-
-    /// Edges that no other triangle continues.
-    pub fn free_edges(&self) -> &[FreeEdge] {
-        &self.free_edges
-    }
-
-    /// The openings that free edges surround.
-    pub fn openings(&self) -> &[Opening] {
-        &self.openings
-    }
-
     pub(crate) fn node_at(&self, node: usize, image: [i32; 3]) -> Point {
         self.node_from([0.0; 3], node, image)
     }

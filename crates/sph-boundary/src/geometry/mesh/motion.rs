@@ -65,11 +65,6 @@ where
         beds.clone_into(&mut self.beds);
     }
 
-    /// Present poses, one per wall.
-    pub fn poses(&self) -> &[Pose<D>] {
-        &self.poses
-    }
-
     fn check_poses(&self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());

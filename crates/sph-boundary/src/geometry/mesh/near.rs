@@ -11,10 +11,10 @@ impl<const D: usize> Grid<D> {
     ///
     /// With periodic directions, points in the box or within `reach` of it are served.
     pub fn build(mesh: &Mesh<D>, reach: f64) -> Self {
-        let mut images = Vec::with_capacity(mesh.elements().len());
-        let domain = mesh.domain();
-        let (mut margin, mut radii) = ([0.0; D], Vec::with_capacity(mesh.elements().len()));
-        for (e, element) in mesh.elements().iter().enumerate() {
+        let mut images = Vec::with_capacity(mesh.elements.len());
+        let domain = &mesh.domain;
+        let (mut margin, mut radii) = ([0.0; D], Vec::with_capacity(mesh.elements.len()));
+        for (e, element) in mesh.elements.iter().enumerate() {
             let arms = mesh.corners(e).map(|corner| sub(corner, element.centre));
             let reached = |k: usize| {
                 arms.iter()
@@ -28,7 +28,7 @@ impl<const D: usize> Grid<D> {
         let reached = |k: usize| 2.0 * reach + margin[k] * (1.0 + ROUNDING);
         let margin: [f64; D] = std::array::from_fn(reached);
         let box_ = [sub(domain.lower, margin), add(domain.upper, margin)];
-        for (e, element) in mesh.elements().iter().enumerate() {
+        for (e, element) in mesh.elements.iter().enumerate() {
             for image in domain.images_within(box_, [element.centre; 2]) {
                 let sphere = Sphere {
                     centre: add(element.centre, domain.shift(image)),

@@ -113,7 +113,7 @@ struct Rims {
 impl Rims {
     /// For points within some bounds.
     fn new(mesh: &Mesh<3>, points: [Point; 2], radius: f64) -> Self {
-        let domain = mesh.domain();
+        let domain = &mesh.domain;
         let mut all = Vec::new();
         for (e, edge) in mesh.free_edges.iter().enumerate() {
             let ends = mesh.free_edge_ends(edge);

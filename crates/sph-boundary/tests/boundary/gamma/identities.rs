@@ -83,7 +83,7 @@ fn a_collinear_vertex_changes_nothing() {
     let plain = Scene::new(vec![corners.clone()], 9.0);
     corners.insert(1, [2.5, 0.25]);
     let split = Scene::new(vec![corners], 9.0);
-    assert_eq!(split.mesh.nodes().len(), plain.mesh.nodes().len() + 1);
+    assert_eq!(split.mesh.nodes.len(), plain.mesh.nodes.len() + 1);
     let mut seen = points(&plain, 100);
     seen.extend([
         [2.5, 0.25],
@@ -156,7 +156,7 @@ fn a_periodic_wall_has_no_seam() {
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [2.0, 0.2], [5.0, 0.0]]);
     let lid = Polyline::open("lid", vec![[5.0, 1.5], [0.0, 1.5]]);
     let mesh = Mesh::<2>::build(&[floor, lid], 0.25, &domain).unwrap();
-    assert!(mesh.free_ends().is_empty());
+    assert!(mesh.free_ends.is_empty());
     let mut long = vec![];
     for k in -2..3 {
         let x = 5.0 * f64::from(k);

@@ -15,7 +15,7 @@ fn plates_of_every_thickness() {
         let plate = thin_plate("plate", &middle, thickness * H).unwrap().points;
         let scene = Scene::new(vec![tank.clone(), plate.clone()], 0.4 * H);
         let mut points: Vec<[f64; 2]> = plate.clone();
-        points.extend(scene.mesh.nodes().iter().rev().take(12).map(|v| v.position));
+        points.extend(scene.mesh.nodes.iter().rev().take(12).map(|v| v.position));
         for (i, [x, y]) in plate.iter().enumerate() {
             for distance in [1e-12, 1e-9, 1e-6, 1e-3, 1e-1, 1.0] {
                 let turn = random.between(0.0, std::f64::consts::TAU);
@@ -48,7 +48,7 @@ fn fluid_angles_of_a_plate_of_zero_thickness() {
         .unwrap()
         .points;
     let scene = Scene::new(vec![tank, plate], 0.5);
-    let of_plate = scene.mesh.nodes().iter().filter(|v| v.wall == 1);
+    let of_plate = scene.mesh.nodes.iter().filter(|v| v.wall == 1);
     let mut thetas: Vec<f64> = of_plate.map(|v| v.theta).collect();
     thetas.sort_by(f64::total_cmp);
     assert_eq!(

@@ -48,7 +48,7 @@ fn every_wedge_at_every_distance() {
         let [x, y] = polar(0.6 * H, arm);
         points.push([x + 1e-16 * arm.sin(), y - 1e-16 * arm.cos()]);
         // Vertices between two collinear segments, and their surroundings.
-        for vertex in &scene.mesh.nodes()[1..3] {
+        for vertex in &scene.mesh.nodes[1..3] {
             let [x, y] = vertex.position;
             points.push([x, y]);
             points.push([x + 1e-13 * H, y - 2e-13 * H]);

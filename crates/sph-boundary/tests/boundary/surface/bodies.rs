@@ -16,18 +16,18 @@ fn solid_angle(a: Point, b: Point, c: Point) -> f64 {
 
 /// Every place of the wall is met from both sides: closed, and no two nodes at one place.
 fn check_closed(mesh: &Mesh<3>) {
-    assert!(mesh.free_edges().is_empty());
+    assert!(mesh.free_edges.is_empty());
     assert!(leak(mesh) < 1e-12, "leak {}", leak(mesh));
     let mut places: Vec<_> = mesh
-        .nodes()
+        .nodes
         .iter()
         .map(|n| n.position.map(|x| (x * 1e7).round() as i64))
         .collect();
     places.sort_unstable();
     places.dedup();
-    assert_eq!(places.len(), mesh.nodes().len());
-    let sizes: f64 = mesh.nodes().iter().map(|n| n.size).sum();
-    assert!((sizes * mesh.spacing().powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
+    assert_eq!(places.len(), mesh.nodes.len());
+    let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
+    assert!((sizes * mesh.spacing.powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
 }
 
 #[test]
@@ -44,12 +44,12 @@ fn a_pyramid_stands_on_the_floor() {
     println!(
         "area {} of {expected}, {} triangles",
         area(&mesh),
-        mesh.elements().len()
+        mesh.elements.len()
     );
     assert!((area(&mesh) - expected).abs() < 1e-12 * expected);
-    let floor = mesh.faces().iter().find(|f| f.normal[2] > 0.999).unwrap();
+    let floor = mesh.faces.iter().find(|f| f.normal[2] > 0.999).unwrap();
     assert_eq!(floor.edges.len(), 8, "a square with a square hole");
-    assert_eq!(mesh.faces().len(), 6 + 4);
+    assert_eq!(mesh.faces.len(), 6 + 4);
     // At a corner of the base: the half space less the corner of the pyramid.
     let corner = solid_angle([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [half, half, height]);
     let expected = (2.0 * PI - corner) / (4.0 * PI);
@@ -68,7 +68,7 @@ fn a_pyramid_stands_on_the_floor() {
     assert!((tip[0] - (1.0 - cone / (4.0 * PI))).abs() < 1e-14);
     // Quality: no element far smaller than the others.
     let smallest = mesh
-        .elements()
+        .elements
         .iter()
         .map(|t| t.measure)
         .fold(f64::INFINITY, f64::min);
@@ -107,7 +107,7 @@ fn a_block_in_a_corner_touches_three_walls() {
     assert!(theta_at(&mesh, [0.0; 3]).is_empty());
     // All lengths are multiples of the spacing: lattice everywhere; the 2 + 4 cells in the middle of three are quartered.
     let of_size = |area: f64| {
-        let all = mesh.elements().iter();
+        let all = mesh.elements.iter();
         all.filter(|t| (t.measure - area).abs() < 1e-14).count()
     };
     assert_eq!([0.125, 0.0625].map(of_size), [768 - 2 * 6, 4 * 6]);
@@ -163,7 +163,7 @@ fn turned_bodies_touch_as_well() {
     let turned = mesh(&walls.map(turn), 0.25);
     check_closed(&turned);
     assert!((area(&turned) - area(&straight)).abs() < 1e-11);
-    assert_eq!(turned.nodes().len(), straight.nodes().len());
+    assert_eq!(turned.nodes.len(), straight.nodes.len());
     let walls = [
         block("left", [0.0; 3], [1.0, 1.0, 1.0]),
         block("right", [1.0, 0.25, 0.0], [2.0, 0.75, 1.0]),
@@ -202,7 +202,7 @@ fn walls_drawn_one_by_one_are_joined() {
         .collect();
     let joined = mesh(&walls, 0.5);
     check_closed(&joined);
-    assert_eq!(joined.nodes().len(), mesh(&[whole], 0.5).nodes().len());
+    assert_eq!(joined.nodes.len(), mesh(&[whole], 0.5).nodes.len());
     walls[0] = walls[0].clone().reversed();
     let refused = Mesh::<3>::build(&walls, &[0; 6], 0.5, &PeriodicBox::none());
     let message = refused.unwrap_err().to_string();
@@ -234,9 +234,9 @@ fn a_block_across_the_seam_of_a_periodic_floor() {
 }
 
 fn check_closed_area(mesh: &Mesh<3>) {
-    assert!(mesh.free_edges().is_empty());
-    let sizes: f64 = mesh.nodes().iter().map(|n| n.size).sum();
-    assert!((sizes * mesh.spacing().powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
+    assert!(mesh.free_edges.is_empty());
+    let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
+    assert!((sizes * mesh.spacing.powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
 }
 
 #[test]
@@ -254,17 +254,17 @@ fn a_block_turned_on_another_one() {
         let lower = block("lower", [-1.0, -1.0, 0.0], [1.0, 0.5, 1.0]);
         let mesh = mesh(&[floor, lower, upper], 0.21);
         check_closed(&mesh);
-        let areas = mesh.elements().iter().map(|t| t.measure);
+        let areas = mesh.elements.iter().map(|t| t.measure);
         smallest = areas.fold(smallest, f64::min);
         // Above the common face is no boundary.
-        let common = mesh.elements().iter().filter(|t| t.normal[2].abs() > 0.5);
+        let common = mesh.elements.iter().filter(|t| t.normal[2].abs() > 0.5);
         let common = common.filter(|t| (t.centre[2] - 1.0).abs() < 1e-9);
         let both: f64 = common.map(|t| t.measure * t.normal[2]).sum();
         assert!(
             both.abs() < 1e-9,
             "as much of one faces up as of the other down"
         );
-        assert!(mesh.nodes().iter().all(|n| n.theta > 0.0 && n.theta < 1.0));
+        assert!(mesh.nodes.iter().all(|n| n.theta > 0.0 && n.theta < 1.0));
     }
     println!("smallest triangle of 90 meshes {smallest:.2e} m²");
 }

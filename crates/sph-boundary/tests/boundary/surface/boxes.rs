@@ -8,25 +8,25 @@ use crate::surface::shapes::*;
 fn a_tank_gets_the_square_lattice() {
     let mesh = mesh(&[tank([0.0; 3], [4.0, 4.0, 4.0])], 0.5);
     // 8 cells to a side: 9³ − 7³ lattice points on the surface, two triangles to a cell.
-    assert_eq!((mesh.nodes().len(), mesh.elements().len()), (386, 768));
-    assert_eq!((mesh.faces().len(), mesh.free_edges().len()), (6, 0));
-    assert!(mesh.faces().iter().all(|f| f.edges.len() == 4));
-    for node in mesh.nodes() {
+    assert_eq!((mesh.nodes.len(), mesh.elements.len()), (386, 768));
+    assert_eq!((mesh.faces.len(), mesh.free_edges.len()), (6, 0));
+    assert!(mesh.faces.iter().all(|f| f.edges.len() == 4));
+    for node in &mesh.nodes {
         assert!(node.position.iter().all(|x| (2.0 * x).fract() == 0.0));
         let sides = node.position.iter().filter(|x| **x == 0.0 || **x == 4.0);
         assert_eq!(node.theta, [0.5, 0.25, 0.125][sides.count() - 1]);
     }
     assert!(
-        mesh.elements()
+        mesh.elements
             .iter()
             .all(|t| (t.measure - 0.125).abs() < 1e-15)
     );
     assert!((area(&mesh) - 96.0).abs() < 1e-12);
     assert!(leak(&mesh) < 1e-13);
-    let sizes: f64 = mesh.nodes().iter().map(|n| n.size).sum();
+    let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
     assert!((sizes - 384.0).abs() < 1e-9);
     // Inside a face all nodes have the same share.
-    let flat = mesh.nodes().iter().filter(|n| n.theta == 0.5);
+    let flat = mesh.nodes.iter().filter(|n| n.theta == 0.5);
     assert!(flat.clone().all(|n| (n.size - 1.0).abs() < 1e-14));
     assert_eq!(flat.count(), 6 * 49);
 }
@@ -34,20 +34,20 @@ fn a_tank_gets_the_square_lattice() {
 #[test]
 fn a_block_has_the_rest_of_the_angles() {
     let mesh = mesh(&[block("block", [0.0; 3], [2.0, 1.0, 3.0])], 0.5);
-    for node in mesh.nodes() {
+    for node in &mesh.nodes {
         let p = node.position;
         let high = [2.0, 1.0, 3.0];
         let sides = (0..3).filter(|k| p[*k] == 0.0 || p[*k] == high[*k]);
         assert!((node.theta - [0.5, 0.75, 0.875][sides.count() - 1]).abs() < 1e-15);
     }
-    assert_eq!(mesh.nodes().len(), 5 * 3 * 7 - 3 * 5);
+    assert_eq!(mesh.nodes.len(), 5 * 3 * 7 - 3 * 5);
 }
 
 #[test]
 fn sides_that_are_no_multiple_are_cut_into_equal_parts() {
     let mesh = mesh(&[tank([0.0; 3], [2.2, 1.7, 1.0])], 0.5);
     // 4 × 3 × 2 parts; the cells in the middle of three have a node of their own.
-    assert_eq!(mesh.nodes().len(), 5 * 4 * 3 - 3 * 2 + 2 * (4 + 2));
+    assert_eq!(mesh.nodes.len(), 5 * 4 * 3 - 3 * 2 + 2 * (4 + 2));
     assert!((area(&mesh) - 2.0 * (2.2 * 1.7 + 2.2 + 1.7)).abs() < 1e-13);
     assert!(leak(&mesh) < 1e-13);
 }
@@ -59,8 +59,8 @@ fn how_a_face_is_drawn_does_not_matter() {
     let fine = mesh(std::slice::from_ref(&plain), 1.0);
     let drawn = surface(
         "tank",
-        fine.nodes().iter().map(|n| n.position).collect(),
-        fine.elements()
+        fine.nodes.iter().map(|n| n.position).collect(),
+        fine.elements
             .iter()
             .map(|t| t.nodes.map(|n| n as u32))
             .collect(),
@@ -68,10 +68,10 @@ fn how_a_face_is_drawn_does_not_matter() {
     let again = mesh(&[drawn], 0.5);
     let direct = mesh(&[plain], 0.5);
     assert_eq!(
-        (again.faces().len(), again.nodes().len()),
-        (6, direct.nodes().len())
+        (again.faces.len(), again.nodes.len()),
+        (6, direct.nodes.len())
     );
-    assert!(again.faces().iter().all(|f| f.edges.len() == 4));
+    assert!(again.faces.iter().all(|f| f.edges.len() == 4));
 }
 
 #[test]
@@ -79,20 +79,20 @@ fn a_sphere_has_half_the_space() {
     let mut mean = Vec::new();
     for levels in [2, 3, 4] {
         let mesh = mesh(&[icosphere(levels, 1.0)], 0.5);
-        assert_eq!(mesh.nodes().len(), 10 * 4usize.pow(levels as u32) + 2);
-        mean.push(mesh.nodes().iter().map(|n| n.theta).sum::<f64>() / mesh.nodes().len() as f64);
+        assert_eq!(mesh.nodes.len(), 10 * 4usize.pow(levels as u32) + 2);
+        mean.push(mesh.nodes.iter().map(|n| n.theta).sum::<f64>() / mesh.nodes.len() as f64);
         assert!(leak(&mesh) < 1e-12);
-        assert!(mesh.free_edges().is_empty());
+        assert!(mesh.free_edges.is_empty());
     }
     println!("mean θ on icospheres of 320, 1280, 5120 triangles: {mean:?}");
     // θ = 1/2 + Σ δ / 4π, and the angles δ go with the size of the facets.
     let ratio = |k: usize| (mean[k] - 0.5) / (mean[k + 1] - 0.5);
     assert!((ratio(0) - 2.0).abs() < 0.05 && (ratio(1) - 2.0).abs() < 0.02);
     let mesh = mesh(&[icosphere(3, 1.0).reversed()], 0.2);
-    assert_eq!((mesh.nodes().len(), mesh.elements().len()), (642, 1280));
-    let mean = mesh.nodes().iter().map(|n| n.theta).sum::<f64>() / 642.0;
+    assert_eq!((mesh.nodes.len(), mesh.elements.len()), (642, 1280));
+    let mean = mesh.nodes.iter().map(|n| n.theta).sum::<f64>() / 642.0;
     println!("mean θ inside the icosphere of 1280 triangles: {mean}");
-    assert!(mesh.nodes().iter().all(|n| n.theta < 0.5 && n.theta > 0.42));
+    assert!(mesh.nodes.iter().all(|n| n.theta < 0.5 && n.theta > 0.42));
 }
 
 #[test]
@@ -102,19 +102,19 @@ fn a_pipe_closes_through_periodicity() {
     let pipe = prism("pipe", &ring, [0.0, 2.0], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [false, false, true]);
     let mesh = mesh_in(std::slice::from_ref(&pipe), 0.25, &domain);
-    assert!(mesh.free_edges().is_empty());
+    assert!(mesh.free_edges.is_empty());
     // One part across every side, eight along the period.
     assert_eq!(
-        (mesh.nodes().len(), mesh.elements().len()),
+        (mesh.nodes.len(), mesh.elements.len()),
         (24 * 8, 24 * 8 * 2)
     );
     let expected = 0.5 - 1.0 / 24.0;
     assert!(
-        mesh.nodes()
+        mesh.nodes
             .iter()
             .all(|n| (n.theta - expected).abs() < 1e-14)
     );
-    let moved = mesh.elements().iter().filter(|t| t.images != [[0; 3]; 3]);
+    let moved = mesh.elements.iter().filter(|t| t.images != [[0; 3]; 3]);
     assert_eq!(
         moved.count(),
         24 * 2,
@@ -131,8 +131,8 @@ fn a_pipe_closes_through_periodicity() {
         "wall `pipe` is closed through periodicity and cannot rotate"
     );
     let open = crate::surface::shapes::mesh(&[pipe], 0.25);
-    assert_eq!(open.openings().len(), 2);
-    assert!(open.openings().iter().all(|o| o.edges == 24));
+    assert_eq!(open.openings.len(), 2);
+    assert!(open.openings.iter().all(|o| o.edges == 24));
 }
 
 #[test]
@@ -144,10 +144,10 @@ fn a_floor_of_two_periods_has_no_edge() {
     );
     let domain = periodic([0.0; 3], [4.0, 3.0, 2.0], [true, true, false]);
     let mesh = mesh_in(&[floor], 0.5, &domain);
-    assert!(mesh.free_edges().is_empty());
-    assert_eq!((mesh.nodes().len(), mesh.elements().len()), (48, 96));
+    assert!(mesh.free_edges.is_empty());
+    assert_eq!((mesh.nodes.len(), mesh.elements.len()), (48, 96));
     assert!(
-        mesh.nodes()
+        mesh.nodes
             .iter()
             .all(|n| n.theta == 0.5 && (n.size - 1.0).abs() < 1e-14)
     );
@@ -175,7 +175,7 @@ fn walls_of_a_group_move_together() {
         "walls `body` and `lid` move together and cannot be given different motions"
     );
     mesh.move_walls(&[rest, turn, turn]).unwrap();
-    for (a, b) in before.nodes().iter().zip(mesh.nodes()) {
+    for (a, b) in before.nodes.iter().zip(&mesh.nodes) {
         let expected = if a.wall == 0 {
             a.position
         } else {
@@ -183,7 +183,7 @@ fn walls_of_a_group_move_together() {
         };
         assert_eq!((b.position, b.theta), (expected, a.theta));
     }
-    for (a, b) in before.elements().iter().zip(mesh.elements()) {
+    for (a, b) in before.elements.iter().zip(&mesh.elements) {
         assert!((a.measure - b.measure).abs() < 1e-15);
         let turned = if a.wall == 0 {
             a.normal
@@ -191,11 +191,11 @@ fn walls_of_a_group_move_together() {
             turn.turned(a.normal)
         };
         assert!(norm(sub(b.normal, turned)) < 1e-14);
-        assert!(norm(sub(b.normal, mesh.faces()[b.face].normal)) < 1e-14);
+        assert!(norm(sub(b.normal, mesh.faces[b.face].normal)) < 1e-14);
     }
     assert!(!mesh.contains([1.75, 1.5, 2.9]) && mesh.contains([1.75, 1.5, 1.4]));
     mesh.move_walls(&[rest, rest, rest]).unwrap();
-    assert_eq!(mesh.nodes(), before.nodes());
+    assert_eq!(&mesh.nodes, &before.nodes);
     assert!(mesh.contains([1.5, 1.5, 3.2]) && !mesh.contains([1.5, 1.5, 1.2]));
     assert!(mesh.move_walls(&[rest]).is_err());
 }
@@ -217,10 +217,10 @@ fn a_box_is_its_own_mirror_image() {
         places
     };
     let set = |mirrored: usize| -> std::collections::BTreeSet<[[i64; 3]; 3]> {
-        let all = 0..mesh.elements().len();
+        let all = 0..mesh.elements.len();
         all.map(|t| corners(t, mirrored)).collect()
     };
     let drawn = set(3);
-    assert_eq!(drawn.len(), mesh.elements().len());
+    assert_eq!(drawn.len(), mesh.elements.len());
     (0..3).for_each(|axis| assert_eq!(set(axis), drawn, "along axis {axis}"));
 }

@@ -8,7 +8,7 @@ use crate::surface::shapes::*;
 fn check(mesh: &Mesh<3>, low: Point, high: Point, fluid: impl Fn(Point) -> Option<bool>) {
     let mut random = Random(42);
     let mut points: Vec<Point> = (0..10_000).map(|_| random.point(low, high)).collect();
-    let nodes: Vec<Point> = mesh.nodes().iter().map(|n| n.position).collect();
+    let nodes: Vec<Point> = mesh.nodes.iter().map(|n| n.position).collect();
     for node in nodes.iter().step_by(nodes.len() / 500 + 1) {
         for other in nodes.iter().step_by(nodes.len() / 20 + 1) {
             points.push([node[0], node[1], other[2] + 0.01]);
@@ -101,9 +101,9 @@ fn an_l_shaped_prism() {
         (!on).then_some(!solid)
     };
     let mesh = mesh(&[walls], 0.25);
-    assert_eq!(mesh.faces().len(), 8);
+    assert_eq!(mesh.faces.len(), 8);
     assert!(
-        mesh.elements()
+        mesh.elements
             .iter()
             .all(|t| (t.measure - 0.03125).abs() < 1e-15),
         "a lattice"

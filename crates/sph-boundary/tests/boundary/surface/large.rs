@@ -46,7 +46,7 @@ fn a_ball_of_eighty_thousand_triangles() {
              bytes; 10⁴ points sided in {asked:.2?} ({fluid} fluid), listed in {listed:.2?} \
              ({near} near); moved in {moved:.2?}",
             ball.triangles.len(),
-            mesh.elements().len(),
+            mesh.elements.len(),
             grid.memory(),
         );
         let ball = 4.0 / 3.0 * std::f64::consts::PI / 2.4f64.powi(3);
@@ -64,9 +64,9 @@ fn a_large_tank() {
     let mesh = mesh(&walls, 0.05);
     println!(
         "{} triangles of a tank in {:.2?}",
-        mesh.elements().len(),
+        mesh.elements.len(),
         start.elapsed()
     );
     assert!(leak(&mesh) < 1e-10);
-    assert!(mesh.free_edges().is_empty());
+    assert!(mesh.free_edges.is_empty());
 }

@@ -28,7 +28,7 @@ fn the_nearest_place_against_samples() {
     let mut worst: f64 = 0.0;
     for _ in 0..300 {
         let point = random.point([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
-        for triangle in (0..mesh.elements().len()).step_by(7) {
+        for triangle in (0..mesh.elements.len()).step_by(7) {
             let near = NearElement {
                 element: triangle as u32,
                 image: [0; 3],
@@ -40,7 +40,7 @@ fn the_nearest_place_against_samples() {
             assert!(closest.distance() <= samples + 1e-12);
             assert!(samples - closest.distance() < 0.006);
             worst = worst.max(samples - closest.distance());
-            let normal = mesh.elements()[triangle].normal;
+            let normal = mesh.elements[triangle].normal;
             assert!((closest.height + dot(corners[1], normal)).abs() < 1e-12);
             match closest.feature {
                 Feature::Face => {
@@ -67,13 +67,13 @@ fn the_nearest_place_against_samples() {
 fn all_near(mesh: &Mesh<3>, point: Point, radius: f64) -> Vec<NearElement<3>> {
     let mut found = Vec::new();
     let range = |k: usize| {
-        if mesh.domain().periodic[k] {
+        if mesh.domain.periodic[k] {
             -2..=2i8
         } else {
             0..=0
         }
     };
-    for element in 0..mesh.elements().len() as u32 {
+    for element in 0..mesh.elements.len() as u32 {
         for i in range(0) {
             for j in range(1) {
                 for k in range(2) {
@@ -174,7 +174,7 @@ fn a_node_is_the_same_vector_in_all_triangles() {
     let mut faces = std::collections::BTreeSet::new();
     let mut repeated = 0;
     for near in grid.near(&mesh, point, 0.8) {
-        let triangle = mesh.elements()[near.index()];
+        let triangle = mesh.elements[near.index()];
         faces.insert((triangle.face, near.image));
         for (k, corner) in mesh.corners_from(point, near).iter().enumerate() {
             let image = [0, 1, 2].map(|a| triangle.images[k][a] + i32::from(near.image[a]));

@@ -12,8 +12,8 @@ fn open_tank() -> sph_boundary::Surface {
 #[test]
 fn an_open_tank_has_a_rim() {
     let mesh = mesh(&[open_tank()], 0.5);
-    assert_eq!(mesh.free_edges().len(), 16);
-    let [rim] = mesh.openings() else {
+    assert_eq!(mesh.free_edges.len(), 16);
+    let [rim] = &mesh.openings[..] else {
         panic!("one opening")
     };
     assert_eq!((rim.wall, rim.edges), (0, 4));
@@ -52,7 +52,7 @@ fn a_hole_in_a_closed_wall_is_described() {
     let mut ball = icosphere(3, 1.0).reversed();
     ball.triangles.swap_remove(100);
     let mesh = mesh(&[ball], 0.1);
-    assert_eq!((mesh.openings().len(), mesh.openings()[0].edges), (1, 3));
+    assert_eq!((mesh.openings.len(), mesh.openings[0].edges), (1, 3));
     // Particles fill the ball.
     let mut random = Random(7);
     let points: Vec<Point> = (0..20_000)
@@ -74,8 +74,8 @@ fn free_edges_are_met_across_a_period() {
     );
     let domain = periodic([0.0; 3], [4.0, 8.0, 2.0], [true, true, false]);
     let mesh = mesh_in(&[floor], 0.5, &domain);
-    assert_eq!(mesh.free_edges().len(), 16);
-    assert_eq!(mesh.openings().len(), 2);
+    assert_eq!(mesh.free_edges.len(), 16);
+    assert_eq!(mesh.openings.len(), 2);
     mesh.check_free_edges(&[[0.1, 1.5, 0.5], [0.1, 5.0, 0.5]], 1.0)
         .unwrap();
     let refused = mesh.check_free_edges(&[[0.1, 1.5, 0.5], [0.1, 7.6, 0.0]], 1.0);

@@ -169,13 +169,13 @@ pub fn mesh_in(walls: &[Surface], spacing: f64, domain: &PeriodicBox<3>) -> Mesh
 }
 
 pub fn area(mesh: &Mesh<3>) -> f64 {
-    mesh.elements().iter().map(|t| t.measure).sum()
+    mesh.elements.iter().map(|t| t.measure).sum()
 }
 
 /// |Σ area · normal|, zero for a closed wall.
 pub fn leak(mesh: &Mesh<3>) -> f64 {
     let mut sum = [0.0; 3];
-    for t in mesh.elements() {
+    for t in &mesh.elements {
         for (total, n) in sum.iter_mut().zip(t.normal) {
             *total += t.measure * n;
         }
@@ -186,7 +186,7 @@ pub fn leak(mesh: &Mesh<3>) -> f64 {
 /// θ of the nodes at a place.
 pub fn theta_at(mesh: &Mesh<3>, place: Point) -> Vec<f64> {
     let here = |p: Point| norm(sub(p, place)) < 1e-9;
-    let nodes = mesh.nodes().iter().filter(|n| here(n.position));
+    let nodes = mesh.nodes.iter().filter(|n| here(n.position));
     nodes.map(|n| n.theta).collect()
 }
 

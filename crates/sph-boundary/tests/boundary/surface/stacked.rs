@@ -96,16 +96,16 @@ impl Stack {
     }
 
     fn check(&self, mesh: &Mesh<3>, place: impl Fn(Point) -> Point, back: impl Fn(Point) -> Point) {
-        assert!(mesh.free_edges().is_empty());
+        assert!(mesh.free_edges.is_empty());
         let expected = self.area() as f64;
         assert!(
             (area(mesh) - expected).abs() < 1e-10,
             "{} of {expected}",
             area(mesh)
         );
-        let sizes: f64 = mesh.nodes().iter().map(|n| n.size).sum();
-        assert!((sizes * mesh.spacing().powi(2) - expected).abs() < 1e-9);
-        for node in mesh.nodes() {
+        let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
+        assert!((sizes * mesh.spacing.powi(2) - expected).abs() < 1e-9);
+        for node in &mesh.nodes {
             let at = back(node.position);
             // The fluid in the eight octants around the node.
             let octant = |n: i32| {
@@ -137,11 +137,11 @@ fn areas_and_angles_of_stacks_in_a_tank() {
         assert!(leak(&mesh) < 1e-12);
         // A lattice throughout: its cells are halves of squares.
         assert!(
-            mesh.elements()
+            mesh.elements
                 .iter()
                 .all(|t| (t.measure - 0.125).abs() < 1e-14)
         );
-        triangles += mesh.elements().len();
+        triangles += mesh.elements.len();
     }
     println!("{triangles} triangles of 39 stacks");
 }

@@ -1,6 +1,6 @@
 //! Files of results as named columns whose rows have keys.
 
-use sph_io::{Checkpoint, ColumnData, FieldValues, Location, Piece};
+use sph_io::{Checkpoint, Location, Piece};
 
 /// Columns whose rows are matched by a key.
 #[derive(Default)]
@@ -51,11 +51,7 @@ impl Table {
     /// All columns of the particles of a checkpoint; those of walls and lists have other lengths, and no keys.
     pub fn of_checkpoint(checkpoint: Checkpoint) -> Self {
         let columns = checkpoint.columns.into_iter().map(|c| Column {
-            values: match c.data {
-                ColumnData::F64(v) => v,
-                ColumnData::U32(v) => v.into_iter().map(f64::from).collect(),
-                ColumnData::U64(v) => v.into_iter().map(|x| x as f64).collect(),
-            },
+            values: c.data.reals(),
             unit: String::new(),
             components: c.components,
             name: c.name,
@@ -74,11 +70,7 @@ impl Table {
         let fields = piece.fields.into_iter();
         let at_points = fields.filter(|f| f.location == Location::Point);
         let columns = at_points.map(|f| Column {
-            values: match f.data {
-                FieldValues::F64(v) => v.into_owned(),
-                FieldValues::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
-                FieldValues::I64(v) => v.iter().map(|x| *x as f64).collect(),
-            },
+            values: f.data.reals(),
             name: f.name.into_owned(),
             unit: f.unit.into_owned(),
             components: f.components,

@@ -29,18 +29,18 @@ pub fn all(
     for set in overrides(set)? {
         let (number, inside) = addressed(plugins, &set)?;
         let put = inside.apply(&mut tables[number]);
-        put.map_err(|p| Trouble::usage(format!("--set {}: {}", set.text(), p.message)))?;
+        put.map_err(|p| Trouble::usage(format!("--set {}: {}", &set.text, p.message)))?;
     }
     let mut variants: Vec<(usize, Override)> = Vec::new();
     if let Some(vary) = vary {
         let told = |why: &str| Trouble::usage(format!("--vary {vary}: {why}"));
         let parsed = Override::parse(vary).map_err(|p| told(&p.message))?;
         let (number, inside) = addressed(plugins, &parsed)?;
-        let Value::Array(values) = inside.value() else {
+        let Value::Array(values) = &inside.value else {
             return Err(told("expected a list, KEY=[first, second, …]"));
         };
         for value in values {
-            let one = Override::new(inside.path(), value.clone());
+            let one = Override::new(&inside.path, value.clone());
             variants.push((number, one.map_err(|p| told(&p.message))?));
         }
     }
@@ -54,10 +54,10 @@ pub fn all(
             let mut table = table.clone();
             let put = variant.apply(&mut table);
             put.map_err(|p| Trouble::usage(format!("--vary {}: {}", p.path, p.message)))?;
-            let value = plainly(variant.value());
-            let differs = match variant.value() {
+            let value = plainly(&variant.value);
+            let differs = match &variant.value {
                 Value::Table(_) => value,
-                _ => format!("{} = {value}", variant.path()),
+                _ => format!("{} = {value}", &variant.path),
             };
             let label = if several {
                 format!("{}, {differs}", plugin.name)
@@ -91,16 +91,16 @@ fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override)
     if plugins.len() == 1 {
         return Ok((0, set.clone()));
     }
-    let told = |why: String| Trouble::usage(format!("{}: {why}", set.text()));
+    let told = |why: String| Trouble::usage(format!("{}: {why}", &set.text));
     let names = || plugins.iter().map(|p| p.name);
-    let (first, rest) = set.path().split_once('.').unwrap_or((set.path(), ""));
+    let (first, rest) = set.path.split_once('.').unwrap_or((&set.path, ""));
     let found = names().position(|name| name == first);
     let number = found.ok_or_else(|| {
         let near = suggestion(first, names());
         let known = names().collect::<Vec<_>>().join(", ");
         told(format!("`{first}` is none of the laws to be drawn{near} (they are {known}; write LAW.KEY=VALUE)"))
     })?;
-    let inside = Override::new(rest, set.value().clone());
+    let inside = Override::new(rest, set.value.clone());
     Ok((number, inside.map_err(|p| told(p.message))?))
 }
 

@@ -7,6 +7,7 @@ use sph_io::{Panels, Plot, Series};
 use sph_solver::rheometer::{self, Rheology};
 
 use super::law_sample::{self, LawSample};
+use crate::commands::draw::picture;
 use crate::terminal::console;
 use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::PluginArguments;
@@ -37,7 +38,7 @@ pub fn draw(
     plugins: &[PluginInfo],
     file: &Path,
 ) -> Result<(), Trouble> {
-    check(file)?;
+    picture("picture", file, &["svg", "png"])?;
     let samples = law_sample::all(plugins, &arguments.set, arguments.vary.as_deref())?;
     let curves = curves(&samples, &numbers("pressure", &arguments.pressure, "Pa")?)?;
     let elastic = curves.iter().filter(|c| c.law.elastic().is_some()).count();
@@ -54,21 +55,9 @@ pub fn draw(
     save(&panels, file)
 }
 
-/// That the file is of a kind that can be written.
-fn check(file: &Path) -> Result<(), Trouble> {
-    let known = |e: &str| e == "svg" || e == "png";
-    match file.extension().and_then(|e| e.to_str()).is_some_and(known) {
-        true => Ok(()),
-        false => Err(Trouble::usage(format!(
-            "--picture {}: it must end in .svg or .png",
-            file.display()
-        ))),
-    }
-}
-
 /// Writes a picture and prints its name.
 pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
-    check(file)?;
+    picture("picture", file, &["svg", "png"])?;
     let saved = panels.save(file);
     saved.map_err(|e| Trouble::usage(e.to_string()))?;
     console::out(&format!("wrote {}\n", file.display()));

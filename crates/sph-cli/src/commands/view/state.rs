@@ -5,6 +5,8 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
+use crate::commands::file_list::names;
+
 /// Pictures by field, plots, whether there is a series and its first shown column, the summary if there is one.
 pub fn folder_state(folder: &Path) -> Json {
     let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
@@ -13,9 +15,9 @@ pub fn folder_state(folder: &Path) -> Json {
     json!({
         "name": name,
         "pictures": numbered(&folder.join("pictures")),
-        "plots": names(&folder.join("plots"), &["png"]),
-        "animations": names(&folder.join("animations"), &["gif"]),
-        "bad": names(folder, &["png"]),
+        "plots": names(&folder.join("plots"), "png"),
+        "animations": names(&folder.join("animations"), "gif"),
+        "bad": names(folder, "png"),
         "series": folder.join("series.csv").is_file(),
         "column": super::series::first_shown(&folder.join("series.csv")),
         "running": folder.join(".lock").exists(),
@@ -26,22 +28,10 @@ pub fn folder_state(folder: &Path) -> Json {
 /// `pressure_0003.png` as the numbers of `pressure`.
 fn numbered(folder: &Path) -> BTreeMap<String, Vec<String>> {
     let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for name in names(folder, &["png"]) {
+    for name in names(folder, "png") {
         if let Some((field, _)) = name.rsplit_once('_') {
             all.entry(field.to_string()).or_default().push(name);
         }
     }
     all
-}
-
-fn names(folder: &Path, extensions: &[&str]) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let of_kind = |name: &String| {
-        let extension = name.rsplit_once('.').map(|(_, e)| e);
-        extension.is_some_and(|e| extensions.contains(&e))
-    };
-    let names = entries.filter_map(|e| e.file_name().into_string().ok());
-    let mut names: Vec<String> = names.filter(of_kind).collect();
-    names.sort_by_key(|n| (n.len(), n.clone()));
-    names
 }

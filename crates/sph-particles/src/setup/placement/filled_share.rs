@@ -25,7 +25,7 @@ pub fn shares<const D: usize>(
     let most = kept.iter().copied().max().unwrap_or(0).max(1);
     let finer = (SAMPLES / most) as f64;
     let finer = (finer.powf(1.0 / D as f64) as usize).min(FINEST);
-    let fills = |body: &Body| body.clip || body.fill.is_some() || body.bounds.is_some();
+    let fills = |body: &Body| body.clip || body.fill.is_some() || body.shape.bounds.is_some();
     let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
     if finer < 2 || !weightless || !scene.body.values().any(fills) {
         return Vec::new();
