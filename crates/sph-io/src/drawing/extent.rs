@@ -3,6 +3,9 @@
 use crate::drawing::draw_target::Spot;
 use crate::drawing::ticks::widened;
 
+/// Size of coordinates beyond which a difference might not be finite.
+const SANE: f64 = 1e150;
+
 /// The least box around some spots.
 #[derive(Clone, Copy)]
 struct Extent {
@@ -12,8 +15,7 @@ struct Extent {
 
 impl Extent {
     fn from_spots(spots: impl Iterator<Item = Spot>) -> Option<Self> {
-        // Beyond this a difference might not be finite.
-        let sane = |s: &Spot| s.iter().all(|x| x.abs() < 1e150);
+        let sane = |s: &Spot| s.iter().all(|x| x.abs() < SANE);
         let point = |at| Self { lo: at, hi: at };
         spots.filter(sane).map(point).reduce(Self::joined)
     }
@@ -46,18 +48,21 @@ impl Extent {
 
 /// The horizontal and vertical extent of particles of `diameter` and walls.
 ///
-/// Where there are walls, particles that escaped by more than a quarter of
-/// their extent do not shrink the rest of the picture.
+/// Where there are walls, particles that escaped from walls and from most of the particles by more than a quarter of their
+/// extent do not shrink the rest of the picture.
 pub(crate) fn window(
     points: impl Iterator<Item = Spot>,
     walls: impl Iterator<Item = Spot>,
     diameter: f64,
 ) -> [[f64; 2]; 2] {
-    let points = Extent::from_spots(points).map(|e| e.grown(diameter / 2.0));
+    let points: Vec<Spot> = points.collect();
+    let most = most(&points);
+    let points = Extent::from_spots(points.into_iter()).map(|e| e.grown(diameter / 2.0));
     let walls = Extent::from_spots(walls);
     let all = match (points, walls) {
         (Some(points), Some(walls)) => {
-            let near = walls.grown(walls.largest_side() / 4.0 + diameter);
+            let near = most.map_or(walls, |most| walls.joined(most));
+            let near = near.grown(near.largest_side() / 4.0 + diameter);
             walls.joined(points.within(near))
         }
         (Some(one), None) | (None, Some(one)) => one,
@@ -68,6 +73,28 @@ pub(crate) fn window(
     };
     let all = all.grown(0.02 * all.largest_side());
     [0, 1].map(|i| widened(all.lo[i], all.hi[i]))
+}
+
+/// Share of the particles at either end of an axis that are not counted among most of them.
+const FEW: f64 = 0.005;
+
+/// The extent of most particles; none if there are few.
+fn most(points: &[Spot]) -> Option<Extent> {
+    let few = ((FEW * points.len() as f64) as usize).max(1);
+    let range = |axis: usize| {
+        let all = points.iter().map(|p| p[axis]).filter(|x| x.abs() < SANE);
+        let mut all: Vec<f64> = all.collect();
+        all.sort_unstable_by(f64::total_cmp);
+        match all.len() > 2 * few {
+            true => Some([all[few], all[all.len() - 1 - few]]),
+            false => None,
+        }
+    };
+    let (x, y) = (range(0)?, range(1)?);
+    Some(Extent {
+        lo: [x[0], y[0]],
+        hi: [x[1], y[1]],
+    })
 }
 
 #[cfg(test)]
@@ -81,6 +108,16 @@ mod tests {
         let [x, y] = window(points.into_iter(), walls.into_iter(), 0.1);
         assert!(x[0] < 0.0 && x[0] > -0.1 && x[1] < 1.1, "{x:?}");
         assert!(y[1] < 0.5, "{y:?}");
+    }
+
+    #[test]
+    fn a_column_on_a_floor_is_seen_to_its_top() {
+        let walls = [[0.0, 0.0], [0.5, 0.0]];
+        let row = |k: u32| (0..10).map(move |i| [0.05 * f64::from(i), 0.05 * f64::from(k)]);
+        let escaped = std::iter::once([0.2, 1e6]);
+        let points = (0..20).flat_map(row).chain(escaped);
+        let [_, y] = window(points, walls.into_iter(), 0.05);
+        assert!(y[1] > 0.97 && y[1] < 1.5, "{y:?}");
     }
 
     #[test]

@@ -28,17 +28,12 @@ pub(super) fn engelund_fredsoe(shields: f64, critical: f64) -> f64 {
     5.0 * moving * (shields.sqrt() - 0.7 * critical.sqrt())
 }
 
-/// 0.053 T^2.1/D*^0.3 with T = θ/θ_c − 1. Source: van Rijn 1984, Part I, Eq. 22.
+/// 0.053 T^2.1/D*^0.3 with T = (θ − θ_c)/θ_c,flat. Source: van Rijn 1984, Part I, Eq. 22; the division by θ_c,flat on slopes is
+/// ours, because θ_c vanishes at the angle of repose.
 #[must_use]
 pub(super) fn van_rijn(shields: f64, critical: f64, grains: &Grains) -> f64 {
-    match critical > 0.0 {
-        true => {
-            let stage = (shields / critical - 1.0).max(0.0);
-            0.053 * stage.powf(2.1) / grains.dimensionless_diameter().powf(0.3)
-        }
-        // Grains that slide by themselves: the slides move them.
-        false => 0.0,
-    }
+    let excess = (shields - critical).max(0.0) / grains.critical_shields();
+    0.053 * excess.powf(2.1) / grains.dimensionless_diameter().powf(0.3)
 }
 
 #[cfg(test)]
@@ -63,7 +58,7 @@ mod tests {
     }
 
     /// At θ = 0.247, θ_c = 0.047: 8 · 0.2^1.5 = 0.7155 and 3.97 · 0.2^1.5 = 0.3551; p of Engelund and Fredsøe is
-    /// (1 + 1.3352⁴)^(−1/4) = 0.6999; T = 4.2553 and D* = 25.30 of van Rijn.
+    /// (1 + 1.3352⁴)^(−1/4) = 0.6999; D* = 25.30 of van Rijn.
     #[test]
     fn rates_are_those_of_the_sources() {
         let (theta, critical) = (0.247, 0.047);
@@ -73,7 +68,7 @@ mod tests {
         let exact = 5.0 * p * (0.247_f64.sqrt() - 0.7 * 0.047_f64.sqrt());
         assert!((engelund_fredsoe(theta, critical) - exact).abs() < 1e-6);
         let diameter = SAND.dimensionless_diameter();
-        let exact = 0.053 * (0.2_f64 / 0.047).powf(2.1) / diameter.powf(0.3);
+        let exact = 0.053 * (0.2 / SAND.critical_shields()).powf(2.1) / diameter.powf(0.3);
         assert!((van_rijn(theta, critical, &SAND) - exact).abs() < 1e-12);
         // All grains of the surface move in a strong flow.
         let strong = engelund_fredsoe(100.0, critical);

@@ -36,7 +36,7 @@ pub struct WongParker(pub MovingBed);
     source: "Engelund and Fredsøe 1976")]
 pub struct EngelundFredsoe(pub MovingBed);
 
-/// q* = 0.053 T^2.1/D*^0.3, T = θ/θ_c − 1, of sand from 0.2 to 2 mm.
+/// q* = 0.053 T^2.1/D*^0.3, T = (θ − θ_c)/θ_c,flat, of sand from 0.2 to 2 mm.
 ///
 /// ```toml
 /// [bed-load.van-rijn]
