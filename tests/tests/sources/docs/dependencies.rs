@@ -106,7 +106,7 @@ const TOLD: [&str; 4] = [
 
 /// The items of the page: name, what it does, users, licence, last release, what else was looked at.
 fn items() -> BTreeMap<String, Vec<String>> {
-    let page = fs::read_to_string(root().join("docs/dependencies.md")).expect("the page");
+    let page = fs::read_to_string(root().join("notes/dependencies.md")).expect("the page");
     let mut found = BTreeMap::new();
     for item in sph_tests::list_items(&page) {
         let Some((name, mut rest)) = item.strip_prefix('`').and_then(|i| i.split_once("`: "))

@@ -46,9 +46,8 @@ impl<const D: usize> Materials<D> {
             .shown
             .iter()
             .any(|name| of_gradients.contains(&&**name));
-        let dilates = plugins
-            .names("dilatancy")
-            .then(|| plugins.one::<D, DilatancyEntry>());
+        let dilates = plugins.names("dilatancy") && plugins.names("pore-pressure");
+        let dilates = dilates.then(|| plugins.one::<D, DilatancyEntry>());
         let strained = eddies
             || elastic
             || dilates.is_some()
