@@ -18,7 +18,7 @@ use super::critical_state::CriticalState;
 /// slope = 4.09
 /// equilibrium.viscous = { viscosity = "96 mPa s" }
 /// ```
-#[plugin(DilatancyEntry, "roux-radjai", "tan ψ = K (φ − φ_eq), which friction feels as well",
+#[plugin(DilatancyEntry, "roux-radjai", "tan ψ = K (φ − φ_eq), in the pores and in friction",
     source: "Roux and Radjai 1998; Pailha and Pouliquen 2009")]
 #[derive(Copy)]
 pub struct RouxRadjai(pub CriticalState);
@@ -53,7 +53,7 @@ impl Dilatancy for RouxRadjai {
 /// critical_packing = 0.582
 /// slope = 4.09
 /// ```
-#[plugin(DilatancyEntry, "plastic-pressure", "an elasto-plastic pressure of the grains; friction feels it alone",
+#[plugin(DilatancyEntry, "plastic-pressure", "an elasto-plastic pressure of the grains",
     source: "after Montellà et al. 2021")]
 #[derive(Copy)]
 pub struct PlasticPressure(pub CriticalState);

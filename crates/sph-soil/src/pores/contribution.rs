@@ -14,7 +14,8 @@ use super::contract::{
 };
 use super::effective::{DilatantFriction, GrainPressure};
 use super::plastic_share::PlasticShare;
-use super::pore_flow::{PoreFlow, Scratch, SoilPhase};
+use super::pore_flow::{PoreFlow, Scratch};
+use super::soil_phase::SoilPhase;
 use super::surface_distance::SurfaceDistance;
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, DilatancyEntry};

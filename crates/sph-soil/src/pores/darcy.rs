@@ -14,7 +14,7 @@ use super::contract::{Permeability, PoreModel, PorePressureEntry, PoreSettings, 
 ///
 /// Backward Euler in time, so that k may be as small as one likes; conjugate gradients start from the last pressure. The flux between
 /// two particles is the same for both, so that the volume of the grains and that of the fluid stay to rounding. The surface stands
-/// beyond its particles at the distance that the missing part of the kernel tells. A soil without `water` in the scene
+/// beyond its particles at the distance that follows from the missing part of the kernel. A soil without `water` in the scene
 /// drains into a fluid that is left out; one with it drains where the water touches it.
 /// Limits: one soil; saturated; the fluid in the pores has no inertia; a particle that shrinks or grows stays round.
 ///

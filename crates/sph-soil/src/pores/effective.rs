@@ -4,7 +4,7 @@ use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::World;
 
 use super::contract::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING};
-use super::pore_flow::SoilPhase;
+use super::soil_phase::SoilPhase;
 use crate::dilatancy::{Dilatancy, GrainState};
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.

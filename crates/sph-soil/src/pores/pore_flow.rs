@@ -13,45 +13,14 @@ use super::contract::{
     DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
     Skeleton, Supply,
 };
+use super::feeds::feeds;
 use super::plastic_share::PlasticShare;
+use super::soil_phase::SoilPhase;
 use super::surface::{Outlet, outlets};
 use super::surface_distance::SurfaceDistance;
 use super::swelling::Swelling;
 use super::system::PoreSystem;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
-
-/// The phase with the pores; `None` where a scene has one phase.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SoilPhase(pub Option<u32>);
-
-impl SoilPhase {
-    /// The columns that [`mask`](Self::mask) reads.
-    pub fn access(self) -> Access {
-        match self.0 {
-            None => Access::none(),
-            Some(_) => Access::none().both(fields::PHASE),
-        }
-    }
-
-    /// Its particles.
-    pub fn mask<const D: usize>(self, world: &World<D>) -> Result<SoilMask<'_>, StepError> {
-        Ok(SoilMask(match self.0 {
-            None => None,
-            Some(number) => Some((world.free.get(fields::PHASE)?, number)),
-        }))
-    }
-}
-
-/// The particles of the phase with the pores.
-#[derive(Clone, Copy)]
-pub(crate) struct SoilMask<'a>(Option<(&'a [u32], u32)>);
-
-impl SoilMask<'_> {
-    /// True for a particle of the soil.
-    pub fn has(self, i: usize) -> bool {
-        self.0.is_none_or(|(phase, number)| phase[i] == number)
-    }
-}
 
 /// Packing and excess pressure of the pores of a soil.
 pub(crate) struct PoreFlow {
@@ -138,31 +107,6 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         done
     }
 }
-
-/// Particles before a wall with the flux per pressure and mobility from the wall to them, m^(d−2): 2 V |∇γ_as|/d_as.
-fn feeds<const D: usize>(world: &World<D>, wall: u32) -> Result<Vec<(usize, f64)>, StepError> {
-    let (elements, contacts) = (&world.walls.elements, &world.walls.contacts);
-    let positions = world.free.get(fields::POSITION)?;
-    let volume = world.free.get(fields::VOLUME)?;
-    let least = LEAST_DISTANCE * world.spacing;
-    let feed = |i: usize| {
-        let own = contacts.of_particle(i).iter();
-        let own = own.filter(|c| elements.wall[c.element as usize] == wall);
-        let each = own.map(|contact| {
-            let s = contact.element as usize;
-            let apart = world
-                .domain
-                .nearest_image(positions[i] - elements.centre[s]);
-            contact.gradient.norm() / apart.dot(&elements.normal[s]).abs().max(least)
-        });
-        (i, 2.0 * volume[i] * each.sum::<f64>())
-    };
-    let all = contacts.particles.iter().map(|i| feed(*i as usize));
-    Ok(all.filter(|(_, conductance)| *conductance > 0.0).collect())
-}
-
-/// Spacings to a wall below which none counts.
-const LEAST_DISTANCE: f64 = 0.1;
 
 impl PoreFlow {
     fn advance<const D: usize>(
