@@ -11,9 +11,9 @@ use crate::{Solution, SolutionEntry};
 ///
 /// Symbols: z depth below the top, c_v = k E/η.
 ///
-/// Source: Terzaghi 1943, §101.
+/// Source: Terzaghi 1943.
 #[plugin(SolutionEntry [2, 3], "terzaghi", "excess pore pressure of a layer that consolidates under a load",
-    source: "Terzaghi 1943, §101")]
+    source: "Terzaghi 1943")]
 pub struct Terzaghi {
     /// Load q at the top.
     #[parameter(unit: "Pa", above: 0.0)]

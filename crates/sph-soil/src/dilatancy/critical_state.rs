@@ -12,7 +12,7 @@ pub struct CriticalState {
     #[parameter(unit: "1", above: 0.0, below: 1.0)]
     pub critical_packing: f64,
     /// K: tan ψ = K (φ − φ_eq).
-    #[parameter(unit: "1", min: 0.0, source: "Roux and Radjai 1998; Pailha and Pouliquen 2009, Eq. 2.10")]
+    #[parameter(unit: "1", min: 0.0, source: "Roux and Radjai 1998; Pailha and Pouliquen 2009")]
     pub slope: f64,
     /// Packing of faster shear: a table `viscous` (with `viscosity`), `viscous-linear` (`viscosity`, `decrease`) or
     /// `inertial` (`grain_diameter`, `grain_density`, `decrease`); φ_c at all rates if left out.
@@ -31,7 +31,7 @@ pub struct CriticalState {
 /// | `viscous-linear` | φ_c − b J | |
 /// | `inertial` | φ_c − b I | I = γ̇ d √(ρ_g/p') |
 ///
-/// Sources: Boyer et al. 2011, Eq. 3; Pailha and Pouliquen 2009, Eq. 2.12; da Cruz et al. 2005.
+/// Sources: Boyer et al. 2011; Pailha and Pouliquen 2009; da Cruz et al. 2005.
 #[parameters]
 #[derive(Copy, PartialEq)]
 pub enum Equilibrium {

@@ -10,7 +10,7 @@ use super::critical_state::CriticalState;
 /// The rheology sees the pressure p' (1 + tan ψ/μ), μ being its coefficient of slow flow, so that its strength is
 /// (μ + tan ψ) p'. Limits: one packing for all directions of shear; ψ is not negative enough to leave no friction.
 ///
-/// Source: Roux and Radjai 1998; Pailha and Pouliquen 2009, Eq. 2.8–2.12.
+/// Source: Roux and Radjai 1998; Pailha and Pouliquen 2009.
 ///
 /// ```toml
 /// [dilatancy.roux-radjai]

@@ -18,7 +18,7 @@ use super::contract::{Permeability, PoreModel, PorePressureEntry, PoreSettings, 
 /// drains into a fluid that is left out; one with it drains where the water touches it.
 /// Limits: one soil; saturated; the fluid in the pores has no inertia; a particle that shrinks or grows stays round.
 ///
-/// Source: Terzaghi 1943; Iverson and George 2014; Pailha and Pouliquen 2009, Eq. 2.4; the sums are ours.
+/// Source: Terzaghi 1943; Iverson and George 2014; Pailha and Pouliquen 2009; the sums are ours.
 ///
 /// ```toml
 /// [pore-pressure.darcy]
