@@ -9,7 +9,7 @@ use crate::diagnostic::line_and_column;
 pub const FILE_BYTES: usize = 4 << 20;
 
 /// True if a path is that of an open file of this process: `/dev/stdin`, or `<(command)` of a shell. Opening another
-/// pipe would wait for its writer, for ever if there is none.
+/// pipe blocks until a writer opens it.
 fn is_given(path: &Path) -> bool {
     let open = ["/dev/stdin", "/dev/fd", "/proc/self/fd"];
     open.iter().any(|p| path.starts_with(p))

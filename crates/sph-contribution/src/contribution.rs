@@ -1,6 +1,6 @@
 //! Pieces of physics, and the scene that they are in.
 
-use sph_core::{AnyField, Evolved};
+use sph_core::{AnyField, Evolved, suggestion};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
@@ -38,6 +38,26 @@ pub struct Setting<'a, const D: usize> {
     pub moving_wall: Option<&'a str>,
     /// Columns, walls and kernel before the first step.
     pub world: &'a World<D>,
+}
+
+impl<const D: usize> Setting<'_, D> {
+    /// Number of the phase that a key of a kind of plugin names.
+    ///
+    /// # Errors
+    /// If there is none; the refusal names the nearest one.
+    pub fn phase_number(
+        &self,
+        kind: &'static str,
+        key: &str,
+        name: &str,
+    ) -> Result<usize, Refusal> {
+        let found = self.phases.iter().position(|phase| phase == name);
+        found.ok_or_else(|| {
+            let near = suggestion(name, self.phases.iter().map(String::as_str));
+            let why = format!("there is no phase called `{name}`{near}");
+            Refusal::at_key(kind, key, why)
+        })
+    }
 }
 
 /// A piece of physics.

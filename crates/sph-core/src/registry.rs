@@ -119,7 +119,7 @@ impl<E: Contract> Registry<E> {
     /// The plugin of that name.
     ///
     /// # Errors
-    /// If there is none; the message lists the known names and the nearest one.
+    /// An unknown name; the message lists the known names and the nearest one.
     pub fn find(&self, name: &str) -> Result<&'static E, RegistryError> {
         let names = || self.entries.iter().map(|e| e.info().name);
         let found = self.entries.iter().find(|e| e.info().name == name);

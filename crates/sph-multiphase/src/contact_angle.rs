@@ -34,13 +34,7 @@ impl ContactAngle {
                 why,
             ))
         };
-        if !setting.phases.contains(&self.phase) {
-            let near = suggestion(&self.phase, setting.phases.iter().map(String::as_str));
-            return refused(
-                "phase",
-                format!("there is no phase called `{}`{near}", self.phase),
-            );
-        }
+        setting.phase_number("interface", "contact_angle.phase", &self.phase)?;
         let walls = &setting.world.walls;
         if walls.elements.centre.is_empty() {
             let why = "it needs walls of the kind `usaw`, whose share of every kernel is known";

@@ -105,7 +105,7 @@ impl<const D: usize> World<D> {
     }
 }
 
-/// The power of two that is larger than a value; 0 where there is none.
+/// Exponent of the power of two beyond a value; 0 for values that are zero, subnormal or not finite.
 fn exponent(value: f64) -> i32 {
     match value.is_normal() {
         true => ((value.to_bits() >> 52) & 0x7FF) as i32 - 1022,

@@ -183,7 +183,7 @@ pub struct WallSet<const D: usize> {
     pub frames: Vec<Frame<D>>,
     /// The walls that forces move; empty where there is none.
     pub bodies: Vec<FreeBody<D>>,
-    /// The walls that grains make; empty where there is none.
+    /// Walls made by grains; empty in scenes without such walls.
     pub beds: Vec<Bed>,
     /// Mass that has passed the open faces, face by face; empty where there is none.
     pub passed: Vec<Passed>,

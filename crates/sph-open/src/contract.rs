@@ -71,7 +71,7 @@ pub struct FaceValues<const D: usize> {
     /// p = p_i + ρc (u − u_i), with the mean of u over the support for u. If not, fluid passes with its own velocity,
     /// changed by the difference of `velocity` from that inside.
     pub imposed: bool,
-    /// Share of the element through which fluid comes in; that which has fluid before it, if none is given. Outflow
+    /// Share of the element through which fluid comes in; the share with fluid before it if left out. Outflow
     /// passes at most the part with fluid before it, unless the share is 1.
     pub share: Option<f64>,
 }

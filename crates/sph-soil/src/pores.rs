@@ -8,6 +8,7 @@
 mod contract;
 mod contribution;
 mod darcy;
+mod drainage;
 mod drained;
 mod effective;
 mod feeds;

@@ -170,7 +170,7 @@ fn refused(from: &str, to: &str, words: &str) {
 }
 
 /// The same of another scene.
-pub(super) fn refused_of(scene: &str, from: &str, to: &str, words: &str) {
+pub(crate) fn refused_of(scene: &str, from: &str, to: &str, words: &str) {
     assert!(scene.contains(from), "the scene lost `{from}`");
     let text = scene.replacen(from, to, 1);
     let text = match text.contains("gravity = [") {

@@ -20,6 +20,8 @@ gravity = [0.0, -9.81]
 periodic = { x = [0.0, 0.05] }
 [smoother.brezzi-pitkaranta]
 strength = 0.04
+[walls.usaw]
+vertices = false
 [suspension.settling]
 grain_diameter = "1 mm"
 grain_density = 1001.0
@@ -62,7 +64,7 @@ fn lifting(scene: &str) -> String {
 }
 
 /// Kynch's theory: clear water over grains that sink with w (1 − C)^n, a deposit that grows with what arrives, both until they
-/// meet, each within seven tenths of a spacing; no grain is lost, none passes 0 or the packing.
+/// meet, each within half a spacing; no grain is lost, none passes 0 or the packing.
 #[test]
 fn a_suspension_settles_in_two_shocks() {
     let scene = COLUMN.replace("end = 2.0", "end = 5.0");
@@ -76,7 +78,8 @@ fn a_suspension_settles_in_two_shocks() {
     for k in 0..time.len() {
         let upper = 0.15 - speed * time[k];
         let lower = growth * time[k];
-        if time[k] > 0.95 && upper > lower + 0.02 {
+        // A deposit has a level from a row on.
+        if lower > 0.005 && upper > lower + 0.02 {
             assert!(
                 (clear[k] - upper).abs() < 0.0025,
                 "{}: {} {upper}",
@@ -84,7 +87,7 @@ fn a_suspension_settles_in_two_shocks() {
                 clear[k]
             );
             assert!(
-                (deposit[k] - lower).abs() < 0.0035,
+                (deposit[k] - lower).abs() < 0.0025,
                 "{}: {} {lower}",
                 time[k],
                 deposit[k]
@@ -111,10 +114,12 @@ fn numbers(bench: &Bench, name: &str) -> Vec<f64> {
     }
 }
 
-/// Settling against mixing ends at C ∝ exp(−wz/D), at every particle, as far as the water is at rest.
+/// Settling against mixing ends at C ∝ exp(−wz/D), at every particle. A small gravity leaves the water at rest: its motion
+/// stirs, 8·10⁻⁵ of the ratio with 9.81 m/s² and 6·10⁻⁶ with 10⁻³.
 #[test]
 fn settling_and_mixing_end_in_an_exponential() {
     let scene = COLUMN
+        .replace("-9.81", "-1e-6")
         .replace("end = 2.0", "end = 12.0")
         .replace("spacing = 0.005", "spacing = 0.0125")
         .replace("[0.0, 0.05] }", "[0.0, 0.125] }")
@@ -137,7 +142,7 @@ fn settling_and_mixing_end_in_an_exponential() {
         .zip(&grains)
         .map(|(x, c)| c * (rate * x[1]).exp());
     let (least, most) = scaled.fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
-    assert!(most / least - 1.0 < 2e-4, "{least:e} {most:e}");
+    assert!(most / least - 1.0 < 1e-5, "{least:e} {most:e}");
 }
 
 /// The grains of the bed, without pores, and those in the water are one number.

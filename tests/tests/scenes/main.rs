@@ -7,6 +7,7 @@ mod dam_breaks;
 mod drops;
 mod impacts;
 mod implicit;
+mod pores;
 mod readme_table;
 mod rheology;
 mod seepage;

@@ -36,7 +36,7 @@ pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
     }
 }
 
-/// Differences between the results of two runs; true if there is none.
+/// Prints the differences between the results of two runs; true for equal results.
 pub fn output(first: &Path, second: &Path) -> Result<(CommandOutput, bool), Trouble> {
     let found = compared(first, second)?;
     let same = found.remarks.is_empty() && found.columns.iter().all(|c| c.same);

@@ -89,8 +89,8 @@ impl Absorption {
         }
     }
 
-    /// Way and velocity besides the prescribed motion, `dt` later: with the depth of the water before the paddle, none
-    /// if there is none.
+    /// Way and velocity besides the prescribed motion, `dt` later: with the depth of the water before the paddle,
+    /// `None` for a dry paddle.
     pub fn next(
         &self,
         [way, velocity]: [f64; 2],

@@ -120,7 +120,7 @@ pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
     let extent = (upper - lower).max();
     let margin = Vect::repeat(room * extent);
     let mut domain = Domain::open(lower - margin, upper + margin);
-    // So much at least on the way: where walls go less far, the box is the same as without.
+    // A least way: shorter courses of walls leave the box unchanged.
     sweep(scene, drawn, 0.5 * room * extent, &mut domain);
     if let Some([low, high]) = &scene.numerics.domain {
         domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));

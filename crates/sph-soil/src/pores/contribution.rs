@@ -6,15 +6,15 @@ use sph_contribution::{
     Birth, Contribution, FromPlugins, Offer, OwnColumn, Plugins, Refusal, Setting, contributes,
 };
 use sph_core::{fields, suggestion};
-use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
 
 use super::contract::{
     EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PorePressureEntry,
     PoreSettings, Supply,
 };
+use super::drainage::{Drainage, Scratch};
 use super::effective::{DilatantFriction, GrainPressure};
 use super::plastic_share::PlasticShare;
-use super::pore_flow::{PoreFlow, Scratch};
+use super::pore_flow::PoreFlow;
 use super::soil_phase::SoilPhase;
 use super::surface_distance::SurfaceDistance;
 use super::swelling::Swelling;
@@ -102,20 +102,13 @@ impl<const D: usize> Contribution<D> for PoresOf<D> {
         }
         let kernel = &setting.world.kernel;
         let elastic = pores.law_inputs.laws[soil].elastic().is_some();
-        let given = settings.skeleton.as_ref().and_then(|s| s.modulus);
+        let skeleton = settings.skeleton.clone();
+        let supply = pores.supply(setting)?;
         offer.hook(PoreFlow {
             soil: phase,
             law: pores.law.clone(),
             plastic: elastic.then(|| PlasticShare(pores.law_inputs.clone())),
-            skeleton: settings.skeleton.clone(),
-            supply: pores.supply(setting)?,
-            solver: ConjugateGradient {
-                preconditioner: Preconditioner::IncompleteDiagonal,
-                tolerance: settings.skeleton.as_ref().map_or(0.1, |s| s.tolerance),
-                iterations: settings.skeleton.as_ref().map_or(1, |s| s.iterations),
-                ..ConjugateGradient::default()
-            },
-            contacts: given.unwrap_or(STIFF * reference.density * reference.sound_speed.powi(2)),
+            drainage: skeleton.map(|s| Drainage::new(s, supply, &reference)),
             swelling: pores.swelling(setting, soil)?,
             density: setting.density.value,
             distance: SurfaceDistance::new::<D>(kernel.support_radius(), &|r| kernel.at(r).0),
@@ -149,7 +142,7 @@ impl Pores {
                        `permeability`, or take [pore-pressure.drained]";
             return Err(Refusal::at_key(KIND, "", why));
         }
-        let soil = number(setting, "soil", &settings.soil)?;
+        let soil = setting.phase_number(KIND, "soil", &settings.soil)?;
         if !setting.soils[soil] {
             let why = format!(
                 "the law of `{}` reads no pressure: name a phase that is a soil",
@@ -248,7 +241,7 @@ impl Pores {
         let fluid = match &settings.water {
             None => None,
             Some(name) => {
-                let water = number(setting, "water", name)?;
+                let water = setting.phase_number(KIND, "water", name)?;
                 if water == soil {
                     let why = format!("`{name}` is the soil: name the phase in its pores");
                     return Err(Refusal::at_key(KIND, "water", why));
@@ -271,9 +264,6 @@ impl Pores {
     }
 }
 
-/// Stiffness of the contacts over ρ₀c²: soils whose sound is ten times faster than √(gH) are compressed by 10⁻³.
-const STIFF: f64 = 10.0;
-
 /// kg/m³.
 const WATER: f64 = 1000.0;
 
@@ -283,16 +273,3 @@ const EXCHANGE: Exchange = Exchange {
     limit: 0.5,
     remedy: "take a finer spacing, or leave `pore-pressure.darcy.water` out",
 };
-
-fn number<const D: usize>(
-    setting: &Setting<'_, D>,
-    key: &'static str,
-    name: &str,
-) -> Result<usize, Refusal> {
-    let found = setting.phases.iter().position(|n| n == name);
-    found.ok_or_else(|| {
-        let near = suggestion(name, setting.phases.iter().map(String::as_str));
-        let why = format!("there is no phase called `{name}`{near}");
-        Refusal::at_key(KIND, key, why)
-    })
-}

@@ -3,23 +3,19 @@
 use std::sync::Arc;
 
 use sph_contribution::{StepHook, StepMoment, StepPhase};
-use sph_core::{Access, Field, Pool, Scalar, StepError, Vect, fields};
-use sph_multiphase::linear::{
-    Assembly, ConjugateGradient, Entries, LinearSolver, Matrix, ParticleMatrix,
-};
+use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use super::contract::{
     DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
-    Skeleton, Supply,
 };
+use super::drainage::{Drainage, Scratch};
 use super::feeds::feeds;
 use super::plastic_share::PlasticShare;
 use super::soil_phase::SoilPhase;
 use super::surface::{Outlet, outlets};
 use super::surface_distance::SurfaceDistance;
 use super::swelling::Swelling;
-use super::system::PoreSystem;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
 
 /// Packing and excess pressure of the pores of a soil.
@@ -29,35 +25,12 @@ pub(crate) struct PoreFlow {
     /// Of a soil with an elastic part.
     pub plastic: Option<PlasticShare>,
     /// `None` if the fluid passes freely.
-    pub skeleton: Option<Skeleton>,
-    /// A wall that feeds the pores, with its number.
-    pub supply: Option<(u32, Supply)>,
-    /// Solves for the excess pressure.
-    pub solver: ConjugateGradient,
-    /// Stiffness of the contacts, Pa.
-    pub contacts: f64,
+    pub drainage: Option<Drainage>,
     pub swelling: Option<Swelling>,
     /// The scalar that the formulation integrates for the density.
     pub density: Field<Scalar>,
     pub distance: SurfaceDistance,
     pub scratch: Scratch,
-}
-
-/// Buffers of a solve, kept for their memory.
-#[derive(Default)]
-pub(crate) struct Scratch {
-    assembly: Assembly<f64, 1>,
-    pool: Pool<Vec<f64>>,
-    mobility: Vec<f64>,
-    /// Storage and the slope of the law, without outlets, m^d/(Pa s).
-    storage: Vec<f64>,
-    diagonal: Vec<f64>,
-    source: Vec<f64>,
-    /// Inflow through walls that feed pores without an excess pressure, m^d/s.
-    fed: Vec<f64>,
-    excess: Vec<Vect<1>>,
-    product: Vec<Vect<1>>,
-    growth: Vec<f64>,
 }
 
 impl<const D: usize> StepHook<D> for PoreFlow {
@@ -115,9 +88,13 @@ impl PoreFlow {
         dt: f64,
         scratch: &mut Scratch,
     ) -> Result<(), StepError> {
-        let (outlets, outflow) = match self.skeleton.is_some() {
-            true => self.drain(world, dt, scratch)?,
-            false => {
+        let (outlets, outflow) = match self.drainage.take() {
+            Some(mut drainage) => {
+                let drained = self.drain(world, &mut drainage, dt, scratch);
+                self.drainage = Some(drainage);
+                drained?
+            }
+            None => {
                 self.expand(world, dt, scratch)?;
                 (Vec::new(), Vec::new())
             }
@@ -187,8 +164,9 @@ impl PoreFlow {
 
     /// Solves for the excess pressure at the end of the step; returns the outlets and the volumes that go out by them, m^d.
     fn drain<const D: usize>(
-        &mut self,
+        &self,
         world: &mut World<D>,
+        drainage: &mut Drainage,
         dt: f64,
         scratch: &mut Scratch,
     ) -> Result<(Vec<Outlet>, Vec<f64>), StepError> {
@@ -202,8 +180,8 @@ impl PoreFlow {
             let fluid = fluid.as_ref().map(|f| f as &dyn Fn(usize) -> bool);
             outlets(world, &|i| soil.has(i), fluid, &self.distance)?
         };
-        self.coefficients(world, &outlets, dt, scratch)?;
-        self.solve(world, scratch)?;
+        self.coefficients(world, drainage, &outlets, dt, scratch)?;
+        drainage.solve(world, scratch)?;
         let Scratch {
             mobility,
             excess,
@@ -235,13 +213,12 @@ impl PoreFlow {
     fn coefficients<const D: usize>(
         &self,
         world: &mut World<D>,
+        drainage: &Drainage,
         outlets: &[Outlet],
         dt: f64,
         scratch: &mut Scratch,
     ) -> Result<(), StepError> {
-        let Some(skeleton) = &self.skeleton else {
-            return Ok(());
-        };
+        let skeleton = &drainage.skeleton;
         let mut earlier = world.free.take(EARLIER_DRAINED_PRESSURE)?;
         let soil = self.soil.mask(world)?;
         let strain_rate = self.strain_rates(world)?;
@@ -273,10 +250,9 @@ impl PoreFlow {
             let pressure = (before + skeleton.load - excess[i]).max(0.0);
             let rate = strain_rate.get(i).copied().unwrap_or(0.0);
             let dilation = self.dilation(packing[i], rate, pressure);
-            let modulus = self
-                .law
-                .as_ref()
-                .map_or(self.contacts, |law| law.modulus(self.contacts, pressure));
+            let modulus = self.law.as_ref().map_or(drainage.contacts, |law| {
+                law.modulus(drainage.contacts, pressure)
+            });
             let (v, gain) = (volume[i], drained[i] - before);
             let stored = v / (modulus * dt);
             // f(p') at the new p' = pressure + gain − (p_e' − p_e), to first order.
@@ -290,7 +266,7 @@ impl PoreFlow {
         for outlet in outlets {
             diagonal[outlet.particle] += outlet.conductance * mobility[outlet.particle];
         }
-        if let Some((wall, supply)) = &self.supply {
+        if let Some((wall, supply)) = &drainage.supply {
             let pressure = supply.at(world.time + dt);
             for (i, conductance) in feeds(world, *wall)? {
                 diagonal[i] += conductance * mobility[i];
@@ -299,64 +275,6 @@ impl PoreFlow {
             }
         }
         Ok(world.free.put(EARLIER_DRAINED_PRESSURE, earlier)?)
-    }
-
-    /// Solves, and leaves the product of the matrix with the solution, whose grains all keep a pressure of 0 or more.
-    fn solve<const D: usize>(
-        &mut self,
-        world: &mut World<D>,
-        scratch: &mut Scratch,
-    ) -> Result<(), StepError> {
-        let Some(skeleton) = &self.skeleton else {
-            return Ok(());
-        };
-        let space = world.space()?;
-        let Scratch {
-            assembly,
-            pool,
-            mobility,
-            diagonal,
-            source,
-            excess,
-            product,
-            ..
-        } = scratch;
-        let system = PoreSystem {
-            volume: world.free.get(fields::VOLUME)?,
-            gamma: world.free.get(fields::RENORMALISATION).ok(),
-            mobility,
-            diagonal,
-            source,
-        };
-        let owned = space.owned();
-        assembly.fill_wanted(
-            world,
-            |i| system.mobility[i] != 0.0 && owned.has(i),
-            |rows, cluster| system.add(cluster, rows, pool),
-            |rows, others| others.for_each(|_| system.add_outside(rows)),
-        )?;
-        let values = std::mem::take(&mut assembly.values);
-        let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
-        let operator = ParticleMatrix::new(&matrix, &space, None);
-        let solved = self.solver.solve(&operator, &assembly.sources, excess);
-        let drained = world.free.get(DRAINED_PRESSURE)?;
-        for (i, p) in excess.iter_mut().enumerate() {
-            p[0] = p[0].min(drained[i] + skeleton.load);
-        }
-        product.clear();
-        product.resize(excess.len(), Vect::zeros());
-        matrix.multiply(excess, product);
-        if let Entries::Scalar(values) = matrix.entries {
-            assembly.values = values;
-        }
-        solved.map_err(|e| StepError::Stage {
-            stage: "pore pressure".into(),
-            reason: e.to_string(),
-        })?;
-        let mut column = world.free.take(EXCESS_PORE_PRESSURE)?;
-        let both = column.iter_mut().zip(&*excess);
-        both.for_each(|(column, p)| *column = p[0]);
-        Ok(world.free.put(EXCESS_PORE_PRESSURE, column)?)
     }
 
     /// φ' = G/(G/φ + dV).

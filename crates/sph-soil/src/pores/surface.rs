@@ -81,9 +81,10 @@ fn exposures<const D: usize>(
     let grains = Grains { volume, soil };
     let mut exposures = vec![Exposure::default(); volume.len()];
     walk_in_lanes(world, &grains, soil, &mut exposures, |sums, rows| {
+        let outward = grains.outward(world, sums.0, rows);
         Exposure {
-            missing: grains.outward(world, sums.0, rows).norm(),
-            at_surface: grains.at_surface(world, positions, sums, rows),
+            missing: outward.norm(),
+            at_surface: grains.at_surface(world, positions, (outward, sums.1), rows),
         }
     })?;
     Ok(exposures)

@@ -1,7 +1,7 @@
 //! Seepage by the law of Darcy and Forchheimer.
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_core::{fields, plugin, suggestion};
+use sph_core::{fields, plugin};
 use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
 
 use crate::seepage::contract::SeepageEntry;
@@ -108,14 +108,7 @@ impl<const D: usize> Contribution<D> for DarcyForchheimer {
                  [formulation.hu-adams]",
             ));
         }
-        let number = |key: &'static str, name: &str| {
-            let found = setting.phases.iter().position(|n| n == name);
-            found.ok_or_else(|| {
-                let near = suggestion(name, setting.phases.iter().map(String::as_str));
-                let why = format!("there is no phase called `{name}`{near}");
-                Refusal::at_key(KIND, key, why)
-            })
-        };
+        let number = |key: &str, name: &str| setting.phase_number(KIND, key, name);
         let (soil, water) = (number("soil", &self.soil)?, number("water", &self.water)?);
         if soil == water {
             let why = format!("`{}` is the soil: name the phase in its pores", self.water);

@@ -332,7 +332,8 @@ impl<const D: usize> Solve<D> {
         parts.clear();
         parts.resize(volume.len(), Part::Outside);
         walk_in_lanes(world, &grains, soil, parts, |sums, rows| {
-            let surface = grains.at_surface(world, positions, sums, rows);
+            let outward = grains.outward(world, sums.0, rows);
+            let surface = grains.at_surface(world, positions, (outward, sums.1), rows);
             Part::new(buoyant(rows.particle), surface, top)
         })
     }

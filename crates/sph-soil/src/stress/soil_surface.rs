@@ -44,7 +44,7 @@ impl<const D: usize, S: Fn(usize) -> bool + Sync> PairSum<D> for Grains<'_, S> {
 }
 
 impl<S: Fn(usize) -> bool> Grains<'_, S> {
-    /// Normal −Σ V ∇w of the soil, 1/m, out of what is missing around a particle; walls count as filled.
+    /// Normal −Σ V ∇w of the soil, 1/m, towards the missing part of the kernel; walls count as filled.
     pub fn outward<const D: usize>(
         &self,
         world: &World<D>,
@@ -64,26 +64,25 @@ impl<S: Fn(usize) -> bool> Grains<'_, S> {
         normal
     }
 
-    /// True if no grain and no wall is in the cone around the outward normal of a particle with these walls. One
-    /// without grains around is at the surface.
+    /// True if no grain and no wall is in the cone around the [`outward`](Self::outward) normal of a particle with these
+    /// walls. One without grains around, −Σ F = 0, is at the surface.
     ///
     /// Source: the cone of Marrone et al. 2010, with neighbours of the soil only.
     pub fn at_surface<const D: usize>(
         &self,
         world: &World<D>,
         positions: &[Vect<D>],
-        (normal, grains): ([f64; D], f64),
+        (outward, grains): (Vect<D>, f64),
         rows: &Neighbourhood<'_, D>,
     ) -> bool {
         if grains <= 0.0 {
             return true;
         }
-        let normal = self.outward(world, normal, rows);
-        let size = normal.norm();
+        let size = outward.norm();
         if size * world.kernel.smoothing_length() < EVEN {
             return false;
         }
-        let outward = normal / size;
+        let outward = outward / size;
         let within = |apart: &Vect<D>| -apart.dot(&outward) > cosine::<D>() * apart.norm();
         let (i, limit) = (rows.particle, world.kernel.support_radius().powi(2));
         let blocks = |j: usize| {

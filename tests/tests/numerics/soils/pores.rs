@@ -1,8 +1,8 @@
 //! Pores of soils: the balance of grains and fluid, consolidation, undrained shear, the same bits, refusals.
 
-use sph_particles::setup::assemble;
-use sph_scene::parse;
 use sph_tests::{Bench, FinalState};
+
+use crate::sediment::refused_of;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -111,16 +111,7 @@ fn pores_have_the_same_bits_on_threads_and_after_an_interruption() {
 
 /// Assembly refuses the scene with these words.
 fn refused(from: &str, to: &str, words: &str) {
-    assert!(BED.contains(from), "the scene lost `{from}`");
-    let text = BED.replacen(from, to, 1);
-    let told = match parse(&text, "scene.toml", &[]) {
-        Err(error) => error.to_string(),
-        Ok(loaded) => match assemble::<2>(&loaded.scene) {
-            Err(error) => error.to_string(),
-            Ok(_) => panic!("accepted: {to}"),
-        },
-    };
-    assert!(told.contains(words), "no `{words}` in\n{told}");
+    refused_of(BED, from, to, words);
 }
 
 #[test]

@@ -1,0 +1,47 @@
+//! Soils whose pores drain, against closed forms.
+
+use crate::shipped::{Finished, finished};
+
+/// The fluid that is left out weighs nothing, so that the mass of the run stays.
+const LEFT_OUT: &str = "pore-pressure.darcy.fluid_density=0";
+
+fn column(run: &Finished, name: &str) -> Vec<f64> {
+    run.series().column(name).expect("a column").to_vec()
+}
+
+#[test]
+fn a_loaded_column_consolidates_as_terzaghi_says() {
+    let run = finished("terzaghi-column", &[LEFT_OUT]);
+    run.error("degree", 0.02, 0.0019);
+    run.error("profile", 0.02, 0.0086);
+}
+
+/// p_e = −E K (φ − φ_c) γ with E = 40 kPa, K = 4, a packing 0.02 off and a shear of 0.1.
+#[test]
+fn sealed_soils_pull_and_push_at_their_water() {
+    for (porosity, exact) in [(0.40, -320.0), (0.44, 320.0)] {
+        let porosity = format!("pore-pressure.darcy.porosity={porosity}");
+        let run = finished("undrained-shear", &[&porosity]);
+        let found = *column(&run, "excess").last().expect("rows");
+        assert!(
+            (found / exact - 1.0_f64).abs() < 0.03,
+            "{found} for {exact}, 319.7 was measured"
+        );
+    }
+}
+
+/// The mean weight of the grains falls along a line to zero at i_c = (1 − n)(s − 1), at 0.97119 s.
+#[test]
+fn a_bed_floats_at_its_critical_gradient() {
+    let run = finished("critical-gradient", &[LEFT_OUT]);
+    run.error("weight", 0.01, 0.0049);
+    let (time, weight) = (column(&run, "time"), column(&run, "grains.mean"));
+    let at = |t: f64| time.iter().position(|x| *x >= t).expect("a row");
+    let (a, b) = (at(0.2), at(0.8));
+    let fall = (weight[a] - weight[b]) / (time[b] - time[a]);
+    let floats = time[b] + weight[b] / fall;
+    assert!(
+        (floats / 0.97119 - 1.0).abs() < 0.01,
+        "{floats} s, 0.962 was measured"
+    );
+}
