@@ -42,6 +42,55 @@ pub enum Work {
     Own,
 }
 
+/// Nature of a flow that its scene states, by which kinds choose plugins and parameters that the scene leaves out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FlowNature {
+    /// True if the bodies reach from wall to wall, or over a period, in every direction: no surface is free.
+    pub confined: bool,
+    /// True if all walls run along one periodic direction, as those of a channel do.
+    pub parallel: bool,
+    /// True if fluid passes a wall, or moves one: a wall has an open boundary or a mover.
+    pub open: bool,
+    /// True if gravity acts on it.
+    pub heavy: bool,
+    /// True if bodies reach half a row beyond whole rows from a wall, as they do where the wall carries half a row.
+    pub half_rows: bool,
+    /// Number of its phases.
+    pub phases: usize,
+    /// The law of the phase that is least a fluid.
+    pub law: LawNature,
+}
+
+/// Nature of a constitutive law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum LawNature {
+    /// Flows under any stress, or under one that does not depend on the pressure.
+    #[default]
+    Fluid,
+    /// Elastic below a strength that does not depend on the pressure.
+    Elastic,
+    /// Its strength grows with the pressure.
+    Soil,
+}
+
+/// The nature of a law by its name and parameters; none of an unknown one.
+pub struct LawNatures(pub fn(&str, &toml::Table) -> Option<LawNature>);
+inventory::collect!(LawNatures);
+
+/// The plugin that suits a flow, with the parameters that suit it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SuitedPlugin {
+    /// Name of the plugin.
+    pub name: &'static str,
+    /// Parameters that differ from the plugin's defaults, as TOML.
+    pub parameters: &'static str,
+    /// Property of the flow that decides: "no surface is free".
+    pub reason: &'static str,
+}
+
+/// The choice of a kind for a flow: the plugin where the scene names none, or parameters of the plugin that it names.
+pub type Suits = fn(&FlowNature, Option<&str>) -> Option<SuitedPlugin>;
+
 /// A kind of plugin; declared by [`contract!`](crate::contract).
 #[derive(Clone, Copy)]
 pub struct PluginKind {
@@ -53,6 +102,8 @@ pub struct PluginKind {
     pub place: Place,
     /// The plugin of a scene that names none.
     pub default: Option<&'static str>,
+    /// The plugin for a flow of a nature, for kinds without one default.
+    pub suited: Suits,
     /// State of a scene that names none, for kinds without a default.
     pub absent: &'static str,
     /// The message to a scene that names a plugin and has no use for it; without one, such a scene is no mistake.
@@ -80,6 +131,7 @@ impl PluginKind {
             purpose,
             place,
             default: None,
+            suited: |_, _| None,
             absent: "none if left out",
             idle: None,
             order: u8::MAX,
@@ -91,6 +143,13 @@ impl PluginKind {
     /// With a default.
     pub const fn by_default(mut self, plugin: &'static str) -> Self {
         self.default = Some(plugin);
+        self
+    }
+
+    /// With a default that depends on the flow; an empty table of the kind stands for none.
+    pub const fn suited(mut self, choice: Suits) -> Self {
+        self.suited = choice;
+        self.absent = "the one that suits the flow if left out, none if its table is empty";
         self
     }
 

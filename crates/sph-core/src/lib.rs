@@ -82,7 +82,10 @@ pub use crate::{
     error::{FieldError, PlanError, RegistryError, StepError},
     evolve::{Evolved, Recall, System},
     field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector},
-    kinds::{Place, PluginKind, Work, kind_of, kinds},
+    kinds::{
+        FlowNature, LawNature, LawNatures, Place, PluginKind, SuitedPlugin, Suits, Work, kind_of,
+        kinds,
+    },
     limit::StepLimit,
     plan::{Plan, plan},
     plugin_choice::PluginChoice,

@@ -3,7 +3,7 @@
 mod conditions;
 mod plan;
 mod plugin;
-mod quantity;
+pub(crate) mod quantity;
 mod reduction;
 
 pub(crate) use conditions::QuantityBounds;

@@ -11,6 +11,17 @@ pub fn l2(values: &[f64], exact: &[f64], volume: &[f64], components: usize) -> f
     (difference / size).sqrt()
 }
 
+/// |Σ V u·e / Σ V e² − 1| over values of `components` numbers each.
+pub fn amplitude(values: &[f64], exact: &[f64], volume: &[f64], components: usize) -> f64 {
+    let (mut product, mut size) = (0.0, 0.0);
+    let pairs = values.chunks(components).zip(exact.chunks(components));
+    for ((u, e), v) in pairs.zip(volume) {
+        product += v * u.iter().zip(e).map(|(u, e)| u * e).sum::<f64>();
+        size += v * e.iter().map(|e| e * e).sum::<f64>();
+    }
+    (product / size - 1.0).abs()
+}
+
 /// Σ | |u| − |e| | / Σ |e|.
 pub fn l1(values: &[f64], exact: &[f64], components: usize) -> f64 {
     let pairs = values.chunks(components).zip(exact.chunks(components));

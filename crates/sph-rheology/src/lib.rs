@@ -37,6 +37,8 @@ mod herschel_bulkley;
 pub mod jaumann;
 mod mohr_coulomb;
 mod mu_i;
+#[cfg(feature = "plugins")]
+mod nature;
 mod newtonian;
 mod power_law;
 mod regularisation;

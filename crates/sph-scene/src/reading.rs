@@ -10,3 +10,4 @@ pub(crate) mod plugins;
 pub(crate) mod remarks;
 pub(crate) mod renamed;
 pub(crate) mod schema;
+pub(crate) mod suited;

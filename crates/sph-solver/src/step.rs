@@ -24,6 +24,7 @@ pub(crate) mod snapshot;
 pub(crate) mod sorting;
 pub(crate) mod stages;
 pub(crate) mod system;
+pub mod term_accelerations;
 pub(crate) mod variable_gravity;
 
 pub use clocks::LISTS_NAME;

@@ -4,6 +4,7 @@
 
 mod channels;
 mod dam_breaks;
+mod defaults;
 mod drops;
 mod impacts;
 mod implicit;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use sph_io::{Table, read_table};
 use sph_particles::{Summary, run};
 use sph_run::{RunOptions, Status};
-use sph_scene::{Override, load};
+use sph_scene::{Override, Scene, load, parse};
 use tempfile::TempDir;
 
 /// A finished run.
@@ -65,12 +65,44 @@ pub fn finished(name: &str, overrides: &[&str]) -> Finished {
         .map(|text| Override::parse(text).unwrap_or_else(|e| panic!("{text}: {e}")))
         .collect();
     let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(name)).threads(1);
-    let summary = run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let finished = Finished { summary, folder };
+    let finished = to_the_end(name, &loaded.scene);
     finished.is_sound(another_spacing);
     finished
+}
+
+/// Runs a scene to its end.
+fn to_the_end(name: &str, scene: &Scene) -> Finished {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(name)).threads(1);
+    let summary = run(scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    Finished { summary, folder }
+}
+
+/// Runs a shipped scene with its smoother, shifting, surfaces, walls, smoothing length, step and relaxation left out.
+pub fn by_default(name: &str, overrides: &[&str]) -> Finished {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
+    let text = std::fs::read_to_string(&path).expect("a shipped scene");
+    let mut table: toml::Table = text.parse().expect("a scene");
+    for kind in [
+        "smoother",
+        "shifting",
+        "surface",
+        "walls",
+        "kernel",
+        "integrator",
+        "formulation",
+    ] {
+        table.remove(kind);
+    }
+    if let Some(toml::Value::Table(numerics)) = table.get_mut("numerics") {
+        for key in ["smoothing_ratio", "relax", "jitter"] {
+            numerics.remove(key);
+        }
+    }
+    let overrides = overrides.iter().map(|text| Override::parse(text));
+    let overrides: Vec<_> = overrides.map(|o| o.expect("an override")).collect();
+    let stripped = parse(&table.to_string(), &path.display().to_string(), &overrides);
+    to_the_end(name, &stripped.unwrap_or_else(|e| panic!("{e}")).scene)
 }
 
 impl Finished {

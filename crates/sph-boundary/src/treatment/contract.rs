@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_core::{AnyField, StepError, Vect, Work, contract};
+use sph_core::{AnyField, FlowNature, StepError, SuitedPlugin, Vect, Work, contract};
 use sph_kernels::Kernel;
 use sph_neighbours::{Coulomb, DepthGauge, Domain, WallSet, World};
 
@@ -233,5 +233,26 @@ pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
 contract!(
     /// A wall treatment that a scene may name.
     pub WallEntry, "walls", One, "the treatment of all walls", Wall<D>,
-    .by_default("usaw").ordered(110).works(Work::Friction)
+    .by_default("usaw").suited(vertices).ordered(110).works(Work::Friction)
 );
+
+/// Vertices of semi-analytical walls: where the bodies are drawn for the half row that vertices carry.
+fn vertices(flow: &FlowNature, named: Option<&str>) -> Option<SuitedPlugin> {
+    let (parameters, reason) = match flow.half_rows {
+        true => (
+            "vertices = true",
+            "bodies reach half a row beyond whole rows from the walls",
+        ),
+        false => (
+            "vertices = false",
+            "whole rows fit between the walls and the ends of the bodies",
+        ),
+    };
+    named
+        .is_none_or(|name| name == "usaw")
+        .then_some(SuitedPlugin {
+            name: "usaw",
+            parameters,
+            reason,
+        })
+}

@@ -37,7 +37,8 @@ use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup
 #[serde(bound = "")]
 #[schemars(rename = "Usaw", bound = "")]
 pub struct Usaw<const D: usize, M: WallMesh<D>> {
-    /// True if vertices carry the half row of fluid next to the wall, as in the source.
+    /// True if vertices carry the half row of fluid next to the wall, as in the source. A scene that leaves it out has it
+    /// where bodies end half a row beyond whole rows from a wall, and nowhere else.
     #[parameter(default: true, source: "Ghaïtanellis 2017, §2.5; without them: ours")]
     vertices: bool,
     #[serde(skip)]

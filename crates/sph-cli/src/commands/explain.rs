@@ -140,7 +140,11 @@ fn text(e: &Examination) -> String {
 fn plugins(plugins: &[PluginInForce]) -> String {
     let row = |p: &PluginInForce| {
         let names = vec![p.kind.clone(), p.name.clone(), p.provider.clone()];
-        (names, parameters(&p.parameters))
+        let reason = p.reason.iter().map(|r| format!("default: {r}; "));
+        (
+            names,
+            reason.collect::<String>() + &parameters(&p.parameters),
+        )
     };
     let rows = plugins.iter().map(row).collect();
     columns_and_below(2, &["kind", "name", "provider"], rows)

@@ -112,6 +112,7 @@ fn against_field<const D: usize>(
         Norm::L2 => (norm::l2(&values, &exact, volume, components), "1"),
         Norm::L1 => (norm::l1(&values, &exact, components), "1"),
         Norm::Linf => (norm::linf(&values, &exact, components), "1"),
+        Norm::Amplitude => (norm::amplitude(&values, &exact, volume, components), "1"),
         Norm::Rms => (
             norm::rms(&difference, volume, components, reference.scale_value),
             "1",
@@ -288,6 +289,7 @@ impl Samples {
                 (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
             }
             Norm::Rms
+            | Norm::Amplitude
             | Norm::DecayRate
             | Norm::L2Mean
             | Norm::Mean

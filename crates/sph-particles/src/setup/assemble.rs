@@ -13,7 +13,9 @@ use sph_rheology::Rheology;
 use sph_rheology::state::{Laws, Lift, Lifted, Reference};
 use sph_scene::Scene;
 use sph_solver::setup::{Choices, FlowInputs, Planning, StagePlan, joined, shown};
-use sph_solver::step::{NewParticleDefaults, Outlets, VariableGravity, accounts};
+use sph_solver::step::{
+    NewParticleDefaults, Outlets, VariableGravity, accounts, term_accelerations,
+};
 use sph_solver::{Flow, SolverError};
 
 use crate::setup::domain::{extent, height, pressure_at_rest};
@@ -157,6 +159,10 @@ fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
     let mut choices = Choices::<D>::from_scene(scene).map_err(SolverError::Scene)?;
     choices.probes.extend(field_error::probes(scene)?);
     probe_setup::prepare(scene, &mut choices.probes)?;
+    for plugin in &mut choices.in_force {
+        let suited = scene.suited.iter().find(|(kind, _)| *kind == plugin.kind);
+        plugin.reason = suited.map(|(_, reason)| reason.to_string());
+    }
     Ok(choices)
 }
 
@@ -337,6 +343,7 @@ fn show<const D: usize>(
     if moved || probes.iter().any(|(_, p)| p.needs().displacement) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
+    term_accelerations::open(shown, flow);
     check_output_fields(scene, flow)
 }
 

@@ -2,6 +2,7 @@
 
 use sph_core::{SceneProblem, fields};
 use sph_scene::Scene;
+use sph_solver::step::term_accelerations;
 use sph_solver::{Flow, SolverError};
 
 /// Refuses names of fields that no plugin of the scene has.
@@ -20,6 +21,7 @@ pub(crate) fn check_output_fields<const D: usize>(
     // Fields on request are listed with the others.
     let written = sph_probes::SURFACE_DISTANCE.name;
     let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name, written]);
+    let more = more.chain(term_accelerations::names());
     let more = more.filter(|name| !free.has(name));
     let names: Vec<&str> = free.fields().map(|f| f.name).chain(more).collect();
     let unknown = |path: &str, name: &str| {

@@ -2,10 +2,11 @@
 
 use std::sync::Mutex;
 
-use sph_core::{Plain, StepError, Vect, fields, plugin};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::profile::Component;
+use crate::measure::quantity::Quantity;
 use crate::norm::at;
 use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 
@@ -47,7 +48,7 @@ pub struct MeanProfile {
     pub after: f64,
     /// Two corners of a box outside of which particles do not count.
     pub within: Option<[Vec<f64>; 2]>,
-    /// A scalar field in the place of the velocity.
+    /// A quantity in the place of the velocity: a scalar field, or `pressure_acceleration.x`.
     pub field: Option<String>,
     /// Component of the velocity that is compared.
     #[parameter(default: Component::X)]
@@ -110,15 +111,8 @@ impl MeanProfile {
             let velocity = world.free.get(fields::VELOCITY)?;
             return Ok(Box::new(move |i, into| into.extend(velocity[i].iter())));
         };
-        let mut columns = world.free.columns();
-        match columns.find(|(found, ..)| found == name) {
-            Some((_, _, _, 1, Plain::Real(values))) => {
-                Ok(Box::new(move |i, into| into.push(values[i])))
-            }
-            _ => Err(refused(format!(
-                "there is no scalar field `{name}` in this scene"
-            ))),
-        }
+        let (value, _) = Quantity::named(name).values(world)?;
+        Ok(Box::new(move |i, into| into.push(value(i))))
     }
 
     fn check<const D: usize>(&self) -> Result<(), StepError> {
@@ -217,7 +211,9 @@ impl<const D: usize> Probe<D> for MeanProfile {
 
     fn needs(&self) -> Needs<'_> {
         Needs {
-            fields: self.field.iter().cloned().collect(),
+            fields: (self.field.iter())
+                .filter_map(|name| Quantity::named(name).column().map(String::from))
+                .collect(),
             ..Needs::default()
         }
     }

@@ -19,6 +19,7 @@ use crate::reading::plugins::Plugins;
 use crate::reading::remarks;
 use crate::reading::renamed;
 use crate::reading::schema;
+use crate::reading::suited::add_suited;
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -144,6 +145,7 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     if !problems.is_empty() {
         return Err(diagnosed(hints::added(problems, &whole)));
     }
+    add_suited(&mut scene);
     remarks.extend(of_plugins);
     let remarks = source.diagnose(&remarks);
     scene.remarks = remarks.iter().map(Diagnostic::to_string).collect();

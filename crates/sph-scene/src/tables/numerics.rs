@@ -85,7 +85,8 @@ pub struct Numerics {
     /// Seed of the random displacement and velocity.
     #[parameter(default: 1, min: 0)]
     pub seed: u64,
-    /// Settling of the particles before the start; none if left out.
+    /// Settling of the particles before the start. If left out 400 steps to 0.001 where water starts at rest under its
+    /// weight beside walls, else none.
     pub relax: Option<Relax>,
 }
 
@@ -112,8 +113,8 @@ pub enum PressureOf {
 #[parameters]
 #[derive(PartialEq, Serialize)]
 pub struct Relax {
-    /// Largest number of steps.
-    #[parameter(default: 200, min: 1, max: 1_000_000)]
+    /// Largest number of steps; 0 for none.
+    #[parameter(default: 200, min: 0, max: 1_000_000)]
     pub steps: u32,
     /// Largest error of the density, relative to the reference density, at which it ends.
     #[parameter(default: 0.01, unit: "1", above: 0.0, below: 1.0)]

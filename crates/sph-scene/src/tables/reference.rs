@@ -77,6 +77,8 @@ pub enum Norm {
     L1,
     /// max |u − e| / max |e|.
     Linf,
+    /// |Σ V u·e / Σ V e² − 1|: the amplitude of e in u, whatever else u has.
+    Amplitude,
     /// √(Σ V|u − e|² / Σ V) over `scale_value`: for fields at rest.
     Rms,
     /// |u − e| / |e| at the last time.

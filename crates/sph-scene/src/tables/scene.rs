@@ -34,6 +34,9 @@ pub struct Scene {
     /// Plugins of every kind of which a scene has one or any number ([`sph_core::kinds`]): `[KIND.PLUGIN]`.
     #[serde(skip)]
     pub(crate) plugins: BTreeMap<&'static str, Plugins>,
+    /// Kinds and keys that the scene leaves to its flow, with the property of the flow that decides.
+    #[serde(skip)]
+    pub suited: Vec<(&'static str, &'static str)>,
     /// Walls by name, `[wall.NAME]`.
     #[parameter(default)]
     pub wall: BTreeMap<String, Wall>,

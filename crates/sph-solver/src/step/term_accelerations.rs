@@ -1,0 +1,96 @@
+//! Accelerations by class of terms, in columns that an output or a probe names.
+
+use sph_core::{Field, Role, StepError, Vect, Vector, Work, kind_of};
+use sph_neighbours::{ClassRate, class_rates};
+
+use crate::step::flow::Flow;
+use crate::step::observer::{Boundary, ObservedFlow, Observer};
+
+/// Acceleration by the terms of a class of every particle at the last kick, m/s². That of the pressure has its part of
+/// the walls; that of friction the eddies' and the walls'.
+const COLUMNS: [(Field<Vector>, fn(Work) -> bool); 4] = [
+    (
+        Field::new("pressure_acceleration", "m/s²", "acceleration by pressure"),
+        |work| matches!(work, Work::Pressure),
+    ),
+    (
+        Field::new("viscous_acceleration", "m/s²", "acceleration by friction"),
+        |work| matches!(work, Work::Friction),
+    ),
+    (
+        Field::new(
+            "shifting_acceleration",
+            "m/s²",
+            "acceleration by shifted momentum",
+        ),
+        |work| matches!(work, Work::Shifting),
+    ),
+    (
+        Field::new(
+            "other_acceleration",
+            "m/s²",
+            "acceleration by all other terms of the sweep",
+        ),
+        |work| !matches!(work, Work::Pressure | Work::Friction | Work::Shifting),
+    ),
+];
+
+/// Names of the columns.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    COLUMNS.iter().map(|(field, _)| field.name)
+}
+
+/// Writes the columns at every kick.
+struct TermAccelerations {
+    columns: Vec<usize>,
+    /// The class of every term, by its name.
+    classes: Vec<(String, usize)>,
+}
+
+/// Opens the columns that are `shown`, and no others.
+pub fn open<const D: usize>(shown: &[String], flow: &mut Flow<D>) {
+    let named = |field: &Field<Vector>| shown.iter().any(|name| name == field.name);
+    let columns: Vec<usize> = (0..COLUMNS.len())
+        .filter(|k| named(&COLUMNS[*k].0))
+        .collect();
+    if columns.is_empty() {
+        return;
+    }
+    for k in &columns {
+        flow.world.free.add(COLUMNS[*k].0, Role::State);
+    }
+    let class = |kind: &str| {
+        let work = kind_of(kind).map_or(Work::Others, |kind| kind.work);
+        COLUMNS
+            .iter()
+            .position(|(_, holds)| holds(work))
+            .unwrap_or(COLUMNS.len() - 1)
+    };
+    let classes = flow
+        .kinds
+        .iter()
+        .map(|(name, kind)| (name.clone(), class(kind)));
+    let classes = classes.collect();
+    flow.observers
+        .push(Box::new(TermAccelerations { columns, classes }));
+}
+
+impl<const D: usize> Observer<D> for TermAccelerations {
+    fn observe(&mut self, at: Boundary, seen: &mut ObservedFlow<'_, D>) -> Result<(), StepError> {
+        if at != Boundary::Kicks {
+            return Ok(());
+        }
+        let terms: Vec<_> = seen.terms.iter().map(|t| &**t).collect();
+        let class = |name: &str| {
+            let known = self.classes.iter().find(|(n, _)| n == name);
+            Some(known.map_or(COLUMNS.len() - 1, |(_, class)| *class))
+        };
+        let world = &mut *seen.world;
+        let rates: Vec<[ClassRate<D>; COLUMNS.len()]> = class_rates(world, &terms, class)?;
+        for k in &self.columns {
+            let all: Vec<Vect<D>> = rates.iter().map(|of| of[*k].acceleration).collect();
+            *world.free.get_mut(COLUMNS[*k].0)? = all;
+        }
+        Ok(())
+    }
+}
