@@ -164,3 +164,69 @@ fn a_given_pressure_and_a_given_flux_show_one_permeability() {
         "{pressed} m2 and {fed} m2"
     );
 }
+
+/// A bed between smooth walls in a fluid of 1 mPa s.
+const FLOODED: &str = "--set fluid.viscosity=1e-3 --set fluid.density=1000 --set wall.top.pressure=0 \
+                       --set probe.fluid.kind=carried --set run.end=1e-3 --set output.series_every=1e-4 \
+                       --set box.contact.linear-elastic.modulus=1e6 --set box.contact.linear-elastic.stiffness_ratio=0 \
+                       --set box.contact.linear-elastic.friction=0";
+
+#[test]
+fn a_dry_bed_that_is_flooded_rests_under_its_buoyant_weight() {
+    let field = Field::new();
+    let start = |weight: &str| {
+        done(field.run("cloud", &format!("{FLOODED} --set start.weight={weight}")));
+        let series = field.series();
+        for name in ["floor", "fluid"] {
+            let wanted = if name == "floor" { 1.0 } else { 0.0 };
+            // Forces of the fluid are those of a step.
+            for found in &column(&series, name)[1..] {
+                assert!((found - wanted).abs() < 0.01, "{weight}: {name} {found}");
+            }
+        }
+        column(&series, "coordination").to_vec()
+    };
+    let [dry, buoyant] = ["dry", "buoyant"].map(start);
+    assert_ne!(dry, buoyant);
+}
+
+#[test]
+fn a_dry_weight_needs_a_fluid_gravity_and_rest() {
+    let field = Field::new();
+    let cases = [
+        ("cloud", "", "`[fluid]` is missing"),
+        ("perm", "", "`grains.gravity` is missing"),
+        (
+            "cloud",
+            "--set fluid.viscosity=1 --set wall.top.pressure=0 --set start.settle=1",
+            "`settle` below 1 is missing",
+        ),
+    ];
+    for (input, more, told) in cases {
+        let refused = field.check(input, &format!("{more} --set start.weight=dry"));
+        assert_eq!(refused.code, Some(2), "{told}: {}", refused.out);
+        assert!(refused.err.contains("── start.weight\n"), "{}", refused.err);
+        assert!(refused.err.contains(told), "{}", refused.err);
+    }
+}
+
+/// In a pipe of four grains walls that rub bear a part of the weight (Janssen), and smooth ones do not.
+#[test]
+fn walls_have_a_law_of_their_own_while_grains_are_prepared() {
+    let field = Field::new();
+    let floor = |more: &str| {
+        let pipe = "--set box.high=[0.04,0.04,0.6] --set run.end=1e-4";
+        done(field.run("cloud", &format!("{pipe} {more}")));
+        column(&field.series(), "floor")[0]
+    };
+    let rough = floor("");
+    assert!(rough < 0.9, "rough walls leave {rough} to the floor");
+    let law = "start.wall_contact.linear-elastic";
+    let smooth = floor(&format!(
+        "--set {law}.modulus=1e6 --set {law}.stiffness_ratio=0 --set {law}.friction=0"
+    ));
+    assert!(
+        (smooth - 1.0).abs() < 0.01,
+        "smooth walls leave {smooth} to the floor"
+    );
+}
