@@ -230,3 +230,59 @@ fn walls_have_a_law_of_their_own_while_grains_are_prepared() {
         "smooth walls leave {smooth} to the floor"
     );
 }
+
+#[test]
+fn stresses_strains_and_sliding_of_a_squeezed_packing_fit_its_walls() {
+    let field = Field::new();
+    done(field.run("squeezed", ""));
+    let series = field.series();
+    let [
+        strain,
+        volume,
+        mean,
+        deviator,
+        k0,
+        local,
+        sliding,
+        unbalanced,
+    ] = [
+        "strain",
+        "volume",
+        "mean",
+        "deviator",
+        "k0",
+        "local",
+        "sliding",
+        "unbalanced_force",
+    ]
+    .map(|name| column(&series, name).to_vec());
+    let last = strain.len() - 1;
+    assert_eq!(local[0], 0.0);
+    // The size of a mean strain is at most the mean of the sizes.
+    assert!(
+        local[last] > 0.9 * strain[last],
+        "{} of {}",
+        local[last],
+        strain[last]
+    );
+    let worst = unbalanced.iter().copied().fold(0.0, f64::max);
+    for row in 0..=last {
+        // ¾ ε̇ Δt ε, of the second order in a step.
+        assert!(volume[row].abs() < 1e-6, "volume: {}", volume[row]);
+        // σ_x = p − q/3, σ_z = p + 2 q/3 at the walls; they differ by what is out of balance.
+        let (p, q) = (mean[row], deviator[row]);
+        let walls = (p - q / 3.0) / (p + 2.0 * q / 3.0);
+        assert!((k0[row] - walls).abs() < worst, "{} for {walls}", k0[row]);
+    }
+    assert!(k0[last] < 0.9 && sliding[last] > sliding[0]);
+    // Without friction every contact is at its limit, with very much none is.
+    for (friction, share) in [(0.0, 1.0), (1e9, 0.0)] {
+        let key = "grains.contact.linear-elastic.friction";
+        done(field.run(
+            "squeezed",
+            &format!("--set {key}={friction} --set run.end=1e-3"),
+        ));
+        let series = field.series();
+        assert!(column(&series, "sliding").iter().all(|s| *s == share));
+    }
+}

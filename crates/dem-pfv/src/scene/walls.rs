@@ -104,6 +104,9 @@ pub(crate) fn control(
             largest_speed: servo.speed,
         };
     }
+    if table.keeps_volume {
+        return Control::Volume;
+    }
     match table.strain_rate {
         Some(rate) => Control::StrainRate { rate },
         None => Control::Velocity,
