@@ -78,14 +78,11 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let (now, start) = (grains.box_lengths()?, origin.lengths?);
             Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
         }
-        Probe::Deviator { axis } => deviator(grains, axis.number()),
-        Probe::MeanStress {} => grains.mean_stress().ok(),
-        Probe::K0 { axis, from, to } => pressure_at_rest(grains, axis.number(), *from..*to),
-        Probe::Sliding {} => grains.sliding_share(),
-        Probe::StrainDeviator {} => {
-            let all = strain_deviators(grains, origin);
-            Some(all.iter().sum::<f64>() / all.len() as f64)
-        }
+        Probe::Deviator { .. }
+        | Probe::MeanStress {}
+        | Probe::K0 { .. }
+        | Probe::Sliding {}
+        | Probe::StrainDeviator {} => packing(probe, grains, origin),
         Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
         Probe::Top {} => Some(highest(grains)),
         Probe::Level { axis, from, to } => {
@@ -118,6 +115,21 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let wave = scene.wall.get(name)?.wave.as_ref()?;
             Some(wave.amplitude + wave.ramp * grains.time)
         }
+    }
+}
+
+/// Stresses, strains and contacts of a packing.
+fn packing(probe: &Probe, grains: &GrainSystem, origin: &Origin) -> Option<f64> {
+    match probe {
+        Probe::Deviator { axis } => deviator(grains, axis.number()),
+        Probe::MeanStress {} => grains.mean_stress().ok(),
+        Probe::K0 { axis, from, to } => pressure_at_rest(grains, axis.number(), *from..*to),
+        Probe::Sliding {} => grains.sliding_share(),
+        Probe::StrainDeviator {} => {
+            let all = strain_deviators(grains, origin);
+            Some(all.iter().sum::<f64>() / all.len() as f64)
+        }
+        _ => None,
     }
 }
 
