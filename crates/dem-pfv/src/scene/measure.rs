@@ -70,15 +70,9 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             gradient(model, axis.number(), [*from, *to], [left, right])
         }
         Probe::EffectiveStress { axis, at } => grains.effective_stress(axis.number(), *at).ok(),
-        Probe::Strain { axis } => {
-            let (now, start) = (grains.box_lengths()?, origin.lengths?);
-            Some(-(now[axis.number()] / start[axis.number()]).ln())
-        }
-        Probe::VolumetricStrain {} => {
-            let (now, start) = (grains.box_lengths()?, origin.lengths?);
-            Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
-        }
-        Probe::Deviator { .. }
+        Probe::Strain { .. }
+        | Probe::VolumetricStrain {}
+        | Probe::Deviator { .. }
         | Probe::MeanStress {}
         | Probe::K0 { .. }
         | Probe::Sliding {}
@@ -121,6 +115,14 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
 /// Stresses, strains and contacts of a packing.
 fn packing(probe: &Probe, grains: &GrainSystem, origin: &Origin) -> Option<f64> {
     match probe {
+        Probe::Strain { axis } => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some(-(now[axis.number()] / start[axis.number()]).ln())
+        }
+        Probe::VolumetricStrain {} => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
+        }
         Probe::Deviator { axis } => deviator(grains, axis.number()),
         Probe::MeanStress {} => grains.mean_stress().ok(),
         Probe::K0 { axis, from, to } => pressure_at_rest(grains, axis.number(), *from..*to),
