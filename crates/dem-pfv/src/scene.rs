@@ -85,5 +85,5 @@ pub use summary::{PluginInForce, Summary};
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,
     Plugins, Probe, Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple,
-    Wall, WaveLoad,
+    Wall, WaveLoad, Weight,
 };

@@ -164,3 +164,125 @@ fn a_given_pressure_and_a_given_flux_show_one_permeability() {
         "{pressed} m2 and {fed} m2"
     );
 }
+
+/// A bed between smooth walls in a fluid of 1 mPa s.
+const FLOODED: &str = "--set fluid.viscosity=1e-3 --set fluid.density=1000 --set wall.top.pressure=0 \
+                       --set probe.fluid.kind=carried --set run.end=1e-3 --set output.series_every=1e-4 \
+                       --set box.contact.linear-elastic.modulus=1e6 --set box.contact.linear-elastic.stiffness_ratio=0 \
+                       --set box.contact.linear-elastic.friction=0";
+
+#[test]
+fn a_dry_bed_that_is_flooded_rests_under_its_buoyant_weight() {
+    let field = Field::new();
+    let start = |weight: &str| {
+        done(field.run("cloud", &format!("{FLOODED} --set start.weight={weight}")));
+        let series = field.series();
+        for name in ["floor", "fluid"] {
+            let wanted = if name == "floor" { 1.0 } else { 0.0 };
+            // Forces of the fluid are those of a step.
+            for found in &column(&series, name)[1..] {
+                assert!((found - wanted).abs() < 0.01, "{weight}: {name} {found}");
+            }
+        }
+        column(&series, "coordination").to_vec()
+    };
+    let [dry, buoyant] = ["dry", "buoyant"].map(start);
+    assert_ne!(dry, buoyant);
+}
+
+#[test]
+fn a_dry_weight_needs_a_fluid_gravity_and_rest() {
+    let field = Field::new();
+    let cases = [
+        ("cloud", "", "`[fluid]` is missing"),
+        ("perm", "", "`grains.gravity` is missing"),
+        (
+            "cloud",
+            "--set fluid.viscosity=1 --set wall.top.pressure=0 --set start.settle=1",
+            "`settle` below 1 is missing",
+        ),
+    ];
+    for (input, more, told) in cases {
+        let refused = field.check(input, &format!("{more} --set start.weight=dry"));
+        assert_eq!(refused.code, Some(2), "{told}: {}", refused.out);
+        assert!(refused.err.contains("── start.weight\n"), "{}", refused.err);
+        assert!(refused.err.contains(told), "{}", refused.err);
+    }
+}
+
+/// In a pipe of four grains walls that rub bear a part of the weight (Janssen), and smooth ones do not.
+#[test]
+fn walls_have_a_law_of_their_own_while_grains_are_prepared() {
+    let field = Field::new();
+    let floor = |more: &str| {
+        let pipe = "--set box.high=[0.04,0.04,0.6] --set run.end=1e-4";
+        done(field.run("cloud", &format!("{pipe} {more}")));
+        column(&field.series(), "floor")[0]
+    };
+    let rough = floor("");
+    assert!(rough < 0.9, "rough walls leave {rough} to the floor");
+    let law = "start.wall_contact.linear-elastic";
+    let smooth = floor(&format!(
+        "--set {law}.modulus=1e6 --set {law}.stiffness_ratio=0 --set {law}.friction=0"
+    ));
+    assert!(
+        (smooth - 1.0).abs() < 0.01,
+        "smooth walls leave {smooth} to the floor"
+    );
+}
+
+#[test]
+fn stresses_strains_and_sliding_of_a_squeezed_packing_fit_its_walls() {
+    let field = Field::new();
+    done(field.run("squeezed", ""));
+    let series = field.series();
+    let [
+        strain,
+        volume,
+        mean,
+        deviator,
+        k0,
+        local,
+        sliding,
+        unbalanced,
+    ] = [
+        "strain",
+        "volume",
+        "mean",
+        "deviator",
+        "k0",
+        "local",
+        "sliding",
+        "unbalanced_force",
+    ]
+    .map(|name| column(&series, name).to_vec());
+    let last = strain.len() - 1;
+    assert_eq!(local[0], 0.0);
+    // The size of a mean strain is at most the mean of the sizes.
+    assert!(
+        local[last] > 0.9 * strain[last],
+        "{} of {}",
+        local[last],
+        strain[last]
+    );
+    let worst = unbalanced.iter().copied().fold(0.0, f64::max);
+    for row in 0..=last {
+        // ¾ ε̇ Δt ε, of the second order in a step.
+        assert!(volume[row].abs() < 1e-6, "volume: {}", volume[row]);
+        // σ_x = p − q/3, σ_z = p + 2 q/3 at the walls; they differ by what is out of balance.
+        let (p, q) = (mean[row], deviator[row]);
+        let walls = (p - q / 3.0) / (p + 2.0 * q / 3.0);
+        assert!((k0[row] - walls).abs() < worst, "{} for {walls}", k0[row]);
+    }
+    assert!(k0[last] < 0.9 && sliding[last] > sliding[0]);
+    // Without friction every contact is at its limit, with very much none is.
+    for (friction, share) in [(0.0, 1.0), (1e9, 0.0)] {
+        let key = "grains.contact.linear-elastic.friction";
+        done(field.run(
+            "squeezed",
+            &format!("--set {key}={friction} --set run.end=1e-3"),
+        ));
+        let series = field.series();
+        assert!(column(&series, "sliding").iter().all(|s| *s == share));
+    }
+}

@@ -125,6 +125,10 @@ impl ContactLaw for HertzMindlin {
         }
     }
 
+    fn friction(&self) -> f64 {
+        self.friction
+    }
+
     fn stiffness(&self, radius: [f64; 2], overlap: f64) -> Stiffness {
         let radius = reduced(radius);
         let disc = (radius * overlap).sqrt();

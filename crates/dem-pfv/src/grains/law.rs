@@ -139,6 +139,11 @@ pub trait ContactLaw: Debug + Send + Sync {
 
     /// Stiffnesses of a contact of bodies of these radii (m, infinite for walls) at this overlap (m).
     fn stiffness(&self, radius: [f64; 2], overlap: f64) -> Stiffness;
+
+    /// Largest ratio µ of the tangential force to the normal one; infinite without a limit.
+    fn friction(&self) -> f64 {
+        f64::INFINITY
+    }
 }
 
 inventory::collect!(Entry<dyn ContactLaw>);

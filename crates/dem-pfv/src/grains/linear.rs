@@ -115,6 +115,10 @@ impl ContactLaw for LinearElastic {
         }
     }
 
+    fn friction(&self) -> f64 {
+        self.friction
+    }
+
     fn stiffness(&self, radius: [f64; 2], _overlap: f64) -> Stiffness {
         let normal = self.normal_stiffness(radius);
         let tangential = self.stiffness_ratio * normal;

@@ -36,7 +36,12 @@ pub struct Touch {
     pub point: Vector,
     /// Force on the first body, N.
     pub force: Vector,
+    /// True where the tangential force is at the limit of friction.
+    pub sliding: bool,
 }
+
+/// Relative distance from the limit of friction that rounding leaves to a contact that slides.
+const ROUNDING: f64 = 1e-9;
 
 impl GrainSystem {
     /// All contacts of the last evaluation.
@@ -53,23 +58,34 @@ impl GrainSystem {
         let second = slot.second as usize;
         let walls = self.walls.len();
         let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
+        let (partner, law) = if part == 0 {
+            (Partner::Grain(second), 0)
+        } else if part <= walls {
+            (Partner::Wall(part - 1), self.walls[part - 1].law)
+        } else {
+            let (mesh, triangle) = (part - 1 - walls, second);
+            (Partner::Triangle { mesh, triangle }, self.meshes[mesh].law)
+        };
+        let normal = slot.force.dot(&slot.normal);
+        let tangential = (slot.force - slot.normal * normal).norm();
+        let limit = self.laws[law].friction() * normal.max(0.0);
         Touch {
             grain,
-            partner: if part == 0 {
-                Partner::Grain(second)
-            } else if part <= walls {
-                Partner::Wall(part - 1)
-            } else {
-                Partner::Triangle {
-                    mesh: part - 1 - walls,
-                    triangle: second,
-                }
-            },
+            partner,
             normal: slot.normal,
             overlap: slot.overlap,
             point: self.grains.position[grain] - slot.normal * arm,
             force: slot.force,
+            sliding: tangential >= limit * (1.0 - ROUNDING),
         }
+    }
+
+    /// Share of the contacts between grains whose tangential force is at the limit of friction; none without contacts.
+    pub fn sliding_share(&self) -> Option<f64> {
+        let between = |t: &Touch| matches!(t.partner, Partner::Grain(_));
+        let all = self.contacts().filter(between);
+        let (sum, count) = all.fold((0.0, 0.0), |(s, n), t| (s + f64::from(t.sliding), n + 1.0));
+        (count > 0.0).then(|| sum / count)
     }
 
     /// Σ ½ m v² + ½ J ω², J, with the velocities in the middle of the last step.

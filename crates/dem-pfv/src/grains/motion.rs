@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::grains::columns::INERTIA;
 use crate::grains::wall::sign;
-use crate::grains::{Control, GrainError, GrainSystem, Vector, space};
+use crate::grains::{Control, GrainError, GrainSystem, Vector, Wall, space};
 
 /// Grains per task at least.
 const TASK: usize = 512;
@@ -83,11 +83,32 @@ impl GrainSystem {
             let wall = &self.walls[number];
             let (mut area, mut height) = (0.0, 0.0);
             match wall.control {
-                Control::Velocity => continue,
+                Control::Velocity | Control::Volume => continue,
                 Control::StrainRate { .. } => height = self.height(number)?,
                 Control::Stress { .. } | Control::Piston { .. } => area = self.wall_area(number)?,
             }
             self.walls[number].steer(step, area, height, self.damping);
+        }
+        self.keep_volume()
+    }
+
+    /// Velocities of walls that keep the volume of the box.
+    fn keep_volume(&mut self) -> Result<(), GrainError> {
+        let keeps = |wall: &Wall| wall.control == Control::Volume;
+        if !self.walls.iter().any(keeps) {
+            return Ok(());
+        }
+        let (mut swept, mut room) = (0.0, 0.0);
+        for (number, wall) in self.walls.iter().enumerate() {
+            let area = self.wall_area(number)?;
+            match keeps(wall) {
+                true => room += area,
+                false => swept += area * wall.velocity.dot(&wall.normal),
+            }
+        }
+        for wall in self.walls.iter_mut().filter(|wall| keeps(wall)) {
+            let along = wall.velocity.dot(&wall.normal);
+            wall.velocity -= wall.normal * (along + swept / room);
         }
         Ok(())
     }

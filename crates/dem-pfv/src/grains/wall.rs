@@ -23,6 +23,9 @@ pub enum Control {
         /// ε̇, 1/s, positive when the walls approach.
         rate: f64,
     },
+    /// Keeps the volume of the box: all such walls move outward at one speed Σ A v / Σ A, the first sum over the other
+    /// walls and their inward velocities v.
+    Volume,
     /// A body of its own: M dv/dt = σ A − F, with the non-viscous damping of the grains.
     Piston {
         /// σ, Pa, positive in compression.
@@ -138,7 +141,7 @@ impl Wall {
             ));
         }
         let numbers: &[(&str, f64, bool)] = match self.control {
-            Control::Velocity => &[],
+            Control::Velocity | Control::Volume => &[],
             Control::Stress {
                 stress,
                 largest_speed,
@@ -173,7 +176,7 @@ impl Wall {
     pub(crate) fn steer(&mut self, step: f64, area: f64, height: f64, damping: f64) {
         let old = self.velocity.dot(&self.normal);
         let new = match self.control {
-            Control::Velocity => return,
+            Control::Velocity | Control::Volume => return,
             Control::Stress {
                 stress,
                 largest_speed,

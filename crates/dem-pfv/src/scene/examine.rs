@@ -118,6 +118,8 @@ pub fn plugins(scene: &Scene) -> Vec<PluginInForce> {
     };
     add("contact-law", "grains", listing(&scene.grains.contact));
     add("contact-law", "preparation", listing(&scene.start.contact));
+    let walls = listing(&scene.start.wall_contact);
+    add("contact-law", "walls in the preparation", walls);
     if let Some(given) = &scene.r#box {
         add("contact-law", "box", listing(&given.contact));
     }

@@ -1,16 +1,20 @@
 //! Fields of grains, for pictures and files.
 
-use crate::grains::{GrainSystem, Partner};
+use nalgebra::Matrix3;
+
+use crate::grains::{GrainSystem, Partner, Touch, Vector, strains};
 use crate::scene::model::Model;
 use crate::scene::origin::Origin;
 
 /// Fields of every system: name and unit.
-const DRY: [(&str, &str); 5] = [
+const DRY: [(&str, &str); 7] = [
     ("radius", "m"),
     ("speed", "m/s"),
     ("stress", "Pa"),
     ("displacement", "m"),
     ("contacts", ""),
+    ("sliding_contacts", ""),
+    ("strain_deviator", ""),
 ];
 /// Those that a fluid adds.
 const WET: [(&str, &str); 2] = [("pore_pressure", "Pa"), ("fluid_force", "N")];
@@ -44,7 +48,9 @@ pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
             .iter()
             .map(|u| length(*u))
             .collect(),
-        "contacts" => contacts(system),
+        "contacts" => contacts(system, |_| true),
+        "sliding_contacts" => contacts(system, |touch| touch.sliding),
+        "strain_deviator" => strain_deviators(system, origin),
         "pore_pressure" => pore_pressures(model),
         "fluid_force" => fluid_forces(model),
         _ => vec![0.0; grains.len()],
@@ -76,9 +82,23 @@ pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn contacts(system: &GrainSystem) -> Vec<f64> {
+/// √(2/3 e : e) around each grain since the start, e the deviator of its strain: 1 per unit of axial strain at constant volume.
+pub fn strain_deviators(system: &GrainSystem, origin: &Origin) -> Vec<f64> {
+    let places: Vec<Vector> = origin.positions.iter().map(|x| (*x).into()).collect();
+    let moved = displacements(system, origin);
+    let moved: Vec<Vector> = moved.into_iter().map(Vector::from).collect();
+    let size = |strain: Matrix3<f64>| {
+        let deviator = strain - Matrix3::identity() * (strain.trace() / 3.0);
+        (2.0 / 3.0_f64).sqrt() * deviator.norm()
+    };
+    let all = strains(origin.tetrahedra(&system.grains.radius), &places, &moved);
+    all.into_iter().map(size).collect()
+}
+
+/// Number of contacts of each grain that are counted.
+fn contacts(system: &GrainSystem, counted: impl Fn(&Touch) -> bool) -> Vec<f64> {
     let mut count = vec![0.0; system.grains.len()];
-    for touch in system.contacts() {
+    for touch in system.contacts().filter(counted) {
         count[touch.grain] += 1.0;
         if let Partner::Grain(other) = touch.partner {
             count[other] += 1.0;

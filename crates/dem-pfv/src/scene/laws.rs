@@ -15,6 +15,7 @@ inventory::submit! {
         vec![
             vec!["grains", "contact"],
             vec!["start", "contact"],
+            vec!["start", "wall_contact"],
             vec!["box", "contact"],
             vec!["wall", "*", "contact"],
             vec!["fluid", "conductance"],
@@ -27,8 +28,10 @@ inventory::submit! {
 pub struct Laws {
     /// The first is that of grains with each other.
     pub all: Vec<Box<dyn ContactLaw>>,
-    /// That of grains with each other during the preparation, if it is another one.
-    pub prepared: Option<Box<dyn ContactLaw>>,
+    /// Laws during the preparation, with the numbers of those that they stand for.
+    pub prepared: Vec<(usize, Box<dyn ContactLaw>)>,
+    /// Number of the law of walls and surfaces outside the box.
+    pub of_others: usize,
     /// Number of the law of the walls of the box.
     pub of_box: usize,
     /// Numbers of the laws of `[wall.NAME]`, in their order.
@@ -95,7 +98,14 @@ impl Laws {
             return Err(DemError::at("grains", message));
         };
         let mut all = vec![between];
-        let mut of_box = 0;
+        let prepared_wall = || contact(&scene.start.wall_contact, "start.wall_contact");
+        let mut of_others = 0;
+        if prepared_wall()?.is_some() {
+            // A law of their own, so that another can stand for it.
+            of_others = all.len();
+            all.extend(contact(&scene.grains.contact, "grains.contact")?);
+        }
+        let mut of_box = of_others;
         if let Some(given) = &scene.r#box
             && let Some(law) = contact(&given.contact, "box.contact")?
         {
@@ -110,10 +120,15 @@ impl Laws {
                 all.len() - 1
             }));
         }
-        let prepared = contact(&scene.start.contact, "start.contact")?;
+        let mut prepared = Vec::new();
+        prepared.extend(contact(&scene.start.contact, "start.contact")?.map(|law| (0, law)));
+        for number in 1..all.len() {
+            prepared.extend(prepared_wall()?.map(|law| (number, law)));
+        }
         Ok(Self {
             all,
             prepared,
+            of_others,
             of_box,
             of_walls,
         })

@@ -1,9 +1,12 @@
 //! Values of probes.
 
 use std::f64::consts::PI;
+use std::ops::Range;
+
+use nalgebra::Matrix3;
 
 use crate::grains::{GrainSystem, Vector, Wall};
-use crate::scene::fields::displacements;
+use crate::scene::fields::{displacements, strain_deviators};
 use crate::scene::highest_point::highest;
 use crate::scene::level::level;
 use crate::scene::model::Model;
@@ -15,7 +18,7 @@ use crate::scene::tables::{Probe, Scene};
 pub fn unit(probe: &Probe) -> &'static str {
     match probe {
         Probe::Stress { .. } | Probe::EffectiveStress { .. } | Probe::Deviator { .. } => "Pa",
-        Probe::Amplitude { .. } => "Pa",
+        Probe::Amplitude { .. } | Probe::MeanStress {} => "Pa",
         Probe::Flux { .. } => "m³/s",
         Probe::Permeability { .. } => "m²",
         Probe::Pressure { over: None, .. } => "Pa",
@@ -67,15 +70,13 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             gradient(model, axis.number(), [*from, *to], [left, right])
         }
         Probe::EffectiveStress { axis, at } => grains.effective_stress(axis.number(), *at).ok(),
-        Probe::Strain { axis } => {
-            let (now, start) = (grains.box_lengths()?, origin.lengths?);
-            Some(-(now[axis.number()] / start[axis.number()]).ln())
-        }
-        Probe::VolumetricStrain {} => {
-            let (now, start) = (grains.box_lengths()?, origin.lengths?);
-            Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
-        }
-        Probe::Deviator { axis } => deviator(grains, axis.number()),
+        Probe::Strain { .. }
+        | Probe::VolumetricStrain {}
+        | Probe::Deviator { .. }
+        | Probe::MeanStress {}
+        | Probe::K0 { .. }
+        | Probe::Sliding {}
+        | Probe::StrainDeviator {} => packing(probe, grains, origin),
         Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
         Probe::Top {} => Some(highest(grains)),
         Probe::Level { axis, from, to } => {
@@ -108,6 +109,29 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let wave = scene.wall.get(name)?.wave.as_ref()?;
             Some(wave.amplitude + wave.ramp * grains.time)
         }
+    }
+}
+
+/// Stresses, strains and contacts of a packing.
+fn packing(probe: &Probe, grains: &GrainSystem, origin: &Origin) -> Option<f64> {
+    match probe {
+        Probe::Strain { axis } => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some(-(now[axis.number()] / start[axis.number()]).ln())
+        }
+        Probe::VolumetricStrain {} => {
+            let (now, start) = (grains.box_lengths()?, origin.lengths?);
+            Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
+        }
+        Probe::Deviator { axis } => deviator(grains, axis.number()),
+        Probe::MeanStress {} => grains.mean_stress().ok(),
+        Probe::K0 { axis, from, to } => pressure_at_rest(grains, axis.number(), *from..*to),
+        Probe::Sliding {} => grains.sliding_share(),
+        Probe::StrainDeviator {} => {
+            let all = strain_deviators(grains, origin);
+            Some(all.iter().sum::<f64>() / all.len() as f64)
+        }
+        _ => None,
     }
 }
 
@@ -145,6 +169,17 @@ fn deviator(grains: &GrainSystem, axis: usize) -> Option<f64> {
         }
     }
     Some(sums[0] - sums[1])
+}
+
+/// Stress of the grains of a layer across an axis over that along it.
+fn pressure_at_rest(grains: &GrainSystem, axis: usize, layer: Range<f64>) -> Option<f64> {
+    let all = &grains.grains;
+    let parts = grains.grain_stresses().into_iter();
+    let parts = parts.zip(all.position.iter().zip(&all.radius));
+    let inside = parts.filter(|(_, (x, _))| layer.contains(&x[axis]));
+    let sum: Matrix3<f64> = inside.map(|(stress, (_, r))| stress * sphere(*r)).sum();
+    let along = sum[(axis, axis)];
+    (along > 0.0).then(|| 0.5 * (sum.trace() - along) / along)
 }
 
 fn sphere(radius: f64) -> f64 {

@@ -1,10 +1,13 @@
 //! The reference of measurements: the state at the start of the run.
 
+use std::sync::OnceLock;
+
 use serde::{Deserialize, Serialize};
 
 use crate::grains::GrainSystem;
 use crate::scene::highest_point::highest;
 use crate::scene::tables::Scene;
+use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 
 /// The state at the start of the run, and the measurements before it.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -23,6 +26,9 @@ pub struct Origin {
     pub dry_strain: Option<f64>,
     /// Mobility K = κ/µ along z, m²/(Pa s).
     pub mobility: Option<f64>,
+    /// Tetrahedra of four grains, once asked for.
+    #[serde(skip)]
+    tetrahedra: OnceLock<Vec<[usize; 4]>>,
 }
 
 impl Origin {
@@ -39,7 +45,30 @@ impl Origin {
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
             dry_strain: None,
             mobility: None,
+            tetrahedra: OnceLock::new(),
         }
+    }
+
+    /// Tetrahedra of grains with these radii (m) in their regular triangulation at the start; none where there is none.
+    pub fn tetrahedra(&self, radii: &[f64]) -> &[[usize; 4]] {
+        self.tetrahedra.get_or_init(|| {
+            let spheres = self.positions.iter().zip(radii);
+            let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new(*x, *r)).collect();
+            let cells = Triangulation::of_spheres(&spheres).map(|mesh| mesh.cells);
+            let number = |v| match v {
+                Vertex::Sphere(k) => Some(k),
+                Vertex::Wall(_) => None,
+            };
+            let corners = |cell: &Cell| {
+                let [a, b, c, d] = cell.vertices().map(number);
+                Some([a?, b?, c?, d?])
+            };
+            cells
+                .unwrap_or_default()
+                .iter()
+                .filter_map(corners)
+                .collect()
+        })
     }
 
     /// C_v = K Δσ / ε, m²/s.

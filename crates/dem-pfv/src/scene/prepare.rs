@@ -11,7 +11,7 @@ use crate::scene::highest_point::highest;
 use crate::scene::laws::Laws;
 use crate::scene::names::planes;
 use crate::scene::read::Loaded;
-use crate::scene::tables::{Lattice, Oedometer, Scene};
+use crate::scene::tables::{Fluid, Lattice, Oedometer, Scene, Weight};
 use crate::scene::walls::{FAR, control, setup};
 
 /// Porosity at which a poured bed is expected to lie.
@@ -30,16 +30,16 @@ pub fn grains(
 ) -> Result<GrainSystem, DemError> {
     let scene = &loaded.scene;
     let placed = place(loaded)?;
-    let prepared = laws.prepared.take();
+    let prepared = std::mem::take(&mut laws.prepared);
     let mut setup = setup(loaded, placed, laws)?;
     let top = planes(scene).iter().position(|p| p == "top");
     let poured = scene.start.rained.is_some();
     if let (true, Some(top)) = (poured, top) {
         setup.walls[top].point.z += FAR;
     }
-    let mut run_law = None;
-    if let Some(law) = prepared {
-        run_law = Some(std::mem::replace(&mut setup.laws[0], law));
+    let mut run_laws = Vec::new();
+    for (number, law) in prepared {
+        run_laws.push((number, std::mem::replace(&mut setup.laws[number], law)));
     }
     let told = |e: GrainError| at_start(loaded, e);
     let mut system = GrainSystem::new(setup).map_err(told)?;
@@ -67,8 +67,8 @@ pub fn grains(
         tell(&format!("grown in {steps} steps{}", porosity(&system)));
     }
     settled(loaded, &mut system, tell)?;
-    if let Some(law) = run_law {
-        system.replace_law(0, law).map_err(told)?;
+    for (number, law) in run_laws {
+        system.replace_law(number, law).map_err(told)?;
     }
     lower_the_top(scene, &mut system, top)?;
     Ok(system)
@@ -81,8 +81,7 @@ fn porosity(system: &GrainSystem) -> String {
     }
 }
 
-/// Lets the grains come to rest under gravity and the prepared stress of pistons; in a fluid under their buoyant weight, as
-/// if they were laid down slowly there.
+/// Lets the grains come to rest under their `weight` and the prepared stress of pistons.
 fn settled(
     loaded: &Loaded,
     system: &mut GrainSystem,
@@ -110,18 +109,21 @@ fn settled(
         }
     }
     let gravity = system.gravity;
-    if let Some(fluid) = &scene.fluid {
-        system.gravity = gravity * (1.0 - fluid.density / scene.grains.density);
+    let lift = |fluid: &Fluid| fluid.density / scene.grains.density;
+    let buoyant = 1.0 - scene.fluid.as_ref().map_or(0.0, lift);
+    let shares: &[f64] = match scene.start.weight {
+        Weight::Buoyant => &[buoyant],
+        Weight::Dry => &[1.0, buoyant],
+    };
+    for share in shares {
+        system.gravity = gravity * *share;
+        let (safety, most) = (scene.start.safety, scene.start.most_steps);
+        let steps = step_to_rest(system, safety, tolerance, most);
+        system.gravity = gravity;
+        let steps =
+            steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
+        tell(&format!("settled in {steps} steps"));
     }
-    let steps = step_to_rest(
-        system,
-        scene.start.safety,
-        tolerance,
-        scene.start.most_steps,
-    );
-    system.gravity = gravity;
-    let steps = steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
-    tell(&format!("settled in {steps} steps"));
     Ok(())
 }
 

@@ -11,7 +11,7 @@ mod wall;
 
 pub use axis::Axis;
 pub use fluid::{Fluid, Lubrication};
-pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start};
+pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start, Weight};
 pub use output::Output;
 pub use probe::Probe;
 pub use reference::{Reference, Statistic};

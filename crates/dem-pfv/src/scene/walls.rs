@@ -42,7 +42,7 @@ pub(crate) fn setup(
                     table.point.unwrap_or_default(),
                     table.normal.unwrap_or_default(),
                 );
-                Wall::new(point, normal).with_law(law_of(&name, 0))
+                Wall::new(point, normal).with_law(law_of(&name, laws.of_others))
             }
             (None, None) => continue,
         };
@@ -57,7 +57,7 @@ pub(crate) fn setup(
         if let Some(file) = &table.file {
             let mut mesh = surface(loaded, name, file, table)?;
             mesh.centre = table.point.unwrap_or_default().into();
-            mesh.law = law_of(name, 0);
+            mesh.law = law_of(name, laws.of_others);
             setup = setup.mesh(mesh);
         }
     }
@@ -103,6 +103,9 @@ pub(crate) fn control(
             stress: servo.stress,
             largest_speed: servo.speed,
         };
+    }
+    if table.keeps_volume {
+        return Control::Volume;
     }
     match table.strain_rate {
         Some(rate) => Control::StrainRate { rate },

@@ -43,6 +43,7 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Problems) {
         Probe::Strain { .. }
         | Probe::VolumetricStrain {}
         | Probe::Deviator { .. }
+        | Probe::MeanStress {}
         | Probe::EffectiveStress { .. }
         | Probe::Porosity { .. } => {
             let closed = scene.r#box.as_ref().is_some_and(|b| b.open.is_empty());
@@ -57,6 +58,7 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Problems) {
     if let Probe::Pressure { from, to, .. }
     | Probe::Gradient { from, to, .. }
     | Probe::Level { from, to, .. }
+    | Probe::K0 { from, to, .. }
     | Probe::Porosity { from, to, .. } = probe
         && from >= to
     {

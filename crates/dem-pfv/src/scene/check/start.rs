@@ -3,13 +3,14 @@
 use scene_text::{Problems, given, suggestion};
 
 use crate::scene::names::{BOX, planes};
-use crate::scene::tables::Scene;
+use crate::scene::tables::{Scene, Weight};
 
 /// Mistakes of the start.
 pub fn start(scene: &Scene, found: &mut Problems) {
     ways(scene, found);
     numbers_and_sizes(scene, found);
     room(scene, found);
+    weight(scene, found);
 }
 
 /// Checks that the grains get their places in one way alone.
@@ -100,6 +101,23 @@ fn room(scene: &Scene, found: &mut Problems) {
             "start.headroom",
             "the grains must come to rest first: give `settle`",
         );
+    }
+}
+
+/// Conditions of a bed that is flooded.
+fn weight(scene: &Scene, found: &mut Problems) {
+    let s = &scene.start;
+    let settles = s
+        .settle
+        .map_or(s.rained.is_some(), |tolerance| tolerance < 1.0);
+    let missing = given([
+        ("a `[fluid]`", scene.fluid.is_none()),
+        ("`grains.gravity`", scene.grains.gravity.is_none()),
+        ("`settle` below 1", !settles),
+    ]);
+    if let (Weight::Dry, [what, ..]) = (s.weight, missing.as_slice()) {
+        let message = format!("a dry bed is flooded once it rests: {what} is missing");
+        found.add("start.weight", message);
     }
 }
 

@@ -2,14 +2,14 @@
 
 use scene_text::{Problems, given, suggestion, unit_factor};
 
-use crate::scene::names::{BOX, periodic};
+use crate::scene::names::{BOX, periodic, planes};
 use crate::scene::tables::{Scene, Wall};
 
 /// Mistakes of a wall.
 pub fn wall(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
     place(scene, name, wall, found);
     of_file(name, wall, found);
-    motions(name, wall, found);
+    motions(scene, name, wall, found);
     conditions(scene, name, wall, found);
 }
 
@@ -79,13 +79,14 @@ fn of_file(name: &str, wall: &Wall, found: &mut Problems) {
     }
 }
 
-fn motions(name: &str, wall: &Wall, found: &mut Problems) {
+fn motions(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
     let given = given([
         ("velocity", wall.velocity.is_some()),
         ("piston", wall.piston.is_some()),
         ("servo", wall.servo.is_some()),
         ("strain_rate", wall.strain_rate.is_some()),
         ("removed", wall.removed),
+        ("keeps_volume", wall.keeps_volume),
     ]);
     if let [_, second, ..] = given.as_slice() {
         let told = given.join("`, `");
@@ -99,6 +100,12 @@ fn motions(name: &str, wall: &Wall, found: &mut Problems) {
             format!("wall.{name}"),
             "a surface moves by `velocity` and `spin` only",
         );
+    }
+    let closed = scene.r#box.as_ref().is_some_and(|b| b.open.is_empty());
+    let others = || planes(scene).iter().any(|p| !BOX.contains(&p.as_str()));
+    if wall.keeps_volume && (!closed || others()) {
+        let message = "the volume is that of a closed `[box]` without further planes";
+        found.add(format!("wall.{name}.keeps_volume"), message);
     }
     if let Some(piston) = &wall.piston
         && piston.amplitude != 0.0

@@ -53,6 +53,11 @@ pub struct Start {
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
     pub contact: Plugins,
+    /// The law of contacts with walls and surfaces during the preparation, `[start.wall_contact.LAW]`; those of the run if
+    /// left out.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub wall_contact: Plugins,
     /// Coefficient of non-viscous damping during the preparation.
     #[parameter(default: 0.2, unit: "1", min: 0.0, below: 1.0)]
     pub damping: f64,
@@ -65,6 +70,9 @@ pub struct Start {
     /// √(F R/m). They are left as they are if this is left out, or is 1 (free fall) or more.
     #[parameter(unit: "1", above: 0.0)]
     pub settle: Option<f64>,
+    /// Weight of the grains while they come to rest in a fluid.
+    #[parameter(default)]
+    pub weight: Weight,
     /// Most steps of a preparation.
     #[parameter(default: 2_000_000, min: 1)]
     pub most_steps: u64,
@@ -72,6 +80,18 @@ pub struct Start {
     /// if this is left out.
     #[parameter(unit: "m", min: 0.0)]
     pub headroom: Option<f64>,
+}
+
+/// Weight of grains that come to rest before the run.
+#[parameters(crate: crate::reexport)]
+#[derive(Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum Weight {
+    /// Less buoyancy, as if they were laid down slowly in the fluid.
+    #[default]
+    Buoyant,
+    /// First the whole weight, then less buoyancy: a dry bed that is flooded, its pores filled at hydrostatic pressure.
+    Dry,
 }
 
 /// At random without touching, in the box or in a part of it.

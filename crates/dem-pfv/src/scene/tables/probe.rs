@@ -69,6 +69,25 @@ pub enum Probe {
         /// The axis.
         axis: Axis,
     },
+    /// Mean normal stress, Pa: of all walls, or that of the contacts where the box is periodic.
+    MeanStress {},
+    /// K₀ of a layer: mean of the two normal stresses of the grains across an axis over that along it, 1 where it is
+    /// isotropic. Grains count by their centres.
+    K0 {
+        /// Axis of the load.
+        axis: Axis,
+        /// Begin of the layer along it, m.
+        #[parameter(unit: "m")]
+        from: f64,
+        /// Its end, m.
+        #[parameter(unit: "m")]
+        to: f64,
+    },
+    /// Share of the contacts between grains that are at the limit of friction.
+    Sliding {},
+    /// Mean over the grains of √(2/3 e : e), e the deviator of the strain around a grain since the start. Catalano 2012,
+    /// Eqs. (2.20), (2.21).
+    StrainDeviator {},
     /// Porosity of a layer, grains cut by its planes.
     Porosity {
         /// Axis across the layer.

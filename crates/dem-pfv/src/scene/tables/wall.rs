@@ -66,6 +66,10 @@ pub struct Wall {
     /// Rate of strain between this wall and the one that faces it, 1/s, positive when they approach; give it to both.
     #[parameter(default, unit: "1/s")]
     pub strain_rate: Option<f64>,
+    /// True for a wall that gives way as much as others press in, so that the volume of the box stays: an undrained test
+    /// without a fluid.
+    #[parameter(default)]
+    pub keeps_volume: bool,
     /// True for a gate, which is there during the preparation only.
     #[parameter(default)]
     pub removed: bool,

@@ -28,6 +28,8 @@ fn a_sliding_ball_ends_rolling_at_five_sevenths() {
     // While it slides it loses µ g.
     let steps = (0.5 * slides / step) as usize;
     run(&mut system, step, steps);
+    let slid = |system: &GrainSystem| system.contacts().map(|c| c.sliding).collect::<Vec<_>>();
+    assert_eq!(slid(&system), [true]);
     let lost = 0.3 * GRAVITY * system.time;
     close(
         velocity(&system, 0).x,
@@ -35,6 +37,7 @@ fn a_sliding_ball_ends_rolling_at_five_sevenths() {
         0.3 * GRAVITY * 2.0 * step,
     );
     run(&mut system, step, 6 * steps);
+    assert_eq!(slid(&system), [false]);
     let rolling = 5.0 / 7.0 * speed;
     close(velocity(&system, 0).x, rolling, depth() * rolling);
     close(spin(&system, 0).y * RADIUS, rolling, depth() * rolling);

@@ -118,3 +118,33 @@ fn dense_and_loose_samples_meet_at_the_critical_state() {
     let gap = end(n_loose, &loose) - end(n_dense, &dense);
     assert!(gap.abs() < 0.25 * (n_loose - n_dense), "{gap}");
 }
+
+/// Mean stress over that at the start, pressed to a strain of 5 % while the sides keep the volume.
+fn undrained(degrees: f64) -> f64 {
+    let mut system = sample(degrees);
+    for (number, wall) in system.walls.iter_mut().enumerate() {
+        wall.control = match number {
+            0..4 => Control::Volume,
+            _ => Control::StrainRate { rate: 0.1 },
+        };
+    }
+    let volume = system.box_volume().expect("closed");
+    let height = |s: &GrainSystem| s.box_lengths().expect("closed")[2];
+    let start = height(&system);
+    while (start / height(&system)).ln() < 0.05 {
+        let step = 0.6 * system.current_limit();
+        system.step(step).expect("a step");
+    }
+    // Steps are a thousandth of a second at most: ¾ ε̇ Δt ε.
+    let change = system.box_volume().expect("closed") / volume - 1.0;
+    assert!(change.abs() < 0.75 * 0.1 * 1e-3 * 0.05, "{change}");
+    system.mean_stress().expect("a box") / STRESS
+}
+
+/// The sign says what a packing can do: one that contracts leaves its stress to a fluid, and one that dilates does not.
+#[test]
+fn at_constant_volume_loose_grains_lose_their_stress_and_dense_ones_gain() {
+    let (loose, dense) = (undrained(30.0), undrained(1.0));
+    println!("mean stress over that at the start: loose {loose}, dense {dense}");
+    assert!(loose < 1.0 && dense > 1.0, "{loose}, {dense}");
+}
