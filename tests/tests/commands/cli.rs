@@ -383,6 +383,7 @@ dimension = 2
 run.end = 0.1
 numerics = { spacing = 0.02, gravity = [0.0, -9.81] }
 smoother.brezzi-pitkaranta = {}
+walls.usaw.vertices = true
 phase.water = { density = 1000.0, velocity_scale = 2.0, rheology.newtonian = { viscosity = 1e-3 } }
 wall.tank = { box = [[0.0, 0.0], [0.6, 0.6]], open = ["y+"] }
 body.left = { phase = "water", box = [[0.0, 0.0], [0.2, 0.3]] }

@@ -79,7 +79,7 @@ fn a_soil_gives_the_same_bits() {
 fn sums_over_all_ranks_do_not_depend_on_their_number() {
     let body = "[wall.float]\nbox = [[0.3, 0.04], [0.4, 0.1]]\nfluid = \"outside\"\n\
                 condition = \"free-slip\"\nmover.rigid-body = { density = 500 }\n";
-    let flush = DAM_BREAK.replace("[walls.usaw]\n", "[walls.usaw]\nvertices = false\n");
+    let flush = DAM_BREAK.replace("vertices = true", "vertices = false");
     let probes = "[probe.float]\nkind = \"wall-force\"\nwall = \"float\"\n\
                   [probe.tank]\nkind = \"wall-force\"\nwall = \"tank\"\n";
     let scene = format!("{flush}\n[shifting.fickian]\n{body}{probes}");

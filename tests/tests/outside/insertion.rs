@@ -116,6 +116,7 @@ domain = [[-1, -1], [3, 2]]
 [smoother.brezzi-pitkaranta]
 strength = 0.04
 [walls.usaw]
+vertices = true
 [wall.tank]
 polyline = [[0, 0.6], [0, 0], [0.5, 0], [0.5, 0.6]]
 [phase.water]

@@ -71,8 +71,8 @@ const TERM: &str = "[term.artificial-viscosity]\nspeed = 0.3\n";
 /// Walls of all kinds, three dimensions, periodic faces, several phases and a soil.
 #[test]
 fn two_four_and_eight_lanes_end_with_the_same_bits() {
-    let dummy = DAM_BREAK.replace("[walls.usaw]", "[walls.dummy-particles]");
-    let symmetric = DAM_BREAK.replace("[walls.usaw]", "[walls.symmetric]");
+    let dummy = DAM_BREAK.replace("[walls.usaw]\nvertices = true", "[walls.dummy-particles]");
+    let symmetric = DAM_BREAK.replace("[walls.usaw]\nvertices = true", "[walls.symmetric]");
     let scenes = [
         ("dam break", DAM_BREAK, 60),
         ("symmetric walls", &symmetric, 60),

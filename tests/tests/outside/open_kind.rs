@@ -16,6 +16,8 @@ end = 0.5
 spacing = 0.0625
 smoothing_ratio = 2.0
 periodic = { x = [0, 1], y = [0, 1] }
+[smoother]
+[shifting]
 [phase.water]
 density = 1000.0
 speed_of_sound = 4.0

@@ -60,12 +60,17 @@ pub(crate) fn add_suited(scene: &mut Scene) {
     }
 }
 
-/// True if a body starts at rest under its weight, and none moves, between walls.
+/// True if a body starts at rest under its weight, and none moves, between walls without open faces: rows beside a face
+/// pass it.
 fn rests_beside_walls(scene: &Scene) -> bool {
     let moves = |body: &Body| body.velocity.is_some() || !body.initial.is_empty();
     let rests = |body: &Body| matches!(body.pressure, Pressure::Hydrostatic);
     heavy(scene)
         && !scene.wall.is_empty()
+        && scene
+            .wall
+            .values()
+            .all(|wall| wall.open_boundary.is_empty())
         && scene.body.values().any(rests)
         && !scene.body.values().any(moves)
 }

@@ -128,7 +128,11 @@ fn bodies_that_overlap_at_the_start_are_refused() {
 
 #[test]
 fn walls_that_fluid_clings_to_are_refused() {
-    let said = message("vertices = false", "", "[wall.float.mover.rigid-body]");
+    let said = message(
+        "vertices = false",
+        "vertices = true",
+        "[wall.float.mover.rigid-body]",
+    );
     assert!(said.contains("vertices = false"), "{said}");
 }
 

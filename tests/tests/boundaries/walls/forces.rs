@@ -51,7 +51,9 @@ run.end = 1.0
 spacing = 0.05
 driving = [4.0, 0.0]
 periodic = {{ x = [0.0, 1.5] }}
+[shifting]
 [walls.usaw]
+vertices = true
 [wall.floor]
 polyline = [[0.0, 0.0], [0.5, 0.0], [0.75, 0.2], [1.0, 0.0], [1.5, 0.0]]
 [wall.lid]

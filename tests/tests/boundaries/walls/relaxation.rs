@@ -16,7 +16,9 @@ run.end = 1.0
 spacing = {spacing}
 relax = {{ steps = 300, tolerance = {TOLERANCE} }}
 {periodic}
+[shifting]
 [walls.usaw]
+vertices = true
 {walls}
 [phase.fluid]
 density = 1.0

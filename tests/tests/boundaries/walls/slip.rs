@@ -9,6 +9,10 @@ const DRIVING: f64 = 8.0;
 fn channel(treatment: &str, rows: u32, driving: f64, bottom: &str, lid: &str) -> Flowing<2> {
     let spacing = 1.0 / f64::from(rows);
     let length = 12.0 * spacing;
+    let vertices = match treatment {
+        "usaw" => "vertices = true",
+        _ => "",
+    };
     flowing(&format!(
         r#"
 title = "channel"
@@ -21,6 +25,7 @@ periodic = {{ x = [0.0, {length}] }}
 [smoother.brezzi-pitkaranta]
 strength = 0.04
 [walls.{treatment}]
+{vertices}
 [wall.bottom]
 polyline = [[0.0, 0.0], [{length}, 0.0]]
 {bottom}

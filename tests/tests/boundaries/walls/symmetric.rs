@@ -9,7 +9,7 @@ use crate::walls::bench::{Flowing, flowing};
 /// A column of water 0.5 m high in a tank of 1 m, without viscosity and without a smoother, with further
 /// keys of its numerics, before a blank line, and further tables.
 fn tank(spacing: f64, more: &str) -> Flowing<2> {
-    let (numerics, more) = more.split_once("\n\n").unwrap_or(("", more));
+    let (numerics, more) = more.split_once("\n\n").unwrap_or(("relax = { steps = 0 }", more));
     flowing(&format!(
         r#"
 title = "tank"
@@ -19,6 +19,7 @@ run.end = 10.0
 spacing = {spacing}
 gravity = [0.0, -9.81]
 {numerics}
+[smoother]
 [walls.symmetric]
 [wall.tank]
 box = [[0.0, 0.0], [1.0, 0.8]]

@@ -5,7 +5,7 @@ use sph_tests::DAM_BREAK;
 use crate::hands::with;
 
 const TANK: &str = "title = \"Water at rest\"\ndimension = 2\n[run]\nend = 1e-4\n[numerics]\nspacing = 0.05\n\
-    gravity = [0.0, -9.81]\n[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n\
+    gravity = [0.0, -9.81]\nrelax = { steps = 0 }\n[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n\
     [phase.water]\n\
     density = 1000.0\nvelocity_scale = 4.5\n[phase.water.rheology.newtonian]\nviscosity = 1e-3\n[body.water]\n\
     phase = \"water\"\nbox = [[0.0, 0.0], [1.0, 0.6]]\npressure = \"hydrostatic\"\n[output]\ntimes = [1e-4]\n\

@@ -18,6 +18,8 @@ pub fn vortices(integrator: &str, viscosity: &str) -> String {
         [numerics.periodic]
         x = [0.0, 1.0]
         y = [0.0, 1.0]
+        [smoother]
+        [shifting]
         [integrator.{integrator}]
         {viscosity}
         [phase.fluid]
