@@ -45,3 +45,34 @@ fn operators_scaled_for_sliding_rows_are_three_times_nearer_in_a_layered_channel
     let rows = with("rows").error("profile", second_order(12.5), 0.0045);
     assert!(3.0 * rows < lattice, "{rows}, {lattice} on a lattice");
 }
+
+/// In a steady channel friction takes from the fluid all that its driving gives, 8 m/s², but for what rows that slide past
+/// each other make it swing, and pressure takes nothing. The slowest transient has fallen to e^(−π²νt/H²) = 4·10⁻⁷.
+#[test]
+fn accelerations_by_class_of_terms_balance_the_driving() {
+    let probe = |name: &str| {
+        format!(
+            "probe.{name}={{kind=\"statistic\",field=\"{name}_acceleration.x\",weight=\"mass\"}}"
+        )
+    };
+    let (friction, pressure) = (probe("viscous"), probe("pressure"));
+    let series = finished(
+        "poiseuille-2d",
+        &["numerics.spacing=0.0625", &friction, &pressure],
+    )
+    .series();
+    let last = |name: &str| {
+        series
+            .column(name)
+            .and_then(<[f64]>::last)
+            .copied()
+            .expect("a row")
+    };
+    let lost = last("viscous") / -8.0 - 1.0;
+    println!(
+        "{lost:e} of the driving is left, {:e} m/s² by pressure",
+        last("pressure")
+    );
+    assert!(lost.abs() < 0.9e-4, "{lost:e}");
+    assert!(last("pressure").abs() < 8e-6, "{:e}", last("pressure"));
+}

@@ -44,6 +44,6 @@ fn tanks_and_a_dam_break_that_name_no_numerics_are_no_worse() {
         &["pressure-l2", "pressure", "rest"],
     );
     no_worse("hydrostatic-wedge", &["run.end=2"], &["pressure"]);
-    let sets = ["numerics.spacing=0.01", "run.end=0.97"];
+    let sets = ["numerics.spacing=0.012", "run.end=0.97"];
     no_worse("dam-break-lobovsky", &sets, &["P2-inviscid", "P2", "P4"]);
 }

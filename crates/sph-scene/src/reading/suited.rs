@@ -16,6 +16,9 @@ const GAP: f64 = 1.0;
 /// Largest distance of a height from half a row beyond whole rows that counts as none, over the spacing.
 const OFF_HALF: f64 = 0.05;
 
+/// Corners of a wall beyond which its box is not asked for.
+const MOST: usize = 100_000;
+
 /// The relaxation of water that starts at rest under its weight beside walls.
 const AT_REST: Relax = Relax {
     steps: 400,
@@ -120,7 +123,7 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     let filled = scene.body.values().any(|body| body.fill.is_some());
     let bounded = scene.body.values().any(|body| body.shape.bounds.is_some());
     let stirred = scene.choice("eddy-viscosity").is_some();
-    let drawn = scene.wall.values().any(|wall| wall.file.is_some());
+    let drawn = !scene.wall.values().all(|wall| known(wall, spacing));
     FlowNature {
         confined: match filled {
             true => !bounded,
@@ -149,10 +152,15 @@ fn law(scene: &Scene, phase: &str) -> LawNature {
     known.unwrap_or_default()
 }
 
-/// Corners of all walls but those that files draw, m.
+/// True if the box around a wall is cheap to know.
+fn known(wall: &Wall, spacing: f64) -> bool {
+    wall.file.is_none() && wall.declared(spacing) <= MOST
+}
+
+/// Corners of all walls whose box is known, m.
 fn corners_of_walls<const D: usize>(scene: &Scene) -> Vec<[f64; D]> {
     let spacing = scene.numerics.spacing;
-    let drawn = scene.wall.values().filter(|wall| wall.file.is_none());
+    let drawn = scene.wall.values().filter(|wall| known(wall, spacing));
     let corners = |wall: &Wall| -> Vec<[f64; D]> {
         match D {
             2 => {

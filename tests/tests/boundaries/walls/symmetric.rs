@@ -9,7 +9,9 @@ use crate::walls::bench::{Flowing, flowing};
 /// A column of water 0.5 m high in a tank of 1 m, without viscosity and without a smoother, with further
 /// keys of its numerics, before a blank line, and further tables.
 fn tank(spacing: f64, more: &str) -> Flowing<2> {
-    let (numerics, more) = more.split_once("\n\n").unwrap_or(("relax = { steps = 0 }", more));
+    let (numerics, more) = more
+        .split_once("\n\n")
+        .unwrap_or(("relax = { steps = 0 }", more));
     flowing(&format!(
         r#"
 title = "tank"
