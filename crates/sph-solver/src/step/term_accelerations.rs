@@ -6,9 +6,12 @@ use sph_neighbours::{ClassRate, class_rates};
 use crate::step::flow::Flow;
 use crate::step::observer::{Boundary, ObservedFlow, Observer};
 
+/// Membership of a class of terms.
+type Holds = fn(Work) -> bool;
+
 /// Acceleration by the terms of a class of every particle at the last kick, m/s². That of the pressure has its part of
 /// the walls; that of friction the eddies' and the walls'.
-const COLUMNS: [(Field<Vector>, fn(Work) -> bool); 4] = [
+const COLUMNS: [(Field<Vector>, Holds); 4] = [
     (
         Field::new("pressure_acceleration", "m/s²", "acceleration by pressure"),
         |work| matches!(work, Work::Pressure),
