@@ -44,7 +44,7 @@ impl<const D: usize> Setting<'_, D> {
     /// Number of the phase that a key of a kind of plugin names.
     ///
     /// # Errors
-    /// If there is none; the refusal names the nearest one.
+    /// An unknown phase; the refusal names the nearest one.
     pub fn phase_number(
         &self,
         kind: &'static str,

@@ -19,9 +19,6 @@ pub struct PluginInForce {
     pub provider: String,
     /// Parameters as given, and the defaults of the others.
     pub parameters: Json,
-    /// Property of the flow that decided, of a plugin that the scene does not name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
 }
 
 /// The plugins that a scene names, and the defaults of kinds of which it names none.
@@ -154,6 +151,5 @@ fn in_force(choice: &PluginChoice, info: &PluginInfo) -> PluginInForce {
         path: choice.path.clone(),
         provider: info.provider.to_string(),
         parameters: Json::Object(parameters),
-        reason: None,
     }
 }

@@ -102,7 +102,7 @@ pub struct PluginKind {
     pub place: Place,
     /// The plugin of a scene that names none.
     pub default: Option<&'static str>,
-    /// The plugin for a flow of a nature, for kinds without one default.
+    /// The plugin, or parameters of the named one, for a flow of a nature.
     pub suited: Suits,
     /// State of a scene that names none, for kinds without a default.
     pub absent: &'static str,

@@ -47,7 +47,7 @@ fn operators_scaled_for_sliding_rows_are_three_times_nearer_in_a_layered_channel
 }
 
 /// In a steady channel friction takes from the fluid all that its driving gives, 8 m/s², but for what rows that slide past
-/// each other make it swing, and pressure takes nothing. The slowest transient has fallen to e^(−π²νt/H²) = 4·10⁻⁷.
+/// each other make it swing, and pressure takes no more than a millionth. The slowest transient has fallen to e^(−π²νt/H²) = 4·10⁻⁷.
 #[test]
 fn accelerations_by_class_of_terms_balance_the_driving() {
     let probe = |name: &str| {

@@ -49,7 +49,7 @@ impl Origin {
         }
     }
 
-    /// Tetrahedra of grains with these radii (m) in their regular triangulation at the start; none where there is none.
+    /// Tetrahedra of grains with these radii (m) in their regular triangulation at the start; empty without a triangulation.
     pub fn tetrahedra(&self, radii: &[f64]) -> &[[usize; 4]] {
         self.tetrahedra.get_or_init(|| {
             let spheres = self.positions.iter().zip(radii);

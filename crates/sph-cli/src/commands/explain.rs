@@ -35,9 +35,11 @@ pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     };
     let examined = examine(&loaded.scene);
     let examined = examined.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
+    let mut json = serde_json::to_value(&examined).unwrap_or(Json::Null);
+    json["suited"] = serde_json::to_value(&loaded.scene.suited).unwrap_or(Json::Null);
     Ok(CommandOutput {
-        json: serde_json::to_value(&examined).unwrap_or(Json::Null),
-        text: text(&examined),
+        json,
+        text: text(&examined) + &suited(&loaded.scene.suited),
     })
 }
 
@@ -136,15 +138,21 @@ fn text(e: &Examination) -> String {
     text
 }
 
+/// Choices that the scene leaves to its flow, with the reasons.
+fn suited(choices: &[(&'static str, &'static str)]) -> String {
+    if choices.is_empty() {
+        return String::new();
+    }
+    let row = |(key, reason): &(&str, &str)| vec![key.to_string(), reason.to_string()];
+    let rows: Vec<_> = choices.iter().map(row).collect();
+    format!("\nleft to the flow, with the reason\n{}", columns(2, &rows))
+}
+
 /// Every plugin in a line, and its parameters below it.
 fn plugins(plugins: &[PluginInForce]) -> String {
     let row = |p: &PluginInForce| {
         let names = vec![p.kind.clone(), p.name.clone(), p.provider.clone()];
-        let reason = p.reason.iter().map(|r| format!("default: {r}; "));
-        (
-            names,
-            reason.collect::<String>() + &parameters(&p.parameters),
-        )
+        (names, parameters(&p.parameters))
     };
     let rows = plugins.iter().map(row).collect();
     columns_and_below(2, &["kind", "name", "provider"], rows)

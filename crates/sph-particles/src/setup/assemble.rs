@@ -159,10 +159,6 @@ fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
     let mut choices = Choices::<D>::from_scene(scene).map_err(SolverError::Scene)?;
     choices.probes.extend(field_error::probes(scene)?);
     probe_setup::prepare(scene, &mut choices.probes)?;
-    for plugin in &mut choices.in_force {
-        let suited = scene.suited.iter().find(|(kind, _)| *kind == plugin.kind);
-        plugin.reason = suited.map(|(_, reason)| reason.to_string());
-    }
     Ok(choices)
 }
 

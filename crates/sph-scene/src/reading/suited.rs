@@ -123,13 +123,13 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     let filled = scene.body.values().any(|body| body.fill.is_some());
     let bounded = scene.body.values().any(|body| body.shape.bounds.is_some());
     let stirred = scene.choice("eddy-viscosity").is_some();
-    let drawn = !scene.wall.values().all(|wall| known(wall, spacing));
+    let all_known = scene.wall.values().all(|wall| known(wall, spacing));
     FlowNature {
         confined: match filled {
             true => !bounded,
             false => (0..D).all(spans),
         },
-        parallel: !drawn && !stirred && !corners.is_empty() && (0..D).any(along),
+        parallel: all_known && !stirred && !corners.is_empty() && (0..D).any(along),
         open: (scene.wall.values()).any(|w| !w.mover.is_empty() || !w.open_boundary.is_empty()),
         heavy: heavy(scene),
         half_rows: scene.body.values().any(drawn_to_half_rows),
@@ -160,7 +160,7 @@ fn known(wall: &Wall, spacing: f64) -> bool {
 /// Corners of all walls whose box is known, m.
 fn corners_of_walls<const D: usize>(scene: &Scene) -> Vec<[f64; D]> {
     let spacing = scene.numerics.spacing;
-    let drawn = scene.wall.values().filter(|wall| known(wall, spacing));
+    let all = scene.wall.values().filter(|wall| known(wall, spacing));
     let corners = |wall: &Wall| -> Vec<[f64; D]> {
         match D {
             2 => {
@@ -174,5 +174,5 @@ fn corners_of_walls<const D: usize>(scene: &Scene) -> Vec<[f64; D]> {
             }
         }
     };
-    drawn.flat_map(corners).collect()
+    all.flat_map(corners).collect()
 }
