@@ -19,8 +19,8 @@ const OFF_HALF: f64 = 0.05;
 /// Corners of a wall beyond which its box is not asked for.
 const MOST: usize = 100_000;
 
-/// The relaxation of water that starts at rest under its weight beside walls.
-const AT_REST: Relax = Relax {
+/// The relaxation of a scene that names none.
+const SUITED: Relax = Relax {
     steps: 400,
     tolerance: 0.001,
 };
@@ -54,9 +54,17 @@ pub(crate) fn add_suited(scene: &mut Scene) {
     }
     match &scene.numerics.relax {
         Some(given) if given.steps == 0 => scene.numerics.relax = None,
-        None if nature.law == LawNature::Fluid && rests_beside_walls(scene) => {
-            scene.numerics.relax = Some(AT_REST);
-            let reason = "water starts at rest under its weight beside walls";
+        None if nature.law == LawNature::Fluid => {
+            let reason = match &nature {
+                _ if rests_beside_walls(scene) => {
+                    "water starts at rest under its weight beside walls"
+                }
+                nature if nature.confined && !nature.heavy && leaves_space(scene) => {
+                    "walls that rows do not meet leave space that no volume fills"
+                }
+                _ => return,
+            };
+            scene.numerics.relax = Some(SUITED);
             scene.suited.push(("numerics.relax", reason));
         }
         _ => (),
@@ -69,13 +77,36 @@ fn rests_beside_walls(scene: &Scene) -> bool {
     let moves = |body: &Body| body.velocity.is_some() || !body.initial.is_empty();
     let rests = |body: &Body| matches!(body.pressure, Pressure::Hydrostatic);
     heavy(scene)
-        && !scene.wall.is_empty()
-        && scene
-            .wall
-            .values()
-            .all(|wall| wall.open_boundary.is_empty())
+        && closed(scene)
         && scene.body.values().any(rests)
         && !scene.body.values().any(moves)
+}
+
+/// True if walls without open faces bound the filling of a body, and rows do not end at all of them.
+fn leaves_space(scene: &Scene) -> bool {
+    let off_rows = match scene.dimension {
+        2 => off_rows::<2>,
+        _ => off_rows::<3>,
+    };
+    closed(scene) && scene.body.values().any(Body::needs_walls) && off_rows(scene)
+}
+
+/// True if a corner of a wall is off whole rows from the lowest corner.
+fn off_rows<const D: usize>(scene: &Scene) -> bool {
+    let corners = corners_of_walls::<D>(scene);
+    let [lower, _] = bounds(corners.iter().copied());
+    let periods = scene.numerics.periodic.bounds::<D>();
+    let off = |x: &[f64; D], k: usize| {
+        let rows = (x[k] - lower[k]) / scene.numerics.spacing;
+        periods[k].is_none() && (rows - rows.round()).abs() > OFF_HALF
+    };
+    corners.iter().any(|x| (0..D).any(|k| off(x, k)))
+}
+
+/// True if there are walls, and none has an open face.
+fn closed(scene: &Scene) -> bool {
+    let shut = |wall: &Wall| wall.open_boundary.is_empty();
+    !scene.wall.is_empty() && scene.wall.values().all(shut)
 }
 
 /// True if gravity acts, steadily or over time.
