@@ -57,13 +57,16 @@ pub fn plan(
 
     // Repeatedly take the first stage whose reads are all written: the order of offering
     // decides between equals, so the plan does not depend on anything else.
+    let seen: Vec<Vec<AnyField>> = (access.iter())
+        .map(|a| [a.reads(), a.where_there.clone()].concat())
+        .collect();
     let mut done = vec![false; stages.len()];
     let mut order = Vec::new();
     loop {
         let ready = (0..stages.len()).find(|&s| {
             needed[s]
                 && !done[s]
-                && access[s].reads().iter().all(|f| {
+                && seen[s].iter().all(|f| {
                     (0..stages.len())
                         .all(|w| w == s || done[w] || !needed[w] || !access[w].writes.contains(f))
                 })

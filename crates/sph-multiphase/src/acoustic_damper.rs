@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{
-    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Vect, fields, plugin,
+    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin,
 };
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values,
@@ -14,6 +14,7 @@ use sph_neighbours::{
 use crate::damping::DampingEntry;
 use crate::divergence::{Divergence, OwnVolume};
 use crate::interface_limit::shortest_wave;
+use crate::surface::MOMENT_EXCESS;
 
 /// m_a a = −1/γ_a [Σ_b θ_b (q_aV_a² + q_bV_b²) ∇w_ab − Σ_s q_a (V_a² + V_s²)/V_s ∇γ_as],
 /// q_a = −α ρ₀ c h D_a{u}, not below −max(p_a, 0), ρ₀ that of the lightest phase within the support.
@@ -100,6 +101,7 @@ impl<const D: usize> Declares for Resistance<D> {
         let access = access
             .here(fields::MASS)
             .here(fields::PRESSURE)
+            .where_there(MOMENT_EXCESS)
             .writes(DAMPING_PRESSURE);
         match self.densities.len() {
             1 => access,
@@ -145,7 +147,13 @@ impl<const D: usize> Stage<World<D>> for Resistance<D> {
         let h = world.kernel.smoothing_length();
         let phase = world.free.get(fields::PHASE).ok();
         let fluid = world.free.get(fields::PRESSURE)?;
+        let excess = world.free.get(MOMENT_EXCESS).ok();
         for (i, (q, p)) in pressure.iter_mut().zip(fluid).enumerate() {
+            // There densities do not follow this divergence, and a flow free of any would be damped.
+            if excess.is_some_and(|n| n[i] != Symmetric::ZERO) {
+                *q = 0.0;
+                continue;
+            }
             let lighter = lightest.get(i).copied().flatten().unwrap_or(1.0);
             let impedance = self.impedance[phase.map_or(0, |p| p[i] as usize)] * lighter;
             *q = (-impedance * h * *q).max(-p.max(0.0));

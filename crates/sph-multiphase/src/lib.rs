@@ -6,7 +6,7 @@
 //!   [`MicroMixing`], [`InterfaceFriction`].
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
 //! * [`PressureStage`] applies the equations of state.
-//! * [`SurfaceEntry`] is a kind of plugin, the definition of free surfaces: [`ConeTest`].
+//! * [`SurfaceEntry`] is a kind of plugin, the definition of free surfaces: [`ConeTest`], [`Renormalised`].
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: decay of velocities, everywhere or in sponges.
 //! * [`diffusion`] of density against noise, and of particles against gaps.
@@ -67,5 +67,5 @@ pub use interface_limit::InterfaceLimit;
 pub use krimi::{Continuity, Krimi};
 pub use micro_mixing::MicroMixing;
 pub use pressure_stage::PressureStage;
-pub use surface::{ConeTest, FREE_SURFACE, Place, SurfaceEntry};
+pub use surface::{ConeTest, FREE_SURFACE, MOMENT_EXCESS, Place, Renormalised, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

@@ -79,7 +79,7 @@ impl<const D: usize> Contribution<D> for ConeTest {
 }
 
 /// True if densities are K and a sum.
-fn are_sums<const D: usize>(setting: &Setting<'_, D>) -> bool {
+pub(super) fn are_sums<const D: usize>(setting: &Setting<'_, D>) -> bool {
     setting.density.value.name == fields::DENSITY_CONSTANT.name
 }
 

@@ -10,6 +10,7 @@ mod interfaces;
 mod lanes;
 mod lattice;
 mod limits;
+mod renormalised;
 mod shifting;
 mod smoother;
 mod smoothers;

@@ -23,11 +23,12 @@ fn own(work: EnergyWork) -> Account {
 }
 
 /// Classes of terms with rates of their own; the pressure has the rest of the acceleration.
-const CLASSES: [EnergyWork; 5] = [
+const CLASSES: [EnergyWork; 6] = [
     EnergyWork::Viscosity,
     EnergyWork::Smoother,
     EnergyWork::Shifting,
     EnergyWork::Damper,
+    EnergyWork::Surface,
     EnergyWork::Others,
 ];
 
@@ -42,8 +43,9 @@ fn of_terms(kind: &str) -> Option<Account> {
         Some(Work::Smoothing) => own(EnergyWork::Smoother),
         Some(Work::Shifting) => own(EnergyWork::Shifting),
         Some(Work::Damping) => own(EnergyWork::Damper),
+        Some(Work::Surface) => own(EnergyWork::Surface),
         Some(Work::Own) => work_of_stranger(kind),
-        Some(Work::Surface | Work::Others) | None => own(EnergyWork::Others),
+        Some(Work::Others) | None => own(EnergyWork::Others),
     })
 }
 
@@ -51,7 +53,6 @@ fn of_terms(kind: &str) -> Option<Account> {
 fn of_hooks(kind: &str) -> Account {
     match kind_of(kind).map(|kind| kind.work) {
         Some(Work::Damping) => own(EnergyWork::Damping),
-        Some(Work::Surface) => own(EnergyWork::Surface),
         _ => of_terms(kind).unwrap_or(own(EnergyWork::Others)),
     }
 }
