@@ -14,7 +14,8 @@ pub struct Plan {
 
 /// Orders the stages that the goals need.
 ///
-/// `sources` are columns that exist without a stage (the integrated state).
+/// `sources` are columns that exist without a stage (the integrated state). A column that a stage reads where a scene has
+/// it is written before, if a needed stage writes it; it makes no stage needed.
 ///
 /// # Errors
 /// If a needed field has no writer or two, or stages wait for each other.
@@ -118,6 +119,15 @@ mod tests {
         let plan = plan(&[&c, &x, &b], &[C.any()], &[A.any()]).unwrap();
         assert_eq!(plan.order, [2, 0]);
         assert_eq!(plan.pruned, [1]);
+    }
+
+    #[test]
+    fn a_column_that_may_be_there_is_written_first_and_needs_no_stage() {
+        let c = Work("c", Access::none().where_there(B).writes(C));
+        let b = Work("b", Access::none().here(A).writes(B));
+        let order = |goals: &[AnyField]| plan(&[&c, &b], goals, &[A.any()]).unwrap().order;
+        assert_eq!(order(&[C.any(), B.any()]), [1, 0]);
+        assert_eq!(order(&[C.any()]), [0]);
     }
 
     #[test]

@@ -65,6 +65,14 @@ fn a_dam_break_gives_the_same_bits() {
 }
 
 #[test]
+fn a_renormalised_surface_gives_the_same_bits() {
+    for walls in ["usaw", "symmetric"] {
+        let set = format!("--set surface={{renormalised={{}}}} --set walls={{{walls}={{}}}}");
+        same_on_all_ranks(DAM_BREAK, &format!("{set} --set damping.acoustic={{}}"));
+    }
+}
+
+#[test]
 fn a_moving_wall_gives_the_same_bits() {
     same_on_all_ranks(PADDLE, "");
 }

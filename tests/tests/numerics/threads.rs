@@ -26,6 +26,11 @@ fn a_dam_break_gives_the_same_bits() {
 }
 
 #[test]
+fn a_renormalised_surface_gives_the_same_bits() {
+    same_for_all_threads(&format!("{DAM_BREAK}\n[surface.renormalised]\n"), "");
+}
+
+#[test]
 fn an_outlet_gives_the_same_bits() {
     same_for_all_threads(&format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"), "");
 }

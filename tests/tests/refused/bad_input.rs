@@ -66,6 +66,13 @@ fn an_unknown_plugin() {
 }
 
 #[test]
+fn a_renormalised_surface_without_density_sums() {
+    let tables = "[surface.renormalised]\n[formulation.colagrossi-landrini]\n";
+    let scene = format!("{DAM_BREAK}\n{tables}").replace("[formulation.hu-adams]\n", "");
+    refused(&scene, "[surface.renormalised]", &["densities are no sums"]);
+}
+
+#[test]
 fn a_misspelt_key() {
     let scene = with("spacing = 0.02", "spcing = 0.02");
     refused(

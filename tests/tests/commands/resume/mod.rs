@@ -81,6 +81,14 @@ fn a_pressure_that_is_solved_for_goes_on_where_it_was() {
 }
 
 #[test]
+fn a_renormalised_surface_goes_on_where_it_was() {
+    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n[surface.renormalised]\n"));
+    let whole = uninterrupted(&bench);
+    let resumed = killed_and_resumed(&bench, 0.11, 1);
+    whole.assert_same(&resumed, "with a renormalised surface");
+}
+
+#[test]
 fn another_number_of_threads_resumes_it_too() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);
