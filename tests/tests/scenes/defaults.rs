@@ -1,5 +1,9 @@
 //! Scenes that name no numerics: their errors over those of the scenes as shipped.
 
+use std::path::Path;
+
+use sph_scene::load;
+
 use crate::shipped::{by_default, finished};
 
 /// Largest error over that of the scene as shipped.
@@ -46,4 +50,18 @@ fn tanks_and_a_dam_break_that_name_no_numerics_are_no_worse() {
     no_worse("hydrostatic-wedge", &["run.end=2"], &["pressure"]);
     let sets = ["numerics.spacing=0.012", "run.end=0.97"];
     no_worse("dam-break-lobovsky", &sets, &["P2-inviscid", "P2", "P4"]);
+}
+
+/// Hills leave space between walls and rows; the other walls are whole rows apart, or the body has no walls to fill.
+#[test]
+fn fluids_that_leave_space_between_walls_are_relaxed() {
+    let relaxed = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
+        let scene = load(&path, &[]).expect("a shipped scene").scene;
+        scene.suited.iter().any(|(key, _)| *key == "numerics.relax")
+    };
+    assert!(relaxed("periodic-hill"));
+    for name in ["backward-step", "moving-square", "cavity", "poiseuille-2d"] {
+        assert!(!relaxed(name), "{name}");
+    }
 }
