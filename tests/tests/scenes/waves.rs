@@ -26,6 +26,7 @@ fn amplitudes(overrides: &[&str]) -> Vec<f64> {
         "numerics.smoothing_ratio=2.0",
         "smoother.delta-sph.strength=0.1",
         "run.end=10.7",
+        "reference.swing.window=[8.9,10.7]",
     ];
     let run = finished("standing-wave-inviscid", &[&coarse, overrides].concat());
     let series = run.series();
