@@ -54,12 +54,6 @@ impl Plugins {
         self.choices.iter().any(|choice| choice.kind == kind)
     }
 
-    /// True if the scene chooses this plugin of a kind.
-    pub fn chooses(&self, kind: &str, plugin: &str) -> bool {
-        let mut all = self.choices.iter();
-        all.any(|choice| choice.kind == kind && choice.name == plugin)
-    }
-
     /// The one plugin of a kind that the scene names, or the default.
     pub fn one<const D: usize, E: Makes<D>>(&self) -> Option<Box<E::Made>> {
         let named = self.choices.iter().find(|c| c.kind == E::KIND.name);

@@ -18,6 +18,9 @@ impl Symmetric {
     /// The zero tensor.
     pub const ZERO: Symmetric = Symmetric([0.0; 6]);
 
+    /// Place of the component of a row and a column.
+    pub const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
     /// ½(A + Aᵀ) of a matrix, given by its rows or its columns.
     #[inline]
     pub fn part_of(a: impl Into<[[f64; 3]; 3]>) -> Self {

@@ -28,7 +28,7 @@ impl<const D: usize> FromPlugins<D> for Compressible<D> {
         Some(Compressible {
             formulation: plugins.one::<D, FormulationEntry>()?,
             scheme,
-            surfaces: plugins.chooses("surface", "cone-test"),
+            surfaces: plugins.names("surface"),
         })
     }
 }

@@ -24,15 +24,15 @@ pub(super) const EXPLAINED_DEFICIT: Field<Scalar> = Field::new(
     "share of the support that the free surface takes, by its place",
 );
 
-/// Share of a support that lacks, from which N counts as a whole. Ours: with less than 0.03 even arrangements count by
-/// their noise, and where N starts with a lack of 0.01 a wave loses four times as much.
+/// Share of a support that lacks, from which N counts as a whole. Ours: where N starts with a lack of 0.01, and K′ with it, a
+/// wave loses three times as much.
 const LACKING: f64 = 0.03;
 
 /// ‖N‖ up to which N counts as a whole, and from which not at all, for sheets and tips: 1.1 in the first row of a plane
-/// surface. Ours.
+/// surface. Ours, not varied.
 const WHOLE: [f64; 2] = [1.5, 3.0];
 
-/// Share of a support that lacks in an uneven arrangement, besides a plane surface. Ours.
+/// Share of a support that lacks in an uneven arrangement, besides a plane surface. Ours, not varied.
 const UNEVEN: f64 = 0.05;
 
 /// Σ w, Σ ∇w and −Σ r⊗∇w of free neighbours.
@@ -50,15 +50,11 @@ impl<const D: usize> PairSum<D> for Moments {
     fn pair<L: Lane>(&self, _: &(), _: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
         sum.0 += pair.value;
         add_scaled(&mut sum.1, &pair.separation, pair.factor);
-        let r = |k: usize| match k < D {
-            true => pair.separation[k],
-            false => L::splat(0.0),
-        };
-        for (place, (i, j)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
-            .into_iter()
-            .enumerate()
-        {
-            sum.2[place] -= r(i) * r(j) * pair.factor;
+        let r = &pair.separation;
+        for i in 0..D {
+            for j in i..D {
+                sum.2[Symmetric::PLACE[i][j]] -= r[i] * r[j] * pair.factor;
+            }
         }
     }
 }
@@ -153,15 +149,13 @@ fn at_surface<const D: usize>(
 
 /// r⊗r.
 fn outer<const D: usize>(r: &Vect<D>) -> Symmetric {
-    let r = |k: usize| r.get(k).copied().unwrap_or(0.0);
-    Symmetric([
-        r(0) * r(0),
-        r(1) * r(1),
-        r(2) * r(2),
-        r(0) * r(1),
-        r(1) * r(2),
-        r(0) * r(2),
-    ])
+    let mut product = Symmetric::ZERO;
+    for i in 0..D {
+        for j in i..D {
+            product.0[Symmetric::PLACE[i][j]] = r[i] * r[j];
+        }
+    }
+    product
 }
 
 /// The moment with the filling across a wall, in whose direction its half lacks fluid, as along a surface that meets the wall;

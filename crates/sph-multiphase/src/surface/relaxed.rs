@@ -83,6 +83,17 @@ pub(super) fn are_sums<const D: usize>(setting: &Setting<'_, D>) -> bool {
     setting.density.value.name == fields::DENSITY_CONSTANT.name
 }
 
+/// Sets the share of a difference that goes in `dt` seconds where sound of these speeds, m/s, takes it over `length`, m.
+pub(super) fn set_parts(
+    parts: &mut Vec<f64>,
+    speeds: impl Iterator<Item = f64>,
+    length: f64,
+    dt: f64,
+) {
+    parts.clear();
+    parts.extend(speeds.map(|c| 1.0 - (-dt * c / length).exp()));
+}
+
 /// The work of [`ConeTest`] in a step.
 struct Relaxation {
     plugin: ConeTest,
@@ -144,10 +155,9 @@ impl Relaxation {
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let Scratch { parts, given } = scratch;
-        parts.clear();
         let open = &world.walls.elements.open;
-        let part = |c: f64| 1.0 - (-dt * c / (self.plugin.time * h)).exp();
-        parts.extend(self.phases.iter().map(|(_, c)| part(*c)));
+        let speeds = self.phases.iter().map(|(_, c)| *c);
+        set_parts(parts, speeds, self.plugin.time * h, dt);
         let parts = &parts[..];
         let one = |i: usize, constant: &mut f64| -> f64 {
             let phase = phase.map_or(0, |p| p[i] as usize);

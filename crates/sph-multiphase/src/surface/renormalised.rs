@@ -8,8 +8,9 @@ use sph_neighbours::{
     minus, pair_term, splat, walk_in_lanes,
 };
 
+use super::cone::FreeSurface;
 use super::moments::{EXPLAINED_DEFICIT, MOMENT_EXCESS, MomentStage};
-use super::relaxed::{SurfaceEntry, are_sums};
+use super::relaxed::{SurfaceEntry, are_sums, set_parts};
 
 /// The density constant K of [`HuAdams`](crate::HuAdams) follows the strain at a free surface,
 /// dK_a/dt = m_aγ_a Σ_b θ_b u_ab·N_a ∇w_ab − (K_a − K′_a)/τ, and a pressure force is adjoint to the strain,
@@ -57,25 +58,25 @@ impl<const D: usize> Contribution<D> for Renormalised {
             );
         }
         offer.stage(MomentStage::default());
+        // For readers that ask for free surfaces.
+        offer.stage(FreeSurface::new(true));
         offer.term(SurfacePressure);
         let laws = setting.laws.iter();
         offer.hook(SurfaceStrain {
             time: self.time,
             speeds: laws.map(|law| law.reference().sound_speed).collect(),
             rates: Vec::new(),
+            parts: Vec::new(),
         });
         Ok(())
     }
 }
 
-/// Places of the components of a symmetric tensor.
-const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-
 /// N·r for tensors in lanes.
 #[inline(always)]
 fn apply<L: Lane, const D: usize>(tensor: &[L; 6], r: &[L; D]) -> [L; D] {
     let mut out = [L::splat(0.0); D];
-    for (out, places) in out.iter_mut().zip(PLACE) {
+    for (out, places) in out.iter_mut().zip(Symmetric::PLACE) {
         for (component, place) in r.iter().zip(places) {
             *out += tensor[place] * *component;
         }
@@ -223,6 +224,8 @@ struct SurfaceStrain {
     speeds: Vec<f64>,
     /// Kept for its memory.
     rates: Vec<f64>,
+    /// Share of the difference that goes in a step, phase by phase.
+    parts: Vec<f64>,
 }
 
 impl SurfaceStrain {
@@ -288,9 +291,9 @@ impl<const D: usize> StepHook<D> for SurfaceStrain {
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.sum_renormalisation();
-        let time = self.time * world.kernel.smoothing_length();
-        let part = |c: &f64| 1.0 - (-dt * c / time).exp();
-        let parts: Vec<f64> = self.speeds.iter().map(part).collect();
+        let length = self.time * world.kernel.smoothing_length();
+        set_parts(&mut self.parts, self.speeds.iter().copied(), length, dt);
+        let parts = &self.parts;
         let per_cell = world.spacing.powi(D as i32).recip();
         let walls = &world.walls;
         // Beside walls that do not scale the kernel a plane surface leaves another slope.

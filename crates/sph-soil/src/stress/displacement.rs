@@ -7,7 +7,7 @@ use sph_neighbours::{
     Rates, World, dot, minus,
 };
 
-use crate::stress::divergence::{PLACE, Sum};
+use crate::stress::divergence::Sum;
 use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
 
 /// f_a = min(1, τ_y/|τ|)_a [L^E{𝒢, X} + D{J}]_a: second differences of the displacement instead of a divergence.
@@ -202,7 +202,7 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
         let turn = self.turn[j] * solid.share;
         for (k, (sum, force)) in sum.iter_mut().zip(force).enumerate() {
             let mut turned = [zero; D];
-            for (turned, place) in turned.iter_mut().zip(PLACE[k]) {
+            for (turned, place) in turned.iter_mut().zip(Symmetric::PLACE[k]) {
                 *turned = own.turn[place] - L::splat(turn.0[place]);
             }
             let turned = dot(&turned, &pair.separation) * (own.volume * pair.factor);

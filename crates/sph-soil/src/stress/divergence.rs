@@ -131,9 +131,6 @@ impl<const D: usize> Sum<D> {
     }
 }
 
-/// Places of the components of a symmetric tensor.
-pub(crate) const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-
 impl<const D: usize> BoundStressDivergence<'_, D> {
     /// τ V².
     #[inline(always)]
@@ -155,7 +152,7 @@ impl<const D: usize> PairSum<D> for BoundStressDivergence<'_, D> {
     #[inline(always)]
     fn pair<L: Lane>(&self, own: &[L; 6], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let other = self.weighted(j);
-        for (force, places) in sum.iter_mut().zip(PLACE) {
+        for (force, places) in sum.iter_mut().zip(Symmetric::PLACE) {
             let mut row = [L::splat(0.0); D];
             for (entry, place) in row.iter_mut().zip(places) {
                 *entry = own[place] + L::splat(other[place]);

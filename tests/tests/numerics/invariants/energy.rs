@@ -99,7 +99,7 @@ fn the_budget_of_a_standing_wave_closes() {
 }
 
 /// Without relaxation the force of a renormalised surface takes what the strain of the densities gives, to the error of the
-/// step, of first order: a tenth of a thousandth of the wave's energy, and half of that with half the step.
+/// step, of first order: 4.8·10⁻⁴ J of the wave's 1.25 J, and 2.2·10⁻⁴ J with half the step.
 #[test]
 fn a_renormalised_surface_gives_no_energy() {
     let of_surface = |courant: &str| {
