@@ -13,6 +13,7 @@ mod results;
 mod running;
 pub mod setup;
 mod subject;
+mod zones;
 
 pub use failure::error::{Failure, RunError};
 pub use failure::findings::{Findings, ParticleRecord, Share, Suspect};

@@ -15,3 +15,4 @@ pub(crate) mod shapes;
 pub(crate) mod time;
 pub(crate) mod walls;
 pub(crate) mod wave;
+pub(crate) mod zones;

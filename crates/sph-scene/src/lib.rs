@@ -90,3 +90,4 @@ pub use tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
 pub use tables::wave::{Heading, Wave, WaveKind};
+pub use tables::zone::Zone;

@@ -14,3 +14,4 @@ pub(crate) mod scene;
 pub(crate) mod wall;
 pub(crate) mod wall_shapes;
 pub(crate) mod wave;
+pub(crate) mod zone;

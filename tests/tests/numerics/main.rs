@@ -1,4 +1,4 @@
-//! What the equations keep, closures, soils, implicit solves, and the same bits on threads and ranks.
+//! What the equations keep, closures, soils, implicit solves, zones, and the same bits on threads and ranks.
 
 mod implicit;
 mod invariants;
@@ -9,3 +9,4 @@ mod soils;
 mod suspension;
 mod threads;
 mod turbulence;
+mod zones;

@@ -46,3 +46,11 @@ fn taylor_green_keeps_its_momentum() {
         "momentum over Σ m|u|: {drift:e}, measured 4e-17"
     );
 }
+
+/// The error through the band is that of the coarse particles, 0.0021.
+#[test]
+fn vortices_pass_a_zone_of_finer_particles_with_the_error_of_the_coarse_ones() {
+    let zone = "zone.middle.box=[[0.3,0.3],[0.7,0.7]]";
+    let run = finished("taylor-green-2d", &[zone]);
+    run.error("velocity-l1", 0.0023, 0.0021);
+}

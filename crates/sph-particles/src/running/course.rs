@@ -17,6 +17,7 @@ use crate::running::mach::MachWatch;
 use crate::running::output::Outputs;
 use crate::running::series::Extrema;
 use crate::setup::Assembled;
+use crate::zones::Coupling;
 
 /// A run on its way.
 pub(crate) struct Running<'a, const D: usize> {
@@ -25,6 +26,8 @@ pub(crate) struct Running<'a, const D: usize> {
     /// The ranks among which the flow is divided, if it is.
     pub(crate) ranks: Option<Arc<dyn Transport>>,
     pub(crate) parts: Assembled<D>,
+    /// Its zones of finer particles.
+    pub(crate) zones: Coupling<D>,
     /// All of a flow of which `parts` has this rank's part; on the first of several ranks alone.
     pub(crate) whole: Option<Assembled<D>>,
     pub(crate) counters: Counters,

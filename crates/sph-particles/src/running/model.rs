@@ -28,6 +28,18 @@ impl<const D: usize> Model for Running<'_, D> {
         let (scene, identity) = (self.scene, &self.options.identity);
         let flow = &mut self.parts.flow;
         self.counters = begin(scene, identity, start, own, flow, observer)?;
+        match start {
+            Start::Afresh => {}
+            Start::From(_) if !scene.zone.is_empty() => {
+                let why = "a run with zones begins afresh or goes on from its own checkpoint";
+                return Err(RunError::at("zone", why));
+            }
+            Start::From(_) => {}
+            goes_on => {
+                let same = (*goes_on == Start::Resumed).then_some(identity);
+                self.zones.load(own, same)?;
+            }
+        }
         if let Some(ranks) = self.ranks.clone().filter(|_| flow.parts.is_none()) {
             flow.divide(ranks).map_err(StepError::from)?;
         }
@@ -86,6 +98,7 @@ impl<const D: usize> Model for Running<'_, D> {
         self.gather(self.looks_around())?;
         // On several ranks all measure together.
         measure_walls(&mut self.parts.flow, &self.parts.probes)?;
+        self.zones.measure_walls()?;
         if let Some(whole) = &mut self.whole {
             let forces = &self.parts.flow.world.walls.forces;
             whole.flow.world.walls.forces.clone_from(forces);

@@ -12,8 +12,9 @@ use sph_solver::Flow;
 use crate::failure::error::RunError;
 use crate::running::colours::Colours;
 use crate::running::drawn_flow::{column_of, drawn_walls};
-use crate::running::pieces::{own_particles, particles, points, walls};
+use crate::running::pieces::{own_particles, particles, points, walls, zone_particles};
 use crate::setup::Probes;
+use crate::zones::Coupling;
 
 /// True if outputs show how far particles are from the surface, which is found from lists and contacts.
 pub(crate) fn shows_depths(scene: &Scene) -> bool {
@@ -66,7 +67,7 @@ impl Outputs {
     /// of ranks, where these write frames together. Returns changes of the pictures.
     pub fn write<const D: usize>(
         &self,
-        flow: &Flow<D>,
+        (flow, zones): (&Flow<D>, &Coupling<D>),
         probes: &Probes<D>,
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
@@ -80,7 +81,7 @@ impl Outputs {
             true => surface_distance(&flow.world)?,
             false => Vec::new(),
         };
-        self.write_frame(flow, (&points, &depths), frames, among)?;
+        self.write_frame((flow, zones), (&points, &depths), frames, among)?;
         for name in &self.pictures {
             let drawn = match name == depth.name {
                 true => Some(("surface distance [m]".to_string(), depths.clone())),
@@ -96,14 +97,13 @@ impl Outputs {
                 _ => (None, None),
             };
             remarks.extend(range.1);
-            picture(
-                flow,
-                (&points, classes),
-                drawn,
-                range.0,
-                &self.title,
-                &frames.picture(name),
-            )?;
+            let path = frames.picture(name);
+            let (points, drawn, diameters) = match zones.levels.is_empty() {
+                true => (points.clone(), drawn, Vec::new()),
+                false => finest(flow, zones, (name, drawn.0))?,
+            };
+            let particles = (&points[..], classes, &diameters[..]);
+            picture(flow, particles, drawn, range.0, (&self.title, &path))?;
         }
         for (name, probe) in probes {
             let Some(curves) = probe.as_curves() else {
@@ -134,7 +134,7 @@ impl Outputs {
     /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
     fn write_frame<const D: usize>(
         &self,
-        flow: &Flow<D>,
+        (flow, zones): (&Flow<D>, &Coupling<D>),
         (points, depths): (&[[f64; 3]], &[f64]),
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
@@ -153,6 +153,9 @@ impl Outputs {
             fluid.fields.push(field);
         }
         let mut pieces = vec![fluid];
+        for level in zones.all_levels() {
+            pieces.push(zone_particles(level, wanted)?);
+        }
         pieces.extend(walls(&flow.world));
         let ranks = among.map_or(1, |(_, ranks)| ranks);
         Ok(frames.add(flow.world.time, pieces, ranks)?)
@@ -199,13 +202,32 @@ fn map<const D: usize>(
     Ok(picture.save(path)?)
 }
 
+/// Places, values and diameters of particles in a picture.
+type Spots = (Vec<[f64; 3]>, (String, Vec<f64>), Vec<f64>);
+
+/// The finest particles everywhere with a column.
+fn finest<const D: usize>(
+    flow: &Flow<D>,
+    zones: &Coupling<D>,
+    (name, label): (&str, String),
+) -> Result<Spots, RunError> {
+    let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
+    for (flow, some) in zones.finest(flow)? {
+        let all = points(flow)?;
+        let column = column_of(flow, name).map_or(vec![0.0; all.len()], |(_, values)| values);
+        places.extend(some.iter().map(|k| all[*k]));
+        values.extend(some.iter().map(|k| column[*k]));
+        diameters.resize(places.len(), flow.world.spacing);
+    }
+    Ok((places, (label, values), diameters))
+}
+
 fn picture<const D: usize>(
     flow: &Flow<D>,
-    (points, classes): (&[[f64; 3]], &[String]),
+    (points, classes, diameters): (&[[f64; 3]], &[String], &[f64]),
     (label, values): (String, Vec<f64>),
     range: Option<[f64; 2]>,
-    title: &str,
-    path: &Path,
+    (title, path): (&str, &Path),
 ) -> Result<(), RunError> {
     let world = &flow.world;
     let walls = drawn_walls(world);
@@ -214,6 +236,7 @@ fn picture<const D: usize>(
         time: Some(world.time),
         label: &label,
         diameter: world.spacing,
+        diameters,
         walls: &walls,
         classes,
         view: if D == 2 { View::Plane } else { View::Above },

@@ -9,6 +9,7 @@ use sph_solver::Flow;
 
 use crate::failure::error::RunError;
 use crate::running::drawn_flow::padded;
+use crate::zones::Level;
 
 /// The places of the particles.
 pub(crate) fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, RunError> {
@@ -74,19 +75,37 @@ pub(crate) fn own_particles<const D: usize>(
 ) -> Result<Piece<'static>, RunError> {
     let owned = flow.world.owned();
     let own: Vec<bool> = (0..flow.world.free.len()).map(|k| owned.has(k)).collect();
-    let all = points(flow)?;
-    let piece = particles(&flow.world.free, &all, |name| {
+    some_particles(flow, "fluid", &own, |name| {
         name != OWNER.name && wanted(name)
-    });
+    })
+}
+
+/// The particles of a zone that are in its box.
+pub(crate) fn zone_particles<const D: usize>(
+    level: &Level<D>,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Piece<'static>, RunError> {
+    let flow = &level.stepping.parts.flow;
+    let position = flow.world.free.get(fields::POSITION)?;
+    let inside = position.iter().map(|x| level.frame.holds(x, 0.0));
+    let inside: Vec<bool> = inside.collect();
+    some_particles(flow, &format!("zone-{}", level.name), &inside, wanted)
+}
+
+fn some_particles<const D: usize>(
+    flow: &Flow<D>,
+    name: &str,
+    chosen: &[bool],
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Piece<'static>, RunError> {
+    let all = points(flow)?;
+    let piece = particles(&flow.world.free, &all, wanted);
+    let fields = piece.fields.into_iter();
     Ok(Piece {
-        name: piece.name.into_owned().into(),
-        points: kept(&piece.points, 1, &own).into(),
+        name: name.to_string().into(),
+        points: kept(&piece.points, 1, chosen).into(),
         cells: Cells::Vertices,
-        fields: piece
-            .fields
-            .into_iter()
-            .map(|f| kept_field(f, &own))
-            .collect(),
+        fields: fields.map(|f| kept_field(f, chosen)).collect(),
     })
 }
 

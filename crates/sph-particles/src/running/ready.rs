@@ -17,6 +17,7 @@ use crate::running::output::Outputs;
 use crate::running::ranked;
 use crate::running::series::Extrema;
 use crate::setup::{assemble_share, readable, refuse_the_indivisible, rehearse, short_steps};
+use crate::zones::attach;
 
 /// A run that has not begun, of a scene that nothing is refused of.
 pub(crate) fn ready<'a, const D: usize>(
@@ -37,6 +38,11 @@ pub(crate) fn ready<'a, const D: usize>(
             .extend(short_steps(scene, &limits, &remedies)?);
     }
     readable(scene)?;
+    if let (Some(name), Some(_)) = (scene.zone.keys().next(), &ranks) {
+        let why = "zones run in one process: take `--ranks` out";
+        return Err(RunError::at(format!("zone.{name}"), why));
+    }
+    let zones = attach(scene, &parts)?;
     if let Some(ranks) = &ranks {
         refuse_the_indivisible(&parts.flow, ranks.ranks())?;
     }
@@ -58,5 +64,6 @@ pub(crate) fn ready<'a, const D: usize>(
         shares: Vec::new(),
         around: Nearby::NONE,
         parts,
+        zones,
     })
 }

@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 use std::sync::Arc;
 use std::time::Instant;
 
-use sph_core::{StepError, StepLimit, System};
+use sph_core::{StepError, StepLimit};
 use sph_neighbours::decomposition::Transport;
 use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
 use sph_scene::Scene;
@@ -15,10 +15,10 @@ use crate::failure::error::RunError;
 use crate::results::summary::Summary;
 use crate::running::clock::standing_still;
 use crate::running::course::Running;
-use crate::running::next_step::next_step;
 use crate::running::output::outlay;
 use crate::running::ready::ready;
 use crate::setup::all_ready;
+use crate::zones::{RECOVERY, next_step};
 
 /// Runs a scene.
 ///
@@ -78,6 +78,9 @@ fn run_in<const D: usize>(
         for warning in &running.parts.warnings {
             observer.message(&format!("note: {warning}"));
         }
+        for remark in running.zones.remarks(&running.parts.flow) {
+            observer.message(&remark);
+        }
         Ok((running, opened))
     });
     let (mut running, opened) = match ranks {
@@ -97,9 +100,6 @@ fn run_in<const D: usize>(
     };
     opened.drive(&mut running, &schedule, Instant::now(), observer)
 }
-
-/// Factor by which a rolled-back step recovers per good step.
-pub(crate) const RECOVERY: f64 = 1.05;
 
 /// Adds to the count of a name, which is entered at its first use.
 fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
@@ -127,6 +127,7 @@ impl<const D: usize> Running<'_, D> {
         self.tried = (dt, limiter);
         self.parts.flow.world.dt = dt;
         let flow = &mut self.parts.flow;
+        self.zones.begin_step(flow, dt)?;
         let stepped = self.parts.integrator.step(flow, dt);
         let stepped = stepped.and_then(|()| flow.let_out(dt));
         if let Err(cause) = stepped.and_then(|()| flow.let_in(dt)) {
@@ -147,7 +148,7 @@ impl<const D: usize> Running<'_, D> {
     pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
         let flow = &mut self.parts.flow;
         let bounds = self.scene.numerics.density_bounds;
-        let done = flow.evaluate();
+        let done = self.zones.evaluate(flow);
         let done = done.and_then(|()| guard::rates(&flow.world, &flow.laws, bounds));
         let most = &mut self.counters.stage_bytes;
         most.resize(flow.stages.len(), 0);

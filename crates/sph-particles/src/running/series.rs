@@ -5,6 +5,7 @@ use sph_solver::Flow;
 use crate::failure::error::RunError;
 use crate::results::balance::Balance;
 use crate::setup::Probes;
+use crate::zones::Coupling;
 
 /// Extremes of the rows so far.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +68,7 @@ impl Extrema {
     /// Measures a row; forces on walls have been [measured](crate::setup::measure_walls).
     pub fn row<const D: usize>(
         &mut self,
-        flow: &Flow<D>,
+        (flow, zones): (&Flow<D>, &Coupling<D>),
         probes: &Probes<D>,
         dt: f64,
     ) -> Result<(Vec<f64>, Balance<D>), RunError> {
@@ -85,11 +86,12 @@ impl Extrema {
         for (_, left) in flow.left().take(flow.outlets.labels().len()) {
             row.extend([left.mass, left.particles as f64]);
         }
-        for (_, probe) in probes {
+        for (name, probe) in probes {
+            let (probe, world) = zones.measuring(name).unwrap_or((&**probe, &flow.world));
             if let Some(sums) = probe.as_gathers() {
-                sums.gather(&flow.world)?;
+                sums.gather(world)?;
             }
-            row.extend(probe.measure(&flow.world)?);
+            row.extend(probe.measure(world)?);
         }
         self.density_range[0] = self.density_range[0].min(balance.least_density);
         self.density_range[1] = self.density_range[1].max(balance.largest_density);

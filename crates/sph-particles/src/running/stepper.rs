@@ -2,33 +2,20 @@
 
 use std::path::Path;
 
-use sph_core::{FieldError, Role, StepError, System, fields};
+use sph_core::{FieldError, Role, StepError, fields};
 use sph_scene::Scene;
-use sph_solver::Snapshot;
 use sph_solver::step::guard;
 
 use crate::failure::error::RunError;
 use crate::running::checkpoint;
-use crate::running::next_step::next_step;
-use crate::running::run::RECOVERY;
 use crate::setup::{Assembled, assemble, rehearse};
+use crate::zones::{Stepping, stepping};
 
 /// A scene in memory, one step at a time.
 ///
 /// Steps are chosen, taken back and tried again as in a run: stepped to the same times, it has the same bits. Between
 /// steps all columns are those of the present state. Particles are sorted now and then; `identity` follows them.
-pub struct Stepper<const D: usize> {
-    /// The flow with its integrator and probes.
-    parts: Assembled<D>,
-    scene: Scene,
-    good: Snapshot<D>,
-    /// Share of the step after steps that failed.
-    scale: f64,
-    evaluated: bool,
-    steps: u64,
-    rolled_back: u64,
-    limiter: &'static str,
-}
+pub struct Stepper<const D: usize>(Stepping<D>);
 
 impl<const D: usize> Stepper<D> {
     /// Assembles a scene of `D` dimensions.
@@ -38,21 +25,15 @@ impl<const D: usize> Stepper<D> {
     pub fn new(scene: &Scene) -> Result<Self, RunError> {
         let mut parts = assemble::<D>(scene)?;
         rehearse(scene, &mut parts.flow, &parts.probes)?;
-        Ok(Self::over(scene, parts))
+        Self::over(scene, parts)
     }
 
     /// Steps a scene that is assembled already.
-    pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Self {
-        Stepper {
-            parts,
-            scene: scene.clone(),
-            good: Snapshot::default(),
-            scale: 1.0,
-            evaluated: false,
-            steps: 0,
-            rolled_back: 0,
-            limiter: "none",
-        }
+    ///
+    /// # Errors
+    /// Every problem of its zones, with its path.
+    pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Result<Self, RunError> {
+        Ok(Stepper(stepping(scene, parts)?))
     }
 
     /// Begins with the particles and the time of a checkpoint of another run of the same bodies.
@@ -60,28 +41,28 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// A checkpoint that cannot be read or has other particles.
     pub fn start_from(&mut self, checkpoint: &Path) -> Result<(), RunError> {
-        self.evaluated = false;
-        checkpoint::start_from(&mut self.parts.flow, &self.scene, checkpoint)
+        self.0.changed();
+        checkpoint::start_from(&mut self.0.parts.flow, &self.0.scene, checkpoint)
     }
 
     /// The flow with its probes and plugins.
     pub fn parts(&self) -> &Assembled<D> {
-        &self.parts
+        &self.0.parts
     }
 
     /// Simulated time, s.
     pub fn time(&self) -> f64 {
-        self.parts.flow.world.time
+        self.0.time()
     }
 
     /// The last step, s, and its limit.
     pub fn last_step(&self) -> (f64, &'static str) {
-        (self.parts.flow.world.dt, self.limiter)
+        (self.0.parts.flow.world.dt, self.0.limiter)
     }
 
     /// Steps taken, and steps that were taken back.
     pub fn steps(&self) -> (u64, u64) {
-        (self.steps, self.rolled_back)
+        (self.0.steps, self.0.rolled_back)
     }
 
     /// Computes all derived columns of the present state, unless that is done.
@@ -89,13 +70,7 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// The particle or stage at which the state is bad.
     pub fn evaluate(&mut self) -> Result<(), StepError> {
-        if !self.evaluated {
-            let flow = &mut self.parts.flow;
-            flow.evaluate()?;
-            guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)?;
-            self.evaluated = true;
-        }
-        Ok(())
+        self.0.evaluate()
     }
 
     /// One step that does not go beyond `target` (s), and the evaluation of the state that it leads to; its length, s.
@@ -103,50 +78,7 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// If the step fails with all of the scene's `run.retries` halvings; the flow is then where it was before.
     pub fn step(&mut self, target: f64) -> Result<f64, StepError> {
-        let mut retries = self.scene.run.retries;
-        self.evaluate()?;
-        let before = self.time();
-        loop {
-            self.good.take(&self.parts.flow)?;
-            let Err(cause) = self.attempt(target) else {
-                self.steps += 1;
-                self.scale = (self.scale * RECOVERY).min(1.0);
-                return Ok(self.time() - before);
-            };
-            self.good.restore(&mut self.parts.flow)?;
-            self.evaluated = false;
-            self.evaluate()?;
-            if retries == 0 {
-                return Err(cause);
-            }
-            retries -= 1;
-            self.rolled_back += 1;
-            self.scale *= 0.5;
-        }
-    }
-
-    fn attempt(&mut self, target: f64) -> Result<(), StepError> {
-        let time = self.time();
-        let flow = &mut self.parts.flow;
-        let limits = flow.step_limits()?;
-        let factor = self.scene.run.safety * self.scale;
-        let (dt, limiter) = next_step(&limits, factor, [time, target], target - time);
-        if time + dt <= time {
-            return Err(StepError::Stage {
-                stage: limiter.into(),
-                reason: format!("a step of {dt:e} s does not move the clock at {time} s"),
-            });
-        }
-        self.limiter = limiter;
-        self.evaluated = false;
-        flow.world.dt = dt;
-        self.parts.integrator.step(flow, dt)?;
-        flow.let_out(dt)?;
-        flow.let_in(dt)?;
-        if time + dt >= target * (1.0 - 1e-12) {
-            flow.world.time = target;
-        }
-        self.evaluate()
+        self.0.step(target)
     }
 
     /// Steps until `target` (s) is hit exactly; the number of steps.
@@ -154,12 +86,7 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// As [`step`](Self::step).
     pub fn run_until(&mut self, target: f64) -> Result<u64, StepError> {
-        let before = self.steps;
-        self.evaluate()?;
-        while self.time() < target {
-            self.step(target)?;
-        }
-        Ok(self.steps - before)
+        self.0.run_until(target)
     }
 
     /// Present values of every probe: name with suffix, unit, value.
@@ -168,10 +95,14 @@ impl<const D: usize> Stepper<D> {
     /// If a column is missing, or the state is bad.
     pub fn measure(&mut self) -> Result<Vec<(String, &'static str, f64)>, RunError> {
         self.evaluate()?;
-        rehearse(&self.scene, &mut self.parts.flow, &self.parts.probes)?;
+        let parts = &mut self.0.parts;
+        rehearse(&self.0.scene, &mut parts.flow, &parts.probes)?;
+        self.0.coupling.measure_walls()?;
         let mut all = Vec::new();
-        for (name, probe) in &self.parts.probes {
-            let values = probe.measure(&self.parts.flow.world)?;
+        for (name, probe) in &parts.probes {
+            let zone = self.0.coupling.measuring(name);
+            let (probe, world) = zone.unwrap_or((&**probe, &parts.flow.world));
+            let values = probe.measure(world)?;
             let columns = probe.columns().into_iter().zip(values);
             all.extend(columns.map(|(c, v)| (format!("{name}{}", c.suffix), c.unit, v)));
         }
@@ -187,7 +118,7 @@ impl<const D: usize> Stepper<D> {
             stage: format!("setting `{name}`"),
             reason,
         };
-        let free = &mut self.parts.flow.world.free;
+        let free = &mut self.0.parts.flow.world.free;
         let state = |role: Role| role == Role::State;
         let found = free.columns().find(|(n, ..)| *n == name);
         let Some((name, _, role, ..)) = found else {
@@ -209,11 +140,10 @@ impl<const D: usize> Stepper<D> {
             }
             other => other?,
         }
-        self.evaluated = false;
-        self.parts.flow.moved = true;
+        self.0.changed();
         if name == fields::POSITION.name {
-            guard::positions(&self.parts.flow.world)?;
-            self.parts.flow.world.rebuild_lists()?;
+            guard::positions(&self.0.parts.flow.world)?;
+            self.0.parts.flow.world.rebuild_lists()?;
         }
         Ok(())
     }

@@ -65,8 +65,10 @@ pub fn trial<const D: usize>(
 ) -> Result<Option<Trial>, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
-    let mut stepper = Stepper::over(scene, assembled);
-    pool.install(|| Ok(timed(scene, &mut stepper, budget)?))
+    pool.install(|| {
+        let mut stepper = Stepper::over(scene, assembled)?;
+        Ok(timed(scene, &mut stepper, budget)?)
+    })
 }
 
 fn timed<const D: usize>(

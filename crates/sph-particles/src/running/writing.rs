@@ -39,7 +39,7 @@ impl<const D: usize> Running<'_, D> {
             (Some(frames), among) => {
                 let among = among.map(|(_, ranks)| (&self.parts.flow, ranks));
                 let outputs = &self.outputs;
-                outputs.write(&shown.flow, &shown.probes, frames, among)
+                outputs.write((&shown.flow, &self.zones), &shown.probes, frames, among)
             }
             (None, Some((rank, _))) => {
                 let place = (self.counters.outputs, rank);
@@ -54,7 +54,9 @@ impl<const D: usize> Running<'_, D> {
     pub(crate) fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         let dt = shown.flow.world.dt;
-        let (row, balance) = self.extrema.row(&shown.flow, &shown.probes, dt)?;
+        let (row, balance) = self
+            .extrema
+            .row((&shown.flow, &self.zones), &shown.probes, dt)?;
         let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
         let told = self.mach.look(&balance).into_iter();
         let told = told
@@ -118,11 +120,8 @@ impl<const D: usize> Running<'_, D> {
             probes: gathered(&shown.probes),
             ..self.counters.clone()
         };
-        checkpoint::save(
-            (&shown.flow, self.walls()),
-            own,
-            &self.options.identity,
-            &counters,
-        )
+        let identity = &self.options.identity;
+        checkpoint::save((&shown.flow, self.walls()), own, identity, &counters)?;
+        self.zones.save(own, identity)
     }
 }

@@ -6,7 +6,7 @@ use sph_boundary::Wall;
 use sph_contribution::integrators::Integrator;
 use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
 use sph_core::{Inserted, Role, Store, fields};
-use sph_multiphase::Formulation;
+use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::World;
 use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
@@ -43,6 +43,8 @@ pub struct Assembled<const D: usize> {
     pub flow: Flow<D>,
     /// The time stepping scheme.
     pub integrator: Box<dyn Integrator>,
+    /// The quantity that the formulation integrates for the density.
+    pub diffused: Diffused,
     /// Probes by name.
     pub probes: Vec<(String, Box<dyn Probe<D>>)>,
     /// Solutions by the name of their reference.
@@ -116,6 +118,7 @@ pub(crate) fn assembled<const D: usize>(
         outlets,
         density: formulation.diffused().evolved,
     };
+    let diffused = formulation.diffused();
     let mut flow = joined(world, planned, given);
     show(scene, &shown, &choices.probes, &mut flow)?;
     let columns = || parts.iter().flat_map(|(_, p)| p.columns());
@@ -135,6 +138,7 @@ pub(crate) fn assembled<const D: usize>(
     Ok(Assembled {
         flow,
         integrator: choices.integrator,
+        diffused,
         probes: choices.probes,
         solutions: choices.solutions,
         plugins: choices.in_force,
@@ -176,14 +180,14 @@ fn remarks<const D: usize>(
     Ok(all)
 }
 
-/// Initial values of newborn particles, where some may come in.
+/// Initial values of newborn particles, where some may come in: by gates, or around a zone.
 fn new_particle_values<const D: usize>(
     scene: &Scene,
     formulation: Arc<dyn Formulation<D>>,
     columns: Vec<OwnColumn<D>>,
     flow: &Flow<D>,
 ) -> Option<NewParticleDefaults<D>> {
-    let some = !flow.gates.is_empty();
+    let some = !flow.gates.is_empty() || scene.window.is_some();
     some.then(|| NewParticleDefaults::new(scene, formulation, columns))
 }
 

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::place_cells::PlaceCells;
 use sph_core::{SceneProblem, Vect};
-use sph_scene::{Body, Offset, Region, Scene, disturb, fill};
+use sph_scene::{Body, BodyParticles, Offset, Region, Scene, disturb, fill};
 
 use filled_share::shares;
 
@@ -42,11 +42,7 @@ pub fn place<const D: usize>(
         _ => Offset::Half,
     };
     let periodic = scene.numerics.periodic.bounds::<D>();
-    let mut filled = fill(regions, spacing, offset, &periodic);
-    let (disorder, seed) = (scene.jitter(), scene.numerics.seed);
-    if disorder > 0.0 {
-        disturb(&mut filled, spacing, disorder, seed, &periodic);
-    }
+    let filled = filled(scene, regions, offset);
     let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
     let mut placed = PlacedParticles {
         positions: Vec::new(),
@@ -92,7 +88,7 @@ pub fn place<const D: usize>(
                 "{dropped} particles of body `{name}` were left out: nearer than {TOO_NEAR} spacings to a wall"
             ));
         }
-        if kept.is_empty() && problems.is_empty() {
+        if kept.is_empty() && problems.is_empty() && scene.window.is_none() {
             problems.push(SceneProblem::new(
                 format!("body.{name}"),
                 nothing_left(body, spacing, before),
@@ -105,11 +101,32 @@ pub fn place<const D: usize>(
     if !problems.is_empty() {
         return Err(problems);
     }
-    if let (Some(walls), Offset::Half) = (walls, offset) {
+    if let (Some(walls), Offset::Half, None) = (walls, offset, &scene.window) {
         let remarks = shares(scene, regions, walls, &periodic, &numbers);
         placed.warnings.extend(remarks);
     }
     Ok(placed)
+}
+
+/// The lattices of all bodies, disturbed, within the window of a scene.
+fn filled<const D: usize>(
+    scene: &Scene,
+    regions: &[Region<D>],
+    offset: Offset,
+) -> Vec<BodyParticles<D>> {
+    let spacing = scene.numerics.spacing;
+    let periodic = scene.numerics.periodic.bounds::<D>();
+    let mut filled = fill(regions, spacing, offset, &periodic);
+    let (disorder, seed) = (scene.jitter(), scene.numerics.seed);
+    if disorder > 0.0 {
+        disturb(&mut filled, spacing, disorder, seed, &periodic);
+    }
+    if let Some([low, high]) = &scene.window {
+        let within = |x: &[f64; D]| (0..D).all(|k| low[k] <= x[k] && x[k] < high[k]);
+        let bodies = filled.iter_mut();
+        bodies.for_each(|body| body.positions.retain(within));
+    }
+    filled
 }
 
 fn nothing_left(body: &Body, spacing: f64, before: usize) -> String {

@@ -10,6 +10,7 @@ use crate::checks::gravity;
 use crate::checks::outlets::outlets;
 use crate::checks::shapes::body_geometry;
 use crate::checks::walls::wall_geometry;
+use crate::checks::zones;
 
 /// Checks everything that has a place in space.
 pub(crate) fn check(scene: &Scene, found: &mut Problems) {
@@ -24,6 +25,7 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     }
     beds::check(&scene.wall, of, found);
     outlets(scene, of, found);
+    zones::check(scene, of, found);
     if found.0.len() == before {
         match scene.dimension {
             2 => within_bounds::<2>(scene, found),

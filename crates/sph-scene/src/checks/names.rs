@@ -10,11 +10,12 @@ use toml::{Table, Value};
 use crate::{Motion, Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
-pub(crate) const NAMED: [&str; 7] = [
+pub(crate) const NAMED: [&str; 8] = [
     "wall",
     "phase",
     "body",
     "outlet",
+    "zone",
     "probe",
     "gauge",
     "reference",
@@ -96,6 +97,15 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
             found.add(format!("{path}.probe"), message);
         }
         reference.path = located(&reference.file, &path, source, found);
+    }
+    for (name, zone) in &scene.zone {
+        for (k, probe) in zone.probes.iter().enumerate() {
+            if !probes.contains(probe) {
+                let near = suggestion(probe, probes.iter().map(String::as_str));
+                let message = format!("there is no probe or gauge called `{probe}`{near}");
+                found.add(format!("zone.{name}.probes[{k}]"), message);
+            }
+        }
     }
     let mut files = Vec::new();
     for (kind, tables) in [("probe", &scene.probe), ("gauge", &scene.gauge)] {

@@ -7,7 +7,7 @@ use sph_core::{SceneProblem, Vect, parameters};
 
 use crate::geometry::vector::array;
 use crate::reading::plugins::{Plugins, Probe, in_table, probes, single};
-use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall};
+use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall, Zone};
 use sph_core::PluginChoice;
 
 /// Displacement at the start, over the spacing, where particles are shifted and the scene has no key for it.
@@ -49,6 +49,12 @@ pub struct Scene {
     /// Places where particles leave, by name, `[outlet.NAME]`.
     #[parameter(default)]
     pub outlet: BTreeMap<String, Outlet>,
+    /// Boxes with finer particles, by name, `[zone.NAME]`.
+    #[parameter(default)]
+    pub zone: BTreeMap<String, Zone>,
+    /// Corners of the box in which bodies are filled, m; everywhere if there is none.
+    #[serde(skip)]
+    pub window: Option<[Vec<f64>; 2]>,
     /// Measurements by name, `[probe.NAME]`; `kind` is the plugin, the other keys its parameters.
     #[parameter(default)]
     #[schemars(with = "BTreeMap<String, Probe>")]
@@ -187,6 +193,18 @@ impl Scene {
             path: format!("reference.{reference}.parameters"),
             name_path: format!("reference.{reference}.solution"),
         })
+    }
+
+    /// The zone of twice the ratio whose box encloses that of a zone.
+    pub fn around_zone(&self, zone: &Zone) -> Option<&String> {
+        let [low, high] = &zone.bounds;
+        let encloses = |other: &Zone| {
+            let of = &other.bounds;
+            other.ratio == 2.0 * zone.ratio
+                && (0..low.len()).all(|k| of[0][k] <= low[k] && high[k] <= of[1][k])
+        };
+        let found = self.zone.iter().find(|(_, other)| encloses(other));
+        found.map(|(name, _)| name)
     }
 
     /// Probes and gauges: the name of each and its plugin.

@@ -129,7 +129,7 @@ impl<const D: usize> Flow<D> {
 
     /// True if nothing has been looked for near particles yet.
     pub fn is_blank(&self) -> bool {
-        self.world.lists.reference.is_empty()
+        self.world.lists.reference.is_empty() && self.world.lists.builds == 0
     }
 
     /// Remedy of each bound, by its name, where its plugin has one.
@@ -213,6 +213,12 @@ impl<const D: usize> Flow<D> {
     }
 
     pub(crate) fn run_stages(&mut self, wanted: impl Fn(&Access) -> bool) -> Result<(), StepError> {
+        let restored = self.begin_evaluation()?;
+        self.run_wanted(restored, wanted)
+    }
+
+    /// Lists and gravity of the present state; true if the columns of state are those that an evaluation left.
+    pub(crate) fn begin_evaluation(&mut self) -> Result<bool, StepError> {
         if let Some(swing) = &self.swing {
             let world = &mut self.world;
             world.gravity = world.steady_gravity + swing.at(world.time);
@@ -221,7 +227,15 @@ impl<const D: usize> Flow<D> {
         self.refresh_lists()?;
         self.timings[LISTS].spent += start.elapsed();
         self.moved = false;
-        let restored = std::mem::take(&mut self.restored);
+        Ok(std::mem::take(&mut self.restored))
+    }
+
+    /// Runs the stages that are `wanted`; of a state that was `restored` all but those that write state alone.
+    pub(crate) fn run_wanted(
+        &mut self,
+        restored: bool,
+        wanted: impl Fn(&Access) -> bool,
+    ) -> Result<(), StepError> {
         let state = match restored {
             true => self.state_columns(),
             false => Vec::new(),

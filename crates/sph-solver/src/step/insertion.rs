@@ -29,14 +29,38 @@ impl<const D: usize> Flow<D> {
             ended?;
             all.extend(born?);
         }
+        self.insert_all(nursery, &all)
+    }
+
+    /// Lets in these particles.
+    ///
+    /// # Errors
+    /// As [`let_in`](Self::let_in); a flow that no particle may come into.
+    pub fn insert(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
+        let Some(nursery) = self.nursery.take() else {
+            return Err(StepError::Stage {
+                stage: "births".into(),
+                reason: "no particle may come into this flow".into(),
+            });
+        };
+        let done = self.insert_all(&nursery, all);
+        self.nursery = Some(nursery);
+        done
+    }
+
+    fn insert_all(
+        &mut self,
+        nursery: &NewParticleDefaults<D>,
+        all: &[Newborn<D>],
+    ) -> Result<(), StepError> {
         if all.is_empty() {
             return Ok(());
         }
-        for newborn in &all {
+        for newborn in all {
             self.refuse(newborn)?;
         }
         let first = self.world.free.inserted().identities;
-        self.fill(nursery, &all)?;
+        self.fill(nursery, all)?;
         // Where they are follows from their places alone, whatever the order in which they were born.
         self.refresh_lists_and_derived()?;
         if let Some(walls) = &mut self.walls {

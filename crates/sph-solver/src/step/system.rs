@@ -4,7 +4,7 @@
 
 use std::any::Any;
 
-use sph_core::{Recall, StepError, StepLimit, System, fields};
+use sph_core::{AnyField, Recall, StepError, StepLimit, System, fields};
 
 use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
@@ -78,7 +78,30 @@ impl<const D: usize> System for Flow<D> {
     }
 }
 
+/// Columns of an evaluation that come first where its densities are changed.
+const DENSITIES: [AnyField; 3] = [
+    fields::RENORMALISATION.any(),
+    fields::DENSITY.any(),
+    fields::VOLUME.any(),
+];
+
 impl<const D: usize> Flow<D> {
+    /// An evaluation with a change behind the densities, before all that depends on them. The change is told whether the
+    /// state is one to which a run came back, of which it was a part.
+    ///
+    /// # Errors
+    /// Those of stages, and of the change.
+    pub fn evaluate_with(
+        &mut self,
+        change: impl FnOnce(&mut Self, bool) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        let restored = self.begin_evaluation()?;
+        self.run_wanted(restored, |stage| writes_any(stage, &DENSITIES))?;
+        change(self, restored)?;
+        self.run_wanted(restored, |stage| !writes_any(stage, &DENSITIES))?;
+        self.observe(Boundary::Evaluated, 0.0)
+    }
+
     fn perform(&mut self, motion: Motion) -> Result<(), StepError> {
         match motion {
             Motion::Evaluate => {

@@ -2,6 +2,9 @@
 
 use sph_core::StepLimit;
 
+/// Factor by which a rolled-back step recovers per good step.
+pub(crate) const RECOVERY: f64 = 1.05;
+
 /// The least limit times `factor`, cut so that `target` (s) is hit exactly, and the name of its limit.
 ///
 /// Without any limit the step is `longest`.

@@ -1,0 +1,264 @@
+//! The zones of a flow, and its own band if it is one.
+
+mod level;
+mod stepping;
+
+use sph_core::{StepError, System, Vect, fields};
+use sph_multiphase::Diffused;
+use sph_neighbours::World;
+use sph_probes::Probe;
+use sph_solver::Flow;
+
+use super::guard::Guard;
+use super::sample::State;
+use super::spread::spread;
+use crate::setup::measure_walls;
+
+pub(crate) use level::Level;
+pub(crate) use stepping::Stepping;
+
+/// Times over h/c in which the density and the velocity of particles that share a place with another flow come to those
+/// of that flow. At once they would be those of other places, and the particles' own forces could not keep them apart;
+/// by themselves both flows drift from each other. Measured: `notes/zones.md`.
+const DENSITY_TIME: f64 = 2.0;
+const VELOCITY_TIME: f64 = 2.0;
+
+/// Some particles of a flow.
+pub(crate) type Particles<'a, const D: usize> = (&'a Flow<D>, Vec<usize>);
+
+/// Flows that a flow shares its particles with: those of its zones, and that around it.
+pub(crate) struct Coupling<const D: usize> {
+    /// The quantity that the formulation integrates for the density.
+    diffused: Diffused,
+    /// The band around it, if it is a zone.
+    pub guard: Option<Guard<D>>,
+    /// Its zones.
+    pub levels: Vec<Level<D>>,
+    /// Particles that a zone leads, with the states there.
+    inner: Vec<(usize, State<D>)>,
+    /// Particles of the overlap with the flow around, with the states of that.
+    overlap: Vec<(usize, State<D>)>,
+}
+
+impl<const D: usize> Coupling<D> {
+    /// Of a formulation.
+    pub fn new(diffused: Diffused, guard: Option<Guard<D>>, levels: Vec<Level<D>>) -> Self {
+        Coupling {
+            diffused,
+            guard,
+            levels,
+            inner: Vec::new(),
+            overlap: Vec::new(),
+        }
+    }
+
+    /// An evaluation of a flow, in which its zones come to its time.
+    ///
+    /// # Errors
+    /// Those of the flow, and of its zones.
+    pub fn evaluate(&mut self, flow: &mut Flow<D>) -> Result<(), StepError> {
+        if self.guard.is_none() && self.levels.is_empty() {
+            return flow.evaluate();
+        }
+        let mut band = Vec::new();
+        flow.evaluate_with(|flow, restored| {
+            if let Some(guard) = self.guard.as_ref() {
+                band = guard.in_band(flow)?;
+                self.overlap = guard.in_overlap(flow)?;
+                self.give_densities(flow, &band, restored)?;
+            }
+            self.inner.clear();
+            for level in &mut self.levels {
+                self.inner.extend(level.follow(flow)?);
+            }
+            let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
+            band.iter()
+                .for_each(|(k, state)| velocity[*k] = state.velocity);
+            Ok(())
+        })?;
+        accelerate(flow, band.iter())
+    }
+
+    /// Gives particles of the band the densities around them. Those of a state that was `restored` have constants for
+    /// these already.
+    fn give_densities(
+        &self,
+        flow: &mut Flow<D>,
+        band: &[(usize, State<D>)],
+        restored: bool,
+    ) -> Result<(), StepError> {
+        if !restored {
+            move_densities(self.diffused, flow, band.iter(), 1.0)?;
+        }
+        let free = &mut flow.world.free;
+        let mut density = free.take(fields::DENSITY)?;
+        let mut volume = free.take(fields::VOLUME)?;
+        let mass = free.get(fields::MASS)?;
+        for (k, state) in band {
+            density[*k] = state.density;
+            volume[*k] = mass[*k] / state.density;
+        }
+        free.put(fields::DENSITY, density)?;
+        Ok(free.put(fields::VOLUME, volume)?)
+    }
+
+    /// Before a step of `dt` seconds: densities that a zone leads go towards those of its particles.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn begin_step(&mut self, flow: &mut Flow<D>, dt: f64) -> Result<(), StepError> {
+        if let Some(guard) = &self.guard {
+            spread(flow, &guard.frame)?;
+        }
+        if self.inner.is_empty() && self.overlap.is_empty() {
+            return Ok(());
+        }
+        let fastest = flow.laws.iter().map(|law| law.reference().sound_speed);
+        let speed = fastest.fold(0.0, f64::max);
+        let time = flow.world.kernel.smoothing_length() / speed;
+        let share = |of: f64| 1.0 - (-dt / (of * time)).exp();
+        let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
+        for (k, state) in &self.inner {
+            let own = velocity[*k];
+            velocity[*k] += (state.velocity - own) * share(VELOCITY_TIME);
+        }
+        let led = self.inner.iter().chain(&self.overlap);
+        move_densities(self.diffused, flow, led, share(DENSITY_TIME))
+    }
+
+    /// Accelerates the particles of the band as those around it.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn hold(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
+        let Some(guard) = &self.guard else {
+            return Ok(());
+        };
+        let band = guard.in_band(flow)?;
+        accelerate(flow, band.iter())
+    }
+
+    /// All zones, those within zones too.
+    pub fn all_levels(&self) -> Vec<&Level<D>> {
+        let mut all = Vec::new();
+        for level in &self.levels {
+            all.push(level);
+            all.extend(level.stepping.coupling.all_levels());
+        }
+        all
+    }
+
+    /// The finest particles everywhere: those of a flow outside of its zones, by their places, and those of each zone.
+    ///
+    /// # Errors
+    /// If there are no positions.
+    pub fn finest<'a>(&'a self, flow: &'a Flow<D>) -> Result<Vec<Particles<'a, D>>, StepError> {
+        self.finest_within(flow, &|_| true)
+    }
+
+    fn finest_within<'a>(
+        &'a self,
+        flow: &'a Flow<D>,
+        wanted: &dyn Fn(&Vect<D>) -> bool,
+    ) -> Result<Vec<Particles<'a, D>>, StepError> {
+        let position = flow.world.free.get(fields::POSITION)?;
+        let finer = |x: &Vect<D>| self.levels.iter().any(|level| level.frame.holds(x, 0.0));
+        let own = |k: &usize| wanted(&position[*k]) && !finer(&position[*k]);
+        let mut all = vec![(flow, (0..position.len()).filter(own).collect())];
+        for level in &self.levels {
+            let zone = &level.stepping;
+            let inside = |x: &Vect<D>| level.frame.holds(x, 0.0);
+            all.extend(zone.coupling.finest_within(&zone.parts.flow, &inside)?);
+        }
+        Ok(all)
+    }
+
+    /// A remark on the particles of each zone.
+    pub fn remarks(&self, flow: &Flow<D>) -> Vec<String> {
+        let around = flow.world.free.len();
+        let of = |level: &&Level<D>| {
+            let zone = &level.stepping.parts.flow;
+            let (name, spacing) = (&level.name, zone.world.spacing);
+            let finer = (flow.world.spacing / spacing).powi(D as i32);
+            format!(
+                "zone `{name}` starts with {} particles of {spacing} m among {around}; all of that spacing would be {:.0}",
+                zone.world.free.len(),
+                around as f64 * finer
+            )
+        };
+        self.all_levels().iter().map(of).collect()
+    }
+
+    /// A probe that a zone measures, with the particles of that.
+    pub fn measuring(&self, probe: &str) -> Option<(&dyn Probe<D>, &World<D>)> {
+        let all = self.all_levels();
+        let level = all
+            .iter()
+            .find(|level| level.probes.iter().any(|p| p == probe))?;
+        let parts = &level.stepping.parts;
+        let (_, own) = parts.probes.iter().find(|(name, _)| name == probe)?;
+        Some((&**own, &parts.flow.world))
+    }
+
+    /// Measures the forces on walls that probes of zones read.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn measure_walls(&mut self) -> Result<(), StepError> {
+        for level in &mut self.levels {
+            let parts = &mut level.stepping.parts;
+            measure_walls(&mut parts.flow, &parts.probes)?;
+            level.stepping.coupling.measure_walls()?;
+        }
+        Ok(())
+    }
+
+    /// Keeps the states of all zones for the flow `depth` levels below the coarsest.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn keep(&mut self, depth: usize) -> Result<(), StepError> {
+        let mut levels = self.levels.iter_mut();
+        levels.try_for_each(|level| level.keep(depth))
+    }
+
+    /// Puts them back.
+    ///
+    /// # Errors
+    /// If lists cannot be built.
+    pub fn put_back(&mut self, depth: usize) -> Result<(), StepError> {
+        let mut levels = self.levels.iter_mut();
+        levels.try_for_each(|level| level.put_back(depth))
+    }
+}
+
+/// Gives particles that are led their accelerations.
+fn accelerate<'a, const D: usize>(
+    flow: &mut Flow<D>,
+    led: impl Iterator<Item = &'a (usize, State<D>)>,
+) -> Result<(), StepError> {
+    let acceleration = flow.world.free.get_mut(fields::ACCELERATION)?;
+    led.for_each(|(k, state)| acceleration[*k] = state.acceleration);
+    Ok(())
+}
+
+/// Changes the integrated quantity so that densities go a share of the way to those of `led`.
+fn move_densities<'a, const D: usize>(
+    diffused: Diffused,
+    flow: &mut Flow<D>,
+    led: impl Iterator<Item = &'a (usize, State<D>)>,
+    share: f64,
+) -> Result<(), StepError> {
+    let value = diffused.evolved.value;
+    let mut constant = flow.world.free.take(value)?;
+    let free = &flow.world.free;
+    let (density, volume) = (free.get(fields::DENSITY)?, free.get(fields::VOLUME)?);
+    let gamma = flow.world.sum_renormalisation();
+    for (k, state) in led {
+        let k = *k;
+        let gamma = gamma.map_or(1.0, |g| g[k]);
+        let slope = (diffused.per_density)(density[k], volume[k], gamma);
+        constant[k] += share * slope * (state.density - density[k]);
+    }
+    Ok(flow.world.free.put(value, constant)?)
+}

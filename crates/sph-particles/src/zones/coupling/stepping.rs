@@ -1,0 +1,164 @@
+//! Steps of an assembled scene with its zones, in memory.
+
+use sph_core::StepError;
+use sph_scene::Scene;
+use sph_solver::step::guard;
+use sph_solver::{Flow, Snapshot};
+
+use super::Coupling;
+use crate::setup::Assembled;
+use crate::zones::next_step::{RECOVERY, next_step};
+
+/// An assembled scene that is stepped, and tries steps that fail again.
+pub(crate) struct Stepping<const D: usize> {
+    /// The flow with its integrator and probes.
+    pub parts: Assembled<D>,
+    pub coupling: Coupling<D>,
+    pub scene: Scene,
+    good: Snapshot<D>,
+    /// Share of the step after steps that failed.
+    pub scale: f64,
+    evaluated: bool,
+    pub steps: u64,
+    pub rolled_back: u64,
+    pub limiter: &'static str,
+}
+
+impl<const D: usize> Stepping<D> {
+    /// Of an assembled scene with its zones.
+    pub fn new(scene: &Scene, parts: Assembled<D>, coupling: Coupling<D>) -> Self {
+        Stepping {
+            parts,
+            coupling,
+            scene: scene.clone(),
+            good: Snapshot::default(),
+            scale: 1.0,
+            evaluated: false,
+            steps: 0,
+            rolled_back: 0,
+            limiter: "none",
+        }
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.parts.flow.world.time
+    }
+
+    /// The state is another: it must be evaluated, and its step may have its whole length.
+    pub fn changed(&mut self) {
+        self.evaluated = false;
+        self.scale = 1.0;
+        self.parts.flow.moved = true;
+    }
+
+    /// Computes all derived columns of the present state, unless that is done.
+    ///
+    /// # Errors
+    /// The particle or stage at which the state is bad.
+    pub fn evaluate(&mut self) -> Result<(), StepError> {
+        if !self.evaluated {
+            let flow = &mut self.parts.flow;
+            self.coupling.evaluate(flow)?;
+            guard::rates(&flow.world, &flow.laws, self.scene.numerics.density_bounds)?;
+            self.evaluated = true;
+        }
+        Ok(())
+    }
+
+    /// One step that does not go beyond `target` (s), and the evaluation of the state that it leads to; its length, s.
+    ///
+    /// # Errors
+    /// If the step fails with all of the scene's `run.retries` halvings; the flow is then where it was before.
+    pub fn step(&mut self, target: f64) -> Result<f64, StepError> {
+        let mut retries = self.scene.run.retries;
+        self.evaluate()?;
+        let before = self.time();
+        loop {
+            self.good.take(&self.parts.flow)?;
+            let Err(cause) = self.attempt(target) else {
+                self.steps += 1;
+                self.scale = (self.scale * RECOVERY).min(1.0);
+                return Ok(self.time() - before);
+            };
+            self.good.restore(&mut self.parts.flow)?;
+            self.evaluated = false;
+            self.evaluate()?;
+            if retries == 0 {
+                return Err(cause);
+            }
+            retries -= 1;
+            self.rolled_back += 1;
+            self.scale *= 0.5;
+        }
+    }
+
+    fn attempt(&mut self, target: f64) -> Result<(), StepError> {
+        let time = self.time();
+        let flow = &mut self.parts.flow;
+        let limits = flow.step_limits()?;
+        let factor = self.scene.run.safety * self.scale;
+        let (dt, limiter) = next_step(&limits, factor, [time, target], target - time);
+        if time + dt <= time {
+            return Err(StepError::Stage {
+                stage: limiter.into(),
+                reason: format!("a step of {dt:e} s does not move the clock at {time} s"),
+            });
+        }
+        self.limiter = limiter;
+        self.evaluated = false;
+        flow.world.dt = dt;
+        self.coupling.begin_step(flow, dt)?;
+        self.parts.integrator.step(flow, dt)?;
+        flow.let_out(dt)?;
+        flow.let_in(dt)?;
+        if time + dt >= target * (1.0 - 1e-12) {
+            flow.world.time = target;
+        }
+        self.evaluate()
+    }
+
+    /// Steps until `target` (s) is hit exactly; the number of steps.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn run_until(&mut self, target: f64) -> Result<u64, StepError> {
+        let before = self.steps;
+        self.evaluate()?;
+        while self.time() < target {
+            self.step(target)?;
+        }
+        Ok(self.steps - before)
+    }
+
+    /// Takes the particles around this zone at the time to which it goes next.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn look(&mut self, around: &Flow<D>) -> Result<(), StepError> {
+        let guard = self.coupling.guard.as_mut();
+        guard.map_or(Ok(()), |guard| guard.look(around))
+    }
+
+    /// Accelerates the particles of the band towards that time.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn hold(&mut self) -> Result<(), StepError> {
+        self.evaluate()?;
+        self.coupling.hold(&mut self.parts.flow)
+    }
+
+    /// Lets particles of this zone in and out at the outer side of its band.
+    ///
+    /// # Errors
+    /// A particle that cannot come in.
+    pub fn exchange(&mut self) -> Result<(), StepError> {
+        let guard = self.coupling.guard.as_ref();
+        let changed = guard.map_or(Ok(false), |guard| guard.exchange(&mut self.parts.flow))?;
+        if changed {
+            self.changed();
+        }
+        Ok(())
+    }
+}

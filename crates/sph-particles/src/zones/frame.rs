@@ -1,0 +1,125 @@
+//! The box of a zone, and the band around it.
+
+use sph_boundary::Wall;
+use sph_core::Vect;
+use sph_scene::{Scene, Zone};
+
+use super::fit::REACH;
+
+/// Width of the band over the support of the finer particles: those of the zone have all neighbours in it, and the nearest
+/// of these have most of theirs.
+const BAND: f64 = 1.5;
+
+/// A box along the axes; along a period that it spans it has no sides.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame<const D: usize> {
+    low: Vect<D>,
+    high: Vect<D>,
+    /// Width of the band around it, m.
+    pub band: f64,
+    /// Corners of its core, in which the flow around is led by the zone.
+    core: [Vect<D>; 2],
+}
+
+impl<const D: usize> Frame<D> {
+    /// The box of a zone whose particles have a support, m.
+    pub fn new(scene: &Scene, zone: &Zone, support: f64) -> Self {
+        let periods = scene.numerics.periodic.bounds::<D>();
+        let spans = |k: usize| {
+            periods[k].is_some_and(|[lo, hi]| zone.bounds[0][k] <= lo && hi <= zone.bounds[1][k])
+        };
+        let end = |side: usize, infinite: f64| {
+            Vect::from_fn(|k, _| match spans(k) {
+                true => infinite,
+                false => zone.bounds[side][k],
+            })
+        };
+        let (low, high) = (end(0, f64::NEG_INFINITY), end(1, f64::INFINITY));
+        Frame {
+            low,
+            high,
+            band: BAND * support,
+            core: [low, high],
+        }
+    }
+
+    /// With a core that begins a fit's radius behind each side with fluid before it; `spacing` is that around the zone, m.
+    ///
+    /// Between core and side both flows are computed: a flow that is fitted to the other at once copies its own errors.
+    pub fn with_core(mut self, walls: Option<&dyn Wall<D>>, spacing: f64) -> Self {
+        for axis in 0..D {
+            for side in 0..2 {
+                if self.is_open(walls, spacing, (axis, side)) {
+                    let inwards = if side == 0 { 1.0 } else { -1.0 };
+                    self.core[side][axis] += inwards * REACH * spacing;
+                }
+            }
+        }
+        self
+    }
+
+    /// True if there may be fluid before a side: a place in front of all walls.
+    pub fn is_open(
+        &self,
+        walls: Option<&dyn Wall<D>>,
+        spacing: f64,
+        (axis, side): (usize, usize),
+    ) -> bool {
+        let Some(walls) = walls else {
+            return true;
+        };
+        let ends = [self.low, self.high];
+        if !ends[side][axis].is_finite() {
+            return false;
+        }
+        let outwards = if side == 0 { -1.0 } else { 1.0 };
+        // Along a period that the box spans all places are alike for what stands in it.
+        let span = |k: usize| match (k == axis, self.low[k].is_finite()) {
+            (true, _) => (
+                ends[side][axis] + 0.25 * outwards * spacing,
+                outwards * spacing,
+                3,
+            ),
+            (false, true) => {
+                let count = ((self.high[k] - self.low[k]) / spacing).ceil();
+                (
+                    self.low[k],
+                    (self.high[k] - self.low[k]) / count,
+                    count as usize + 1,
+                )
+            }
+            (false, false) => (0.0, 0.0, 1),
+        };
+        let spans: [_; D] = std::array::from_fn(span);
+        let places: usize = spans.iter().map(|(_, _, count)| count).product();
+        (0..places).any(|mut place| {
+            let x = Vect::from_fn(|k, _| {
+                let (first, step, count) = spans[k];
+                let number = place % count;
+                place /= count;
+                first + step * number as f64
+            });
+            walls.contains(&x)
+        })
+    }
+
+    /// True if a place is in the box widened by a margin, m.
+    pub fn holds(&self, x: &Vect<D>, margin: f64) -> bool {
+        (0..D).all(|k| self.low[k] - margin <= x[k] && x[k] < self.high[k] + margin)
+    }
+
+    /// True if a place is in the box and not in the core.
+    pub fn in_overlap(&self, x: &Vect<D>) -> bool {
+        self.holds(x, 0.0) && !self.in_core(x)
+    }
+
+    /// True if a place is in the core.
+    pub fn in_core(&self, x: &Vect<D>) -> bool {
+        (0..D).all(|k| self.core[0][k] <= x[k] && x[k] < self.core[1][k])
+    }
+
+    /// Corners of the box widened by a margin, m.
+    pub fn corners(&self, margin: f64) -> [Vect<D>; 2] {
+        [self.low.add_scalar(-margin), self.high.add_scalar(margin)]
+    }
+}
