@@ -100,10 +100,33 @@ impl<const D: usize> Guard<D> {
                 _ => {}
             }
         }
-        let gone = self.take_out(zone, &goes)?;
+        let gone = self.take_out(zone, &goes)? | self.bring_back(zone)?;
         let births: Vec<_> = comes.iter().flat_map(|k| self.children(zone, *k)).collect();
         zone.insert(&births)?;
         Ok(gone || !births.is_empty())
+    }
+
+    /// Puts particles of the band that are behind a wall where the nearest particle around is. True if there are some.
+    fn bring_back(&self, zone: &mut Flow<D>) -> Result<bool, StepError> {
+        let Some(walls) = zone.walls.as_deref() else {
+            return Ok(false);
+        };
+        let mut position = zone.world.free.take(fields::POSITION)?;
+        let domain = &zone.world.domain;
+        let mut some = false;
+        for x in &mut position {
+            if self.frame.holds(x, 0.0) || walls.contains(x) {
+                continue;
+            }
+            let far = |y: &&Vect<D>| domain.nearest(*y - *x).norm();
+            let places = self.now.positions.iter();
+            if let Some(place) = places.min_by(|a, b| far(a).total_cmp(&far(b))) {
+                *x = *place;
+                some = true;
+            }
+        }
+        zone.world.free.put(fields::POSITION, position)?;
+        Ok(some)
     }
 
     /// Takes out the finer particles nearest to those that leave, as many as these are divided into, and any that are far

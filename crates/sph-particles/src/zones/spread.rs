@@ -1,6 +1,7 @@
 //! Particles of a band are pushed apart until no two lie together.
 
 use rayon::prelude::*;
+use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::CellGrid;
 use sph_solver::Flow;
@@ -11,6 +12,9 @@ use super::frame::Frame;
 const PART: f64 = 0.02;
 /// Distance over the spacing below which particles part. Particles that are evenly disordered are seldom nearer.
 const NEAREST: f64 = 0.8;
+
+/// No particle is moved nearer to a wall than this share of the spacing.
+const NEAR_WALL: f64 = 0.3;
 
 /// Moves the particles of a flow beyond the sides of `frame` away from others that are near.
 ///
@@ -53,9 +57,11 @@ pub(crate) fn spread<const D: usize>(
         .map(moved)
         .collect();
     let walls = flow.walls.as_deref();
+    let near_wall = NEAR_WALL * spacing;
     for (k, place) in band.iter().zip(aside) {
         let led = !frame.holds(&position[*k], 0.0);
-        if led && place != position[*k] && walls.is_none_or(|w| w.contains(&place)) {
+        let free = |w: &dyn Wall<D>| w.contains(&place) && w.clearance(&place, near_wall).is_none();
+        if led && place != position[*k] && walls.is_none_or(free) {
             position[*k] = domain.wrapped(place);
         }
     }
