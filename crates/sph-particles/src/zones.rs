@@ -1,13 +1,15 @@
 //! Zones of finer particles, each a flow of its own that shares time, walls and laws with the flow around it.
 //!
-//! * [`attach()`]: the zones of a scene, as [`FinerLevels`](crate::setup::FinerLevels) of its flow.
-//! * [`Frame`]: the box of a zone, and the band around it.
-//! * [`Sample`] and [`Source`]: the state of particles near a box, and its value anywhere .
-//! * [`Guard`]: the band, in which finer particles follow those around.
-//! * [`Level`]: a zone that follows the flow around it in time, and gives back its state.
+//! * [`attach()`]: the zones of a scene.
+//! * `frame`: the box of a zone, its core, and the band around it.
+//! * `sample`, `fit`: the state of particles near a box, and its value anywhere by a fit.
+//! * `guard`: the band, in which finer particles follow those around; `spread` keeps them apart.
+//! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepping`]: steps of a
+//!   flow with its zones.
+//! * `checkpoints`, `refusals`, `scene_of_zone`: files, scenes that cannot have zones, and the scene of a zone.
 //!
-//! All particles of a flow keep one spacing, so that kernels, lists and walls are those of any flow. Within a zone the
-//! coarser particles are led by the finer ones, in the band around it the finer ones by the coarser. After the adaptive
+//! All particles of a flow keep one spacing, so that kernels, lists and walls are those of any flow. In the core
+//! of a zone the coarser particles are drawn to the finer ones, in the band around it the finer ones follow the coarser. After the adaptive
 //! particle refinement of Chiron, Oger, de Leffe & Le Touzé (J. Comput. Phys. 354, 2018, 552–575).
 
 mod attach;
