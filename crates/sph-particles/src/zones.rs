@@ -4,13 +4,13 @@
 //! * `frame`: the box of a zone, its core, and the band around it.
 //! * `sample`, `fit`: the state of particles near a box, and its value anywhere by a fit.
 //! * `guard`: the band, in which finer particles follow those around; `spread` keeps them apart.
-//! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepping`]: steps of a
-//!   flow with its zones.
+//! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepping`]: steps of
+//!   a flow with its zones.
 //! * `checkpoints`, `refusals`, `scene_of_zone`: files, scenes that cannot have zones, and the scene of a zone.
 //!
-//! All particles of a flow keep one spacing, so that kernels, lists and walls are those of any flow. In the core
-//! of a zone the coarser particles are drawn to the finer ones, in the band around it the finer ones follow the coarser. After the adaptive
-//! particle refinement of Chiron, Oger, de Leffe & Le Touzé (J. Comput. Phys. 354, 2018, 552–575).
+//! All particles of a flow keep one spacing, so that kernels, lists and walls are those of any flow. In the core of a
+//! zone the coarser particles are drawn to the finer ones, in the band around it the finer ones follow the coarser. After
+//! the adaptive particle refinement of Chiron, Oger, de Leffe & Le Touzé (J. Comput. Phys. 354, 2018, 552–575).
 
 mod attach;
 mod checkpoints;
