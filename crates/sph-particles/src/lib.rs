@@ -22,7 +22,7 @@ pub use results::summary::{Drift, ErrorEntry, RankShare, Summary};
 pub use running::identity::{identity, marks};
 pub use running::on_threads::run_on_threads;
 pub use running::run::{run, run_part};
-pub use running::stepper::Stepper;
 pub use running::trial::{Trial, examine_and_try};
 pub use sph_multiphase::viscosity::Solves;
 pub use subject::Particles;
+pub use zones::Stepper;

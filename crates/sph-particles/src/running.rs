@@ -13,6 +13,7 @@ pub(crate) mod energy;
 pub(crate) mod identity;
 pub(crate) mod mach;
 pub(crate) mod model;
+pub(crate) mod next_step;
 pub(crate) mod on_threads;
 pub(crate) mod output;
 pub(crate) mod pieces;

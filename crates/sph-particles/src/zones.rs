@@ -4,8 +4,8 @@
 //! * `frame`: the box of a zone, its core, and the band around it.
 //! * `sample`, `fit`: the state of particles near a box, and its value anywhere by a fit.
 //! * `guard`: the band, in which finer particles follow those around; `spread` keeps them apart.
-//! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepping`]: steps of
-//!   a flow with its zones.
+//! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepper`]: steps of a
+//!   flow with its zones.
 //! * `checkpoints`, `refusals`, `scene_of_zone`: files, scenes that cannot have zones, and the scene of a zone.
 //!
 //! All particles of a flow keep one spacing, so that kernels, lists and walls are those of any flow. In the core of a
@@ -18,12 +18,11 @@ mod coupling;
 mod fit;
 mod frame;
 mod guard;
-mod next_step;
 mod refusals;
 mod sample;
 mod scene_of_zone;
 mod spread;
 
-pub(crate) use attach::{attach, stepping};
-pub(crate) use coupling::{Coupling, Level, Stepping};
-pub(crate) use next_step::{RECOVERY, next_step};
+pub(crate) use attach::attach;
+pub use coupling::Stepper;
+pub(crate) use coupling::{Coupling, Level};

@@ -1,4 +1,4 @@
-//! What the equations keep, closures, soils, implicit solves, zones, and the same bits on threads and ranks.
+//! Conservation, closures, soils, implicit solves, zones, and the same bits on threads and ranks.
 
 mod implicit;
 mod invariants;

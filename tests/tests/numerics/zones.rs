@@ -1,46 +1,24 @@
 //! Zones of finer particles: a flow passes them unchanged, mass follows mass, the same bits, refusals.
 
 use sph_io::Checkpoint;
-use sph_tests::{Bench, FinalState};
+use sph_tests::{Bench, DAM_BREAK, FinalState};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
-/// A dam break that meets a zone and one within it, both dry at first.
-const DAM: &str = r#"
-title = "A dam break into zones"
-dimension = 2
-[run]
-end = 0.4
-[numerics]
-spacing = 0.04
-gravity = [0.0, -9.81]
-relax = { steps = 0 }
-[smoother.brezzi-pitkaranta]
-[walls.usaw]
-[wall.tank]
-polyline = [[0.0, 2.0], [0.0, 0.0], [1.6, 0.0], [1.6, 2.0]]
-[phase.water]
-density = 1000.0
-[phase.water.equation-of-state.tait]
-[phase.water.rheology.newtonian]
-viscosity = "1 Pa s"
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.6, 1.0]]
-pressure = "hydrostatic"
-[probe.p]
-kind = "pressure"
-at = [1.6, 0.1]
+/// Zones for [`DAM_BREAK`], one within the other, both dry at first.
+const ZONES: &str = r#"
 [zone.wall]
-box = [[0.8, -0.1], [1.7, 0.7]]
-probes = ["p"]
+box = [[0.3, -0.05], [0.65, 0.4]]
+probes = ["front"]
 [zone.corner]
-box = [[1.2, -0.1], [1.7, 0.4]]
+box = [[0.45, -0.05], [0.65, 0.2]]
 ratio = 0.25
-[output]
-every = 0.4
-vtk = false
 "#;
+
+/// A dam break that meets zones.
+fn dam() -> String {
+    format!("{DAM_BREAK}{ZONES}")
+}
 
 /// A fluid that moves as a whole, from disorder, through a zone across its path.
 const UNIFORM: &str = r#"
@@ -90,7 +68,8 @@ fn a_uniform_flow_passes_a_zone_unchanged() {
         let velocity = column(&bench, file, "velocity");
         let off = velocity.chunks_exact(2).map(|u| (u[0] - 1.0).hypot(u[1]));
         let worst = off.fold(0.0, f64::max);
-        // Fits of constants are exact: what is left comes from the order that forms in the band (measured 0.0019).
+        // Fits are exact for constants. The displacements in the band change sums of particles beside it: 0.0019 measured,
+        // 0.2 % of the speed.
         assert!(worst < 5e-3, "{file}: {worst:e}");
     }
 }
@@ -98,16 +77,20 @@ fn a_uniform_flow_passes_a_zone_unchanged() {
 /// The mass of a zone with its band is that of the particles around that are there.
 #[test]
 fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
-    let bench = Bench::with(PROGRAM, DAM);
+    let bench = Bench::with(PROGRAM, &dam());
     bench.done("run scene.toml --quiet --out out");
-    let coarse: f64 = column(&bench, "out/checkpoint.sph", "mass").iter().sum();
-    let start = 0.6 * 1.0 * 1000.0;
-    assert!((coarse / start - 1.0).abs() < 0.02, "{coarse} kg");
+    bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
+    let total = |folder: &str| -> f64 {
+        let mass = column(&bench, &format!("{folder}/checkpoint.sph"), "mass");
+        mass.iter().sum()
+    };
+    let (start, coarse) = (total("none"), total("out"));
+    assert!((coarse / start - 1.0).abs() < 1e-14, "{coarse} kg");
     let place = column(&bench, "out/checkpoint.sph", "position");
     let mass = column(&bench, "out/checkpoint.sph", "mass");
     // One and a half supports of the finer particles around the box.
-    let band = 1.5 * 4.0 * 0.02;
-    let inside = |x: &[f64]| x[0] >= 0.8 - band && x[1] < 0.7 + band;
+    let band = 1.5 * 4.0 * 0.01;
+    let inside = |x: &[f64]| x[0] >= 0.3 - band && x[1] < 0.4 + band;
     let pairs = place.chunks_exact(2).zip(&mass);
     let around: f64 = pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum();
     let zone: f64 = column(&bench, "out/checkpoint-wall.sph", "mass")
@@ -122,13 +105,13 @@ fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
 
 #[test]
 fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = Bench::with(PROGRAM, DAM);
+    let bench = Bench::with(PROGRAM, &dam());
     bench.done("run scene.toml --quiet --out one --threads 1");
     bench.done("run scene.toml --quiet --out two --threads 2");
     let one = FinalState::read(&bench.path("one"));
     one.assert_same(&FinalState::read(&bench.path("two")), "threads");
     let parts = "run scene.toml --quiet --out parts";
-    bench.call(&format!("{parts} --set run.max_steps=300"));
+    bench.call(&format!("{parts} --set run.max_steps=400"));
     bench.done(&format!("{parts} --resume --changed"));
     one.assert_same(&FinalState::read(&bench.path("parts")), "parts");
     for zone in ["checkpoint-wall.sph", "checkpoint-wall-corner.sph"] {
@@ -138,10 +121,22 @@ fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
     }
 }
 
+/// A checkpoint of another run has no zones to begin with.
+#[test]
+fn a_run_with_zones_does_not_begin_from_another() {
+    let bench = Bench::with(PROGRAM, &dam());
+    bench.done("run scene.toml --quiet --out other --set run.end=1e-9");
+    let told = bench.call("run scene.toml --quiet --out out --from other");
+    assert_eq!(told.code, Some(2), "{}", told.err);
+    assert!(told.err.contains("take `--from` out"), "{}", told.err);
+    assert!(!bench.path("out/series.csv").exists(), "nothing is written");
+}
+
 /// A run refuses the scene, changed at one place, with these words.
 fn refused(from: &str, to: &str, call: &str, words: &str) {
-    assert!(DAM.contains(from), "{from}");
-    let bench = Bench::with(PROGRAM, &DAM.replacen(from, to, 1));
+    let dam = dam();
+    assert!(dam.contains(from), "{from}");
+    let bench = Bench::with(PROGRAM, &dam.replacen(from, to, 1));
     let told = bench.call(&format!("run scene.toml --quiet --out out {call}"));
     assert_eq!(told.code, Some(2), "{}", told.err);
     let said = told.err.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -166,30 +161,30 @@ fn zones_that_do_not_fit_are_refused() {
         "overlaps the zone `corner` of the same ratio",
     );
     refused(
-        "[1.7, 0.7]",
-        "[0.7, 0.7]",
+        "[0.65, 0.4]",
+        "[0.2, 0.4]",
         "",
         "the lower corner must be below the upper",
     );
     refused(
-        "[1.7, 0.4]",
-        "[1.7, 0.69]",
+        "[0.65, 0.2]",
+        "[0.65, 0.39]",
         "",
         "reaches out of the zone `wall`",
     );
     refused(
-        "probes = [\"p\"]",
-        "probes = [\"q\"]",
+        "probes = [\"front\"]",
+        "probes = [\"frond\"]",
         "",
-        "no probe or gauge called `q`",
+        "no probe or gauge called `frond`",
     );
     refused(ratio, ratio, "--ranks 2", "zones run in one process");
     let two = "[phase.air]\ndensity = 1.0\nspeed_of_sound = 20.0\nrheology.newtonian = { viscosity = 1e-3 }\n\
-               [body.air]\nphase = \"air\"\nbox = [[0.7, 1.5], [1.0, 1.7]]\n[body.water]";
-    refused("[body.water]", two, "", "zones are for one phase");
-    let solved = "[implicit-viscosity.backward-euler]\n[body.water]";
-    refused("[body.water]", solved, "", "solves for the end of a step");
+               [body.air]\nphase = \"air\"\nbox = [[0.3, 0.45], [0.4, 0.55]]\n[body.column]";
+    refused("[body.column]", two, "", "zones are for one phase");
+    let solved = "[implicit-viscosity.backward-euler]\n[body.column]";
+    refused("[body.column]", solved, "", "solves for the end of a step");
     // Its scheme evaluates twice a step.
-    let other = "[integrator.leap-frog]\n[body.water]";
-    refused("[body.water]", other, "", "evaluates once a step");
+    let other = "[integrator.leap-frog]\n[body.column]";
+    refused("[body.column]", other, "", "evaluates once a step");
 }

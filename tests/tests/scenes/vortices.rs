@@ -47,7 +47,7 @@ fn taylor_green_keeps_its_momentum() {
     );
 }
 
-/// The error through the band is that of the coarse particles, 0.0021.
+/// The error is that of the coarse particles alone, 0.0021; the bound is a tenth above.
 #[test]
 fn vortices_pass_a_zone_of_finer_particles_with_the_error_of_the_coarse_ones() {
     let zone = "zone.middle.box=[[0.3,0.3],[0.7,0.7]]";

@@ -29,16 +29,9 @@ impl<const D: usize> Model for Running<'_, D> {
         let flow = &mut self.parts.flow;
         self.counters = begin(scene, identity, start, own, flow, observer)?;
         match start {
-            Start::Afresh => {}
-            Start::From(_) if !scene.zone.is_empty() => {
-                let why = "a run with zones begins afresh or goes on from its own checkpoint";
-                return Err(RunError::at("zone", why));
-            }
-            Start::From(_) => {}
-            goes_on => {
-                let same = (*goes_on == Start::Resumed).then_some(identity);
-                self.zones.load(own, same)?;
-            }
+            Start::Afresh | Start::From(_) => {}
+            Start::Resumed => self.zones.load(own, Some(identity))?,
+            Start::Changed => self.zones.load(own, None)?,
         }
         if let Some(ranks) = self.ranks.clone().filter(|_| flow.parts.is_none()) {
             flow.divide(ranks).map_err(StepError::from)?;

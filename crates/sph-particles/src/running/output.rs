@@ -98,11 +98,13 @@ impl Outputs {
             };
             remarks.extend(range.1);
             let path = frames.picture(name);
-            let (points, drawn, diameters) = match zones.levels.is_empty() {
-                true => (points.clone(), drawn, Vec::new()),
-                false => finest(flow, zones, (name, drawn.0))?,
+            let finest = finest(flow, zones, name)?;
+            let (points, values, diameters) = match &finest {
+                Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
+                None => (&points[..], &drawn.1[..], &[][..]),
             };
-            let particles = (&points[..], classes, &diameters[..]);
+            let particles = (points, classes, diameters);
+            let drawn = (&drawn.0[..], values);
             picture(flow, particles, drawn, range.0, (&self.title, &path))?;
         }
         for (name, probe) in probes {
@@ -203,29 +205,34 @@ fn map<const D: usize>(
 }
 
 /// Places, values and diameters of particles in a picture.
-type Spots = (Vec<[f64; 3]>, (String, Vec<f64>), Vec<f64>);
+type Spots = (Vec<[f64; 3]>, Vec<f64>, Vec<f64>);
 
-/// The finest particles everywhere with a column.
+/// The finest particles everywhere with a column; none without zones, and where a flow has no such column.
 fn finest<const D: usize>(
     flow: &Flow<D>,
     zones: &Coupling<D>,
-    (name, label): (&str, String),
-) -> Result<Spots, RunError> {
+    name: &str,
+) -> Result<Option<Spots>, RunError> {
+    if zones.levels.is_empty() {
+        return Ok(None);
+    }
     let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
     for (flow, some) in zones.finest(flow)? {
+        let Some((_, column)) = column_of(flow, name) else {
+            return Ok(None);
+        };
         let all = points(flow)?;
-        let column = column_of(flow, name).map_or(vec![0.0; all.len()], |(_, values)| values);
         places.extend(some.iter().map(|k| all[*k]));
         values.extend(some.iter().map(|k| column[*k]));
         diameters.resize(places.len(), flow.world.spacing);
     }
-    Ok((places, (label, values), diameters))
+    Ok(Some((places, values, diameters)))
 }
 
 fn picture<const D: usize>(
     flow: &Flow<D>,
     (points, classes, diameters): (&[[f64; 3]], &[String], &[f64]),
-    (label, values): (String, Vec<f64>),
+    (label, values): (&str, &[f64]),
     range: Option<[f64; 2]>,
     (title, path): (&str, &Path),
 ) -> Result<(), RunError> {
@@ -234,7 +241,7 @@ fn picture<const D: usize>(
     let picture = Picture {
         title,
         time: Some(world.time),
-        label: &label,
+        label,
         diameter: world.spacing,
         diameters,
         walls: &walls,
@@ -242,7 +249,7 @@ fn picture<const D: usize>(
         view: if D == 2 { View::Plane } else { View::Above },
         range,
         colours: ColourMap::Viridis,
-        ..Picture::new(points, &values)
+        ..Picture::new(points, values)
     };
     Ok(picture.save(path)?)
 }

@@ -85,7 +85,7 @@ pub(crate) fn zone_particles<const D: usize>(
     level: &Level<D>,
     wanted: impl Fn(&str) -> bool,
 ) -> Result<Piece<'static>, RunError> {
-    let flow = &level.stepping.parts.flow;
+    let flow = &level.stepper.parts.flow;
     let position = flow.world.free.get(fields::POSITION)?;
     let inside = position.iter().map(|x| level.frame.holds(x, 0.0));
     let inside: Vec<bool> = inside.collect();

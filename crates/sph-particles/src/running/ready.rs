@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sph_neighbours::Nearby;
 use sph_neighbours::decomposition::Transport;
-use sph_run::RunOptions;
+use sph_run::{RunOptions, Start};
 use sph_scene::Scene;
 
 use crate::failure::error::RunError;
@@ -38,9 +38,15 @@ pub(crate) fn ready<'a, const D: usize>(
             .extend(short_steps(scene, &limits, &remedies)?);
     }
     readable(scene)?;
-    if let (Some(name), Some(_)) = (scene.zone.keys().next(), &ranks) {
-        let why = "zones run in one process: take `--ranks` out";
-        return Err(RunError::at(format!("zone.{name}"), why));
+    if let Some(name) = scene.zone.keys().next() {
+        let why = match (&ranks, &options.start) {
+            (Some(_), _) => Some("zones run in one process: take `--ranks` out"),
+            (_, Start::From(_)) => Some("a run with zones begins at its start: take `--from` out"),
+            _ => None,
+        };
+        if let Some(why) = why {
+            return Err(RunError::at(format!("zone.{name}"), why));
+        }
     }
     let zones = attach(scene, &parts)?;
     if let Some(ranks) = &ranks {

@@ -15,10 +15,10 @@ use crate::failure::error::RunError;
 use crate::results::summary::Summary;
 use crate::running::clock::standing_still;
 use crate::running::course::Running;
+use crate::running::next_step::{RECOVERY, next_step};
 use crate::running::output::outlay;
 use crate::running::ready::ready;
 use crate::setup::all_ready;
-use crate::zones::{RECOVERY, next_step};
 
 /// Runs a scene.
 ///

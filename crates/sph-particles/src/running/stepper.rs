@@ -9,13 +9,7 @@ use sph_solver::step::guard;
 use crate::failure::error::RunError;
 use crate::running::checkpoint;
 use crate::setup::{Assembled, assemble, rehearse};
-use crate::zones::{Stepping, stepping};
-
-/// A scene in memory, one step at a time.
-///
-/// Steps are chosen, taken back and tried again as in a run: stepped to the same times, it has the same bits. Between
-/// steps all columns are those of the present state. Particles are sorted now and then; `identity` follows them.
-pub struct Stepper<const D: usize>(Stepping<D>);
+use crate::zones::{Stepper, attach};
 
 impl<const D: usize> Stepper<D> {
     /// Assembles a scene of `D` dimensions.
@@ -33,7 +27,8 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// Every problem of its zones, with its path.
     pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Result<Self, RunError> {
-        Ok(Stepper(stepping(scene, parts)?))
+        let zones = attach(scene, &parts)?;
+        Ok(Self::from_parts(scene, parts, zones))
     }
 
     /// Begins with the particles and the time of a checkpoint of another run of the same bodies.
@@ -41,52 +36,8 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// A checkpoint that cannot be read or has other particles.
     pub fn start_from(&mut self, checkpoint: &Path) -> Result<(), RunError> {
-        self.0.changed();
-        checkpoint::start_from(&mut self.0.parts.flow, &self.0.scene, checkpoint)
-    }
-
-    /// The flow with its probes and plugins.
-    pub fn parts(&self) -> &Assembled<D> {
-        &self.0.parts
-    }
-
-    /// Simulated time, s.
-    pub fn time(&self) -> f64 {
-        self.0.time()
-    }
-
-    /// The last step, s, and its limit.
-    pub fn last_step(&self) -> (f64, &'static str) {
-        (self.0.parts.flow.world.dt, self.0.limiter)
-    }
-
-    /// Steps taken, and steps that were taken back.
-    pub fn steps(&self) -> (u64, u64) {
-        (self.0.steps, self.0.rolled_back)
-    }
-
-    /// Computes all derived columns of the present state, unless that is done.
-    ///
-    /// # Errors
-    /// The particle or stage at which the state is bad.
-    pub fn evaluate(&mut self) -> Result<(), StepError> {
-        self.0.evaluate()
-    }
-
-    /// One step that does not go beyond `target` (s), and the evaluation of the state that it leads to; its length, s.
-    ///
-    /// # Errors
-    /// If the step fails with all of the scene's `run.retries` halvings; the flow is then where it was before.
-    pub fn step(&mut self, target: f64) -> Result<f64, StepError> {
-        self.0.step(target)
-    }
-
-    /// Steps until `target` (s) is hit exactly; the number of steps.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step).
-    pub fn run_until(&mut self, target: f64) -> Result<u64, StepError> {
-        self.0.run_until(target)
+        self.changed();
+        checkpoint::start_from(&mut self.parts.flow, &self.scene, checkpoint)
     }
 
     /// Present values of every probe: name with suffix, unit, value.
@@ -95,12 +46,12 @@ impl<const D: usize> Stepper<D> {
     /// If a column is missing, or the state is bad.
     pub fn measure(&mut self) -> Result<Vec<(String, &'static str, f64)>, RunError> {
         self.evaluate()?;
-        let parts = &mut self.0.parts;
-        rehearse(&self.0.scene, &mut parts.flow, &parts.probes)?;
-        self.0.coupling.measure_walls()?;
+        let parts = &mut self.parts;
+        rehearse(&self.scene, &mut parts.flow, &parts.probes)?;
+        self.coupling.measure_walls()?;
         let mut all = Vec::new();
         for (name, probe) in &parts.probes {
-            let zone = self.0.coupling.measuring(name);
+            let zone = self.coupling.measuring(name);
             let (probe, world) = zone.unwrap_or((&**probe, &parts.flow.world));
             let values = probe.measure(world)?;
             let columns = probe.columns().into_iter().zip(values);
@@ -118,7 +69,7 @@ impl<const D: usize> Stepper<D> {
             stage: format!("setting `{name}`"),
             reason,
         };
-        let free = &mut self.0.parts.flow.world.free;
+        let free = &mut self.parts.flow.world.free;
         let state = |role: Role| role == Role::State;
         let found = free.columns().find(|(n, ..)| *n == name);
         let Some((name, _, role, ..)) = found else {
@@ -140,10 +91,10 @@ impl<const D: usize> Stepper<D> {
             }
             other => other?,
         }
-        self.0.changed();
+        self.changed();
         if name == fields::POSITION.name {
-            guard::positions(&self.0.parts.flow.world)?;
-            self.0.parts.flow.world.rebuild_lists()?;
+            guard::positions(&self.parts.flow.world)?;
+            self.parts.flow.world.rebuild_lists()?;
         }
         Ok(())
     }

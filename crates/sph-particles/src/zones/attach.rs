@@ -3,7 +3,7 @@
 use sph_scene::{Scene, Zone};
 use sph_solver::SolverError;
 
-use super::coupling::{Coupling, Level, Stepping};
+use super::coupling::{Coupling, Level, Stepper};
 use super::frame::Frame;
 use super::guard::Guard;
 use super::refusals::{refuse, refuse_places};
@@ -22,18 +22,6 @@ pub(crate) fn attach<const D: usize>(
         refuse_places::<D>(scene, parts)?;
     }
     coupling(scene, parts, None, 0)
-}
-
-/// An assembled scene that is stepped with its zones.
-///
-/// # Errors
-/// As [`attach`].
-pub(crate) fn stepping<const D: usize>(
-    scene: &Scene,
-    parts: Assembled<D>,
-) -> Result<Stepping<D>, SolverError> {
-    let coupling = attach(scene, &parts)?;
-    Ok(Stepping::new(scene, parts, coupling))
 }
 
 fn coupling<const D: usize>(
@@ -66,6 +54,6 @@ fn level<const D: usize>(
     refuse(name, &parts)?;
     let guard = Guard::new(frame.clone(), scene.numerics.spacing);
     let coupling = coupling(&finer, &parts, Some(guard), depth + 1)?;
-    let stepping = Stepping::new(&finer, parts, coupling);
-    Ok(Level::new((name, &zone.probes), frame, stepping, depth))
+    let stepper = Stepper::from_parts(&finer, parts, coupling);
+    Ok(Level::new((name, &zone.probes), frame, stepper, depth))
 }

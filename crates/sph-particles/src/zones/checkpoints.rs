@@ -24,16 +24,16 @@ impl<const D: usize> Coupling<D> {
     pub fn save(&self, own: &Path, identity: &Identity) -> Result<(), RunError> {
         for level in &self.levels {
             let path = beside(own, &level.name);
-            let stepping = &level.stepping;
-            let flow = &stepping.parts.flow;
+            let stepper = &level.stepper;
+            let flow = &stepper.parts.flow;
             let counters = Counters {
-                steps: stepping.steps,
-                rolled_back: stepping.rolled_back,
-                step_scale: stepping.scale.to_bits(),
+                steps: stepper.steps,
+                rolled_back: stepper.rolled_back,
+                step_scale: stepper.scale.to_bits(),
                 ..Counters::begin()
             };
             checkpoint::save((flow, flow.walls.as_deref()), &path, identity, &counters)?;
-            stepping.coupling.save(&path, identity)?;
+            stepper.coupling.save(&path, identity)?;
         }
         Ok(())
     }
@@ -45,14 +45,14 @@ impl<const D: usize> Coupling<D> {
     pub fn load(&mut self, own: &Path, identity: Option<&Identity>) -> Result<(), RunError> {
         for level in &mut self.levels {
             let path = beside(own, &level.name);
-            let stepping = &mut level.stepping;
-            let flow = &mut stepping.parts.flow;
-            let counters = checkpoint::load(flow, &stepping.scene, &path, identity)?;
-            stepping.changed();
-            stepping.steps = counters.steps;
-            stepping.rolled_back = counters.rolled_back;
-            stepping.scale = f64::from_bits(counters.step_scale);
-            stepping.coupling.load(&path, identity)?;
+            let stepper = &mut level.stepper;
+            let flow = &mut stepper.parts.flow;
+            let counters = checkpoint::load(flow, &stepper.scene, &path, identity)?;
+            stepper.changed();
+            stepper.steps = counters.steps;
+            stepper.rolled_back = counters.rolled_back;
+            stepper.scale = f64::from_bits(counters.step_scale);
+            stepper.coupling.load(&path, identity)?;
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! The zones of a flow, and its own band if it is one.
 
 mod level;
-mod stepping;
+mod stepper;
 
 use sph_core::{StepError, System, Vect, fields};
 use sph_multiphase::Diffused;
@@ -10,18 +10,16 @@ use sph_probes::Probe;
 use sph_solver::Flow;
 
 use super::guard::Guard;
-use super::sample::State;
-use super::spread::spread;
+use super::sample::{State, States};
 use crate::setup::measure_walls;
 
 pub(crate) use level::Level;
-pub(crate) use stepping::Stepping;
+pub use stepper::Stepper;
 
-/// Times over h/c in which the density and the velocity of particles that share a place with another flow come to those
-/// of that flow. At once they would be those of other places, and the particles' own forces could not keep them apart;
-/// by themselves both flows drift from each other. Measured: `notes/zones.md`.
-const DENSITY_TIME: f64 = 2.0;
-const VELOCITY_TIME: f64 = 2.0;
+/// Time over h/c in which the density and the velocity of particles that share a place with another flow come to those of
+/// that flow. At once they would be those of other places, and the particles' own forces could not keep them apart; by
+/// themselves both flows drift from each other. Measured: `notes/zones.md`.
+const RELAXATION: f64 = 2.0;
 
 /// Some particles of a flow.
 pub(crate) type Particles<'a, const D: usize> = (&'a Flow<D>, Vec<usize>);
@@ -35,9 +33,9 @@ pub(crate) struct Coupling<const D: usize> {
     /// Its zones.
     pub levels: Vec<Level<D>>,
     /// Particles that a zone leads, with the states there.
-    inner: Vec<(usize, State<D>)>,
+    inner: States<D>,
     /// Particles of the overlap with the flow around, with the states of that.
-    overlap: Vec<(usize, State<D>)>,
+    overlap: States<D>,
 }
 
 impl<const D: usize> Coupling<D> {
@@ -63,8 +61,7 @@ impl<const D: usize> Coupling<D> {
         let mut band = Vec::new();
         flow.evaluate_with(|flow, restored| {
             if let Some(guard) = self.guard.as_ref() {
-                band = guard.in_band(flow)?;
-                self.overlap = guard.in_overlap(flow)?;
+                (band, self.overlap) = guard.states(flow)?;
                 self.give_densities(flow, &band, restored)?;
             }
             self.inner.clear();
@@ -84,7 +81,7 @@ impl<const D: usize> Coupling<D> {
     fn give_densities(
         &self,
         flow: &mut Flow<D>,
-        band: &[(usize, State<D>)],
+        band: &States<D>,
         restored: bool,
     ) -> Result<(), StepError> {
         if !restored {
@@ -102,28 +99,24 @@ impl<const D: usize> Coupling<D> {
         Ok(free.put(fields::VOLUME, volume)?)
     }
 
-    /// Before a step of `dt` seconds: densities that a zone leads go towards those of its particles.
+    /// Before a step of `dt` seconds: particles that share a place with another flow go towards its state.
     ///
     /// # Errors
     /// If a column is missing.
     pub fn begin_step(&mut self, flow: &mut Flow<D>, dt: f64) -> Result<(), StepError> {
-        if let Some(guard) = &self.guard {
-            spread(flow, &guard.frame)?;
-        }
         if self.inner.is_empty() && self.overlap.is_empty() {
             return Ok(());
         }
-        let fastest = flow.laws.iter().map(|law| law.reference().sound_speed);
-        let speed = fastest.fold(0.0, f64::max);
-        let time = flow.world.kernel.smoothing_length() / speed;
-        let share = |of: f64| 1.0 - (-dt / (of * time)).exp();
+        let speeds = flow.laws.iter().map(|law| law.reference().sound_speed);
+        let time = RELAXATION * flow.world.kernel.smoothing_length() / speeds.fold(0.0, f64::max);
+        let share = 1.0 - (-dt / time).exp();
         let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
         for (k, state) in &self.inner {
             let own = velocity[*k];
-            velocity[*k] += (state.velocity - own) * share(VELOCITY_TIME);
+            velocity[*k] += (state.velocity - own) * share;
         }
         let led = self.inner.iter().chain(&self.overlap);
-        move_densities(self.diffused, flow, led, share(DENSITY_TIME))
+        move_densities(self.diffused, flow, led, share)
     }
 
     /// Accelerates the particles of the band as those around it.
@@ -134,7 +127,7 @@ impl<const D: usize> Coupling<D> {
         let Some(guard) = &self.guard else {
             return Ok(());
         };
-        let band = guard.in_band(flow)?;
+        let (band, _) = guard.states(flow)?;
         accelerate(flow, band.iter())
     }
 
@@ -143,7 +136,7 @@ impl<const D: usize> Coupling<D> {
         let mut all = Vec::new();
         for level in &self.levels {
             all.push(level);
-            all.extend(level.stepping.coupling.all_levels());
+            all.extend(level.stepper.coupling.all_levels());
         }
         all
     }
@@ -166,7 +159,7 @@ impl<const D: usize> Coupling<D> {
         let own = |k: &usize| wanted(&position[*k]) && !finer(&position[*k]);
         let mut all = vec![(flow, (0..position.len()).filter(own).collect())];
         for level in &self.levels {
-            let zone = &level.stepping;
+            let zone = &level.stepper;
             let inside = |x: &Vect<D>| level.frame.holds(x, 0.0);
             all.extend(zone.coupling.finest_within(&zone.parts.flow, &inside)?);
         }
@@ -177,7 +170,7 @@ impl<const D: usize> Coupling<D> {
     pub fn remarks(&self, flow: &Flow<D>) -> Vec<String> {
         let around = flow.world.free.len();
         let of = |level: &&Level<D>| {
-            let zone = &level.stepping.parts.flow;
+            let zone = &level.stepper.parts.flow;
             let (name, spacing) = (&level.name, zone.world.spacing);
             let finer = (flow.world.spacing / spacing).powi(D as i32);
             format!(
@@ -195,7 +188,7 @@ impl<const D: usize> Coupling<D> {
         let level = all
             .iter()
             .find(|level| level.probes.iter().any(|p| p == probe))?;
-        let parts = &level.stepping.parts;
+        let parts = &level.stepper.parts;
         let (_, own) = parts.probes.iter().find(|(name, _)| name == probe)?;
         Some((&**own, &parts.flow.world))
     }
@@ -206,9 +199,9 @@ impl<const D: usize> Coupling<D> {
     /// If a column is missing.
     pub fn measure_walls(&mut self) -> Result<(), StepError> {
         for level in &mut self.levels {
-            let parts = &mut level.stepping.parts;
+            let parts = &mut level.stepper.parts;
             measure_walls(&mut parts.flow, &parts.probes)?;
-            level.stepping.coupling.measure_walls()?;
+            level.stepper.coupling.measure_walls()?;
         }
         Ok(())
     }

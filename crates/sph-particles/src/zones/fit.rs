@@ -10,6 +10,9 @@ const TERMS: usize = 10;
 /// Largest sum of the weights' amounts: errors of single particles grow by no more. It is 1 to 1.4 within particles, and
 /// up to 3 beside a plane side of them.
 const LARGEST: f64 = 3.0;
+/// Least share of a term that the terms before it may leave undetermined: far above rounding, 10⁻¹⁵, which alone decides
+/// below it whether the factor of a row of particles exists.
+const LEAST_PIVOT: f64 = 1e-9;
 /// Fewest particles of a fit.
 const FEWEST: usize = 3;
 
@@ -36,7 +39,12 @@ fn weights_of_order<const D: usize>(order: u32, radius: f64, away: &[Vect<D>]) -
         moments += basis * basis.transpose() * weight;
     }
     let first = SVector::<f64, TERMS>::ith(0, 1.0);
-    let value = moments.cholesky()?.solve(&first);
+    let factor = moments.cholesky()?;
+    let pivot = |k: usize| factor.l_dirty()[(k, k)].powi(2);
+    if (0..terms).any(|k| pivot(k) < LEAST_PIVOT * moments[(k, k)]) {
+        return None;
+    }
+    let value = factor.solve(&first);
     let weights = away.iter().map(|d| {
         let (weight, basis) = weighted(d);
         weight * basis.dot(&value)

@@ -108,11 +108,6 @@ impl<const D: usize> Frame<D> {
         (0..D).all(|k| self.low[k] - margin <= x[k] && x[k] < self.high[k] + margin)
     }
 
-    /// True if a place is in the box and not in the core.
-    pub fn in_overlap(&self, x: &Vect<D>) -> bool {
-        self.holds(x, 0.0) && !self.in_core(x)
-    }
-
     /// True if a place is in the core.
     pub fn in_core(&self, x: &Vect<D>) -> bool {
         (0..D).all(|k| self.core[0][k] <= x[k] && x[k] < self.core[1][k])

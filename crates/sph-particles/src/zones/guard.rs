@@ -3,12 +3,13 @@
 use rayon::prelude::*;
 use sph_contribution::Newborn;
 use sph_core::{Slots, StepError, Vect, fields};
+use sph_neighbours::CellGrid;
 use sph_solver::Flow;
 
 use super::frame::Frame;
-use super::sample::{Sample, Source, State};
+use super::sample::{Sample, Source, State, States};
 
-/// Distance from the band over the spacing around it, beyond which a finer particle has nothing to follow.
+/// Distance from the band over the spacing around it, beyond which a finer particle is brought back.
 const LOST: f64 = 2.0;
 
 /// Particles around a zone, and the band that follows them.
@@ -18,6 +19,8 @@ pub(crate) struct Guard<const D: usize> {
     pub spacing: f64,
     before: Sample<D>,
     now: Sample<D>,
+    /// Places of the present particles in the earlier sample.
+    earlier: Vec<Option<u32>>,
 }
 
 impl<const D: usize> Guard<D> {
@@ -28,6 +31,7 @@ impl<const D: usize> Guard<D> {
             spacing,
             before: Sample::default(),
             now: Sample::default(),
+            earlier: Vec::new(),
         }
     }
 
@@ -42,40 +46,30 @@ impl<const D: usize> Guard<D> {
         if self.before.time >= self.now.time {
             self.before = Sample::default();
         }
+        let slots = Slots::from_identities(&self.before.identities);
+        let identities = self.now.identities.iter();
+        self.earlier = identities.map(|id| slots.slot(*id)).collect();
         Ok(())
     }
 
-    /// States around the particles of a zone that are beyond its sides, at its time.
+    /// States around the particles of a zone at its time: of those beyond its sides, and of those between sides and core,
+    /// where both flows are computed.
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn in_band(&self, zone: &Flow<D>) -> Result<Vec<(usize, State<D>)>, StepError> {
-        self.states(zone, |x| !self.frame.holds(x, 0.0))
-    }
-
-    /// The same of those between the core and the sides of the zone, where both flows are computed.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    pub fn in_overlap(&self, zone: &Flow<D>) -> Result<Vec<(usize, State<D>)>, StepError> {
-        self.states(zone, |x| self.frame.in_overlap(x))
-    }
-
-    fn states(
-        &self,
-        zone: &Flow<D>,
-        wanted: impl Fn(&Vect<D>) -> bool + Sync,
-    ) -> Result<Vec<(usize, State<D>)>, StepError> {
+    pub fn states(&self, zone: &Flow<D>) -> Result<(States<D>, States<D>), StepError> {
         let world = &zone.world;
-        let around = self.now.since(&self.before, &world.domain, world.time);
+        let around = self.now.since(&self.before, &self.earlier, world);
         let source = Source::new(&around, &world.domain, self.spacing);
         let position = world.free.get(fields::POSITION)?;
         let at = |(k, x): (usize, &Vect<D>)| {
-            let state = wanted(x).then(|| source.at(x));
+            let state = (!self.frame.in_core(x)).then(|| source.at(x));
             Some((k, state.flatten()?))
         };
         let all = position.par_iter().enumerate().with_min_len(256);
-        Ok(all.filter_map(at).collect())
+        let all: States<D> = all.filter_map(at).collect();
+        let beyond = |(k, _): &(usize, State<D>)| !self.frame.holds(&position[*k], 0.0);
+        Ok(all.into_iter().partition(beyond))
     }
 
     /// Lets finer particles in where those around come into the band, and takes them out where those leave it, mass for
@@ -84,44 +78,45 @@ impl<const D: usize> Guard<D> {
     /// # Errors
     /// A particle that cannot come in.
     pub fn exchange(&self, zone: &mut Flow<D>) -> Result<bool, StepError> {
-        let slots = Slots::from_identities(&self.before.identities);
         let outer = self.frame.band;
         let (mut comes, mut goes) = (Vec::new(), Vec::new());
-        for (k, id) in self.now.identities.iter().enumerate() {
-            let Some(slot) = slots.slot(*id) else {
+        for (k, earlier) in self.earlier.iter().enumerate() {
+            let Some(earlier) = earlier else {
                 continue;
             };
-            let was = self
-                .frame
-                .holds(&self.before.positions[slot as usize], outer);
+            let then = &self.before.positions[*earlier as usize];
+            let was = self.frame.holds(then, outer);
             match (was, self.frame.holds(&self.now.positions[k], outer)) {
                 (false, true) => comes.push(k),
                 (true, false) => goes.push(k),
                 _ => {}
             }
         }
-        let gone = self.take_out(zone, &goes)? | self.bring_back(zone)?;
+        let changed = self.bring_back(zone)? | self.take_out(zone, &goes)?;
         let births: Vec<_> = comes.iter().flat_map(|k| self.children(zone, *k)).collect();
         zone.insert(&births)?;
-        Ok(gone || !births.is_empty())
+        Ok(changed || !births.is_empty())
     }
 
-    /// Puts particles of the band that are behind a wall where the nearest particle around is. True if there are some.
+    /// Puts particles that are behind a wall, or far from the band, beside the nearest particle around. True if there are
+    /// some.
     fn bring_back(&self, zone: &mut Flow<D>) -> Result<bool, StepError> {
-        let Some(walls) = zone.walls.as_deref() else {
-            return Ok(false);
-        };
         let mut position = zone.world.free.take(fields::POSITION)?;
         let domain = &zone.world.domain;
+        let lost = self.frame.band + LOST * self.spacing;
+        let is_fluid = |x: &Vect<D>| zone.walls.as_ref().is_none_or(|w| w.contains(x));
         let mut some = false;
         for x in &mut position {
-            if self.frame.holds(x, 0.0) || walls.contains(x) {
+            if self.frame.holds(x, 0.0) || (self.frame.holds(x, lost) && is_fluid(x)) {
                 continue;
             }
-            let far = |y: &&Vect<D>| domain.nearest(*y - *x).norm();
+            let way = |y: &Vect<D>| domain.nearest(*x - *y);
+            let far = |y: &&Vect<D>| way(y).norm();
             let places = self.now.positions.iter();
             if let Some(place) = places.min_by(|a, b| far(a).total_cmp(&far(b))) {
-                *x = *place;
+                let aside = way(place).cap_magnitude(0.25 * self.spacing);
+                let beside = domain.wrapped(place + aside);
+                *x = if is_fluid(&beside) { beside } else { *place };
                 some = true;
             }
         }
@@ -129,31 +124,42 @@ impl<const D: usize> Guard<D> {
         Ok(some)
     }
 
-    /// Takes out the finer particles nearest to those that leave, as many as these are divided into, and any that are far
-    /// from the band. True if there are some.
+    /// Takes out the finer particles nearest to those that leave, as many as these are divided into; the next nearest keeps
+    /// the difference of mass. True if there are some.
     fn take_out(&self, zone: &mut Flow<D>, goes: &[usize]) -> Result<bool, StepError> {
+        let mut mass = zone.world.free.take(fields::MASS)?;
         let world = &zone.world;
         let position = world.free.get(fields::POSITION)?;
         let identity = world.free.get(fields::IDENTITY)?;
-        let lost = self.frame.band + LOST * self.spacing;
-        let mut leaves: Vec<bool> = position
-            .iter()
-            .map(|x| !self.frame.holds(x, lost))
-            .collect();
+        let mut leaves = vec![false; position.len()];
         let reach = 4.0 * self.spacing;
-        let mut near: Vec<usize> = Vec::new();
+        let grid = CellGrid::new(position, reach, &world.domain);
+        let mut near: Vec<(f64, u32, usize)> = Vec::new();
         for parent in goes {
             let place = self.now.positions[*parent];
-            let far = |k: &usize| world.domain.nearest(position[*k] - place).norm();
+            let far = |k: usize| world.domain.nearest(position[k] - place).norm();
+            let with_distance = |k: usize| (!leaves[k]).then(|| (far(k), identity[k], k));
             near.clear();
-            near.extend((0..position.len()).filter(|k| !leaves[*k] && far(k) < reach));
-            near.sort_by(|a, b| {
-                far(a)
-                    .total_cmp(&far(b))
-                    .then(identity[*a].cmp(&identity[*b]))
+            grid.ranges(&place, reach, |found| {
+                let all = grid.order()[found].iter().map(|k| *k as usize);
+                near.extend(all.filter_map(with_distance));
             });
-            near.iter().take(1 << D).for_each(|k| leaves[*k] = true);
+            if near.len() < 1 << D {
+                near.clear();
+                near.extend((0..position.len()).filter_map(with_distance));
+            }
+            near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let mut rest = -self.now.masses[*parent];
+            let mut order = near.iter().map(|(.., k)| *k);
+            for k in order.by_ref().take(1 << D) {
+                leaves[k] = true;
+                rest += mass[k];
+            }
+            if let Some(next) = order.next() {
+                mass[next] += rest;
+            }
         }
+        zone.world.free.put(fields::MASS, mass)?;
         let some = leaves.contains(&true);
         if some {
             zone.world.free.take_out(&leaves);

@@ -1,7 +1,7 @@
 //! The state of the particles near a box at one time, and between two times.
 
-use sph_core::{FieldError, Slots, Vect, fields};
-use sph_neighbours::{CellGrid, Domain};
+use sph_core::{FieldError, Vect, fields};
+use sph_neighbours::{CellGrid, Domain, World};
 use sph_solver::Flow;
 
 use super::fit::{REACH, weights};
@@ -13,6 +13,9 @@ pub(crate) struct State<const D: usize> {
     pub velocity: Vect<D>,
     pub acceleration: Vect<D>,
 }
+
+/// Particles of a flow, by their places in its columns, with states that another flow has there.
+pub(crate) type States<const D: usize> = Vec<(usize, State<D>)>;
 
 /// Particles at one time, by their identities.
 #[derive(Clone, Debug, Default)]
@@ -54,10 +57,11 @@ impl<const D: usize> Sample<D> {
         Ok(sample)
     }
 
-    /// The state at a time between an earlier sample and this one; accelerations are the change of velocities.
+    /// The state at the time of a zone, between an earlier sample and this one; accelerations are the change of velocities.
     ///
-    /// Particles that the earlier sample lacks are traced back with their velocity.
-    pub fn since(&self, before: &Sample<D>, domain: &Domain<D>, time: f64) -> Self {
+    /// `earlier` has the places of the particles in the earlier sample; those that it lacks are traced back with their
+    /// velocity.
+    pub fn since(&self, before: &Sample<D>, earlier: &[Option<u32>], zone: &World<D>) -> Self {
         let (Some(from), Some(to)) = (before.time, self.time) else {
             return self.clone();
         };
@@ -65,17 +69,16 @@ impl<const D: usize> Sample<D> {
         if length <= 0.0 {
             return self.clone();
         }
-        let share = ((time - from) / length).clamp(0.0, 1.0);
+        let share = ((zone.time - from) / length).clamp(0.0, 1.0);
         let last = share == 1.0;
-        let slots = Slots::from_identities(&before.identities);
         let mut between = self.clone();
-        between.time = Some(time);
-        for (k, id) in self.identities.iter().enumerate() {
-            let now = &self.states[k];
-            let known = slots.slot(*id).map(|slot| slot as usize);
-            let (way, then) = match known {
+        between.time = Some(zone.time);
+        for (k, now) in self.states.iter().enumerate() {
+            let (way, then) = match earlier[k].map(|slot| slot as usize) {
                 Some(slot) => {
-                    let way = domain.nearest(self.positions[k] - before.positions[slot]);
+                    let way = zone
+                        .domain
+                        .nearest(self.positions[k] - before.positions[slot]);
                     (way, before.states[slot])
                 }
                 None => (now.velocity * length, *now),

@@ -29,6 +29,7 @@ pub(crate) fn scene_of_zone<const D: usize>(
     finer.reference.clear();
     finer.output = Output {
         fields: scene.output.fields.clone(),
+        picture: scene.output.picture.clone(),
         ..Output::default()
     };
     finer

@@ -52,7 +52,7 @@ pub struct Scene {
     /// Boxes with finer particles, by name, `[zone.NAME]`.
     #[parameter(default)]
     pub zone: BTreeMap<String, Zone>,
-    /// Corners of the box in which bodies are filled, m; everywhere if there is none.
+    /// Corners of the box outside of which bodies have no particles, m; without it they are whole.
     #[serde(skip)]
     pub window: Option<[Vec<f64>; 2]>,
     /// Measurements by name, `[probe.NAME]`; `kind` is the plugin, the other keys its parameters.

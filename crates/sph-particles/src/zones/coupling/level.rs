@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use sph_core::{StepError, fields};
 use sph_solver::{Flow, Snapshot};
 
-use super::stepping::Stepping;
+use super::stepper::Stepper;
 use crate::zones::frame::Frame;
-use crate::zones::sample::{Sample, Source, State};
+use crate::zones::sample::{Sample, Source, States};
 
 /// A zone of finer particles.
 pub(crate) struct Level<const D: usize> {
@@ -15,7 +15,7 @@ pub(crate) struct Level<const D: usize> {
     /// Probes that are measured in it.
     pub probes: Vec<String>,
     pub frame: Frame<D>,
-    pub stepping: Stepping<D>,
+    pub stepper: Stepper<D>,
     /// Levels between the scene's spacing and the one around it.
     depth: usize,
     /// States to go back to, of the steps of each coarser level.
@@ -27,14 +27,14 @@ impl<const D: usize> Level<D> {
     pub fn new(
         (name, probes): (&str, &[String]),
         frame: Frame<D>,
-        stepping: Stepping<D>,
+        stepper: Stepper<D>,
         depth: usize,
     ) -> Self {
         Level {
             name: name.into(),
             probes: probes.to_vec(),
             frame,
-            stepping,
+            stepper,
             depth,
             kept: (0..=depth).map(|_| Snapshot::default()).collect(),
         }
@@ -44,26 +44,27 @@ impl<const D: usize> Level<D> {
     ///
     /// # Errors
     /// A step of the zone that fails.
-    pub fn follow(&mut self, around: &Flow<D>) -> Result<Vec<(usize, State<D>)>, StepError> {
+    pub fn follow(&mut self, around: &Flow<D>) -> Result<States<D>, StepError> {
         let time = around.world.time;
-        if time < self.stepping.time() {
+        if time < self.stepper.time() {
             self.put_back(self.depth)?;
         }
-        self.stepping.look(around)?;
-        if time > self.stepping.time() {
+        self.stepper.look(around)?;
+        if time > self.stepper.time() {
             self.keep(self.depth)?;
-            self.stepping.hold()?;
-            self.stepping.run_until(time).map_err(|e| self.named(e))?;
-            self.stepping.exchange()?;
+            self.stepper.hold()?;
+            self.stepper.run_until(time).map_err(|e| self.named(e))?;
+            self.stepper.exchange()?;
         }
-        self.stepping.evaluate().map_err(|e| self.named(e))?;
+        self.stepper.evaluate().map_err(|e| self.named(e))?;
         self.states(around)
     }
 
     /// States of the particles of the flow around that are in the core.
-    fn states(&self, around: &Flow<D>) -> Result<Vec<(usize, State<D>)>, StepError> {
-        let own = &self.stepping.parts.flow;
-        let sample = Sample::of_flow(own, |_| true)?;
+    fn states(&self, around: &Flow<D>) -> Result<States<D>, StepError> {
+        let own = &self.stepper.parts.flow;
+        // A fit in the core does not reach beyond the sides.
+        let sample = Sample::of_flow(own, |x| self.frame.holds(x, 0.0))?;
         let source = Source::new(&sample, &own.world.domain, own.world.spacing);
         let position = around.world.free.get(fields::POSITION)?;
         let frame = &self.frame;
@@ -80,8 +81,8 @@ impl<const D: usize> Level<D> {
     /// # Errors
     /// If a column is missing.
     pub fn keep(&mut self, depth: usize) -> Result<(), StepError> {
-        self.kept[depth].take(&self.stepping.parts.flow)?;
-        self.stepping.coupling.keep(depth)
+        self.kept[depth].take(&self.stepper.parts.flow)?;
+        self.stepper.coupling.keep(depth)
     }
 
     /// Puts it back.
@@ -89,9 +90,11 @@ impl<const D: usize> Level<D> {
     /// # Errors
     /// If lists cannot be built.
     pub fn put_back(&mut self, depth: usize) -> Result<(), StepError> {
-        self.kept[depth].restore(&mut self.stepping.parts.flow)?;
-        self.stepping.changed();
-        self.stepping.coupling.put_back(depth)
+        self.kept[depth].restore(&mut self.stepper.parts.flow)?;
+        self.stepper.changed();
+        // The step of the flow around is a shorter one now.
+        self.stepper.scale = 1.0;
+        self.stepper.coupling.put_back(depth)
     }
 
     fn named(&self, cause: StepError) -> StepError {

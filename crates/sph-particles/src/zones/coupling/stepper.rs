@@ -1,4 +1,4 @@
-//! Steps of an assembled scene with its zones, in memory.
+//! A scene in memory with its zones, one step at a time.
 
 use sph_core::StepError;
 use sph_scene::Scene;
@@ -6,28 +6,32 @@ use sph_solver::step::guard;
 use sph_solver::{Flow, Snapshot};
 
 use super::Coupling;
+use crate::running::next_step::{RECOVERY, next_step};
 use crate::setup::Assembled;
-use crate::zones::next_step::{RECOVERY, next_step};
+use crate::zones::spread::spread;
 
-/// An assembled scene that is stepped, and tries steps that fail again.
-pub(crate) struct Stepping<const D: usize> {
+/// A scene in memory, one step at a time.
+///
+/// Steps are chosen, taken back and tried again as in a run: stepped to the same times, it has the same bits. Between
+/// steps all columns are those of the present state. Particles are sorted now and then; `identity` follows them.
+pub struct Stepper<const D: usize> {
     /// The flow with its integrator and probes.
-    pub parts: Assembled<D>,
-    pub coupling: Coupling<D>,
-    pub scene: Scene,
+    pub(crate) parts: Assembled<D>,
+    pub(crate) coupling: Coupling<D>,
+    pub(crate) scene: Scene,
     good: Snapshot<D>,
     /// Share of the step after steps that failed.
-    pub scale: f64,
+    pub(crate) scale: f64,
     evaluated: bool,
-    pub steps: u64,
-    pub rolled_back: u64,
-    pub limiter: &'static str,
+    pub(crate) steps: u64,
+    pub(crate) rolled_back: u64,
+    limiter: &'static str,
 }
 
-impl<const D: usize> Stepping<D> {
+impl<const D: usize> Stepper<D> {
     /// Of an assembled scene with its zones.
-    pub fn new(scene: &Scene, parts: Assembled<D>, coupling: Coupling<D>) -> Self {
-        Stepping {
+    pub(crate) fn from_parts(scene: &Scene, parts: Assembled<D>, coupling: Coupling<D>) -> Self {
+        Stepper {
             parts,
             coupling,
             scene: scene.clone(),
@@ -40,15 +44,29 @@ impl<const D: usize> Stepping<D> {
         }
     }
 
+    /// The flow with its probes and plugins.
+    pub fn parts(&self) -> &Assembled<D> {
+        &self.parts
+    }
+
     /// Simulated time, s.
     pub fn time(&self) -> f64 {
         self.parts.flow.world.time
     }
 
-    /// The state is another: it must be evaluated, and its step may have its whole length.
-    pub fn changed(&mut self) {
+    /// The last step, s, and its limit.
+    pub fn last_step(&self) -> (f64, &'static str) {
+        (self.parts.flow.world.dt, self.limiter)
+    }
+
+    /// Steps taken, and steps that were taken back.
+    pub fn steps(&self) -> (u64, u64) {
+        (self.steps, self.rolled_back)
+    }
+
+    /// The state is another: it must be evaluated.
+    pub(crate) fn changed(&mut self) {
         self.evaluated = false;
-        self.scale = 1.0;
         self.parts.flow.moved = true;
     }
 
@@ -112,6 +130,9 @@ impl<const D: usize> Stepping<D> {
         self.parts.integrator.step(flow, dt)?;
         flow.let_out(dt)?;
         flow.let_in(dt)?;
+        if let Some(guard) = &self.coupling.guard {
+            spread(flow, &guard.frame)?;
+        }
         if time + dt >= target * (1.0 - 1e-12) {
             flow.world.time = target;
         }
@@ -135,7 +156,7 @@ impl<const D: usize> Stepping<D> {
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn look(&mut self, around: &Flow<D>) -> Result<(), StepError> {
+    pub(crate) fn look(&mut self, around: &Flow<D>) -> Result<(), StepError> {
         let guard = self.coupling.guard.as_mut();
         guard.map_or(Ok(()), |guard| guard.look(around))
     }
@@ -144,7 +165,7 @@ impl<const D: usize> Stepping<D> {
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn hold(&mut self) -> Result<(), StepError> {
+    pub(crate) fn hold(&mut self) -> Result<(), StepError> {
         self.evaluate()?;
         self.coupling.hold(&mut self.parts.flow)
     }
@@ -153,7 +174,7 @@ impl<const D: usize> Stepping<D> {
     ///
     /// # Errors
     /// A particle that cannot come in.
-    pub fn exchange(&mut self) -> Result<(), StepError> {
+    pub(crate) fn exchange(&mut self) -> Result<(), StepError> {
         let guard = self.coupling.guard.as_ref();
         let changed = guard.map_or(Ok(false), |guard| guard.exchange(&mut self.parts.flow))?;
         if changed {
