@@ -25,4 +25,4 @@ pub use running::run::{run, run_part};
 pub use running::trial::{Trial, examine_and_try};
 pub use sph_multiphase::viscosity::Solves;
 pub use subject::Particles;
-pub use zones::Stepper;
+pub use zones::{Stepper, ZoneSize};

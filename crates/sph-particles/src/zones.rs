@@ -24,5 +24,5 @@ mod scene_of_zone;
 mod spread;
 
 pub(crate) use attach::attach;
-pub use coupling::Stepper;
 pub(crate) use coupling::{Coupling, Level};
+pub use coupling::{Stepper, ZoneSize};

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 use sph_particles::setup::{Examination, Memory};
 use sph_particles::{draw_scene, examine_and_try};
@@ -70,11 +71,12 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
     examined.warnings.extend(too_fast);
     // Threads beyond the cores of this machine are taken to share a step evenly.
     let share = on as f64 / threads as f64;
-    let mut hours = None;
+    let (mut hours, mut without_zones) = (None, None);
     let time = match tried {
         Ok(Some(trial)) => {
             let steps = (loaded.scene.run.end / trial.dt).ceil();
             examined.estimate.steps = steps;
+            without_zones = trial.without_zones;
             hours = Some(steps * trial.seconds * share / 3600.0);
             let time = number::duration(steps * trial.seconds * share);
             let first = number::count(trial.steps as f64);
@@ -89,13 +91,48 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
             "not known: the first steps fail".into()
         }
     };
+    let alternatives = without_zones.map(|pace| {
+        let hours = pace * loaded.scene.run.end * share / 3600.0;
+        Alternatives::new(&examined, loaded.scene.numerics.spacing, hours)
+    });
     let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
     all["threads"] = json!(threads);
     all["estimate"]["hours"] = json!(hours);
+    if let Some(alternatives) = &alternatives {
+        all["estimate"]["alternatives"] = json!(alternatives);
+    }
     Ok(CommandOutput {
         json: all,
-        text: text(&examined, &opened.shown, &time),
+        text: text(&examined, &opened.shown, &time, alternatives.as_ref()),
     })
+}
+
+/// Cost of a scene with zones without these, and of its finest spacing everywhere.
+#[derive(Serialize)]
+struct Alternatives {
+    /// Wall-clock time without zones, h.
+    hours_without_zones: f64,
+    /// The finest spacing, m.
+    finest: f64,
+    /// Particles of that spacing everywhere.
+    particles_of_finest: f64,
+    /// Wall-clock time with these, h: particles and steps in proportion.
+    hours_of_finest: f64,
+}
+
+impl Alternatives {
+    /// Of a scene with a spacing, m, that takes `hours` without its zones.
+    fn new(examined: &Examination, spacing: f64, hours: f64) -> Self {
+        let spacings = examined.zones.iter().map(|zone| zone.spacing);
+        let finest = spacings.fold(spacing, f64::min);
+        let finer = (spacing / finest).powi(examined.dimension as i32);
+        Alternatives {
+            hours_without_zones: hours,
+            finest,
+            particles_of_finest: examined.particles as f64 * finer,
+            hours_of_finest: hours * finer * spacing / finest,
+        }
+    }
 }
 
 /// A remark for every phase whose speed comes too near to that of sound.
@@ -126,7 +163,7 @@ pub fn memory(memory: &Memory) -> String {
     format!("{}: {}", number::bytes(all), parts.join(", "))
 }
 
-fn text(e: &Examination, file: &str, time: &str) -> String {
+fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternatives>) -> String {
     let mut text = format!(
         "{}\n{file} is a good scene in {} dimensions\n",
         e.scene, e.dimension
@@ -156,12 +193,39 @@ fn text(e: &Examination, file: &str, time: &str) -> String {
         .iter()
         .map(|(name, dt)| row(name, seconds(*dt)));
     let cost = &e.estimate;
-    let estimate = [
+    let zones = e.zones.iter().map(|zone| {
+        let particles = number::count(zone.particles as f64);
+        let spacing = number::plain(zone.spacing);
+        let dry = match zone.particles {
+            0 => ": dry at the start, of which the estimate is",
+            _ => "",
+        };
+        row(
+            &zone.name,
+            format!("{particles} particles of {spacing} m{dry}"),
+        )
+    });
+    let instead = alternatives.into_iter().flat_map(|a| {
+        let without = number::duration(3600.0 * a.hours_without_zones);
+        let finest = number::duration(3600.0 * a.hours_of_finest);
+        let particles = number::count(a.particles_of_finest);
+        [
+            row("without zones", format!("about {without}")),
+            row(
+                &format!("{} m everywhere", number::plain(a.finest)),
+                format!("about {finest}, {particles} particles"),
+            ),
+        ]
+    });
+    let mut estimate = vec![
         row("steps", number::count(cost.steps)),
         row("wall time", time.to_string()),
+    ];
+    estimate.extend(instead);
+    estimate.extend([
         row("memory", format!("about {}", memory(&e.memory))),
         row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
-    ];
+    ]);
     let percent = |part: f64| format!("{:.2} %", 100.0 * part);
     let relaxation = e.relaxation.iter().flat_map(|r| {
         [
@@ -183,10 +247,11 @@ fn text(e: &Examination, file: &str, time: &str) -> String {
     let relaxation: Vec<_> = relaxation.collect();
     let parts = [
         ("size", size.to_vec()),
+        ("zones", zones.collect()),
         ("derived", derived.collect()),
         ("largest stable time step at the start", limits.collect()),
         ("relaxed density", relaxation),
-        ("estimate", estimate.to_vec()),
+        ("estimate", estimate),
     ];
     for (title, rows) in parts.into_iter().filter(|(_, rows)| !rows.is_empty()) {
         text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));

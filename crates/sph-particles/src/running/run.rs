@@ -78,8 +78,11 @@ fn run_in<const D: usize>(
         for warning in &running.parts.warnings {
             observer.message(&format!("note: {warning}"));
         }
-        for remark in running.zones.remarks(&running.parts.flow) {
-            observer.message(&remark);
+        for zone in running.zones.sizes() {
+            let (name, spacing, particles) = (zone.name, zone.spacing, zone.particles);
+            observer.message(&format!(
+                "zone `{name}` starts with {particles} particles of {spacing} m"
+            ));
         }
         Ok((running, opened))
     });

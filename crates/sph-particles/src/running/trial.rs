@@ -4,10 +4,11 @@ use std::time::{Duration, Instant};
 
 use sph_core::StepError;
 use sph_scene::Scene;
+use sph_solver::{Snapshot, SolverError};
 
-use crate::Stepper;
 use crate::failure::error::RunError;
-use crate::setup::{Assembled, Examination, examine_in};
+use crate::setup::{Examination, examine_in};
+use crate::zones::{Coupling, Stepper, attach};
 
 /// Least number of steps, where there is time for them.
 const FEWEST: usize = 32;
@@ -24,9 +25,12 @@ pub struct Trial {
     pub dt: f64,
     /// Wall-clock time of one step, s.
     pub seconds: f64,
+    /// Wall-clock time over simulated time of a scene with zones if it had none.
+    pub without_zones: Option<f64>,
 }
 
-/// As [`examine`](crate::setup::examine), and a trial of the first steps.
+/// As [`examine`](crate::setup::examine), and a trial of the first steps on `threads` threads: it ends where time step and
+/// wall-clock time have settled, and after `budget` in any case. None is where there is nothing to step.
 ///
 /// # Errors
 /// Every problem of the scene, with its path. That of the trial is apart: a scene whose first steps fail is known.
@@ -35,40 +39,46 @@ pub fn examine_and_try(
     threads: usize,
     budget: Duration,
 ) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
-    fn both<const D: usize>(
-        scene: &Scene,
-        threads: usize,
-        budget: Duration,
-    ) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
-        let (examined, assembled) = examine_in::<D>(scene)?;
-        Ok((examined, trial(scene, assembled, threads, budget)))
-    }
-    match scene.dimension {
-        3 => both::<3>(scene, threads, budget),
-        _ => both::<2>(scene, threads, budget),
-    }
-}
-
-/// Takes the first steps of an assembled scene on `threads` threads, and times the later half of them.
-///
-/// It ends where time step and wall-clock time have settled, and after `budget` in any case.
-///
-/// None is where there is nothing to step.
-///
-/// # Errors
-/// The step that fails in spite of the retries of the scene; a pool of threads that cannot be made.
-pub fn trial<const D: usize>(
-    scene: &Scene,
-    assembled: Assembled<D>,
-    threads: usize,
-    budget: Duration,
-) -> Result<Option<Trial>, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
-    pool.install(|| {
-        let mut stepper = Stepper::over(scene, assembled)?;
-        Ok(timed(scene, &mut stepper, budget)?)
+    pool.install(|| match scene.dimension {
+        3 => examined_and_tried::<3>(scene, budget),
+        _ => examined_and_tried::<2>(scene, budget),
     })
+}
+
+fn examined_and_tried<const D: usize>(
+    scene: &Scene,
+    budget: Duration,
+) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
+    let (mut examined, assembled) = examine_in::<D>(scene)?;
+    if scene.zone.is_empty() {
+        let mut stepper = Stepper::over(scene, assembled)?;
+        return Ok((
+            examined,
+            timed(scene, &mut stepper, budget).map_err(Into::into),
+        ));
+    }
+    let zones = attach(scene, &assembled)?;
+    examined.zones = zones.sizes();
+    let mut start = Snapshot::default();
+    start.take(&assembled.flow).map_err(SolverError::from)?;
+    let none = Coupling::new(assembled.diffused, None, Vec::new());
+    let mut alone = Stepper::from_parts(scene, assembled, none);
+    let coarse = timed(scene, &mut alone, budget / 2);
+    let mut assembled = alone.parts;
+    start
+        .restore(&mut assembled.flow)
+        .map_err(SolverError::from)?;
+    let mut stepper = Stepper::from_parts(scene, assembled, zones);
+    let both = coarse.and_then(|coarse| {
+        let mut with_zones = timed(scene, &mut stepper, budget / 2)?;
+        if let (Some(trial), Some(coarse)) = (&mut with_zones, coarse) {
+            trial.without_zones = Some(coarse.seconds / coarse.dt);
+        }
+        Ok(with_zones)
+    });
+    Ok((examined, both.map_err(Into::into)))
 }
 
 fn timed<const D: usize>(
@@ -105,5 +115,6 @@ fn timed<const D: usize>(
         steps: last - first,
         dt,
         seconds,
+        without_zones: None,
     }))
 }

@@ -13,6 +13,7 @@ use crate::setup::estimate::short_steps;
 use crate::setup::reference_table::readable;
 use crate::setup::rehearsal::rehearse;
 use crate::setup::{Estimate, Memory, Relaxation};
+use crate::zones::ZoneSize;
 
 /// A column with its cost.
 #[derive(Clone, Debug, Serialize)]
@@ -69,8 +70,10 @@ pub struct Examination {
     pub stages: Vec<StageUse>,
     /// Stages that were offered and not needed.
     pub pruned: Vec<String>,
-    /// Free particles.
+    /// Free particles, those of zones apart.
     pub particles: usize,
+    /// Zones of finer particles.
+    pub zones: Vec<ZoneSize>,
     /// Wall points.
     pub wall_points: usize,
     /// Wall elements.
@@ -171,6 +174,7 @@ pub fn examine_in<const D: usize>(
         bytes_per_particle: world.free.bytes_per_particle(),
         pruned: flow.pruned.clone(),
         particles,
+        zones: Vec::new(),
         wall_points: world.walls.points.position.len(),
         wall_elements: world.walls.elements.centre.len(),
         pairs: estimate.steps * sweeps * particles as f64 * neighbours,

@@ -3,6 +3,7 @@
 mod level;
 mod stepper;
 
+use serde::Serialize;
 use sph_core::{StepError, System, Vect, fields};
 use sph_multiphase::Diffused;
 use sph_neighbours::World;
@@ -20,6 +21,17 @@ pub use stepper::Stepper;
 /// that flow. At once they would be those of other places, and the particles' own forces could not keep them apart; by
 /// themselves both flows drift from each other. Measured: `notes/zones.md`.
 const RELAXATION: f64 = 2.0;
+
+/// Particles of a zone at the start, those of its band among them.
+#[derive(Clone, Debug, Serialize)]
+pub struct ZoneSize {
+    /// Its name in the scene.
+    pub name: String,
+    /// Spacing, m.
+    pub spacing: f64,
+    /// Number of particles.
+    pub particles: usize,
+}
 
 /// Some particles of a flow.
 pub(crate) type Particles<'a, const D: usize> = (&'a Flow<D>, Vec<usize>);
@@ -73,7 +85,7 @@ impl<const D: usize> Coupling<D> {
                 .for_each(|(k, state)| velocity[*k] = state.velocity);
             Ok(())
         })?;
-        accelerate(flow, band.iter())
+        accelerate(flow, &band)
     }
 
     /// Gives particles of the band the densities around them. Those of a state that was `restored` have constants for
@@ -128,7 +140,7 @@ impl<const D: usize> Coupling<D> {
             return Ok(());
         };
         let (band, _) = guard.states(flow)?;
-        accelerate(flow, band.iter())
+        accelerate(flow, &band)
     }
 
     /// All zones, those within zones too.
@@ -166,18 +178,15 @@ impl<const D: usize> Coupling<D> {
         Ok(all)
     }
 
-    /// A remark on the particles of each zone.
-    pub fn remarks(&self, flow: &Flow<D>) -> Vec<String> {
-        let around = flow.world.free.len();
+    /// Sizes of all zones at the start.
+    pub fn sizes(&self) -> Vec<ZoneSize> {
         let of = |level: &&Level<D>| {
-            let zone = &level.stepper.parts.flow;
-            let (name, spacing) = (&level.name, zone.world.spacing);
-            let finer = (flow.world.spacing / spacing).powi(D as i32);
-            format!(
-                "zone `{name}` starts with {} particles of {spacing} m among {around}; all of that spacing would be {:.0}",
-                zone.world.free.len(),
-                around as f64 * finer
-            )
+            let world = &level.stepper.parts.flow.world;
+            ZoneSize {
+                name: level.name.clone(),
+                spacing: world.spacing,
+                particles: world.free.len(),
+            }
         };
         self.all_levels().iter().map(of).collect()
     }
@@ -225,13 +234,17 @@ impl<const D: usize> Coupling<D> {
     }
 }
 
-/// Gives particles that are led their accelerations.
-fn accelerate<'a, const D: usize>(
-    flow: &mut Flow<D>,
-    led: impl Iterator<Item = &'a (usize, State<D>)>,
-) -> Result<(), StepError> {
-    let acceleration = flow.world.free.get_mut(fields::ACCELERATION)?;
-    led.for_each(|(k, state)| acceleration[*k] = state.acceleration);
+/// Gives particles of the band their accelerations, and no shift: beyond the band they have no neighbours, and a shift
+/// towards the void would empty it.
+fn accelerate<const D: usize>(flow: &mut Flow<D>, band: &States<D>) -> Result<(), StepError> {
+    let free = &mut flow.world.free;
+    let acceleration = free.get_mut(fields::ACCELERATION)?;
+    for (k, state) in band {
+        acceleration[*k] = state.acceleration;
+    }
+    if let Ok(shift) = free.get_mut(fields::SHIFT_VELOCITY) {
+        band.iter().for_each(|(k, _)| shift[*k] = Vect::zeros());
+    }
     Ok(())
 }
 

@@ -5,8 +5,6 @@ use sph_core::Vect;
 
 /// Radius of a fit over the spacing of the particles.
 pub(crate) const REACH: f64 = 3.0;
-/// Terms of a polynomial of second order in space.
-const TERMS: usize = 10;
 /// Largest sum of the weights' amounts: errors of single particles grow by no more. It is 1 to 1.4 within particles, and
 /// up to 3 beside a plane side of them.
 const LARGEST: f64 = 3.0;
@@ -16,67 +14,68 @@ const LEAST_PIVOT: f64 = 1e-9;
 /// Fewest particles of a fit.
 const FEWEST: usize = 3;
 
-/// Weights that give a polynomial of `order` its value at the place from which the particles are `away`, m: least
-/// squares with (1 − r/R)⁴(1 + 4r/R). None where the particles do not determine it, or barely.
-fn weights_of_order<const D: usize>(order: u32, radius: f64, away: &[Vect<D>]) -> Option<Vec<f64>> {
-    let terms = match order {
-        0 => 1,
-        1 => 1 + D,
-        _ => 1 + D + D * (D + 1) / 2,
-    };
-    if away.len() < terms.max(FEWEST) {
-        return None;
+/// A weighted neighbour: its weight (1 − r/R)⁴(1 + 4r/R), and the first N of 1, x, y, x², xy, y² and so on over R.
+fn neighbour<const D: usize, const N: usize>(radius: f64, away: &Vect<D>) -> (f64, SVector<f64, N>) {
+    let x = away / radius;
+    let q = x.norm();
+    let mut basis = SVector::<f64, N>::zeros();
+    basis[0] = 1.0;
+    if N > 1 {
+        (0..D).for_each(|k| basis[1 + k] = x[k]);
     }
-    let weighted = |d: &Vect<D>| {
-        let q = d.norm() / radius;
-        let weight = (1.0 - q).powi(4) * (1.0 + 4.0 * q);
-        (weight, polynomial(terms, &(d / radius)))
-    };
-    let mut moments = SMatrix::<f64, TERMS, TERMS>::identity();
-    (0..terms).for_each(|k| moments[(k, k)] = 0.0);
-    for d in away {
-        let (weight, basis) = weighted(d);
-        moments += basis * basis.transpose() * weight;
-    }
-    let first = SVector::<f64, TERMS>::ith(0, 1.0);
-    let factor = moments.cholesky()?;
-    let pivot = |k: usize| factor.l_dirty()[(k, k)].powi(2);
-    if (0..terms).any(|k| pivot(k) < LEAST_PIVOT * moments[(k, k)]) {
-        return None;
-    }
-    let value = factor.solve(&first);
-    let weights = away.iter().map(|d| {
-        let (weight, basis) = weighted(d);
-        weight * basis.dot(&value)
-    });
-    let weights: Vec<f64> = weights.collect();
-    let amounts: f64 = weights.iter().map(|w| w.abs()).sum();
-    (amounts < LARGEST).then_some(weights)
-}
-
-/// 1, x, y, x², xy, y² and so on.
-fn polynomial<const D: usize>(terms: usize, x: &Vect<D>) -> SVector<f64, TERMS> {
-    let mut all = SVector::<f64, TERMS>::zeros();
-    all[0] = 1.0;
-    if terms > 1 {
-        (0..D).for_each(|k| all[1 + k] = x[k]);
-    }
-    if terms > 1 + D {
+    if N > 1 + D {
         let pairs = (0..D).flat_map(|a| (a..D).map(move |b| (a, b)));
         let places = 1 + D..;
         pairs
             .zip(places)
-            .for_each(|((a, b), k)| all[k] = x[a] * x[b]);
+            .for_each(|((a, b), k)| basis[k] = x[a] * x[b]);
     }
-    all
+    ((1.0 - q).powi(4) * (1.0 + 4.0 * q), basis)
+}
+
+/// Weights that give a polynomial of N terms its value at the place from which the particles are `away`, m: weighted
+/// least squares. None where the particles do not determine it, or barely.
+fn weights_of_terms<const D: usize, const N: usize>(
+    radius: f64,
+    away: &[Vect<D>],
+) -> Option<Vec<f64>> {
+    if away.len() < N.max(FEWEST) {
+        return None;
+    }
+    let all: Vec<_> = away.iter().map(|d| neighbour::<D, N>(radius, d)).collect();
+    // Of the moments a factor reads the lower triangle.
+    let mut moments = SMatrix::<f64, N, N>::zeros();
+    for (weight, basis) in &all {
+        for column in 0..N {
+            let part = weight * basis[column];
+            (column..N).for_each(|row| moments[(row, column)] += part * basis[row]);
+        }
+    }
+    let factor = moments.cholesky()?;
+    let pivot = |k: usize| factor.l_dirty()[(k, k)].powi(2);
+    if (0..N).any(|k| pivot(k) < LEAST_PIVOT * moments[(k, k)]) {
+        return None;
+    }
+    let value = factor.solve(&SVector::from_fn(|row, _| if row == 0 { 1.0 } else { 0.0 }));
+    let weight = |(weight, basis): &(f64, SVector<f64, N>)| weight * basis.dot(&value);
+    let weights: Vec<f64> = all.iter().map(weight).collect();
+    let amounts: f64 = weights.iter().map(|w| w.abs()).sum();
+    (amounts < LARGEST).then_some(weights)
 }
 
 /// Weights of the particles that are `away`, m, within a radius, for a value at the place: exact for polynomials of
 /// second order, or of the highest that the particles determine. None where too few are near.
 pub(crate) fn weights<const D: usize>(radius: f64, away: &[Vect<D>]) -> Option<Vec<f64>> {
-    let orders = [2, 1, 0].into_iter();
-    let mut found = orders.map(|order| weights_of_order(order, radius, away));
-    found.find_map(|weights| weights)
+    let constant = || weights_of_terms::<D, 1>(radius, away);
+    if D == 2 {
+        weights_of_terms::<D, 6>(radius, away)
+            .or_else(|| weights_of_terms::<D, 3>(radius, away))
+            .or_else(constant)
+    } else {
+        weights_of_terms::<D, 10>(radius, away)
+            .or_else(|| weights_of_terms::<D, 4>(radius, away))
+            .or_else(constant)
+    }
 }
 
 #[cfg(test)]
