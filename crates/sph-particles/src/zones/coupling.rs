@@ -17,9 +17,8 @@ use crate::setup::measure_walls;
 pub(crate) use level::Level;
 pub use stepper::Stepper;
 
-/// Time over h/c in which the density and the velocity of particles that share a place with another flow come to those of
-/// that flow. At once they would be those of other places, and the particles' own forces could not keep them apart; by
-/// themselves both flows drift from each other. Measured: `notes/zones.md`.
+/// Time over h/c in which the velocity of a particle in the core of a zone comes to that of the zone. At once it would be
+/// that of other places, and the particles' own forces could not keep them apart. Measured: `notes/zones.md`.
 const RELAXATION: f64 = 2.0;
 
 /// Particles of a zone at the start, those of its band among them.
@@ -46,8 +45,6 @@ pub(crate) struct Coupling<const D: usize> {
     pub levels: Vec<Level<D>>,
     /// Particles that a zone leads, with the states there.
     inner: States<D>,
-    /// Particles of the overlap with the flow around, with the states of that.
-    overlap: States<D>,
 }
 
 impl<const D: usize> Coupling<D> {
@@ -58,11 +55,14 @@ impl<const D: usize> Coupling<D> {
             guard,
             levels,
             inner: Vec::new(),
-            overlap: Vec::new(),
         }
     }
 
     /// An evaluation of a flow, in which its zones come to its time.
+    ///
+    /// Whoever shares a place with another flow has the density of that, exactly, each time forces are computed: while
+    /// particles that came in find their order, the sums of their kernels fall, and a pressure that follows them falls
+    /// too, and holds back the flow behind it.
     ///
     /// # Errors
     /// Those of the flow, and of its zones.
@@ -73,13 +73,17 @@ impl<const D: usize> Coupling<D> {
         let mut band = Vec::new();
         flow.evaluate_with(|flow, restored| {
             if let Some(guard) = self.guard.as_ref() {
-                (band, self.overlap) = guard.states(flow)?;
-                self.give_densities(flow, &band, restored)?;
+                let around = guard.states(flow, |x| !guard.frame.in_core(x))?;
+                self.give_densities(flow, &around, restored)?;
+                let position = flow.world.free.get(fields::POSITION)?;
+                let beyond = |(k, _): &(usize, State<D>)| !guard.frame.holds(&position[*k], 0.0);
+                band = around.into_iter().filter(beyond).collect();
             }
             self.inner.clear();
             for level in &mut self.levels {
                 self.inner.extend(level.follow(flow)?);
             }
+            self.give_densities(flow, &self.inner, restored)?;
             let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
             band.iter()
                 .for_each(|(k, state)| velocity[*k] = state.velocity);
@@ -88,37 +92,41 @@ impl<const D: usize> Coupling<D> {
         accelerate(flow, &band)
     }
 
-    /// Gives particles of the band the densities around them. Those of a state that was `restored` have constants for
-    /// these already.
+    /// Gives particles the densities of another flow. Those of a state that was `restored` have constants for these
+    /// already.
     fn give_densities(
         &self,
         flow: &mut Flow<D>,
-        band: &States<D>,
+        led: &States<D>,
         restored: bool,
     ) -> Result<(), StepError> {
-        if !restored {
-            move_densities(self.diffused, flow, band.iter(), 1.0)?;
+        let value = self.diffused.evolved.value;
+        let mut constant = flow.world.free.take(value)?;
+        let mut density = flow.world.free.take(fields::DENSITY)?;
+        let mut volume = flow.world.free.take(fields::VOLUME)?;
+        let gamma = flow.world.sum_renormalisation();
+        let mass = flow.world.free.get(fields::MASS)?;
+        for (k, state) in led {
+            let k = *k;
+            if !restored {
+                let gamma = gamma.map_or(1.0, |g| g[k]);
+                let slope = (self.diffused.per_density)(density[k], volume[k], gamma);
+                constant[k] += slope * (state.density - density[k]);
+            }
+            density[k] = state.density;
+            volume[k] = mass[k] / state.density;
         }
         let free = &mut flow.world.free;
-        let mut density = free.take(fields::DENSITY)?;
-        let mut volume = free.take(fields::VOLUME)?;
-        let mass = free.get(fields::MASS)?;
-        for (k, state) in band {
-            density[*k] = state.density;
-            volume[*k] = mass[*k] / state.density;
-        }
+        free.put(value, constant)?;
         free.put(fields::DENSITY, density)?;
         Ok(free.put(fields::VOLUME, volume)?)
     }
 
-    /// Before a step of `dt` seconds: particles that share a place with another flow go towards its state.
+    /// Before a step of `dt` seconds: the velocities of particles that a zone leads go towards those of the zone.
     ///
     /// # Errors
     /// If a column is missing.
     pub fn begin_step(&mut self, flow: &mut Flow<D>, dt: f64) -> Result<(), StepError> {
-        if self.inner.is_empty() && self.overlap.is_empty() {
-            return Ok(());
-        }
         let speeds = flow.laws.iter().map(|law| law.reference().sound_speed);
         let time = RELAXATION * flow.world.kernel.smoothing_length() / speeds.fold(0.0, f64::max);
         let share = 1.0 - (-dt / time).exp();
@@ -127,8 +135,7 @@ impl<const D: usize> Coupling<D> {
             let own = velocity[*k];
             velocity[*k] += (state.velocity - own) * share;
         }
-        let led = self.inner.iter().chain(&self.overlap);
-        move_densities(self.diffused, flow, led, share)
+        Ok(())
     }
 
     /// Accelerates the particles of the band as those around it.
@@ -139,7 +146,7 @@ impl<const D: usize> Coupling<D> {
         let Some(guard) = &self.guard else {
             return Ok(());
         };
-        let (band, _) = guard.states(flow)?;
+        let band = guard.states(flow, |x| !guard.frame.holds(x, 0.0))?;
         accelerate(flow, &band)
     }
 
@@ -246,25 +253,4 @@ fn accelerate<const D: usize>(flow: &mut Flow<D>, band: &States<D>) -> Result<()
         band.iter().for_each(|(k, _)| shift[*k] = Vect::zeros());
     }
     Ok(())
-}
-
-/// Changes the integrated quantity so that densities go a share of the way to those of `led`.
-fn move_densities<'a, const D: usize>(
-    diffused: Diffused,
-    flow: &mut Flow<D>,
-    led: impl Iterator<Item = &'a (usize, State<D>)>,
-    share: f64,
-) -> Result<(), StepError> {
-    let value = diffused.evolved.value;
-    let mut constant = flow.world.free.take(value)?;
-    let free = &flow.world.free;
-    let (density, volume) = (free.get(fields::DENSITY)?, free.get(fields::VOLUME)?);
-    let gamma = flow.world.sum_renormalisation();
-    for (k, state) in led {
-        let k = *k;
-        let gamma = gamma.map_or(1.0, |g| g[k]);
-        let slope = (diffused.per_density)(density[k], volume[k], gamma);
-        constant[k] += share * slope * (state.density - density[k]);
-    }
-    Ok(flow.world.free.put(value, constant)?)
 }

@@ -15,7 +15,10 @@ const LEAST_PIVOT: f64 = 1e-9;
 const FEWEST: usize = 3;
 
 /// A weighted neighbour: its weight (1 − r/R)⁴(1 + 4r/R), and the first N of 1, x, y, x², xy, y² and so on over R.
-fn neighbour<const D: usize, const N: usize>(radius: f64, away: &Vect<D>) -> (f64, SVector<f64, N>) {
+fn neighbour<const D: usize, const N: usize>(
+    radius: f64,
+    away: &Vect<D>,
+) -> (f64, SVector<f64, N>) {
     let x = away / radius;
     let q = x.norm();
     let mut basis = SVector::<f64, N>::zeros();

@@ -7,7 +7,7 @@ use sph_neighbours::CellGrid;
 use sph_solver::Flow;
 
 use super::frame::Frame;
-use super::sample::{Sample, Source, State, States};
+use super::sample::{Sample, Source, States};
 
 /// Distance from the band over the spacing around it, beyond which a finer particle is brought back.
 const LOST: f64 = 2.0;
@@ -52,24 +52,25 @@ impl<const D: usize> Guard<D> {
         Ok(())
     }
 
-    /// States around the particles of a zone at its time: of those beyond its sides, and of those between sides and core,
-    /// where both flows are computed.
+    /// States around those particles of a zone whose places are `wanted`, at its time.
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn states(&self, zone: &Flow<D>) -> Result<(States<D>, States<D>), StepError> {
+    pub fn states(
+        &self,
+        zone: &Flow<D>,
+        wanted: impl Fn(&Vect<D>) -> bool + Sync,
+    ) -> Result<States<D>, StepError> {
         let world = &zone.world;
         let around = self.now.since(&self.before, &self.earlier, world);
         let source = Source::new(&around, &world.domain, self.spacing);
         let position = world.free.get(fields::POSITION)?;
         let at = |(k, x): (usize, &Vect<D>)| {
-            let state = (!self.frame.in_core(x)).then(|| source.at(x));
+            let state = wanted(x).then(|| source.at(x));
             Some((k, state.flatten()?))
         };
         let all = position.par_iter().enumerate().with_min_len(256);
-        let all: States<D> = all.filter_map(at).collect();
-        let beyond = |(k, _): &(usize, State<D>)| !self.frame.holds(&position[*k], 0.0);
-        Ok(all.into_iter().partition(beyond))
+        Ok(all.filter_map(at).collect())
     }
 
     /// Lets finer particles in where those around come into the band, and takes them out where those leave it, mass for
