@@ -62,16 +62,37 @@ fn column(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
 /// Every particle of the zone has come in and gone out two and a half times.
 #[test]
 fn a_uniform_flow_passes_a_zone_unchanged() {
-    let bench = Bench::with(PROGRAM, UNIFORM);
-    bench.done("run scene.toml --quiet --out out");
-    for file in ["out/checkpoint.sph", "out/checkpoint-middle.sph"] {
-        let velocity = column(&bench, file, "velocity");
-        let off = velocity.chunks_exact(2).map(|u| (u[0] - 1.0).hypot(u[1]));
-        let worst = off.fold(0.0, f64::max);
-        // Fits are exact for constants. The displacements in the band change sums of particles beside it: 0.0019 measured,
-        // 0.2 % of the speed.
-        assert!(worst < 5e-3, "{file}: {worst:e}");
+    let shifted = UNIFORM.replace("[smoother", "[shifting.fickian]\n[smoother");
+    for scene in [UNIFORM, &shifted] {
+        let bench = Bench::with(PROGRAM, scene);
+        bench.done("run scene.toml --quiet --out out");
+        for file in ["out/checkpoint.sph", "out/checkpoint-middle.sph"] {
+            let velocity = column(&bench, file, "velocity");
+            let off = velocity.chunks_exact(2).map(|u| (u[0] - 1.0).hypot(u[1]));
+            let worst = off.fold(0.0, f64::max);
+            // Fits are exact for constants: rounding of 1,300 steps.
+            assert!(worst < 1e-12, "{file}: {worst:e}");
+        }
     }
+}
+
+/// Probes of a zone within a zone see the particles of that.
+#[test]
+fn a_nested_zone_measures_its_own_probes() {
+    let nested = dam().replace("probes = [\"front\"]\n", "") + "probes = [\"front\"]\n";
+    let bench = Bench::with(PROGRAM, &nested);
+    bench.done("run scene.toml --quiet --out out");
+    let largest = |file: &str| {
+        let place = column(&bench, file, "position");
+        place
+            .chunks_exact(2)
+            .fold(0.0, |most: f64, x| most.max(x[0]))
+    };
+    let series = sph_io::read_table(&bench.path("out/series.csv")).expect("a series");
+    let front = *series.column("front").expect("a front").last().unwrap();
+    let own = largest("out/checkpoint-wall-corner.sph");
+    assert!((front - own).abs() < 1e-12, "{front} for {own} m");
+    assert!(front != largest("out/checkpoint.sph"), "{front} m");
 }
 
 /// The mass of a zone with its band is that of the particles around that are there.

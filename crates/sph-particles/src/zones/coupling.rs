@@ -3,13 +3,15 @@
 mod level;
 mod stepper;
 
+use rayon::prelude::*;
 use serde::Serialize;
 use sph_core::{StepError, System, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::World;
+use sph_neighbours::{CellGrid, World};
 use sph_probes::Probe;
 use sph_solver::Flow;
 
+use super::fit::REACH;
 use super::guard::Guard;
 use super::sample::{State, States};
 use crate::setup::measure_walls;
@@ -17,8 +19,8 @@ use crate::setup::measure_walls;
 pub(crate) use level::Level;
 pub use stepper::Stepper;
 
-/// Time over h/c in which the velocity of a particle in the core of a zone comes to that of the zone. At once it would be
-/// that of other places, and the particles' own forces could not keep them apart. Measured: `notes/zones.md`.
+/// Time over h/c in which density and velocity of a particle in the core of a zone come to those of the zone. At once they
+/// would be those of other places, and the particles' own forces could not keep them apart. Measured: `notes/zones.md`.
 const RELAXATION: f64 = 2.0;
 
 /// Particles of a zone at the start, those of its band among them.
@@ -60,9 +62,9 @@ impl<const D: usize> Coupling<D> {
 
     /// An evaluation of a flow, in which its zones come to its time.
     ///
-    /// Whoever shares a place with another flow has the density of that, exactly, each time forces are computed: while
-    /// particles that came in find their order, the sums of their kernels fall, and a pressure that follows them falls
-    /// too, and holds back the flow behind it.
+    /// Particles of the band have the densities around them each time forces are computed, and those of the overlap behind
+    /// it have them in the mean: while particles that came in find their order, the sums of their kernels fall, and a
+    /// pressure that follows the sums holds back the flow.
     ///
     /// # Errors
     /// Those of the flow, and of its zones.
@@ -74,16 +76,18 @@ impl<const D: usize> Coupling<D> {
         flow.evaluate_with(|flow, restored| {
             if let Some(guard) = self.guard.as_ref() {
                 let around = guard.states(flow, |x| !guard.frame.in_core(x))?;
-                self.give_densities(flow, &around, restored)?;
                 let position = flow.world.free.get(fields::POSITION)?;
                 let beyond = |(k, _): &(usize, State<D>)| !guard.frame.holds(&position[*k], 0.0);
-                band = around.into_iter().filter(beyond).collect();
+                let (outer, overlap): (States<D>, States<D>) = around.into_iter().partition(beyond);
+                band = outer;
+                self.give_densities(flow, &band, restored)?;
+                let means = with_mean_densities(flow, &overlap)?;
+                self.give_densities(flow, &means, restored)?;
             }
             self.inner.clear();
             for level in &mut self.levels {
                 self.inner.extend(level.follow(flow)?);
             }
-            self.give_densities(flow, &self.inner, restored)?;
             let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
             band.iter()
                 .for_each(|(k, state)| velocity[*k] = state.velocity);
@@ -100,33 +104,29 @@ impl<const D: usize> Coupling<D> {
         led: &States<D>,
         restored: bool,
     ) -> Result<(), StepError> {
-        let value = self.diffused.evolved.value;
-        let mut constant = flow.world.free.take(value)?;
-        let mut density = flow.world.free.take(fields::DENSITY)?;
-        let mut volume = flow.world.free.take(fields::VOLUME)?;
-        let gamma = flow.world.sum_renormalisation();
-        let mass = flow.world.free.get(fields::MASS)?;
-        for (k, state) in led {
-            let k = *k;
-            if !restored {
-                let gamma = gamma.map_or(1.0, |g| g[k]);
-                let slope = (self.diffused.per_density)(density[k], volume[k], gamma);
-                constant[k] += slope * (state.density - density[k]);
-            }
-            density[k] = state.density;
-            volume[k] = mass[k] / state.density;
+        if !restored {
+            move_densities(self.diffused, flow, led, 1.0)?;
         }
         let free = &mut flow.world.free;
-        free.put(value, constant)?;
+        let mut density = free.take(fields::DENSITY)?;
+        let mut volume = free.take(fields::VOLUME)?;
+        let mass = free.get(fields::MASS)?;
+        for (k, state) in led {
+            density[*k] = state.density;
+            volume[*k] = mass[*k] / state.density;
+        }
         free.put(fields::DENSITY, density)?;
         Ok(free.put(fields::VOLUME, volume)?)
     }
 
-    /// Before a step of `dt` seconds: the velocities of particles that a zone leads go towards those of the zone.
+    /// Before a step of `dt` seconds: particles that a zone leads go towards its densities and velocities.
     ///
     /// # Errors
     /// If a column is missing.
     pub fn begin_step(&mut self, flow: &mut Flow<D>, dt: f64) -> Result<(), StepError> {
+        if self.inner.is_empty() {
+            return Ok(());
+        }
         let speeds = flow.laws.iter().map(|law| law.reference().sound_speed);
         let time = RELAXATION * flow.world.kernel.smoothing_length() / speeds.fold(0.0, f64::max);
         let share = 1.0 - (-dt / time).exp();
@@ -135,7 +135,7 @@ impl<const D: usize> Coupling<D> {
             let own = velocity[*k];
             velocity[*k] += (state.velocity - own) * share;
         }
-        Ok(())
+        move_densities(self.diffused, flow, &self.inner, share)
     }
 
     /// Accelerates the particles of the band as those around it.
@@ -241,6 +241,35 @@ impl<const D: usize> Coupling<D> {
     }
 }
 
+/// States with the particles' own densities, moved by the mean difference to those of `led` within a fit's radius: what
+/// single particles have beside it keeps them apart.
+fn with_mean_densities<const D: usize>(
+    flow: &Flow<D>,
+    led: &States<D>,
+) -> Result<States<D>, StepError> {
+    let free = &flow.world.free;
+    let (position, density) = (free.get(fields::POSITION)?, free.get(fields::DENSITY)?);
+    let domain = &flow.world.domain;
+    let radius = REACH * flow.world.spacing;
+    let places: Vec<Vect<D>> = led.iter().map(|(k, _)| position[*k]).collect();
+    let grid = CellGrid::new(&places, radius, domain);
+    let mean = |(k, state): &(usize, State<D>)| {
+        let (mut weights, mut sum) = (0.0, 0.0);
+        grid.ranges(&position[*k], radius, |found| {
+            for other in &grid.order()[found] {
+                let (other, around) = &led[*other as usize];
+                let q = domain.nearest(position[*k] - position[*other]).norm() / radius;
+                let weight = (1.0 - q).max(0.0).powi(4) * (1.0 + 4.0 * q);
+                weights += weight;
+                sum += weight * (around.density - density[*other]);
+            }
+        });
+        let density = density[*k] + sum / weights;
+        (*k, State { density, ..*state })
+    };
+    Ok(led.par_iter().with_min_len(256).map(mean).collect())
+}
+
 /// Gives particles of the band their accelerations, and no shift: beyond the band they have no neighbours, and a shift
 /// towards the void would empty it.
 fn accelerate<const D: usize>(flow: &mut Flow<D>, band: &States<D>) -> Result<(), StepError> {
@@ -253,4 +282,25 @@ fn accelerate<const D: usize>(flow: &mut Flow<D>, band: &States<D>) -> Result<()
         band.iter().for_each(|(k, _)| shift[*k] = Vect::zeros());
     }
     Ok(())
+}
+
+/// Changes the integrated quantity so that densities go a share of the way to those of `led`.
+fn move_densities<const D: usize>(
+    diffused: Diffused,
+    flow: &mut Flow<D>,
+    led: &States<D>,
+    share: f64,
+) -> Result<(), StepError> {
+    let value = diffused.evolved.value;
+    let mut constant = flow.world.free.take(value)?;
+    let free = &flow.world.free;
+    let (density, volume) = (free.get(fields::DENSITY)?, free.get(fields::VOLUME)?);
+    let gamma = flow.world.sum_renormalisation();
+    for (k, state) in led {
+        let k = *k;
+        let gamma = gamma.map_or(1.0, |g| g[k]);
+        let slope = (diffused.per_density)(density[k], volume[k], gamma);
+        constant[k] += share * slope * (state.density - density[k]);
+    }
+    Ok(flow.world.free.put(value, constant)?)
 }

@@ -23,7 +23,9 @@ pub(crate) fn scene_of_zone<const D: usize>(
     finer.zone = nested(scene, name);
     // Particles relax by themselves in no box of their own.
     finer.numerics.relax = None;
-    let measured = |probe: &String| zone.probes.contains(probe);
+    let inner = finer.zone.values().flat_map(|inner| &inner.probes);
+    let probes: Vec<String> = zone.probes.iter().chain(inner).cloned().collect();
+    let measured = |probe: &String| probes.contains(probe);
     finer.probe.retain(|probe, _| measured(probe));
     finer.gauge.retain(|probe, _| measured(probe));
     finer.reference.clear();
