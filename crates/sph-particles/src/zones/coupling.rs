@@ -80,9 +80,13 @@ impl<const D: usize> Coupling<D> {
                 let beyond = |(k, _): &(usize, State<D>)| !guard.frame.holds(&position[*k], 0.0);
                 let (outer, overlap): (States<D>, States<D>) = around.into_iter().partition(beyond);
                 band = outer;
+                if !restored {
+                    let means = with_mean_densities(flow, &overlap)?;
+                    move_densities(self.diffused, flow, &means, 1.0)?;
+                    // A state to which a run comes back has the same bits: sums of these constants.
+                    flow.sum_densities()?;
+                }
                 self.give_densities(flow, &band, restored)?;
-                let means = with_mean_densities(flow, &overlap)?;
-                self.give_densities(flow, &means, restored)?;
             }
             self.inner.clear();
             for level in &mut self.levels {

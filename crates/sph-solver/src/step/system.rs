@@ -102,6 +102,14 @@ impl<const D: usize> Flow<D> {
         self.observe(Boundary::Evaluated, 0.0)
     }
 
+    /// Computes densities again, whose constants a change of [`evaluate_with`](Self::evaluate_with) has moved.
+    ///
+    /// # Errors
+    /// Those of stages.
+    pub fn sum_densities(&mut self) -> Result<(), StepError> {
+        self.run_wanted(false, |stage| writes_any(stage, &DENSITIES[1..]))
+    }
+
     fn perform(&mut self, motion: Motion) -> Result<(), StepError> {
         match motion {
             Motion::Evaluate => {
