@@ -12,6 +12,7 @@ use sph_probes::Probe;
 use sph_solver::Flow;
 
 use super::fit::REACH;
+use super::frame::Frame;
 use super::guard::Guard;
 use super::sample::{State, States};
 use crate::setup::measure_walls;
@@ -97,7 +98,10 @@ impl<const D: usize> Coupling<D> {
                 .for_each(|(k, state)| velocity[*k] = state.velocity);
             Ok(())
         })?;
-        accelerate(flow, &band)
+        match &self.guard {
+            Some(guard) => accelerate(flow, &band, &guard.frame),
+            None => Ok(()),
+        }
     }
 
     /// Gives particles the densities of another flow. Those of a state that was `restored` have constants for these
@@ -151,7 +155,7 @@ impl<const D: usize> Coupling<D> {
             return Ok(());
         };
         let band = guard.states(flow, |x| !guard.frame.holds(x, 0.0))?;
-        accelerate(flow, &band)
+        accelerate(flow, &band, &guard.frame)
     }
 
     /// All zones, those within zones too.
@@ -274,16 +278,24 @@ fn with_mean_densities<const D: usize>(
     Ok(led.par_iter().with_min_len(256).map(mean).collect())
 }
 
-/// Gives particles of the band their accelerations, and no shift: beyond the band they have no neighbours, and a shift
-/// towards the void would empty it.
-fn accelerate<const D: usize>(flow: &mut Flow<D>, band: &States<D>) -> Result<(), StepError> {
+/// Gives particles of the band their accelerations, and those of its outer half no shift: they lack neighbours, and a
+/// shift towards the void would empty the band.
+fn accelerate<const D: usize>(
+    flow: &mut Flow<D>,
+    band: &States<D>,
+    frame: &Frame<D>,
+) -> Result<(), StepError> {
     let free = &mut flow.world.free;
     let acceleration = free.get_mut(fields::ACCELERATION)?;
     for (k, state) in band {
         acceleration[*k] = state.acceleration;
     }
-    if let Ok(shift) = free.get_mut(fields::SHIFT_VELOCITY) {
-        band.iter().for_each(|(k, _)| shift[*k] = Vect::zeros());
+    if free.has(fields::SHIFT_VELOCITY.name) {
+        let mut shift = free.take(fields::SHIFT_VELOCITY)?;
+        let position = free.get(fields::POSITION)?;
+        let outer = band.iter().filter(|(k, _)| frame.is_outer(&position[*k]));
+        outer.for_each(|(k, _)| shift[*k] = Vect::zeros());
+        free.put(fields::SHIFT_VELOCITY, shift)?;
     }
     Ok(())
 }

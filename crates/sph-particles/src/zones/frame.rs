@@ -6,9 +6,9 @@ use sph_scene::{Scene, Zone};
 
 use super::fit::REACH;
 
-/// Width of the band over the support of the finer particles: those of the zone have all neighbours in it, and the nearest
-/// of these have most of theirs.
-const BAND: f64 = 1.5;
+/// Width of the band over the support of the finer particles: those of the zone have all neighbours in its inner half, and
+/// these have all of theirs in the band.
+const BAND: f64 = 2.0;
 
 /// A box along the axes; along a period that it spans it has no sides.
 #[derive(Clone, Debug)]
@@ -106,6 +106,11 @@ impl<const D: usize> Frame<D> {
     /// True if a place is in the box widened by a margin, m.
     pub fn holds(&self, x: &Vect<D>, margin: f64) -> bool {
         (0..D).all(|k| self.low[k] - margin <= x[k] && x[k] < self.high[k] + margin)
+    }
+
+    /// True if a place is in the outer half of the band, or beyond it.
+    pub fn is_outer(&self, x: &Vect<D>) -> bool {
+        !self.holds(x, 0.5 * self.band)
     }
 
     /// True if a place is in the core.
