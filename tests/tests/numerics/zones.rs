@@ -85,7 +85,7 @@ fn a_nested_zone_measures_its_own_probes() {
             .chunks_exact(2)
             .fold(0.0, |most: f64, x| most.max(x[0]))
     };
-    let series = sph_io::read_table(&bench.path("out/series.csv")).expect("a series");
+    let series = sph_io::read_table(bench.path("out/series.csv")).expect("a series");
     let front = *series.column("front").expect("a front").last().unwrap();
     // A front is half a spacing before the first particle.
     let own = largest("out/checkpoint-wall-corner.sph") + 0.5 * 0.005;

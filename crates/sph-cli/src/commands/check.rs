@@ -6,7 +6,7 @@ use std::time::Duration;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use sph_particles::setup::{Examination, Memory};
-use sph_particles::{draw_scene, examine_and_try};
+use sph_particles::{ZoneSize, draw_scene, examine_and_try};
 
 use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};
@@ -168,7 +168,6 @@ fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternati
         "{}\n{file} is a good scene in {} dimensions\n",
         e.scene, e.dimension
     );
-    let row = |name: &str, value: String| vec![name.to_string(), value];
     let size = [
         row("particles", number::count(e.particles as f64)),
         row("wall points", number::count(e.wall_points as f64)),
@@ -192,40 +191,8 @@ fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternati
         .step_limits
         .iter()
         .map(|(name, dt)| row(name, seconds(*dt)));
-    let cost = &e.estimate;
-    let zones = e.zones.iter().map(|zone| {
-        let particles = number::count(zone.particles as f64);
-        let spacing = number::plain(zone.spacing);
-        let dry = match zone.particles {
-            0 => ": dry at the start, of which the estimate is",
-            _ => "",
-        };
-        row(
-            &zone.name,
-            format!("{particles} particles of {spacing} m{dry}"),
-        )
-    });
-    let instead = alternatives.into_iter().flat_map(|a| {
-        let without = number::duration(3600.0 * a.hours_without_zones);
-        let finest = number::duration(3600.0 * a.hours_of_finest);
-        let particles = number::count(a.particles_of_finest);
-        [
-            row("without zones", format!("about {without}")),
-            row(
-                &format!("{} m everywhere", number::plain(a.finest)),
-                format!("about {finest}, {particles} particles"),
-            ),
-        ]
-    });
-    let mut estimate = vec![
-        row("steps", number::count(cost.steps)),
-        row("wall time", time.to_string()),
-    ];
-    estimate.extend(instead);
-    estimate.extend([
-        row("memory", format!("about {}", memory(&e.memory))),
-        row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
-    ]);
+    let zones = e.zones.iter().map(zone_row);
+    let estimate = estimate_rows(e, time, alternatives);
     let percent = |part: f64| format!("{:.2} %", 100.0 * part);
     let relaxation = e.relaxation.iter().flat_map(|r| {
         [
@@ -260,6 +227,55 @@ fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternati
         text.push_str(&format!("\nwarnings\n{}", remarks(&e.warnings)));
     }
     text
+}
+
+/// A name beside its value.
+fn row(name: &str, value: String) -> Vec<String> {
+    vec![name.to_string(), value]
+}
+
+/// Particles of a zone.
+fn zone_row(zone: &ZoneSize) -> Vec<String> {
+    let particles = number::count(zone.particles as f64);
+    let spacing = number::plain(zone.spacing);
+    let dry = match zone.particles {
+        0 => ": dry at the start, of which the estimate is",
+        _ => "",
+    };
+    row(
+        &zone.name,
+        format!("{particles} particles of {spacing} m{dry}"),
+    )
+}
+
+/// Steps, times, memory and disk.
+fn estimate_rows(
+    e: &Examination,
+    time: &str,
+    alternatives: Option<&Alternatives>,
+) -> Vec<Vec<String>> {
+    let cost = &e.estimate;
+    let mut rows = vec![
+        row("steps", number::count(cost.steps)),
+        row("wall time", time.to_string()),
+    ];
+    if let Some(a) = alternatives {
+        let without = number::duration(3600.0 * a.hours_without_zones);
+        let finest = number::duration(3600.0 * a.hours_of_finest);
+        let particles = number::count(a.particles_of_finest);
+        rows.extend([
+            row("without zones", format!("about {without}")),
+            row(
+                &format!("{} m everywhere", number::plain(a.finest)),
+                format!("about {finest}, {particles} particles"),
+            ),
+        ]);
+    }
+    rows.extend([
+        row("memory", format!("about {}", memory(&e.memory))),
+        row("disk", format!("about {}", number::bytes(cost.disk_bytes))),
+    ]);
+    rows
 }
 
 /// A step limit; one that does not bind is infinite.
