@@ -62,7 +62,16 @@ fn column(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
 /// Every particle of the zone has come in and gone out two and a half times.
 #[test]
 fn a_uniform_flow_passes_a_zone_unchanged() {
-    let bench = Bench::with(PROGRAM, UNIFORM);
+    for formulation in ["hu-adams", "colagrossi-landrini", "krimi"] {
+        uniform(&UNIFORM.replace(
+            "[smoother",
+            &format!("[formulation.{formulation}]\n[smoother"),
+        ));
+    }
+}
+
+fn uniform(scene: &str) {
+    let bench = Bench::with(PROGRAM, scene);
     bench.done("run scene.toml --quiet --out out");
     for file in ["out/checkpoint.sph", "out/checkpoint-middle.sph"] {
         let velocity = column(&bench, file, "velocity");

@@ -50,10 +50,14 @@ fn level<const D: usize>(
     let frame = Frame::new(scene, zone, support);
     let frame = frame.with_core(around.flow.walls.as_deref(), scene.numerics.spacing);
     let finer = scene_of_zone((scene, &around.flow.world), (name, zone), &frame);
-    let parts = assemble::<D>(&finer)?;
+    let mut parts = assemble::<D>(&finer)?;
+    // Those of zones within it were assembled too, for their own scenes.
+    parts
+        .probes
+        .retain(|(probe, _)| zone.probes.contains(probe));
     refuse(name, &parts)?;
     let guard = Guard::new(frame.clone(), scene.numerics.spacing);
     let coupling = coupling(&finer, &parts, Some(guard), depth + 1)?;
     let stepper = Stepper::from_parts(&finer, parts, coupling);
-    Ok(Level::new((name, &zone.probes), frame, stepper, depth))
+    Ok(Level::new(name, frame, stepper, depth))
 }

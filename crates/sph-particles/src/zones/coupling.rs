@@ -11,7 +11,7 @@ use sph_neighbours::{CellGrid, World};
 use sph_probes::Probe;
 use sph_solver::Flow;
 
-use super::fit::REACH;
+use super::fit::{REACH, weight};
 use super::frame::Frame;
 use super::guard::Guard;
 use super::sample::{State, States};
@@ -81,13 +81,14 @@ impl<const D: usize> Coupling<D> {
                 let beyond = |(k, _): &(usize, State<D>)| !guard.frame.holds(&position[*k], 0.0);
                 let (outer, overlap): (States<D>, States<D>) = around.into_iter().partition(beyond);
                 band = outer;
+                // A state to which a run came back has these densities, and the same bits: sums of the same constants.
                 if !restored {
                     let means = with_mean_densities(flow, &overlap)?;
                     move_densities(self.diffused, flow, &means, 1.0)?;
-                    // A state to which a run comes back has the same bits: sums of these constants.
+                    move_densities(self.diffused, flow, &band, 1.0)?;
                     flow.sum_densities()?;
                 }
-                self.give_densities(flow, &band, restored)?;
+                set_densities(flow, &band)?;
             }
             self.inner.clear();
             for level in &mut self.levels {
@@ -102,29 +103,6 @@ impl<const D: usize> Coupling<D> {
             Some(guard) => accelerate(flow, &band, &guard.frame),
             None => Ok(()),
         }
-    }
-
-    /// Gives particles the densities of another flow. Those of a state that was `restored` have constants for these
-    /// already.
-    fn give_densities(
-        &self,
-        flow: &mut Flow<D>,
-        led: &States<D>,
-        restored: bool,
-    ) -> Result<(), StepError> {
-        if !restored {
-            move_densities(self.diffused, flow, led, 1.0)?;
-        }
-        let free = &mut flow.world.free;
-        let mut density = free.take(fields::DENSITY)?;
-        let mut volume = free.take(fields::VOLUME)?;
-        let mass = free.get(fields::MASS)?;
-        for (k, state) in led {
-            density[*k] = state.density;
-            volume[*k] = mass[*k] / state.density;
-        }
-        free.put(fields::DENSITY, density)?;
-        Ok(free.put(fields::VOLUME, volume)?)
     }
 
     /// Before a step of `dt` seconds: particles that a zone leads go towards its densities and velocities.
@@ -208,13 +186,13 @@ impl<const D: usize> Coupling<D> {
 
     /// A probe that a zone measures, with the particles of that.
     pub fn measuring(&self, probe: &str) -> Option<(&dyn Probe<D>, &World<D>)> {
-        let all = self.all_levels();
-        let level = all
-            .iter()
-            .find(|level| level.probes.iter().any(|p| p == probe))?;
-        let parts = &level.stepper.parts;
-        let (_, own) = parts.probes.iter().find(|(name, _)| name == probe)?;
-        Some((&**own, &parts.flow.world))
+        let all = self.all_levels().into_iter();
+        let mut measured = all.filter_map(|level| {
+            let parts = &level.stepper.parts;
+            let (_, own) = parts.probes.iter().find(|(name, _)| name == probe)?;
+            Some((&**own, &parts.flow.world))
+        });
+        measured.next()
     }
 
     /// Measures the forces on walls that probes of zones read.
@@ -267,7 +245,7 @@ fn with_mean_densities<const D: usize>(
             for other in &grid.order()[found] {
                 let (other, around) = &led[*other as usize];
                 let q = domain.nearest(position[*k] - position[*other]).norm() / radius;
-                let weight = (1.0 - q).max(0.0).powi(4) * (1.0 + 4.0 * q);
+                let weight = weight(q);
                 weights += weight;
                 sum += weight * (around.density - density[*other]);
             }
@@ -300,23 +278,37 @@ fn accelerate<const D: usize>(
     Ok(())
 }
 
-/// Changes the integrated quantity so that densities go a share of the way to those of `led`.
+/// Changes the integrated quantity so that densities go a share of the way to those of `led`. It may be the density itself.
 fn move_densities<const D: usize>(
     diffused: Diffused,
     flow: &mut Flow<D>,
     led: &States<D>,
     share: f64,
 ) -> Result<(), StepError> {
-    let value = diffused.evolved.value;
-    let mut constant = flow.world.free.take(value)?;
+    let gamma = flow.world.sum_renormalisation();
     let free = &flow.world.free;
     let (density, volume) = (free.get(fields::DENSITY)?, free.get(fields::VOLUME)?);
-    let gamma = flow.world.sum_renormalisation();
+    let change = |(k, state): &(usize, State<D>)| {
+        let gamma = gamma.map_or(1.0, |g| g[*k]);
+        let slope = (diffused.per_density)(density[*k], volume[*k], gamma);
+        (*k, share * slope * (state.density - density[*k]))
+    };
+    let changes: Vec<(usize, f64)> = led.iter().map(change).collect();
+    let value = flow.world.free.get_mut(diffused.evolved.value)?;
+    changes.iter().for_each(|(k, change)| value[*k] += change);
+    Ok(())
+}
+
+/// Gives particles the densities of another flow, to the last bit.
+fn set_densities<const D: usize>(flow: &mut Flow<D>, led: &States<D>) -> Result<(), StepError> {
+    let free = &mut flow.world.free;
+    let mut density = free.take(fields::DENSITY)?;
+    let mut volume = free.take(fields::VOLUME)?;
+    let mass = free.get(fields::MASS)?;
     for (k, state) in led {
-        let k = *k;
-        let gamma = gamma.map_or(1.0, |g| g[k]);
-        let slope = (diffused.per_density)(density[k], volume[k], gamma);
-        constant[k] += share * slope * (state.density - density[k]);
+        density[*k] = state.density;
+        volume[*k] = mass[*k] / state.density;
     }
-    Ok(flow.world.free.put(value, constant)?)
+    free.put(fields::DENSITY, density)?;
+    Ok(free.put(fields::VOLUME, volume)?)
 }

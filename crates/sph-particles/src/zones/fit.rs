@@ -14,7 +14,12 @@ const LEAST_PIVOT: f64 = 1e-9;
 /// Fewest particles of a fit.
 const FEWEST: usize = 3;
 
-/// A weighted neighbour: its weight (1 − r/R)⁴(1 + 4r/R), and the first N of 1, x, y, x², xy, y² and so on over R.
+/// Weight of a particle at `q` radii, (1 − q)⁴(1 + 4q).
+pub(crate) fn weight(q: f64) -> f64 {
+    (1.0 - q).max(0.0).powi(4) * (1.0 + 4.0 * q)
+}
+
+/// A neighbour: its weight, and the first N of 1, x, y, x², xy, y² and so on over R.
 fn neighbour<const D: usize, const N: usize>(
     radius: f64,
     away: &Vect<D>,
@@ -33,7 +38,7 @@ fn neighbour<const D: usize, const N: usize>(
             .zip(places)
             .for_each(|((a, b), k)| basis[k] = x[a] * x[b]);
     }
-    ((1.0 - q).powi(4) * (1.0 + 4.0 * q), basis)
+    (weight(q), basis)
 }
 
 /// Weights that give a polynomial of N terms its value at the place from which the particles are `away`, m: weighted

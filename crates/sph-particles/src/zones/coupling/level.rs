@@ -12,8 +12,6 @@ use crate::zones::sample::{Sample, Source, States};
 pub(crate) struct Level<const D: usize> {
     /// Its name in the scene.
     pub name: String,
-    /// Probes that are measured in it.
-    pub probes: Vec<String>,
     pub frame: Frame<D>,
     pub stepper: Stepper<D>,
     /// Levels between the scene's spacing and the one around it.
@@ -24,15 +22,9 @@ pub(crate) struct Level<const D: usize> {
 
 impl<const D: usize> Level<D> {
     /// A zone whose box is `frame`, in a flow `depth` levels below the coarsest.
-    pub fn new(
-        (name, probes): (&str, &[String]),
-        frame: Frame<D>,
-        stepper: Stepper<D>,
-        depth: usize,
-    ) -> Self {
+    pub fn new(name: &str, frame: Frame<D>, stepper: Stepper<D>, depth: usize) -> Self {
         Level {
             name: name.into(),
-            probes: probes.to_vec(),
             frame,
             stepper,
             depth,
