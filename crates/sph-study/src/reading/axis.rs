@@ -33,6 +33,8 @@ pub struct Choice {
     pub label: String,
     /// Name in folders: the label, after the axis' name where the label is a bare value.
     pub slug: String,
+    /// Name of a scene in place of the study's, and its path in the study file.
+    pub scene: Option<(String, String)>,
     /// Keys and values that it sets.
     pub sets: Vec<Set>,
 }
@@ -106,6 +108,7 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
                 Ok(Choice {
                     slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
                     label: given.unwrap_or(bare),
+                    scene: None,
                     sets: vec![set],
                 })
             };
@@ -121,11 +124,13 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
             let missing = "the key `name` is missing: what tables and plots call this axis";
             let name = name.ok_or_else(|| problem("", missing))?;
             let choice = |(k, entry): (usize, &file::Entry)| {
-                let at = format!("{at}.entries[{k}].set");
+                let at = format!("{at}.entries[{k}]");
+                let named = entry.scene.clone();
                 Ok(Choice {
                     label: entry.name.clone(),
                     slug: entry.name.clone(),
-                    sets: sets(&entry.set, &at)?,
+                    scene: named.map(|scene| (scene, format!("{at}.scene"))),
+                    sets: sets(&entry.set, &format!("{at}.set"))?,
                 })
             };
             let choices: Result<Vec<_>, SceneProblem> =

@@ -212,6 +212,7 @@ mod tests {
         let choice = |l: &&str| Choice {
             label: (*l).into(),
             slug: (*l).into(),
+            scene: None,
             sets: Vec::new(),
         };
         StudyAxis {

@@ -150,6 +150,8 @@ pub type Bounds = BTreeMap<String, [f64; 2]>;
 pub struct Entry {
     /// Name in tables, plots and folders.
     pub name: String,
+    /// Scene in place of the study's: two models of the same sample stand side by side.
+    pub scene: Option<String>,
     /// Scene values that it sets; a plugin takes the place of the present one, `shifting = {}` removes it.
     #[parameter(default)]
     #[schemars(with = "SceneValues")]

@@ -66,6 +66,7 @@ pub fn read(
         let reader = Reader {
             file,
             source,
+            find,
             scene: &found.scene,
             axes: &found.axes,
             common,
@@ -177,6 +178,7 @@ fn one(
     let itself = Choice {
         label: given.name.clone(),
         slug: given.name.clone(),
+        scene: None,
         sets: Vec::new(),
     };
     let axis = |k: usize, choices| StudyAxis {
@@ -227,6 +229,7 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
         Ok(Choice {
             label: c.name.clone(),
             slug: c.name.clone(),
+            scene: None,
             sets: axis::sets(&c.set, &format!("combination[{k}].set"))?,
         })
     };
@@ -236,6 +239,7 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
         choices.push(Choice {
             label: String::new(),
             slug: String::new(),
+            scene: None,
             sets: Vec::new(),
         });
     }

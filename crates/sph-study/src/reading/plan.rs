@@ -176,6 +176,7 @@ impl Parts<'_> {
         let reader = Reader {
             file: &file,
             source: &source,
+            find: self.find,
             scene: &scene,
             axes: &axes,
             common,

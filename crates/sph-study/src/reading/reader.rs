@@ -1,5 +1,6 @@
 //! The scenes of all variants, and the conditions on all of them together.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use sph_core::{SceneProblem, suggestion};
@@ -22,6 +23,9 @@ const REFINEMENT: &str = "numerics.spacing";
 pub(crate) struct Reader<'a> {
     pub file: &'a StudyFile,
     pub source: &'a Source,
+    /// Finds the scenes of single places.
+    pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
+    /// The scene of all others.
     pub scene: &'a SceneText,
     pub axes: &'a [StudyAxis],
     /// Settings of every variant.
@@ -84,7 +88,8 @@ impl Reader<'_> {
     }
 
     fn one(&self, combination: &Combination, only: &[String]) -> Result<Variant, Vec<Mistake>> {
-        let (overrides, given_by) = self.overrides(&combination.choices);
+        let scene = self.scene(&combination.choices)?;
+        let (overrides, given_by) = self.overrides(&scene, &combination.choices);
         let blame = OverrideSources {
             study: self.source,
             given_by: &given_by,
@@ -95,7 +100,7 @@ impl Reader<'_> {
             allowed,
             method,
             ..
-        } = self.scene;
+        } = &*scene;
         let read = method.read(Source::new(text, file, &overrides).allowing(allowed));
         let subject = read.map_err(|(source, found)| blame.place(&source, &found))?;
         let mut problems = self.missing_references(&*subject);
@@ -129,16 +134,28 @@ impl Reader<'_> {
         })
     }
 
+    /// The scene of a combination: that of the last choice that names one, or the study's.
+    fn scene(&self, choices: &[usize]) -> Result<Cow<'_, SceneText>, Vec<Mistake>> {
+        let chosen = self.axes.iter().zip(choices).rev();
+        let mut own = chosen.filter_map(|(axis, k)| axis.choices[*k].scene.as_ref());
+        let Some((name, path)) = own.next() else {
+            return Ok(Cow::Borrowed(self.scene));
+        };
+        let unknown = |why| Refused::in_study(self.source, &[SceneProblem::new(path, why)]);
+        let found = (self.find)(name).map(Cow::Owned);
+        found.map_err(|why| unknown(why).mistakes)
+    }
+
     /// Settings put on the scene, in this order, with their places.
-    fn overrides(&self, choices: &[usize]) -> (Vec<Override>, Vec<Option<String>>) {
+    fn overrides(
+        &self,
+        scene: &SceneText,
+        choices: &[usize],
+    ) -> (Vec<Override>, Vec<Option<String>>) {
         let mut all: Vec<(Override, Option<String>)> = Vec::new();
         if !self.file.keep_output {
-            let quiet = self
-                .scene
-                .method
-                .quiet()
-                .iter()
-                .filter_map(|text| Override::parse(text).ok());
+            let quiet = scene.method.quiet().iter();
+            let quiet = quiet.filter_map(|text| Override::parse(text).ok());
             all.extend(quiet.map(|o| (o, None)));
         }
         let chosen = self
