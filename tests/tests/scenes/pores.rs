@@ -45,3 +45,21 @@ fn a_bed_floats_at_its_critical_gradient() {
         "{floats} s, 0.962 was measured"
     );
 }
+
+/// Ten rows: the fluid bears the weight of loose grains, 1289 Pa in the layer, and dense ones suck at it.
+#[test]
+fn a_wave_liquefies_a_loose_bed_and_a_dense_one_stands() {
+    let share = |changes: &[&str]| {
+        let coarse = ["numerics.spacing=0.1", "run.end=4", "reference={}"];
+        let run = finished("wave-over-sand", &[&coarse[..], changes].concat());
+        let weight = column(&run, "grains");
+        weight.last().expect("rows") / weight[0]
+    };
+    let loose = share(&[]);
+    assert!(loose < 0.05, "{loose} of its weight, 0.005 was measured");
+    let dense = share(&[
+        "pore-pressure.darcy.porosity=0.40",
+        "phase.sand.density=1240",
+    ]);
+    assert!(dense > 1.0, "{dense} of its weight, 1.5 was measured");
+}

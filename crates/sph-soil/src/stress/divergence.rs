@@ -34,6 +34,10 @@ pub struct Divergence {
     /// viscosities stay: for soils that are much stiffer than their water. With the integrator `symplectic-euler`.
     #[parameter(default, source: "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990")]
     pub sub_steps: bool,
+    /// Strength α of the damping of motions that the velocity gradient does not see: a viscosity α h √(𝒢ρ) of what neighbours move
+    /// beyond it. Without it soils beside walls rattle. Not with `implicit`, which damps them.
+    #[parameter(default: 0.2, unit: "1", min: 0.0, max: 1.0, source: "ours, after Ganzenmüller 2015")]
+    pub hourglass: f64,
 }
 
 impl<const D: usize> ElasticForce<D> for Divergence {
@@ -48,6 +52,12 @@ impl<const D: usize> ElasticForce<D> for Divergence {
     }
     fn sub_steps(&self) -> bool {
         self.sub_steps
+    }
+    fn hourglass(&self) -> f64 {
+        match self.implicit {
+            true => 0.0,
+            false => self.hourglass,
+        }
     }
 }
 

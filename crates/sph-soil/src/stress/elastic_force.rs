@@ -21,6 +21,10 @@ pub trait ElasticForce<const D: usize>: Send {
     fn sub_steps(&self) -> bool {
         false
     }
+    /// Strength α of the [damping](crate::stress::HourglassDamping) of motions that the stress does not resist.
+    fn hourglass(&self) -> f64 {
+        0.0
+    }
     /// True if it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and
     /// with them stresses that are not cut.
     fn displaced(&self) -> bool {

@@ -10,6 +10,7 @@ mod implicit_elasticity;
 mod odd_beds;
 mod pores;
 mod seepage;
+mod solids_at_rest;
 mod stepping;
 
 use std::path::Path;

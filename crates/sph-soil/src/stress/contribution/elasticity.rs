@@ -10,7 +10,7 @@ use sph_rheology::Rheology;
 use super::Materials;
 use crate::stress::{
     AdjointDivergence, Blend, Blended, CarriedStress, ElasticForce, ElasticMotion, ElasticSubSteps,
-    ElasticWaveLimit, ImplicitElasticStress, StressCorrection, Yielded,
+    ElasticWaveLimit, HourglassDamping, ImplicitElasticStress, StressCorrection, Yielded,
 };
 
 /// Remembered stresses of the laws of a scene, and the force that they make.
@@ -37,6 +37,22 @@ impl<const D: usize> Elasticity<D> {
             Blend::Forces => Box::new(Blended::solid(term)),
             Blend::Stresses => term,
         }
+    }
+
+    /// αρ√(𝒢/ρ) by phase, Pa s/m; the speed of sound at most where elastic waves do not bound the step.
+    fn hourglass(&self, force: &dyn ElasticForce<D>, setting: &Setting<'_, D>) -> Vec<f64> {
+        let both = setting.laws.iter().zip(self.0.laws.iter());
+        let strength = both.map(|(law, rheology)| {
+            let reference = law.reference();
+            let shear = rheology.elastic().map_or(0.0, |e| e.shear_modulus());
+            let speed = (shear / reference.density).sqrt();
+            let speed = match force.sub_steps() {
+                true => speed.min(reference.sound_speed),
+                false => speed,
+            };
+            force.hourglass() * reference.density * speed
+        });
+        strength.collect()
     }
 
     /// The step that elastic waves allow.
@@ -66,6 +82,10 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             offer.terms.push(self.term(&**force));
             let wave = self.wave(setting).filter(|_| !force.implicit());
             wave.into_iter().for_each(|wave| offer.limiter(wave));
+        }
+        if force.hourglass() > 0.0 {
+            let strength = self.hourglass(&**force, setting);
+            offer.terms.push(HourglassDamping::boxed(strength));
         }
         offer.stored.push(Box::new(self.0.law_inputs()));
         offer.remedy = Some(format!(
