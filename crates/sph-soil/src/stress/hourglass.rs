@@ -38,6 +38,8 @@ pub struct BoundHourglassDamping<'a, const D: usize> {
     volume: &'a [f64],
     #[here(fields::MASS)]
     mass: &'a [f64],
+    #[both(fields::SOLID_FRACTION)]
+    solid: &'a [f64],
     #[where_there(fields::PHASE)]
     phase: Option<&'a [u32]>,
     #[value(&self.strength)]
@@ -50,7 +52,8 @@ impl<const D: usize> BoundHourglassDamping<'_, D> {
     /// μ, Pa s.
     #[inline(always)]
     fn viscosity(&self, i: usize) -> f64 {
-        self.smoothing_length * self.strength[self.phase.map_or(0, |p| p[i] as usize)]
+        let strength = self.strength[self.phase.map_or(0, |p| p[i] as usize)];
+        self.smoothing_length * strength * self.solid[i]
     }
 }
 
