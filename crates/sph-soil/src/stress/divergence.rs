@@ -10,8 +10,8 @@ use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
 
 /// The divergence of the remembered stress, cut to the yield stress: nested first differences.
 ///
-/// The force is that of [`StressDivergence`], or, with `adjoint = true` of the velocity gradient `renormalised`, that of
-/// [`AdjointDivergence`](crate::stress::AdjointDivergence).
+/// The force is that of [`StressDivergence`], or, with `adjoint = true` of the velocity gradient `renormalised`, that
+/// of [`AdjointDivergence`](crate::stress::AdjointDivergence).
 ///
 /// Source: Ghaïtanellis 2017, Eq. 4.92–4.93; Gray et al. 2001.
 ///
@@ -26,16 +26,18 @@ pub struct Divergence {
     /// Blended quantities where a soil yields.
     #[parameter(default, source: "Ghaïtanellis 2017, Eq. 4.104 (forces), 4.84 and 4.105 (stresses)")]
     pub blend: Blend,
-    /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the step
-    /// are damped. Needs an implicit viscosity with which it is solved for. A stiff soil that should fall may stand, and the run then fails at its end: take `sub_steps` for such.
+    /// Take the stress of the end of the step, so that elastic waves do not bound it: those that are faster than the
+    /// step are damped. Needs an implicit viscosity with which it is solved for. A stiff soil that should fall may
+    /// stand, and the run then fails at its end: take `sub_steps` for such.
     #[parameter(default, source: "ours")]
     pub implicit: bool,
     /// Take steps of its own within that of the flow, as long as elastic waves allow, while places, pressures and
     /// viscosities stay: for soils that are much stiffer than their water. With the integrator `symplectic-euler`.
     #[parameter(default, source: "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990")]
     pub sub_steps: bool,
-    /// Strength α of the damping of motions that the velocity gradient does not see: a viscosity α h √(𝒢ρ) of what neighbours move
-    /// beyond it. Without it soils beside walls rattle. Not with `implicit`, which damps them.
+    /// Strength α of the damping of motions that the velocity gradient does not see: a viscosity α h √(𝒢ρ) of what
+    /// neighbours move beyond it, times the solid fraction. Without it soils beside walls rattle. Not with `implicit`,
+    /// which damps them, nor with `sub_steps`, which leave the gradient behind.
     #[parameter(default: 0.2, unit: "1", min: 0.0, max: 1.0, source: "ours, after Ganzenmüller 2015")]
     pub hourglass: f64,
 }
@@ -54,7 +56,7 @@ impl<const D: usize> ElasticForce<D> for Divergence {
         self.sub_steps
     }
     fn hourglass(&self) -> f64 {
-        match self.implicit {
+        match self.implicit || self.sub_steps {
             true => 0.0,
             false => self.hourglass,
         }

@@ -9,9 +9,10 @@ use sph_neighbours::{
 
 /// m_a a = 2 Σ_b θ_b μ_ab V_aV_b F_ab [u_ab − (G_a + G_b) r_ab/2] over neighbours that are elastic.
 ///
-/// Symbols: G velocity gradient; F the kernel's gradient over the distance; μ = αρh√(𝒢/ρ), harmonic mean of both. Motions of
-/// neighbours against each other have no gradient, so that no stress resists them; walls, whose force is not the
-/// adjoint of the gradient, feed them. A velocity that is linear is not damped, one of a wave with k in proportion to (kh)².
+/// Symbols: G velocity gradient; F the kernel's gradient over the distance; μ = (1 − ζ) αρh√(𝒢/ρ), harmonic mean of
+/// both, 1 − ζ the solid fraction. Motions of neighbours against each other have no gradient, so that no stress resists
+/// them; walls, whose force is not the adjoint of the gradient, feed them. A velocity that is linear is not damped, one
+/// of a wave with k in proportion to (kh)².
 ///
 /// Ours, after Ganzenmüller 2015, Comput. Methods Appl. Mech. Eng. 286, 87.
 #[derive(Clone, Debug)]

@@ -70,7 +70,8 @@ fn a_stiff_block_that_is_shaken_gains_nothing() {
 #[test]
 fn one_sub_step_is_the_step_itself() {
     let mut with = with_sub_steps("elastic-shear-wave", &[]);
-    let mut without = tried("elastic-shear-wave", &[]).unwrap_or_else(|e| panic!("{e}"));
+    let undamped = ["elastic-force.divergence.hourglass=0"];
+    let mut without = tried("elastic-shear-wave", &undamped).unwrap_or_else(|e| panic!("{e}"));
     without.flow.evaluate().unwrap();
     let dt = 0.5 * longest(&without);
     for _ in 0..100 {

@@ -6,6 +6,7 @@ use sph_scene::{Override, parse};
 
 /// 0.3 m wide and high, of fine grains: their yield viscosity η_y damps nothing.
 const BLOCK: &str = r#"
+title = "A block of soil between walls"
 dimension = 2
 run.end = 0.3
 numerics = { spacing = 0.02, smoothing_ratio = 2.0, gravity = [0.0, -9.81] }

@@ -39,18 +39,12 @@ impl<const D: usize> Elasticity<D> {
         }
     }
 
-    /// αρ√(𝒢/ρ) by phase, Pa s/m; the speed of sound at most where elastic waves do not bound the step.
-    fn hourglass(&self, force: &dyn ElasticForce<D>, setting: &Setting<'_, D>) -> Vec<f64> {
+    /// α√(𝒢ρ) by phase, Pa s/m.
+    fn hourglass(&self, strength: f64, setting: &Setting<'_, D>) -> Vec<f64> {
         let both = setting.laws.iter().zip(self.0.laws.iter());
         let strength = both.map(|(law, rheology)| {
-            let reference = law.reference();
             let shear = rheology.elastic().map_or(0.0, |e| e.shear_modulus());
-            let speed = (shear / reference.density).sqrt();
-            let speed = match force.sub_steps() {
-                true => speed.min(reference.sound_speed),
-                false => speed,
-            };
-            force.hourglass() * reference.density * speed
+            strength * (shear * law.reference().density).sqrt()
         });
         strength.collect()
     }
@@ -84,7 +78,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             wave.into_iter().for_each(|wave| offer.limiter(wave));
         }
         if force.hourglass() > 0.0 {
-            let strength = self.hourglass(&**force, setting);
+            let strength = self.hourglass(force.hourglass(), setting);
             offer.terms.push(HourglassDamping::boxed(strength));
         }
         offer.stored.push(Box::new(self.0.law_inputs()));
