@@ -82,31 +82,3 @@ impl Renormalisation2d {
         self.support * self.smoothing_length
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unusable_kernels_are_refused() {
-        let hat = PiecewisePolynomial {
-            breaks: vec![0.0, 1.0],
-            pieces: vec![vec![1.0, -1.0]],
-        };
-        assert_eq!(
-            Renormalisation2d::new(&hat, 0.5).unwrap().kernel_radius(),
-            0.5
-        );
-        assert!(Renormalisation2d::new(&hat, 0.0).is_err());
-        let negative = PiecewisePolynomial {
-            pieces: vec![vec![-1.0]],
-            ..hat.clone()
-        };
-        assert!(Renormalisation2d::new(&negative, 1.0).is_err());
-        let ragged = PiecewisePolynomial {
-            pieces: vec![],
-            ..hat
-        };
-        assert!(Renormalisation2d::new(&ragged, 1.0).is_err());
-    }
-}

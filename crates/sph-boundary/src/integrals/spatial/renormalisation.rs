@@ -97,27 +97,3 @@ impl Renormalisation3d {
         self.support * self.smoothing_length
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unusable_kernels_are_refused() {
-        let hat = PiecewisePolynomial {
-            breaks: vec![0.0, 1.0],
-            pieces: vec![vec![1.0, -1.0]],
-        };
-        let radius = |shape: &PiecewisePolynomial, h| {
-            Renormalisation3d::new(shape, h).map(|r| r.kernel_radius())
-        };
-        assert_eq!(radius(&hat, 0.5), Ok(0.5));
-        assert!(radius(&hat, 0.0).is_err() && radius(&hat, f64::NAN).is_err());
-        let with = |pieces| PiecewisePolynomial {
-            pieces,
-            ..hat.clone()
-        };
-        assert!(radius(&with(vec![vec![-1.0]]), 1.0).is_err());
-        assert!(radius(&with(vec![]), 1.0).is_err());
-    }
-}
