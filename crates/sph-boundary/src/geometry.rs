@@ -21,6 +21,7 @@ pub(crate) mod mesh;
 pub(crate) mod periodic;
 #[cfg(feature = "plugins")]
 pub(crate) mod planar;
+pub(crate) mod plane;
 pub(crate) mod plate;
 pub(crate) mod polyline;
 pub(crate) mod sets;
