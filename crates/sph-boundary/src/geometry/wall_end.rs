@@ -1,5 +1,8 @@
 //! Ends of open walls.
 
+use crate::error::BoundaryError;
+use crate::geometry::mesh::Mesh;
+
 /// An end of an open wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallEnd {
@@ -29,4 +32,40 @@ pub struct FreeEnd {
     pub node: usize,
     /// Present position, m.
     pub position: [f64; 2],
+}
+
+impl Mesh<2> {
+    /// Refuses a free end within the kernel radius of any point, where γ is not defined.
+    ///
+    /// # Errors
+    /// Names the wall, the end and the nearest point. Lengths in metres.
+    pub fn check_free_ends(
+        &self,
+        points: &[[f64; 2]],
+        kernel_radius: f64,
+    ) -> Result<(), BoundaryError> {
+        for free in &self.free_ends {
+            let distance = |point: &[f64; 2]| {
+                let apart = [0, 1].map(|k| point[k] - free.position[k]);
+                let shift = self.domain.shift(self.domain.nearest_image(apart));
+                (apart[0] - shift[0]).hypot(apart[1] - shift[1])
+            };
+            let nearest = points
+                .iter()
+                .map(distance)
+                .enumerate()
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((particle, distance)) = nearest.filter(|(_, d)| *d < kernel_radius) {
+                return Err(BoundaryError::FreeEndInReach {
+                    wall: self.walls[free.wall].clone(),
+                    end: free.end,
+                    at: free.position.into(),
+                    particle,
+                    distance,
+                    radius: kernel_radius,
+                });
+            }
+        }
+        Ok(())
+    }
 }

@@ -130,7 +130,8 @@ impl Mesh<2> {
             for k in 0..count {
                 let along = k as f64 / count as f64;
                 let node = self.nodes.len();
-                self.push_node([0, 1].map(|i| a[i] + (b[i] - a[i]) * along), wall);
+                let position = [0, 1].map(|i| a[i] + (b[i] - a[i]) * along);
+                self.nodes.push(Node::new(position, wall));
                 self.elements.push(Element {
                     nodes: [node, node + 1],
                     images: [[0; 2]; 2],
@@ -143,7 +144,10 @@ impl Mesh<2> {
             }
         }
         match after {
-            Continuation::Free => self.push_node(line.points[line.points.len() - 1], wall),
+            Continuation::Free => {
+                let last = line.points[line.points.len() - 1];
+                self.nodes.push(Node::new(last, wall));
+            }
             Continuation::Start { wall: next, image } => {
                 if let Some(last) = self.elements.last_mut() {
                     last.nodes[1] = first_nodes[next];
@@ -151,15 +155,6 @@ impl Mesh<2> {
                 }
             }
         }
-    }
-
-    fn push_node(&mut self, position: [f64; 2], wall: usize) {
-        self.nodes.push(Node {
-            position,
-            theta: 0.5,
-            size: 0.0,
-            wall,
-        });
     }
 
     fn free_end(&mut self, wall: usize, end: WallEnd, node: usize) {
