@@ -110,10 +110,9 @@ pub use warning::WallWarning;
 
 #[cfg(feature = "plugins")]
 pub use crate::{
-    geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh},
+    geometry::wall_mesh::{Hindrance, MeshPoint, WallMesh},
     geometry::walls::{PlanarWalls, SpatialWalls, Walls},
-    rigid::load::{Load, MoverRefusal, MoverSetting, Touch},
-    rigid::mover::{Mover, MoverEntry},
+    rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
     rigid::rigid_state::{Movement, RigidState},
     rigid::spring::Spring,
     treatment::contract::{

@@ -1,14 +1,12 @@
 //! Wall treatments: the contract, and the built-in ones.
 
 pub(crate) mod contact;
-pub(crate) mod contact_law;
 pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod elements;
 pub(crate) mod free_end_density;
 pub(crate) mod groups;
 pub(crate) mod impact;
-pub(crate) mod kernel_reach;
 pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;

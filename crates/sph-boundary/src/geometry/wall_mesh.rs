@@ -7,7 +7,8 @@ use sph_neighbours::ContactBlock;
 
 use crate::geometry::vector::{bounds, dot};
 use crate::{
-    BoundaryError, Gammas, NearElement, PeriodicBox, Pose, SeenElement, Shells, WallSpec, Walls,
+    BoundaryError, Element, Gammas, NearElement, PeriodicBox, Pose, SeenElement, Shells, WallSpec,
+    Walls,
 };
 
 /// A node of the mesh.
@@ -23,21 +24,6 @@ pub struct MeshPoint<const D: usize> {
     pub size: f64,
     /// Index of the wall.
     pub wall: usize,
-}
-
-/// An element of the mesh: a segment or a triangle.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshElement<const D: usize> {
-    /// Centre, m.
-    pub centre: Vect<D>,
-    /// Unit normal into the fluid.
-    pub normal: Vect<D>,
-    /// Length or area, m^(d−1).
-    pub measure: f64,
-    /// Index of the wall.
-    pub wall: usize,
-    /// Its nodes.
-    pub corners: [u32; D],
 }
 
 /// A direction in which a wall keeps a particle off.
@@ -183,18 +169,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     }
 
     /// All elements at the present position of the walls.
-    fn elements(&self) -> impl Iterator<Item = MeshElement<D>> + '_ {
-        self.walls()
-            .mesh
-            .elements
-            .iter()
-            .map(|element| MeshElement {
-                centre: element.centre.into(),
-                normal: element.normal.into(),
-                measure: element.measure,
-                wall: element.wall,
-                corners: element.nodes.map(|n| n as u32),
-            })
+    fn elements(&self) -> &[Element<D>] {
+        &self.walls().mesh.elements
     }
 
     /// Elements within a radius of a point, or a few more, ascending.

@@ -43,8 +43,8 @@ fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usi
     let mut wall_at: Vec<Option<usize>> = mesh.points().map(|_| None).collect();
     let mut sets = Sets::new(walls);
     for element in mesh.elements() {
-        for corner in element.corners {
-            let other = *wall_at[corner as usize].get_or_insert(element.wall);
+        for node in element.nodes {
+            let other = *wall_at[node].get_or_insert(element.wall);
             sets.join([other, element.wall]);
         }
     }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{ContactBlock, Contacts, Slopes, WallSet, World};
+use sph_neighbours::{ContactBlock, WallSet, World};
 
 use crate::geometry::shells::Gammas;
 use crate::geometry::wall_mesh::WallMesh;
@@ -87,10 +87,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             }
         }
         let outline = &self.outline;
-        walls.frames = outline.frames();
-        walls.pulls = outline.pulls();
-        walls.bodies.clone_from(&outline.bodies);
-        walls.beds.clone_from(&outline.beds[0]);
+        outline.write(walls);
         let points = &mut walls.points;
         for (v, node) in nodes.iter().enumerate() {
             let movement = outline.movement(node.wall, &node.position);
@@ -105,11 +102,11 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             }
         }
         let elements = &mut walls.elements;
-        for (s, element) in outline.mesh.elements().enumerate() {
-            let movement = outline.movement(element.wall, &element.centre);
-            elements.centre[s] =
-                Outline::<D, M>::in_box(&walls.frames, element.wall, element.centre);
-            elements.normal[s] = element.normal;
+        for (s, element) in outline.mesh.elements().iter().enumerate() {
+            let centre = Vect::from(element.centre);
+            let movement = outline.movement(element.wall, &centre);
+            elements.centre[s] = Outline::<D, M>::in_box(&walls.frames, element.wall, centre);
+            elements.normal[s] = element.normal.into();
             elements.velocity[s] = movement.velocity;
             if bends {
                 elements.measure[s] = element.measure;
@@ -212,15 +209,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             names: outline.mesh.names().to_vec(),
             points: outline.points(setup.spacing),
             elements: outline.elements(setup.spacing),
-            contacts: Contacts::default(),
-            scales: false,
-            slopes: Slopes::default(),
-            frames: Vec::new(),
-            bodies: Vec::new(),
-            beds: Vec::new(),
-            passed: Vec::new(),
-            pulls: Vec::new(),
-            forces: Vec::new(),
+            ..WallSet::default()
         };
         if !vertices {
             walls.points.corners = walls.points.position.len();

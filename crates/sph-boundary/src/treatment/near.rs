@@ -105,8 +105,8 @@ impl<const D: usize> NearLists<D> {
         }
         self.built_for = world.lists.builds;
         self.version += 1;
-        let (support, farthest) = (outline.support, outline.farthest());
-        let radius = (world.reach() + SKIN * support).min(farthest);
+        let radius = world.reach() + SKIN * outline.support;
+        let radius = radius.min(outline.mesh.walls().reach);
         let skin = (radius - world.reach()).max(0.0);
         let positions = &world.lists.reference;
         let identities = world.free.get(fields::IDENTITY).ok();

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use sph_core::Vect;
 use sph_core::bed::Bed;
-use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints};
+use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
 
 use crate::geometry::cover::Cover;
 use crate::geometry::mesh::bed_of;
 use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
 use crate::limits::MOST_PERIODS;
 use crate::treatment::groups::{groups, is_piece};
-use crate::treatment::kernel_reach::far_sight;
+use crate::treatment::plates::far_sight;
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// Range of queries, over the support: also those of filling and of a generous skin.
@@ -95,6 +95,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         Ok(outline)
     }
 
+    /// Name of a wall.
+    pub fn name(&self, wall: usize) -> String {
+        self.specs[wall].drawing.name().to_string()
+    }
+
     /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
     pub fn movement(&self, wall: usize, point: &Vect<D>) -> Movement<D> {
         self.movement_in(&self.states[wall], wall, point)
@@ -126,11 +131,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// True if any wall changes its shape.
     pub fn bends(&self) -> bool {
         self.specs.iter().any(|s| s.motion.bends())
-    }
-
-    /// Largest range of queries of the mesh, m.
-    pub fn farthest(&self) -> f64 {
-        FARTHEST * self.support
     }
 
     /// True if any wall ever moves.
@@ -203,6 +203,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.flat_map(of_wall).collect()
     }
 
+    /// Writes frames, bodies, beds and the pulls of lines as they are.
+    pub fn write(&self, walls: &mut WallSet<D>) {
+        walls.frames = self.frames();
+        walls.pulls = self.pulls();
+        walls.bodies.clone_from(&self.bodies);
+        walls.beds.clone_from(&self.beds[0]);
+    }
+
     /// True if any wall slips partly.
     pub fn slips(&self) -> bool {
         self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
@@ -247,15 +255,15 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             .any(|s| s.condition.coulomb().coefficient > 0.0);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
-            elements.centre.push(element.centre);
-            elements.normal.push(element.normal);
+            elements.centre.push(element.centre.into());
+            elements.normal.push(element.normal.into());
             elements.velocity.push(Vect::zeros());
             elements.measure.push(element.measure);
             elements.volume.push(spacing.powi(D as i32));
             elements.pressure.push(0.0);
             elements.friction_factor.push(condition.friction_factor());
             elements.wall.push(element.wall as u32);
-            elements.corners.push(element.corners);
+            elements.corners.push(element.nodes.map(|n| n as u32));
             if moves {
                 elements.acceleration.push(Vect::zeros());
             }
@@ -287,8 +295,10 @@ fn check_reach<const D: usize>(
     for spec in walls {
         let periods = domain.periods_to(spec.drawing.points().into_iter());
         if periods > MOST_PERIODS {
-            let wall = spec.drawing.name().to_string();
-            return Err(BoundaryError::ManyPeriods { wall, periods });
+            let why = format!(
+                "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period of it"
+            );
+            return Err(BoundaryError::unfit(spec.drawing.name(), why));
         }
     }
     Ok(())
@@ -298,46 +308,44 @@ fn check_reach<const D: usize>(
 /// and elements of the walls.
 macro_rules! shaped_by_outline {
     ($treatment:ident) => {
+        impl<const D: usize, M: WallMesh<D>> $treatment<D, M> {
+            fn outline(&self) -> Option<&crate::treatment::outline::Outline<D, M>> {
+                self.set_up.as_ref().map(|s| &s.outline)
+            }
+        }
+
         impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {
             fn contains(&self, point: &Vect<D>) -> bool {
-                let set_up = self.set_up.as_ref();
-                set_up.is_none_or(|s| s.outline.mesh.contains(point))
+                self.outline().is_none_or(|o| o.mesh.contains(point))
             }
 
             fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
-                self.set_up.as_ref()?.outline.mesh.enclosed(point)
+                self.outline()?.mesh.enclosed(point)
             }
 
             fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
-                self.set_up.as_ref()?.outline.clearance(point, within)
+                self.outline()?.clearance(point, within)
             }
 
             fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-                self.set_up.as_ref()?.outline.mesh.bounds()
+                self.outline()?.mesh.bounds()
             }
 
             fn ends_freely(&self) -> bool {
-                let set_up = self.set_up.as_ref();
-                set_up.is_some_and(|s| s.outline.mesh.shells().any())
+                self.outline().is_some_and(|o| o.mesh.shells().any())
             }
 
             fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
-                match &self.set_up {
-                    Some(SetUp { outline, .. }) => {
-                        outline.mesh.check_free_ends(points, outline.support)
-                    }
-                    None => Ok(()),
-                }
+                self.outline()
+                    .map_or(Ok(()), |o| o.mesh.check_free_ends(points, o.support))
             }
 
             fn thin_walls(&self, points: &[Vect<D>]) -> Vec<crate::ThinWall<D>> {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or_else(Vec::new, |s| s.outline.thin_walls(points))
+                self.outline().map_or(Vec::new(), |o| o.thin_walls(points))
             }
 
             fn warnings(&self) -> Vec<String> {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or(Vec::new(), |s| s.outline.mesh.warnings())
+                self.outline().map_or(Vec::new(), |o| o.mesh.warnings())
             }
         }
 
@@ -369,18 +377,15 @@ macro_rules! shaped_by_outline {
             }
 
             fn needs_forces(&self, wall: usize) -> bool {
-                let set_up = self.set_up.as_ref();
-                set_up.is_some_and(|s| s.outline.needs_forces(wall))
+                self.outline().is_some_and(|o| o.needs_forces(wall))
             }
 
             fn depth_gauges(&self) -> Vec<(usize, sph_neighbours::DepthGauge<D>)> {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or_else(Vec::new, |s| s.outline.depth_gauges())
+                self.outline().map_or(Vec::new(), |o| o.depth_gauges())
             }
 
             fn states(&self) -> WallStates {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or(WallStates::default(), |s| s.outline.numbers())
+                self.outline().map(|o| o.numbers()).unwrap_or_default()
             }
 
             fn put_back(

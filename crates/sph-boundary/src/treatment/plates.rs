@@ -5,8 +5,10 @@ use std::collections::HashSet;
 use rayon::prelude::*;
 use sph_core::Vect;
 use sph_core::place_cells::offsets;
+use sph_kernels::Sampler;
 
-use crate::geometry::wall_mesh::{MeshElement, WallMesh};
+use crate::Element;
+use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::contract::ThinWall;
 use crate::treatment::outline::Outline;
 
@@ -15,6 +17,11 @@ const OPPOSITE: f64 = -0.99;
 
 /// Places that differ by less than the spacing over this along every axis are nearly the same.
 const ALIKE: f64 = 4.0;
+
+/// Share of a particle's kernel that may be behind a wall.
+const SEEN: f64 = 0.01;
+/// Steps of integrals over the kernel.
+const STEPS: u32 = 400;
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// The thinnest place of every wall that is too thin, with fluid at `points`; wet places first.
@@ -25,19 +32,18 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let cell = |x: &Vect<D>| -> [i64; D] {
             std::array::from_fn(|k| (x[k] / self.spacing).floor() as i64)
         };
-        let all: Vec<MeshElement<D>> = self.mesh.elements().collect();
+        let all = self.mesh.elements();
         let most = self.far_sight - 0.5 * self.spacing;
         // Of elements far smaller than the spacing, one for all that look the same way from nearly the same place.
         let mut looked = HashSet::new();
-        let alike = |element: &MeshElement<D>| {
-            let place = cell(&(element.centre * ALIKE));
+        let alike = |element: &Element<D>| {
+            let place = cell(&(Vect::from(element.centre) * ALIKE));
             let way: [bool; D] = std::array::from_fn(|k| element.normal[k] < 0.0);
             (element.wall, place, way)
         };
         let some: Vec<_> = all.iter().filter(|e| looked.insert(alike(e))).collect();
-        let thin =
-            |element: &&MeshElement<D>| Some((self.thickness(element, &all, most)?, **element));
-        let mut thin: Vec<(f64, MeshElement<D>)> = some.par_iter().filter_map(thin).collect();
+        let thin = |element: &&Element<D>| Some((self.thickness(element, most)?, **element));
+        let mut thin: Vec<(f64, Element<D>)> = some.par_iter().filter_map(thin).collect();
         if thin.is_empty() {
             return Vec::new();
         }
@@ -48,13 +54,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             offsets().any(|d| filled.contains::<[i64; D]>(&near(d)))
         };
         let off = 1.5 * self.spacing;
-        let both = |t: f64, e: &MeshElement<D>| {
-            wet(e.centre + e.normal * off) && wet(e.centre - e.normal * (t + off))
+        let both = |t: f64, e: &Element<D>| {
+            let (centre, normal) = (Vect::from(e.centre), Vect::from(e.normal));
+            wet(centre + normal * off) && wet(centre - normal * (t + off))
         };
         thin.sort_by(|a, b| a.0.total_cmp(&b.0));
         let all = thin.iter().map(|(t, e)| ThinWall {
             wall: self.mesh.names()[e.wall].clone(),
-            place: e.centre,
+            place: e.centre.into(),
             thickness: *t,
             least: most,
             spacing: t / (self.far_sight / self.spacing - 0.5),
@@ -68,22 +75,71 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Distance of the nearest opposite face behind an element, if it is below `most`, m.
-    fn thickness(
-        &self,
-        element: &MeshElement<D>,
-        all: &[MeshElement<D>],
-        most: f64,
-    ) -> Option<f64> {
-        let (centre, way) = (&element.centre, element.normal * -most);
-        let near = self.mesh.near(centre, most);
+    fn thickness(&self, element: &Element<D>, most: f64) -> Option<f64> {
+        let (centre, normal) = (Vect::from(element.centre), Vect::from(element.normal));
+        let way = normal * -most;
+        let near = self.mesh.near(&centre, most);
         let behind = near.into_iter().filter_map(|near| {
-            let other = &all[near.index()];
-            let faces = other.normal.dot(&element.normal) < OPPOSITE;
-            (faces && self.mesh.is_crossed(near, centre, &way)).then(|| {
-                let apart = self.domain.nearest_image(centre - other.centre);
-                apart.dot(&other.normal).abs()
+            let other = &self.mesh.elements()[near.index()];
+            let (there, back) = (Vect::from(other.centre), Vect::from(other.normal));
+            let faces = back.dot(&normal) < OPPOSITE;
+            (faces && self.mesh.is_crossed(near, &centre, &way)).then(|| {
+                let apart = self.domain.nearest_image(centre - there);
+                apart.dot(&back).abs()
             })
         });
         behind.min_by(f64::total_cmp)
+    }
+}
+
+/// Distance of a plane beyond which less than [`SEEN`] of the kernel lies, m.
+///
+/// In two dimensions 2r acos(d/r), in three 2πr(r − d) of the circle or sphere of radius r is beyond the distance d.
+pub(crate) fn far_sight<const D: usize>(kernel: &dyn Sampler) -> f64 {
+    let radius = kernel.support_radius();
+    let beyond = |d: f64| -> f64 {
+        let width = (radius - d) / f64::from(STEPS);
+        let part = |k: u32| {
+            let r = d + (f64::from(k) + 0.5) * width;
+            let cap = match D {
+                2 => 2.0 * r * (d / r).acos(),
+                _ => std::f64::consts::TAU * r * (r - d),
+            };
+            kernel.at(r).0 * cap * width
+        };
+        (0..STEPS).map(part).sum()
+    };
+    let (mut near, mut far) = (0.0, radius);
+    for _ in 0..40 {
+        let middle = 0.5 * (near + far);
+        match beyond(middle) > SEEN {
+            true => near = middle,
+            false => far = middle,
+        }
+    }
+    far
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wendland C2 in the plane: the share beyond a line at q = d/h, by quadrature of its marginal density.
+    #[test]
+    fn a_hundredth_of_the_kernel_is_beyond_the_far_sight() {
+        let (h, kernel) = (0.5, sph_kernels::wendland_c2());
+        let sampler = sph_kernels::Kernel::sampler(&kernel, 2, h);
+        let far = far_sight::<2>(&*sampler);
+        let n = 400;
+        let step = 2.0 * h / f64::from(n);
+        let mut beyond = 0.0;
+        for i in 0..n {
+            for j in -n..n {
+                let [x, y] = [i, j].map(|k| (f64::from(k) + 0.5) * step);
+                let w = sampler.at(x.hypot(y)).0;
+                beyond += if x > far { w * step * step } else { 0.0 };
+            }
+        }
+        assert!((beyond / SEEN - 1.0).abs() < 0.03, "{beyond} beyond {far}");
     }
 }

@@ -94,8 +94,8 @@ where
                 });
             }
             if element.images != [[0; D]; D] && pose.turns() {
-                let wall = name(wall);
-                return Err(BoundaryError::PeriodicWallRotated { wall });
+                let why = "is closed through periodicity and cannot rotate";
+                return Err(BoundaryError::unfit(name(wall), why));
             }
         }
         Ok(())
