@@ -1,5 +1,6 @@
 //! Wall integrals, wall geometry and wall treatments, in the plane and in space.
 
+mod bench;
 mod gamma;
 mod plugin;
 mod spatial;
