@@ -186,7 +186,7 @@ impl<const D: usize, M: WallMesh<D>> Field<D, M> {
         place: impl Fn(Vect<D>) -> [f64; 3],
         wanted: impl Fn(&Vect<D>) -> bool,
     ) -> Vec<[[f64; 3]; 2]> {
-        let nodes: Vec<_> = self.mesh.points().map(|p| place(p.position)).collect();
+        let nodes: Vec<_> = self.mesh.places().into_iter().map(place).collect();
         let node = |k: usize| nodes[k];
         let ends = |c: [usize; D]| (0..D - 1 + D / 3).map(move |k| [c[k], c[(k + 1) % D]]);
         let elements = self.mesh.elements().iter();

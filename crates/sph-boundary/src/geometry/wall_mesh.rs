@@ -7,24 +7,9 @@ use sph_neighbours::ContactBlock;
 
 use crate::geometry::vector::{bounds, dot};
 use crate::{
-    BoundaryError, Element, Gammas, NearElement, PeriodicBox, Pose, SeenElement, Shells, WallSpec,
-    Walls,
+    BoundaryError, Element, Gammas, NearElement, Node, PeriodicBox, Pose, SeenElement, Shells,
+    WallSpec, Walls,
 };
-
-/// A node of the mesh.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshPoint<const D: usize> {
-    /// Position, m.
-    pub position: Vect<D>,
-    /// Unit normal into the fluid, the mean of those around.
-    pub normal: Vect<D>,
-    /// Fluid angle over 2π in the plane, fluid solid angle over 4π in space.
-    pub theta: f64,
-    /// Length or area of wall that the node answers for over δr^(d−1).
-    pub size: f64,
-    /// Index of the wall.
-    pub wall: usize,
-}
 
 /// A direction in which a wall keeps a particle off.
 #[derive(Clone, Copy, Debug)]
@@ -144,7 +129,17 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     }
 
     /// All nodes at the present position of the walls.
-    fn points(&self) -> impl Iterator<Item = MeshPoint<D>> + '_ {
+    fn nodes(&self) -> &[Node<D>] {
+        &self.walls().mesh.nodes
+    }
+
+    /// Places of the nodes, m.
+    fn places(&self) -> Vec<Vect<D>> {
+        self.nodes().iter().map(|n| n.position.into()).collect()
+    }
+
+    /// Unit normals of the nodes into the fluid, the means of those around.
+    fn normals(&self) -> impl Iterator<Item = Vect<D>> + '_ {
         let mesh = &self.walls().mesh;
         let mut normals = vec![Vect::<D>::zeros(); mesh.nodes.len()];
         for element in &mesh.elements {
@@ -156,16 +151,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         }
         // The two faces of a plate of no thickness have none where they meet.
         let least = if D == 2 { 1e-9 } else { 0.0 };
-        mesh.nodes
-            .iter()
-            .zip(normals)
-            .map(move |(node, normal)| MeshPoint {
-                position: node.position.into(),
-                normal: normal.try_normalize(least).unwrap_or_else(Vect::zeros),
-                theta: node.theta,
-                size: node.size,
-                wall: node.wall,
-            })
+        let unit = move |n: Vect<D>| n.try_normalize(least).unwrap_or_else(Vect::zeros);
+        normals.into_iter().map(unit)
     }
 
     /// All elements at the present position of the walls.

@@ -67,7 +67,7 @@ pub(crate) fn flat_faces<const D: usize, M: WallMesh<D>>(
     domain: &Domain<D>,
     size: f64,
 ) -> (Vec<FlatFace<D>>, Vec<bool>) {
-    let nodes: Vec<Vect<D>> = mesh.points().map(|p| p.position).collect();
+    let nodes = mesh.places();
     let elements = mesh.elements();
     let mut faces: Vec<FlatFace<D>> = Vec::new();
     let mut face_of: Vec<usize> = Vec::with_capacity(elements.len());

@@ -92,7 +92,7 @@ impl<const D: usize> ScaleMap<D> {
     pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self, BoundaryError> {
         let h = of.kernel.smoothing_length();
         let step = h / NODES;
-        let nodes: Vec<Vect<D>> = of.mesh.points().map(|p| p.position).collect();
+        let nodes = of.mesh.places();
         let curved = || {
             let elements = of.mesh.elements().iter().zip(of.curved);
             elements.filter(|(_, curved)| **curved).map(|(e, _)| e)

@@ -40,7 +40,7 @@ struct Group<const D: usize, M> {
 
 /// Walls of a mesh that have nodes in common, by their numbers: sets of walls without a common node.
 fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usize>> {
-    let mut wall_at: Vec<Option<usize>> = mesh.points().map(|_| None).collect();
+    let mut wall_at = vec![None; mesh.nodes().len()];
     let mut sets = Sets::new(walls);
     for element in mesh.elements() {
         for node in element.nodes {

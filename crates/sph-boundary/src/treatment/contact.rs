@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 
 use crate::geometry::vector::{bounds, widened};
-use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+use crate::geometry::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
-use crate::{Element, Touch, WallSpec};
+use crate::{Element, Node, Touch, WallSpec};
 
 /// Distance at which surfaces begin to push, over the spacing: a row of particles fits between them. Particles that are
 /// caught between surfaces half a spacing apart are few for their room, and tension draws them to a clump.
@@ -86,13 +86,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// All pieces of surfaces of which one moves freely and that may meet within a step.
     pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<SurfacePair<D>> {
-        let nodes: Vec<MeshPoint<D>> = self.mesh.points().collect();
+        let nodes = self.mesh.nodes();
         let reach = REACH * self.spacing;
         let mut all = Vec::new();
         let free = (0..touches.len()).filter(|k| touches[*k].is_some() && self.groups[*k] == *k);
         for body in free {
             let own = nodes.iter().filter(|n| self.groups[n.wall] == body);
-            let extent = widened(bounds(own.map(|n| n.position.into())), reach);
+            let extent = widened(bounds(own.map(|n| n.position)), reach);
             let [low, high] = extent.map(Vect::<D>::from);
             let (centre, half) = ((low + high) * 0.5, (high - low) * 0.5);
             // True if a ball may reach into the box around the body.
@@ -102,7 +102,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             };
             let seen = |e: &&Element<D>| {
                 let centre = Vect::from(e.centre);
-                let size = e.nodes.map(|n| (nodes[n].position - centre).norm());
+                let size = e
+                    .nodes
+                    .map(|n| (Vect::from(nodes[n].position) - centre).norm());
                 meets(&centre, size.into_iter().fold(0.0, f64::max))
             };
             let elements = self.mesh.elements().iter().filter(seen);
@@ -111,12 +113,12 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             if others.is_empty() {
                 continue;
             }
-            for node in &nodes {
+            for node in nodes {
                 let group = self.groups[node.wall];
                 if group == body {
-                    self.look(node, &others, &nodes, &mut all);
-                } else if touches[group].is_none() && meets(&node.position, 0.0) {
-                    self.look(node, &own, &nodes, &mut all);
+                    self.look(node, &others, &mut all);
+                } else if touches[group].is_none() && meets(&node.position.into(), 0.0) {
+                    self.look(node, &own, &mut all);
                 }
             }
         }
@@ -124,15 +126,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// The nearest element of every other group of walls, if it is near enough.
-    fn look(
-        &self,
-        node: &MeshPoint<D>,
-        elements: &[&Element<D>],
-        nodes: &[MeshPoint<D>],
-        found: &mut Vec<SurfacePair<D>>,
-    ) {
+    fn look(&self, node: &Node<D>, elements: &[&Element<D>], found: &mut Vec<SurfacePair<D>>) {
         let mut nearest = BTreeMap::<usize, (f64, Vect<D>, &Element<D>)>::new();
-        let to = |n: usize| nodes[n].position - node.position;
+        let (nodes, here) = (self.mesh.nodes(), Vect::from(node.position));
+        let to = |n: usize| Vect::from(nodes[n].position) - here;
         let over = |element: &Element<D>, way: &Vect<D>| Vect::from(element.normal).dot(way);
         for element in elements {
             let first = self.domain.nearest(to(element.nodes[0]));
@@ -164,7 +161,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             found.push(SurfacePair {
                 pair: [self.groups[node.wall], group],
                 walls: [node.wall, element.wall],
-                place: node.position + there * 0.5,
+                place: here + there * 0.5,
                 image: self.domain.nearest(to(element.nodes[0])) - to(element.nodes[0]),
                 away,
                 height,

@@ -73,33 +73,33 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
 
     /// Positions, normals and movements of points and elements.
     fn place(&mut self, walls: &mut WallSet<D>) {
-        let nodes: Vec<_> = self.outline.mesh.points().collect();
         let bends = self.outline.bends();
         if walls.points.in_density() || bends {
             // All anew: shares follow from the time alone, whatever places a wall has been to.
-            for (v, node) in nodes.iter().enumerate() {
+            for (v, node) in self.outline.mesh.nodes().iter().enumerate() {
                 walls.points.share[v] = node.theta * node.size;
             }
         }
         if walls.points.in_density() {
-            for (v, share) in self.outline.covered(&nodes) {
+            for (v, share) in self.outline.covered() {
                 walls.points.share[v] = share;
             }
         }
         let outline = &self.outline;
         outline.write(walls);
         let points = &mut walls.points;
-        for (v, node) in nodes.iter().enumerate() {
-            let movement = outline.movement(node.wall, &node.position);
-            points.position[v] = Outline::<D, M>::in_box(&walls.frames, node.wall, node.position);
+        for (v, node) in outline.mesh.nodes().iter().enumerate() {
+            let place = Vect::from(node.position);
+            let movement = outline.movement(node.wall, &place);
+            points.position[v] = Outline::<D, M>::in_box(&walls.frames, node.wall, place);
             points.velocity[v] = movement.velocity;
             points.viscous_velocity[v] = movement.velocity;
             if let Some(acceleration) = points.acceleration.get_mut(v) {
                 *acceleration = movement.acceleration;
             }
-            if let Some((_, normal)) = points.slip.get_mut(v) {
-                *normal = node.normal;
-            }
+        }
+        for ((_, own), normal) in points.slip.iter_mut().zip(outline.mesh.normals()) {
+            *own = normal;
         }
         let elements = &mut walls.elements;
         for (s, element) in outline.mesh.elements().iter().enumerate() {

@@ -45,16 +45,16 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.check_dry(&loads)?;
         let mut states = self.free_states(&mut loads, gravity, [time, dt])?;
         self.compare(&mut states, bodies, dt);
-        let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
+        let before = self.mesh.places();
         let moved = self.put(states, time + dt)?;
         let most = MOST_WAY * self.spacing;
-        for (point, before) in self.mesh.points().zip(before) {
-            let way = (point.position - before).norm();
+        for (node, before) in self.mesh.nodes().iter().zip(before) {
+            let way = (Vect::from(node.position) - before).norm();
             if way > most {
                 let why = format!(
                     "moves by {way:.3e} m in one step, and {most:.3e} m, half a spacing, is the most"
                 );
-                return Err(BoundaryError::unfit(self.name(point.wall), why));
+                return Err(BoundaryError::unfit(self.name(node.wall), why));
             }
         }
         Ok(moved)

@@ -115,7 +115,7 @@ impl<const D: usize> NearLists<D> {
         self.behind.clear();
         let search = |mesh: &M| {
             if moves {
-                self.travel(mesh.points().map(|p| p.position).collect());
+                self.travel(mesh.places());
             }
             self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);

@@ -8,7 +8,7 @@ use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, Wal
 
 use crate::geometry::cover::Cover;
 use crate::geometry::mesh::bed_of;
-use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+use crate::geometry::wall_mesh::WallMesh;
 use crate::limits::MOST_PERIODS;
 use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::plates::far_sight;
@@ -141,13 +141,12 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Shares of the nodes of which walls that move otherwise may take a part.
-    pub fn covered(&mut self, nodes: &[MeshPoint<D>]) -> Vec<(usize, f64)> {
+    pub fn covered(&mut self) -> Vec<(usize, f64)> {
         if self.groups.iter().all(|g| *g == self.groups[0]) {
             return Vec::new();
         }
-        let visible = self
-            .cover
-            .shares(&self.mesh, nodes, &self.groups, self.spacing);
+        let visible = self.cover.shares(&self.mesh, &self.groups, self.spacing);
+        let nodes = self.mesh.nodes();
         let share = |(v, part): (usize, f64)| (v, part * nodes[v].theta * nodes[v].size);
         visible.into_iter().map(share).collect()
     }
@@ -160,9 +159,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
         let mut boxes = vec![none; self.states.len()];
         if self.domain.periodic.contains(&true) {
-            for point in self.mesh.points() {
-                let [low, high] = &mut boxes[point.wall];
-                (*low, *high) = (low.inf(&point.position), high.sup(&point.position));
+            for node in self.mesh.nodes() {
+                let ([low, high], place) = (&mut boxes[node.wall], node.position.into());
+                (*low, *high) = (low.inf(&place), high.sup(&place));
             }
         }
         let round = |[low, high]: [Vect<D>; 2]| {
@@ -225,9 +224,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn points(&self, spacing: f64) -> WallPoints<D> {
         let mut points = WallPoints::default();
         let (moves, slips) = (self.moves(), self.slips());
-        for node in self.mesh.points() {
+        for (node, normal) in self.mesh.nodes().iter().zip(self.mesh.normals()) {
             let condition = &self.specs[node.wall].condition;
-            points.position.push(node.position);
+            points.position.push(node.position.into());
             points.share.push(node.theta * node.size);
             points.volume.push(spacing.powi(D as i32));
             points.pressure.push(0.0);
@@ -239,7 +238,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 points.acceleration.push(Vect::zeros());
             }
             if slips {
-                points.slip.push((condition.slip_length(), node.normal));
+                points.slip.push((condition.slip_length(), normal));
             }
         }
         points

@@ -126,16 +126,11 @@ fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<Wa
         let all = pieces.iter().zip(seen);
         all.filter(|(p, seen)| p.wall == wall && !**seen).count()
     };
-    let counted = surfaces
-        .iter()
-        .enumerate()
-        .map(|(k, s)| (&s.name, unseen(k)));
+    let walls = surfaces.iter().map(|s| s.name.clone()).enumerate();
+    let counted = walls.map(|(k, wall)| (wall, unseen(k)));
     let some = counted.filter(|(_, faces)| *faces > 0);
-    some.map(|(wall, faces)| WallWarning::Unseen {
-        wall: wall.clone(),
-        faces,
-    })
-    .collect()
+    some.map(|(wall, faces)| WallWarning::Unseen { wall, faces })
+        .collect()
 }
 
 /// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
