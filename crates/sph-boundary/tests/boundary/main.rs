@@ -3,6 +3,7 @@
 mod bench;
 mod gamma;
 mod plugin;
+mod random;
 mod spatial;
 mod spatial_plugin;
 mod surface;
