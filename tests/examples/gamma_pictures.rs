@@ -9,7 +9,7 @@ use std::error::Error;
 use std::path::Path;
 
 use sph_boundary::{
-    Drawing, PeriodicBox, PlanarWalls, Polyline, SpatialWalls, Surface, WallMesh, WallSpec,
+    Drawing, Gammas, PeriodicBox, PlanarWalls, Polyline, SpatialWalls, Surface, WallMesh, WallSpec,
 };
 use sph_core::Vect;
 use sph_io::{Picture, View};
@@ -162,13 +162,11 @@ impl<const D: usize, M: WallMesh<D>> Field<D, M> {
                 }
                 contacts.clear();
                 let near = self.mesh.near(&x, self.support);
-                let gamma = self.mesh.gamma(
-                    &self.integrals,
-                    &x,
-                    &near,
-                    &mut Default::default(),
-                    &mut contacts,
-                );
+                let (one, room) = ([(&x, &near[..])].into_iter(), &mut Default::default());
+                let mut found = Gammas::default();
+                self.mesh
+                    .gammas(&self.integrals, one, room, &mut contacts, &mut found);
+                let gamma = found.all[0].0;
                 values.push((gamma / BAND).round() * BAND);
                 points.push(if D == 2 { [u, v, 0.0] } else { [u, x[1], v] });
             }

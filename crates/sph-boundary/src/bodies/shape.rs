@@ -223,11 +223,7 @@ mod tests {
             Solid::from_pieces([&Drawing::Surface(open)]),
             Err(NoSolid::Open)
         );
-        let plate = Polyline {
-            name: "p".into(),
-            points: vec![[0.0, 0.0], [1.0, 0.0]],
-            closed: true,
-        };
+        let plate = Polyline::closed("p", vec![[0.0, 0.0], [1.0, 0.0]]);
         assert_eq!(
             Solid::from_pieces([&Drawing::Line(plate)]),
             Err(NoSolid::Flat)

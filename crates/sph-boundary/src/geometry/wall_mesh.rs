@@ -81,8 +81,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         rows: &mut Vec<NearElement<D>>,
     );
 
-    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. An
-    /// element hidden behind such a shell is no contact.
+    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely.
+    /// Those that are within it become contacts, but for those hidden behind such a shell; further ones change nothing.
     fn gammas<'a>(
         &self,
         integrals: &Self::Integrals,
@@ -170,22 +170,6 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
             &mut row,
         );
         row
-    }
-
-    /// γ at a point from all elements that may be within the support; those that are become
-    /// contacts. Further elements of the row change nothing.
-    fn gamma(
-        &self,
-        integrals: &Self::Integrals,
-        point: &Vect<D>,
-        near: &[NearElement<D>],
-        room: &mut Self::Scratch,
-        contacts: &mut ContactBlock<D>,
-    ) -> f64 {
-        let mut found = Gammas::default();
-        let one = std::iter::once((point, near));
-        self.gammas(integrals, one, room, contacts, &mut found);
-        found.all[0].0
     }
 
     /// Pieces that end freely.

@@ -184,11 +184,4 @@ impl<const D: usize> Grid<D> {
         }
         Some(range)
     }
-
-    /// Bytes that the grid holds.
-    pub fn memory(&self) -> usize {
-        size_of_val(self.starts.as_slice())
-            + size_of_val(self.entries.as_slice())
-            + size_of_val(self.spheres.as_slice())
-    }
 }
