@@ -1,7 +1,6 @@
 //! Walls in the plane: segments for the wall treatments.
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
@@ -120,8 +119,8 @@ impl WallMesh<2> for Walls<2> {
         self
     }
 
-    fn lay(&mut self, beds: &[Bed]) {
-        self.mesh.lay(beds);
+    fn walls_mut(&mut self) -> &mut Walls<2> {
+        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {

@@ -1,7 +1,6 @@
 //! Walls in space: triangles for the wall treatments.
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
@@ -59,12 +58,8 @@ impl WallMesh<3> for Walls<3> {
         self
     }
 
-    fn meet_whole_faces(&mut self) {
-        self.whole_faces = true;
-    }
-
-    fn lay(&mut self, beds: &[Bed]) {
-        self.mesh.lay(beds);
+    fn walls_mut(&mut self) -> &mut Walls<3> {
+        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {

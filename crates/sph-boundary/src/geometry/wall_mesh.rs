@@ -1,7 +1,6 @@
 //! Geometry of the walls for a wall treatment, in either dimension.
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
@@ -59,11 +58,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// The mesh and the search for its elements.
     fn walls(&self) -> &Walls<D>;
 
-    /// Makes a face one contact, where that is cheaper.
-    fn meet_whole_faces(&mut self) {}
-
-    /// Sets the levels of the beds that walls follow, from the next motion on.
-    fn lay(&mut self, beds: &[Bed]);
+    /// The same, to change.
+    fn walls_mut(&mut self) -> &mut Walls<D>;
 
     /// Moves every wall to its pose.
     ///
@@ -204,11 +200,5 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         let nodes = &self.walls().mesh.nodes;
         let [low, high] = bounds(nodes.iter().map(|n| n.position));
         (!nodes.is_empty()).then(|| (low.into(), high.into()))
-    }
-
-    /// Remarks on the walls.
-    fn warnings(&self) -> Vec<String> {
-        let all = self.walls().mesh.warnings.iter();
-        all.map(ToString::to_string).collect()
     }
 }

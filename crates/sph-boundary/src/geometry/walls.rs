@@ -2,6 +2,8 @@
 
 use std::sync::OnceLock;
 
+use sph_core::bed::Bed;
+
 use crate::geometry::faces::Planes;
 use crate::{Grid, Mesh, Shells, WallSpec};
 
@@ -15,7 +17,8 @@ pub struct Walls<const D: usize> {
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
-    /// True if a face in space is one contact, of the element that is nearest, instead of one for each element.
+    /// True if a face in space is one contact, of the element that is nearest, instead of one for each element: that is
+    /// cheaper.
     pub(crate) whole_faces: bool,
 }
 
@@ -45,6 +48,11 @@ impl<const D: usize> Walls<D> {
     pub(crate) fn grid(&self) -> &Grid<D> {
         self.grid
             .get_or_init(|| Grid::build(&self.mesh, self.reach))
+    }
+
+    /// Sets the levels of the beds that walls follow, from the next motion on.
+    pub(crate) fn lay(&mut self, beds: &[Bed]) {
+        beds.clone_into(&mut self.mesh.beds);
     }
 
     /// Walls that have moved.

@@ -344,7 +344,9 @@ macro_rules! shaped_by_outline {
             }
 
             fn warnings(&self) -> Vec<String> {
-                self.outline().map_or(Vec::new(), |o| o.mesh.warnings())
+                let mesh = self.outline().map(|o| &o.mesh.walls().mesh);
+                let all = mesh.into_iter().flat_map(|mesh| &mesh.warnings);
+                all.map(ToString::to_string).collect()
             }
         }
 

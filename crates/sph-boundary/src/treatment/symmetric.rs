@@ -132,7 +132,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             found: Vec::new(),
             slopes: Vec::new(),
         });
-        set_up.outline.mesh.meet_whole_faces();
+        set_up.outline.mesh.walls_mut().whole_faces = true;
         self.set_up = Some(set_up);
         walls.scales = true;
         Ok(walls)
