@@ -110,7 +110,7 @@ pub use warning::WallWarning;
 
 #[cfg(feature = "plugins")]
 pub use crate::{
-    geometry::wall_mesh::{Hindrance, WallMesh},
+    geometry::walls::wall_mesh::{Hindrance, WallMesh},
     geometry::walls::{PlanarWalls, SpatialWalls, Walls},
     rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
     rigid::rigid_state::{Movement, RigidState},

@@ -1,10 +1,20 @@
-//! The walls of a scene, meshed, with the search for their elements.
+//! The walls of a scene for their treatments: meshed, with the search for their elements.
+
+pub(crate) mod beds;
+pub(crate) mod cover;
+mod face_sums;
+mod faces;
+mod lattice_layers;
+mod layers;
+mod planar;
+mod spatial;
+pub(crate) mod wall_mesh;
 
 use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use crate::geometry::faces::Planes;
+use crate::geometry::walls::faces::Planes;
 use crate::{Grid, Mesh, Shells, WallSpec};
 
 /// Walls cut at the particle spacing, with the grid that finds their elements.

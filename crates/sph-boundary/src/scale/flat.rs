@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_neighbours::Domain;
 
 use crate::Element;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::plane::{PlaneScale, fade};
 
 /// Cosine of the angle between normals up to which faces are square to each other.

@@ -7,7 +7,7 @@ use sph_core::{Vect, bounds};
 use sph_kernels::Sampler;
 use sph_neighbours::Domain;
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::unrolled;
 use crate::scale::plane::{REACH, fade};
 use crate::scale::spline::{Grid, interpolate, value};

@@ -5,7 +5,7 @@ use sph_kernels::Kernel;
 use sph_neighbours::{Domain, Frame};
 
 use crate::geometry::surface::boxed;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::WallScales;
 use crate::{Drawing, PlanarWalls, Polyline, SpatialWalls, WallSetup, WallSpec};
 

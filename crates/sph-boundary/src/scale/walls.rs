@@ -7,7 +7,7 @@ use sph_core::{Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
 use crate::geometry::sets::Sets;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 
 use crate::geometry::vector::{bounds, widened};
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::{Element, Node, Touch, WallSpec};
 

@@ -135,9 +135,6 @@ pub trait WallShape<const D: usize> {
     /// Distance of a point from the nearest wall, m, and that wall's name, if nearer than `within`.
     fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)>;
 
-    /// Lower and upper corner of the box around all walls, m.
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
-
     /// True if any wall ends freely: particles that pass its end are outside.
     fn ends_freely(&self) -> bool;
 
@@ -156,12 +153,6 @@ pub trait WallShape<const D: usize> {
 
 /// The motion of all walls of a scene.
 pub trait WallMotion<const D: usize> {
-    /// Moves walls with a prescribed motion to a time; those with movers are placed where they are.
-    ///
-    /// # Errors
-    /// If a wall cannot follow.
-    fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError>;
-
     /// Moves all walls from a time on by `dt`; movers get the [forces](WallSet::forces) that were measured last.
     ///
     /// # Errors

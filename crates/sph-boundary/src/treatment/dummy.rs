@@ -6,7 +6,7 @@ use sph_neighbours::{
     LanePair, PairSum, Particles, WallPoints, WallSet, World, add_scaled, shepard, splat,
 };
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, shaped_by_outline};

@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{ContactBlock, WallSet, World};
 
 use crate::geometry::shells::Gammas;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
@@ -22,7 +22,7 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     /// Moves of walls so far.
     moves: u64,
     /// Version of the near lists, moves and positions for which the contacts were found.
-    found_for: (u64, u64, Vec<Vect<D>>),
+    found_for: ((u64, u64), Vec<Vect<D>>),
     /// The last results, batch by batch; kept for their memory.
     found: Vec<BatchResults<M::Scratch>>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
@@ -119,17 +119,16 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
 
     /// True if the contacts were found for these very positions of particles and walls.
     fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
-        let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
-        let (version, moves, known) = &self.found_for;
-        let walls = (*version, *moves) == (self.near.version, self.moves);
-        if walls && here().eq(known.iter().copied()) {
-            return true;
+        let here = self.near.particles.iter().map(|p| positions[*p as usize]);
+        let now = (self.near.version, self.moves);
+        let (of, known) = &mut self.found_for;
+        let fresh = *of == now && here.clone().eq(known.iter().copied());
+        if !fresh {
+            *of = now;
+            known.clear();
+            known.extend(here);
         }
-        let (version, moves, known) = &mut self.found_for;
-        (*version, *moves) = (self.near.version, self.moves);
-        known.clear();
-        known.extend(self.near.particles.iter().map(|p| positions[*p as usize]));
-        false
+        fresh
     }
 
     /// Finds γ and contacts of all particles of the near lists, a block per batch; none of those that are `idle`, whose sums
@@ -221,7 +220,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             spacing: setup.spacing,
             near: NearLists::default(),
             moves: 0,
-            found_for: (0, 0, Vec::new()),
+            found_for: Default::default(),
             found: Vec::new(),
             clearance: Vec::new(),
             means: Default::default(),

@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::groups::{is_piece, pieces};
 use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, Mover, RigidState, WallSpec, WallStates};
@@ -24,12 +24,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             None => spec.motion.state(time),
         };
         specs.map(state).collect()
-    }
-
-    /// Moves the mesh to the prescribed position at a time; returns whether anything moved.
-    pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
-        let states = self.states_at(time, &self.states);
-        self.put(states, time)
     }
 
     /// Moves the mesh on by `dt`; returns whether anything moved.

@@ -5,7 +5,7 @@ use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::NearElement;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
 

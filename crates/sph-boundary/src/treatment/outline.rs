@@ -6,9 +6,9 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
 
-use crate::geometry::cover::Cover;
 use crate::geometry::mesh::bed_of;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::cover::Cover;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::limits::MOST_PERIODS;
 use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::plates::far_sight;
@@ -326,10 +326,6 @@ macro_rules! shaped_by_outline {
                 self.outline()?.clearance(point, within)
             }
 
-            fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-                self.outline()?.mesh.bounds()
-            }
-
             fn ends_freely(&self) -> bool {
                 self.outline().is_some_and(|o| o.mesh.shells().any())
             }
@@ -351,11 +347,6 @@ macro_rules! shaped_by_outline {
         }
 
         impl<const D: usize, M: WallMesh<D>> crate::WallMotion<D> for $treatment<D, M> {
-            fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
-                let set_up = self.set_up.as_mut();
-                set_up.map_or(Ok(()), |s| s.moved(walls, |outline| outline.move_to(time)))
-            }
-
             fn advance(
                 &mut self,
                 walls: &mut WallSet<D>,

@@ -8,7 +8,7 @@ use sph_core::place_cells::offsets;
 use sph_kernels::Sampler;
 
 use crate::Element;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::contract::ThinWall;
 use crate::treatment::outline::Outline;
 

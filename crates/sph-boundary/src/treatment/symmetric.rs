@@ -3,7 +3,7 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{Slope, WallSet, World};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::{Outline, shaped_by_outline};

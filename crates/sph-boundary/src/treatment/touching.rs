@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 use sph_neighbours::{WallForce, cross};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::contact::{DEPTH, SurfacePair};
 use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, RigidState, Touch};

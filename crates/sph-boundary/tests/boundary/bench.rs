@@ -1,6 +1,8 @@
 //! A world of particles next to walls in either dimension, built through the registry as a solver would.
 
-use sph_boundary::{Drawing, Polyline, RigidMotion, Wall, WallEntry, WallSetup, WallSpec};
+use sph_boundary::{
+    Drawing, Polyline, RigidMotion, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+};
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, WallSet, World};
@@ -146,7 +148,9 @@ impl<const D: usize> Bench<D> {
     /// The walls at a time, geometry fresh.
     pub fn move_to(&mut self, time: f64) {
         self.world.time = time;
-        self.wall.move_to(&mut self.world.walls, time).unwrap();
+        let states = WallStates::default();
+        let walls = &mut self.world.walls;
+        self.wall.put_back(walls, &states, time).unwrap();
         self.refresh();
     }
 

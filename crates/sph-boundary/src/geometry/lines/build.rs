@@ -57,11 +57,12 @@ impl Mesh<2> {
             let wall = walls[piece];
             mesh.cut(wall, line, joints.after[piece], &first_nodes);
             if joints.starts_free[piece] {
-                mesh.free_end(wall, WallEnd::First, first_nodes[piece]);
+                let (end, node) = (WallEnd::First, first_nodes[piece]);
+                mesh.free_ends.push(FreeEnd { wall, end, node });
             }
             if joints.after[piece] == Continuation::Free {
-                let last = mesh.nodes.len() - 1;
-                mesh.free_end(wall, WallEnd::Last, last);
+                let (end, node) = (WallEnd::Last, mesh.nodes.len() - 1);
+                mesh.free_ends.push(FreeEnd { wall, end, node });
             }
         }
         mesh.reference = mesh.nodes.iter().map(|node| node.position).collect();
@@ -116,9 +117,6 @@ impl ElementMeasures for Mesh<2> {
             self.find_angles();
         }
         self.size_nodes();
-        for free in &mut self.free_ends {
-            free.position = self.nodes[free.node].position;
-        }
     }
 }
 
@@ -155,16 +153,6 @@ impl Mesh<2> {
                 }
             }
         }
-    }
-
-    fn free_end(&mut self, wall: usize, end: WallEnd, node: usize) {
-        let position = self.nodes[node].position;
-        self.free_ends.push(FreeEnd {
-            wall,
-            end,
-            node,
-            position,
-        });
     }
 
     /// Fluid angles of the nodes.

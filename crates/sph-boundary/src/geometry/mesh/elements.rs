@@ -109,8 +109,6 @@ pub struct FreeEdge {
 /// Free edges that hang together: a hole in a wall, or the rim of an open one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
-    /// Index of the wall, or of one of several.
-    pub wall: usize,
     /// Number of straight edges around it, before they are cut at the spacing.
     pub edges: usize,
     /// Diagonal of the box around it, m.

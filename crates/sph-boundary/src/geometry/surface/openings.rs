@@ -17,18 +17,17 @@ impl Mesh<3> {
         let mut rims = Sets::new(self.nodes.len());
         self.free_edges.iter().for_each(|e| rims.join(e.nodes));
         let mut numbers: HashMap<usize, usize> = HashMap::new();
-        let mut ends: Vec<(usize, Vec<Point>)> = Vec::new();
+        let mut ends: Vec<Vec<Point>> = Vec::new();
         for e in 0..self.free_edges.len() {
             let (edge, next) = (self.free_edges[e], ends.len());
             let opening = *numbers.entry(rims.root(edge.nodes[0])).or_insert(next);
-            ends.resize_with(numbers.len(), || (edge.wall, Vec::new()));
-            ends[opening].1.extend(self.free_edge_ends(&edge));
+            ends.resize_with(numbers.len(), Vec::new);
+            ends[opening].extend(self.free_edge_ends(&edge));
             self.free_edges[e].opening = opening;
         }
-        let opening = |(wall, ends): (usize, Vec<Point>)| {
+        let opening = |ends: Vec<Point>| {
             let [low, high] = bounds(ends);
             Opening {
-                wall,
                 edges: 0,
                 extent: norm(sub(high, low)),
                 centre: along(low, 0.5, sub(high, low)),

@@ -38,9 +38,7 @@ fn moving(name: &str, time: f64) -> Bench<2> {
     let mut spec = fixed_line(block());
     spec.motion = motion();
     let mut bench = Bench::new(name, &[spec], 0.5, wide(), around());
-    bench.world.time = time;
-    bench.wall.move_to(&mut bench.world.walls, time).unwrap();
-    bench.refresh();
+    bench.move_to(time);
     bench
 }
 
@@ -119,7 +117,7 @@ fn a_belt_has_the_velocity_of_its_surface_and_stays() {
     spec.surface_velocity = Vect::<2>::new(1.5, 0.0);
     let mut bench = Bench::new("usaw", &[spec], 0.5, wide(), around());
     let before = bench.world.walls.points.position.clone();
-    bench.wall.move_to(&mut bench.world.walls, 2.0).unwrap();
+    bench.move_to(2.0);
     let walls = &bench.world.walls;
     assert_eq!(walls.points.position, before);
     let belt = Vect::<2>::new(1.5, 0.0);
@@ -142,9 +140,7 @@ fn bending(name: &str, time: f64) -> Bench<2> {
     let mut spec = fixed_line(block());
     spec.motion = bent();
     let mut bench = Bench::new(name, &[spec], 0.5, wide(), around());
-    bench.world.time = time;
-    bench.wall.move_to(&mut bench.world.walls, time).unwrap();
-    bench.refresh();
+    bench.move_to(time);
     bench
 }
 

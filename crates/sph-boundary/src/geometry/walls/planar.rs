@@ -4,14 +4,14 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::beds::laid;
 use crate::geometry::checks::check_points;
 use crate::geometry::junctions::bounding;
-use crate::geometry::layers::layers;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::shells::Gammas;
 use crate::geometry::touching::without_shared;
-use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::geometry::walls::beds::laid;
+use crate::geometry::walls::layers::layers;
+use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,

@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_core::place_cells::PlaceCells;
 
 use crate::Mesh;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 
 /// Two particles nearer than this share of the spacing are one.
 const TOO_CLOSE: f64 = 0.7;

@@ -4,10 +4,10 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::beds::laid;
-use crate::geometry::faces::{Corner, Planes};
 use crate::geometry::shells::Gammas;
-use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::geometry::walls::beds::laid;
+use crate::geometry::walls::faces::{Corner, Planes};
+use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::integrals::spatial::Weights;
 use crate::treatment::groups::groups;
 use crate::{
@@ -190,6 +190,6 @@ impl WallMesh<3> for Walls<3> {
     }
 
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
-        crate::geometry::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
+        crate::geometry::walls::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
     }
 }

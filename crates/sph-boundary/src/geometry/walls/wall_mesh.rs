@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::vector::{bounds, dot};
+use crate::geometry::vector::dot;
 use crate::{
     BoundaryError, Element, Gammas, NearElement, Node, PeriodicBox, Pose, SeenElement, Shells,
     WallSpec, Walls,
@@ -193,12 +193,5 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         };
         let nearest = near.map(distance2).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map(|(d2, near)| (d2.sqrt(), self.wall_of(near)))
-    }
-
-    /// Lower and upper corner of the box around all walls, m.
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-        let nodes = &self.walls().mesh.nodes;
-        let [low, high] = bounds(nodes.iter().map(|n| n.position));
-        (!nodes.is_empty()).then(|| (low.into(), high.into()))
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::{NearElement, SeenElement};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
