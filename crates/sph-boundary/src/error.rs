@@ -4,7 +4,9 @@
 use sph_core::number::plain;
 
 use crate::geometry::wall_end::WallEnd;
-use crate::limits::MOST_PAIRS;
+
+/// Most pairs of edges or triangles that are held against each other: a second or two of work.
+pub(crate) const MOST_PAIRS: usize = 200_000_000;
 
 /// A refused wall, motion or kernel.
 ///
@@ -16,7 +18,7 @@ use crate::limits::MOST_PAIRS;
 pub enum BoundaryError {
     /// A bed that rises so far that the walls in it have no height left.
     #[error(
-        "the bed `{wall}` has risen by {rise:.3} m, and walls that stand in it stretch over {height} m: give          `[wall.{wall}.erodible]` a larger `stretch`"
+        "the bed `{wall}` has risen by {rise:.3} m, and walls that stand in it stretch over {height} m: give `[wall.{wall}.erodible]` a larger `stretch`"
     )]
     Buried {
         wall: String,

@@ -77,7 +77,6 @@ pub mod bodies;
 mod error;
 mod geometry;
 mod integrals;
-mod limits;
 mod parallel;
 mod rigid;
 #[cfg(feature = "plugins")]

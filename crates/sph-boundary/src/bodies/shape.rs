@@ -209,24 +209,16 @@ mod tests {
 
     #[test]
     fn vessels_lines_and_lids_are_no_solids() {
-        assert_eq!(
-            Solid::from_pieces([&rectangle(true, true)]),
-            Err(NoSolid::Vessel)
-        );
-        assert_eq!(
-            Solid::from_pieces([&rectangle(false, false)]),
-            Err(NoSolid::Open)
-        );
         let mut open = boxed("box", [0.0; 3], [1.0; 3]);
         open.triangles.truncate(10);
-        assert_eq!(
-            Solid::from_pieces([&Drawing::Surface(open)]),
-            Err(NoSolid::Open)
-        );
         let plate = Polyline::closed("p", vec![[0.0, 0.0], [1.0, 0.0]]);
-        assert_eq!(
-            Solid::from_pieces([&Drawing::Line(plate)]),
-            Err(NoSolid::Flat)
-        );
+        for (drawing, why) in [
+            (rectangle(true, true), NoSolid::Vessel),
+            (rectangle(false, false), NoSolid::Open),
+            (Drawing::Surface(open), NoSolid::Open),
+            (Drawing::Line(plate), NoSolid::Flat),
+        ] {
+            assert_eq!(Solid::from_pieces([&drawing]), Err(why));
+        }
     }
 }

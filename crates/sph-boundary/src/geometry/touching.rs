@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
+use crate::Polyline;
+use crate::error::{BoundaryError, MOST_PAIRS};
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{bounds, widened};
-use crate::limits::MOST_PAIRS;
-use crate::{BoundaryError, Polyline};
 
 /// Lines without the stretches on which two of them lie face to face, each with its number.
 ///

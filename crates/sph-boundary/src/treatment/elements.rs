@@ -17,7 +17,6 @@ use crate::{BoundaryError, WallSetup};
 pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     pub outline: Outline<D, M>,
     integrals: M::Integrals,
-    spacing: f64,
     near: NearLists<D>,
     /// Moves of walls so far.
     moves: u64,
@@ -206,8 +205,8 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let outline = Outline::<D, M>::new(setup, support, size)?;
         let mut walls = WallSet {
             names: outline.mesh.names().to_vec(),
-            points: outline.points(setup.spacing),
-            elements: outline.elements(setup.spacing),
+            points: outline.points(),
+            elements: outline.elements(),
             ..WallSet::default()
         };
         if !vertices {
@@ -217,7 +216,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let mut set_up = SetUp {
             outline,
             integrals,
-            spacing: setup.spacing,
             near: NearLists::default(),
             moves: 0,
             found_for: Default::default(),
@@ -286,7 +284,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Pressures and volumes at points and elements.
     pub fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let [at_points, at_elements] = &mut self.means;
-        let whole = self.spacing.powi(D as i32);
+        let whole = self.outline.spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let lists = &world.lists;
         if points.in_density() {

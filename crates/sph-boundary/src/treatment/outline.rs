@@ -9,10 +9,12 @@ use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, Wal
 use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
 use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::limits::MOST_PERIODS;
 use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::plates::far_sight;
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+
+/// Most periods that walls may reach across: images are counted in a byte.
+const MOST_PERIODS: f64 = 100.0;
 
 /// Range of queries, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
@@ -221,14 +223,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// The nodes as wall points, at rest without fluid around.
-    pub fn points(&self, spacing: f64) -> WallPoints<D> {
+    pub fn points(&self) -> WallPoints<D> {
         let mut points = WallPoints::default();
         let (moves, slips) = (self.moves(), self.slips());
         for (node, normal) in self.mesh.nodes().iter().zip(self.mesh.normals()) {
             let condition = &self.specs[node.wall].condition;
             points.position.push(node.position.into());
             points.share.push(node.theta * node.size);
-            points.volume.push(spacing.powi(D as i32));
+            points.volume.push(self.spacing.powi(D as i32));
             points.pressure.push(0.0);
             points.friction_factor.push(condition.friction_factor());
             points.wall.push(node.wall as u32);
@@ -245,7 +247,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// The elements, at rest without fluid around.
-    pub fn elements(&self, spacing: f64) -> Elements<D> {
+    pub fn elements(&self) -> Elements<D> {
         let mut elements = Elements::default();
         let (moves, slips) = (self.moves(), self.slips());
         let rubs = self
@@ -258,7 +260,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             elements.normal.push(element.normal.into());
             elements.velocity.push(Vect::zeros());
             elements.measure.push(element.measure);
-            elements.volume.push(spacing.powi(D as i32));
+            elements.volume.push(self.spacing.powi(D as i32));
             elements.pressure.push(0.0);
             elements.friction_factor.push(condition.friction_factor());
             elements.wall.push(element.wall as u32);

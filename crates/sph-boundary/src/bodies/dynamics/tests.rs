@@ -99,14 +99,8 @@ fn a_body_is_free_and_prescribed_in_turns() {
         [2.0, 3.0, 0.0],
     ];
     for (seen, expected) in seen.into_iter().zip(expected) {
-        let off = seen
-            .into_iter()
-            .zip(expected)
-            .map(|(a, b): (f64, f64)| (a - b).abs());
-        assert!(
-            off.fold(0.0, f64::max) < 1e-12,
-            "{seen:?}, not {expected:?}"
-        );
+        let off = Vector3::from(seen) - Vector3::from(expected);
+        assert!(off.amax() < 1e-12, "{seen:?}, not {expected:?}");
     }
     // Half a step beyond the mean of 1 and 3 m/s over the second that is driven, then a second at 3 m/s.
     let way = 2.0 + dt + 3.0;
