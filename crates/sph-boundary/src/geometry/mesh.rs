@@ -2,7 +2,7 @@
 //!
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
-//! * `closest`, `signed`, `grid`, `rows`: elements near a place;
+//! * `closest`, `signed`, `grid`, `near`, `rows`: elements near a place;
 //! * `sides`, `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
@@ -12,6 +12,7 @@ mod elements;
 mod grid;
 mod inside;
 mod motion;
+mod near;
 mod near_element;
 mod rows;
 mod sides;

@@ -10,7 +10,7 @@ use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
 use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::groups::{groups, is_piece};
-use crate::treatment::plates::far_sight;
+use crate::treatment::kernel_reach::far_sight;
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// Most periods that walls may reach across: images are counted in a byte.

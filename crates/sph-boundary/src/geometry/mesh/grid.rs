@@ -1,10 +1,8 @@
 //! Elements sorted by cells.
 
-use super::closest::nearest_to_origin;
-use super::elements::Mesh;
 use super::near_element::NearElement;
 use crate::geometry::cells::{index, listed};
-use crate::geometry::vector::{add, bounds, dot, norm, sub};
+use crate::geometry::vector::{bounds, dot, sub};
 
 /// Most cells per registered element: a grid over a vast empty box is made coarser.
 const CELLS_PER_ENTRY: usize = 8;
@@ -53,41 +51,8 @@ impl<const D: usize> Sphere<D> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// Lists for the present position of the walls and queries up to the radius `reach`, m.
-    ///
-    /// With periodic directions, points in the box or within `reach` of it are served.
-    pub fn build(mesh: &Mesh<D>, reach: f64) -> Self {
-        let mut images = Vec::with_capacity(mesh.elements.len());
-        let domain = &mesh.domain;
-        let (mut margin, mut radii) = ([0.0; D], Vec::with_capacity(mesh.elements.len()));
-        for (e, element) in mesh.elements.iter().enumerate() {
-            let arms = mesh.corners(e).map(|corner| sub(corner, element.centre));
-            let reached = |k: usize| {
-                arms.iter()
-                    .fold(margin[k], |m: f64, arm| m.max(arm[k].abs()))
-            };
-            margin = std::array::from_fn(reached);
-            let radius = arms.into_iter().map(norm).fold(0.0, f64::max);
-            // Rounding loses nothing.
-            radii.push(radius * (1.0 + ROUNDING));
-        }
-        let reached = |k: usize| 2.0 * reach + margin[k] * (1.0 + ROUNDING);
-        let margin: [f64; D] = std::array::from_fn(reached);
-        let box_ = [sub(domain.lower, margin), add(domain.upper, margin)];
-        for (e, element) in mesh.elements.iter().enumerate() {
-            for image in domain.images_within(box_, [element.centre; 2]) {
-                let sphere = Sphere {
-                    centre: add(element.centre, domain.shift(image)),
-                    radius: radii[e],
-                };
-                images.extend(NearElement::new(e, image).map(|near| (near, sphere)));
-            }
-        }
-        Self::new(&images, reach)
-    }
-
     /// Of all images of elements; queries reach `reach` far, m.
-    fn new(images: &[(NearElement<D>, Sphere<D>)], reach: f64) -> Self {
+    pub(super) fn new(images: &[(NearElement<D>, Sphere<D>)], reach: f64) -> Self {
         let [lower, upper] = bounds(images.iter().map(|(_, sphere)| sphere.centre));
         let extent: [f64; D] = std::array::from_fn(|k| (upper[k] - lower[k]).max(0.0));
         let limit = (CELLS_PER_ENTRY * images.len()).max(1) as f64;
@@ -118,31 +83,6 @@ impl<const D: usize> Grid<D> {
             entries,
             spheres,
         }
-    }
-
-    /// Images of elements nearer than `radius` to a point, ascending by element, then image;
-    /// `radius` at most the reach of the grid.
-    pub fn near<'a>(
-        &'a self,
-        mesh: &'a Mesh<D>,
-        point: [f64; D],
-        radius: f64,
-    ) -> impl Iterator<Item = NearElement<D>> + 'a {
-        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
-        let mut found = Vec::new();
-        self.visit(point, radius, |place, distance2| {
-            let near = self.entries[place];
-            // The mean of the corners is in the element.
-            let surely = distance2 < radius * radius * (1.0 - ROUNDING);
-            if surely || {
-                let (offset, _) = nearest_to_origin(&mesh.corners_from(point, near));
-                dot(offset, offset) < radius * radius
-            } {
-                found.push(near);
-            }
-        });
-        found.sort_unstable();
-        found.into_iter()
     }
 
     /// Calls `found` with the place of every image whose sphere is in reach and its centre's squared distance, m².
