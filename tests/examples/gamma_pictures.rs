@@ -9,8 +9,7 @@ use std::error::Error;
 use std::path::Path;
 
 use sph_boundary::{
-    Drawing, PeriodicBox, PlanarWalls, Polyline, RigidMotion, SpatialWalls, Surface, WallCondition,
-    WallMesh, WallSpec,
+    Drawing, Gammas, PeriodicBox, PlanarWalls, Polyline, SpatialWalls, Surface, WallMesh, WallSpec,
 };
 use sph_core::Vect;
 use sph_io::{Picture, View};
@@ -59,7 +58,7 @@ fn gear(scene: &Scene, images: &Path) -> Result<(), Box<dyn Error>> {
     for (name, wall) in &scene.wall {
         for Line { points, closed } in wall.lines(name, scene.numerics.spacing)? {
             let name = name.clone();
-            walls.push(at_rest(Drawing::Line(Polyline {
+            walls.push(WallSpec::at_rest(Drawing::Line(Polyline {
                 name,
                 points,
                 closed,
@@ -95,7 +94,7 @@ fn pyramid(scene: &Scene, images: &Path) -> Result<(), Box<dyn Error>> {
             points,
             triangles,
         };
-        walls.push(at_rest(Drawing::Surface(surface)));
+        walls.push(WallSpec::at_rest(Drawing::Surface(surface)));
     }
     // Through the tip of the pyramid, seen along +y.
     let slice = |u: f64, v: f64| Vect::<3>::new(u, 0.25, v);
@@ -117,17 +116,6 @@ fn pyramid(scene: &Scene, images: &Path) -> Result<(), Box<dyn Error>> {
     }
     .save(images.join("gamma-pyramid.png"))?;
     Ok(())
-}
-
-fn at_rest<const D: usize>(drawing: Drawing) -> WallSpec<D> {
-    WallSpec {
-        drawing,
-        condition: WallCondition::NoSlip,
-        surface_velocity: Vect::zeros(),
-        motion: RigidMotion::default(),
-        mover: None,
-        open: false,
-    }
 }
 
 /// γ over the fluid.
@@ -174,13 +162,11 @@ impl<const D: usize, M: WallMesh<D>> Field<D, M> {
                 }
                 contacts.clear();
                 let near = self.mesh.near(&x, self.support);
-                let gamma = self.mesh.gamma(
-                    &self.integrals,
-                    &x,
-                    &near,
-                    &mut Default::default(),
-                    &mut contacts,
-                );
+                let (one, room) = ([(&x, &near[..])].into_iter(), &mut Default::default());
+                let mut found = Gammas::default();
+                self.mesh
+                    .gammas(&self.integrals, one, room, &mut contacts, &mut found);
+                let gamma = found.all[0].0;
                 values.push((gamma / BAND).round() * BAND);
                 points.push(if D == 2 { [u, v, 0.0] } else { [u, x[1], v] });
             }
@@ -198,11 +184,12 @@ impl<const D: usize, M: WallMesh<D>> Field<D, M> {
         place: impl Fn(Vect<D>) -> [f64; 3],
         wanted: impl Fn(&Vect<D>) -> bool,
     ) -> Vec<[[f64; 3]; 2]> {
-        let nodes: Vec<_> = self.mesh.points().map(|p| place(p.position)).collect();
-        let node = |k: u32| nodes[k as usize];
-        let ends = |c: [u32; D]| (0..D - 1 + D / 3).map(move |k| [c[k], c[(k + 1) % D]]);
-        let elements = self.mesh.elements().filter(|e| wanted(&e.normal));
-        let all = elements.flat_map(|e| ends(e.corners));
+        let nodes: Vec<_> = self.mesh.places().into_iter().map(place).collect();
+        let node = |k: usize| nodes[k];
+        let ends = |c: [usize; D]| (0..D - 1 + D / 3).map(move |k| [c[k], c[(k + 1) % D]]);
+        let elements = self.mesh.elements().iter();
+        let elements = elements.filter(|e| wanted(&e.normal.into()));
+        let all = elements.flat_map(|e| ends(e.nodes));
         all.map(|[a, b]| [node(a), node(b)]).collect()
     }
 }

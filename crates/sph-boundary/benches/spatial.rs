@@ -60,17 +60,6 @@ fn triangle(bencher: Bencher, kernel: usize) {
     });
 }
 
-/// Quadrature but for the nearest.
-#[divan::bench(args = [0, 1, 2, 3])]
-fn weight(bencher: Bencher, kernel: usize) {
-    let of = renormalisation(kernel);
-    let pairs = pairs(&of);
-    bencher.counter(ItemsCount::new(pairs.len())).bench(|| {
-        let sum = |sum: f64, corners: &[[f64; 3]; 3]| sum + of.weight(*corners, UP, 0.125);
-        black_box(&pairs).iter().fold(0.0, sum)
-    });
-}
-
 /// Per edge of a polygon of a thousand edges around the support.
 #[divan::bench]
 fn far_edge(bencher: Bencher) {

@@ -8,9 +8,7 @@ use std::fmt::{self, Display};
 
 use divan::{Bencher, counter::ItemsCount};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use sph_boundary::{
-    Drawing, Polyline, RigidMotion, Surface, Wall, WallCondition, WallEntry, WallSetup, WallSpec,
-};
+use sph_boundary::{Drawing, Polyline, Surface, Wall, WallEntry, WallSetup, WallSpec};
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, World};
@@ -130,14 +128,7 @@ impl<const D: usize> Flow<D> {
             .build::<D>(&toml::Table::new())
             .expect("no parameters");
         let domain = Domain::open(Vect::repeat(-2.0), Vect::repeat(3.0));
-        let spec = WallSpec {
-            drawing: drawing(shape),
-            condition: WallCondition::NoSlip,
-            surface_velocity: Vect::zeros(),
-            motion: RigidMotion::default(),
-            mover: None,
-            open: false,
-        };
+        let spec = WallSpec::at_rest(drawing(shape));
         let setup = WallSetup {
             walls: &[spec],
             spacing,

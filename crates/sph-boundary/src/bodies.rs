@@ -10,7 +10,6 @@ mod dynamics;
 mod freedom;
 mod layer;
 mod line;
-mod mobility;
 mod mooring;
 mod prescribed;
 mod shape;

@@ -4,7 +4,9 @@
 use sph_core::number::plain;
 
 use crate::geometry::wall_end::WallEnd;
-use crate::limits::{MOST_PAIRS, MOST_PERIODS};
+
+/// Most pairs of edges or triangles that are held against each other: a second or two of work.
+pub(crate) const MOST_PAIRS: usize = 200_000_000;
 
 /// A refused wall, motion or kernel.
 ///
@@ -14,23 +16,15 @@ use crate::limits::{MOST_PAIRS, MOST_PERIODS};
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 #[non_exhaustive]
 pub enum BoundaryError {
-    /// A wall that goes so far within a step that it would leap over particles and walls.
-    #[error(
-        "wall `{wall}` moves by {way:.3e} m in one step, and {most:.3e} m, half a spacing, is the most"
-    )]
-    Leap { wall: String, way: f64, most: f64 },
     /// A bed that rises so far that the walls in it have no height left.
     #[error(
-        "the bed `{wall}` has risen by {rise:.3} m, and walls that stand in it stretch over {height} m: give          `[wall.{wall}.erodible]` a larger `stretch`"
+        "the bed `{wall}` has risen by {rise:.3} m, and walls that stand in it stretch over {height} m: give `[wall.{wall}.erodible]` a larger `stretch`"
     )]
     Buried {
         wall: String,
         rise: f64,
         height: f64,
     },
-    /// A wall that should be a bed of grains and has no floor.
-    #[error("wall `{wall}` has no part that faces upwards, which a bed of grains needs")]
-    NoFloor { wall: String },
     /// A bed of too many places.
     #[error("the bed `{wall}` has {places} places, more than {most}: give it a larger `cell`")]
     ManyPlaces {
@@ -44,15 +38,6 @@ pub enum BoundaryError {
          body; give it more `density`"
     )]
     Light { wall: String },
-    /// Walls that meet too fast, or under too heavy a load.
-    #[error(
-        "wall `{wall}` goes through wall `{other}`: it is too fast or too heavy for a contact as stiff as the speed of \
-         sound allows; raise `speed_of_sound`"
-    )]
-    Through { wall: String, other: String },
-    /// A polyline without an edge.
-    #[error("wall `{wall}` has {count} point(s), at least two are needed")]
-    TooFewPoints { wall: String, count: usize },
     /// A coordinate that is infinite or not a number.
     #[error("wall `{wall}`: point {point} has a coordinate that is not finite")]
     NotFinite { wall: String, point: usize },
@@ -91,12 +76,6 @@ pub enum BoundaryError {
          compared: draw it with fewer long slanted {what} side by side"
     )]
     Tangled { what: &'static str, wall: String },
-    /// Walls far larger than a period, or far away from the box.
-    #[error(
-        "wall `{wall}` reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one \
-         period of it"
-    )]
-    ManyPeriods { wall: String, periods: f64 },
     /// Two ends meet whose directions of travel disagree about where the fluid is.
     #[error(
         "the {end} end of wall `{wall}` meets the {other_end} end of wall `{other}` at {at}: \
@@ -149,37 +128,14 @@ pub enum BoundaryError {
         other: String,
         at: Place,
     },
-    /// Coulomb's friction where there are no elements to press on.
-    #[error("wall `{wall}` has Coulomb's friction, which needs the wall elements of `walls.usaw`")]
-    NoElements { wall: String },
-    /// A wall that a treatment does not have.
-    #[error("wall `{wall}` {reason}; take `walls.usaw`")]
-    NotScaled { wall: String, reason: &'static str },
-    /// A wall whose map would be too large.
-    #[error(
-        "wall `{wall}` needs a map of {nodes} nodes, and {most} are the most: take `walls.usaw`, or larger particles"
-    )]
-    LargeMap {
-        wall: String,
-        nodes: usize,
-        most: usize,
-    },
-    /// A wall closed through periodicity given a rotation.
-    #[error("wall `{wall}` is closed through periodicity and cannot rotate")]
-    PeriodicWallRotated { wall: String },
-    /// A line in space or a surface in the plane.
-    #[error(
-        "wall `{wall}` is not drawn for {dimension} dimensions: a polyline is a wall of two, a surface one of three"
-    )]
-    Dimension { wall: String, dimension: usize },
+    /// A wall that as a whole is or does what it cannot.
+    #[error("wall `{wall}` {why}")]
+    Unfit { wall: String, why: String },
     /// A motion with a number that is not finite or a table that does not ascend.
     #[error(
         "the motion of wall `{wall}` is not sound: all numbers must be finite, periods positive, an axis longer than zero, and the times of a table ascending"
     )]
     Motion { wall: String },
-    /// A surface without a triangle.
-    #[error("wall `{wall}` has no triangle")]
-    NoTriangles { wall: String },
     /// A corner that does not exist.
     #[error("wall `{wall}`: triangle {triangle} has the corner {point}, there are {count} points")]
     MissingPoint {
@@ -206,15 +162,6 @@ pub enum BoundaryError {
         at: Place,
         altitude: f64,
         edge: f64,
-    },
-    /// A surface of the size of a particle.
-    #[error(
-        "wall `{wall}` is {extent} m across, less than two spacings of {spacing} m: draw it larger, check the unit of length, or take a smaller spacing"
-    )]
-    TooSmall {
-        wall: String,
-        extent: f64,
-        spacing: f64,
     },
     /// More elements than can be meant.
     #[error(
@@ -332,6 +279,11 @@ pub enum BoundaryError {
 }
 
 impl BoundaryError {
+    pub(crate) fn unfit(wall: impl Into<String>, why: impl Into<String>) -> Self {
+        let (wall, why) = (wall.into(), why.into());
+        Self::Unfit { wall, why }
+    }
+
     pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Self> {
         match value > 0.0 && value.is_finite() {
             true => Ok(()),

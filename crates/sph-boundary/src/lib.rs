@@ -77,7 +77,6 @@ pub mod bodies;
 mod error;
 mod geometry;
 mod integrals;
-mod limits;
 mod parallel;
 mod rigid;
 #[cfg(feature = "plugins")]
@@ -110,10 +109,9 @@ pub use warning::WallWarning;
 
 #[cfg(feature = "plugins")]
 pub use crate::{
-    geometry::wall_mesh::{Hindrance, MeshElement, MeshPoint, WallMesh},
+    geometry::walls::wall_mesh::{Hindrance, WallMesh},
     geometry::walls::{PlanarWalls, SpatialWalls, Walls},
-    rigid::load::{Load, MoverRefusal, MoverSetting, Touch},
-    rigid::mover::{Mover, MoverEntry},
+    rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
     rigid::rigid_state::{Movement, RigidState},
     rigid::spring::Spring,
     treatment::contract::{

@@ -2,8 +2,6 @@
 
 pub(crate) mod bend;
 pub(crate) mod erodible;
-#[cfg(feature = "plugins")]
-pub(crate) mod load;
 pub(crate) mod motion;
 #[cfg(feature = "plugins")]
 pub(crate) mod mover;

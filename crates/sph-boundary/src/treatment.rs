@@ -1,7 +1,6 @@
 //! Wall treatments: the contract, and the built-in ones.
 
 pub(crate) mod contact;
-pub(crate) mod contact_law;
 pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod elements;

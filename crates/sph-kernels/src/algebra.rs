@@ -1,5 +1,7 @@
 //! Products, powers and shifts of polynomials given by ascending coefficients.
 
+use crate::double_double::DoubleDouble;
+
 /// Coefficients of the product a(q) b(q).
 ///
 /// ```
@@ -50,6 +52,19 @@ pub fn reflected(a: &[f64], origin: f64) -> Vec<f64> {
     })
 }
 
+/// Coefficients of a(q) in powers of q − centre.
+///
+/// By repeated Horner division in twice the precision of f64: the monomials may cancel by thirty digits.
+pub fn expanded_about(a: &[f64], centre: f64) -> Vec<f64> {
+    let mut c: Vec<_> = a.iter().map(|c| DoubleDouble::ONE.times(*c)).collect();
+    for first in 0..c.len() {
+        for n in (first..c.len() - 1).rev() {
+            c[n] = c[n].plus(c[n + 1].times(centre));
+        }
+    }
+    c.into_iter().map(DoubleDouble::value).collect()
+}
+
 /// a(q) by Horner's rule.
 pub fn value(a: &[f64], q: f64) -> f64 {
     a.iter().rev().fold(0.0, |sum, a| sum * q + a)
@@ -73,6 +88,19 @@ mod tests {
         for q in [0.0, 0.25, 1.0, 1.5] {
             assert_eq!(value(&a, q), value(&b, 1.5 - q));
         }
+    }
+
+    #[test]
+    fn a_root_of_high_order_is_found_exactly() {
+        // (q − 3)⁶ about 3.
+        let monomials = [729.0, -1458.0, 1215.0, -540.0, 135.0, -18.0, 1.0];
+        let at_root = expanded_about(&monomials, 3.0);
+        assert_eq!(at_root, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        // About 0.1, where nothing is representable: the value and the first slope.
+        let shifted = expanded_about(&monomials, 0.1);
+        assert!((shifted[0] / 2.9f64.powi(6) - 1.0).abs() < 1e-15);
+        assert!((shifted[1] / (-6.0 * 2.9f64.powi(5)) - 1.0).abs() < 1e-15);
+        assert!(expanded_about(&[], 1.0).is_empty());
     }
 
     #[test]

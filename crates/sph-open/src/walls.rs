@@ -58,10 +58,6 @@ impl<const D: usize> WallShape<D> for OpenWalls<D> {
         self.walls.clearance(point, within)
     }
 
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-        self.walls.bounds()
-    }
-
     fn ends_freely(&self) -> bool {
         self.walls.ends_freely()
     }
@@ -80,10 +76,6 @@ impl<const D: usize> WallShape<D> for OpenWalls<D> {
 }
 
 impl<const D: usize> WallMotion<D> for OpenWalls<D> {
-    fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
-        self.walls.move_to(walls, time)
-    }
-
     fn advance(
         &mut self,
         walls: &mut WallSet<D>,

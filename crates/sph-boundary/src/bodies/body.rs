@@ -11,6 +11,7 @@ use crate::bodies::mooring::Mooring;
 use crate::bodies::prescribed::{self, Prescribed};
 use crate::bodies::shape::{Solid, winding};
 use crate::bodies::spatial_vector::padded;
+use crate::geometry::vector::{bounds, widened};
 use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch};
 
 /// Least density of a body over that of the lightest fluid. Lighter ones are stable, but a blow of one particle of the
@@ -94,12 +95,16 @@ fn vector<const D: usize>(
     };
     match given.len() == D {
         true => Ok(Some(padded(given))),
-        false => Err(numbers(key, given.len(), &D.to_string())),
+        false => wrong_count(key, given.len(), &D.to_string()),
     }
 }
 
-fn numbers(key: &str, found: usize, expected: &str) -> MoverRefusal {
-    MoverRefusal::at_key(key, format!("{found} numbers, {expected} are expected"))
+fn refused<T>(key: &str, why: impl Into<String>) -> MoverResult<T> {
+    Err(MoverRefusal::at_key(key, why))
+}
+
+fn wrong_count<T>(key: &str, found: usize, expected: &str) -> MoverResult<T> {
+    refused(key, format!("{found} numbers, {expected} are expected"))
 }
 
 impl RigidBody {
@@ -109,48 +114,33 @@ impl RigidBody {
         setting: &MoverSetting<'_, D>,
     ) -> MoverResult<MassProperties> {
         let solid = Solid::from_pieces(setting.pieces());
-        let solid = solid.map_err(|e| MoverRefusal::at_key("", e.to_string()))?;
+        let solid = solid.or_else(|e| refused("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
             (Some(mass), None) => mass,
             (None, Some(density)) => density * solid.volume,
-            (None, None) => {
-                let why = "a body needs a `density` or a `mass`";
-                return Err(MoverRefusal::at_key("", why));
-            }
+            (None, None) => return refused("", "a body needs a `density` or a `mass`"),
             (Some(_), Some(_)) => {
-                let why = "a body has a `density` or a `mass`, not both";
-                return Err(MoverRefusal::at_key("mass", why));
+                return refused("mass", "a body has a `density` or a `mass`, not both");
             }
         };
         let density = mass / solid.volume;
         let [lightest, _] = setting.densities;
         let dry = density < LIGHTEST * lightest * (1.0 - 1e-9);
         if dry && beside_fluid(setting) {
-            let key = if self.mass.is_some() {
-                "mass"
-            } else {
-                "density"
-            };
-            return Err(MoverRefusal::at_key(
-                key,
-                format!(
-                    "the body is too light: {density:.3} kg/m³ in a fluid of {lightest:.3} kg/m³, of which a fiftieth is the \
-                 least; it has a volume of {:.3e} {}",
-                    solid.volume,
-                    if D == 2 {
-                        "m² per metre of depth"
-                    } else {
-                        "m³"
-                    },
-                ),
-            ));
+            let key = self.mass.map_or("density", |_| "mass");
+            let (volume, unit) = (solid.volume, ["m² per metre of depth", "m³"][D - 2]);
+            let why = format!(
+                "the body is too light: {density:.3} kg/m³ in a fluid of {lightest:.3} kg/m³, of which a fiftieth is the \
+                 least; it has a volume of {volume:.3e} {unit}"
+            );
+            return refused(key, why);
         }
         let centre = vector::<D>("centre", &self.centre)?;
         let inertia = match (&self.inertia, centre) {
             (Some(given), _) => tensor::<D>(given)?,
             (None, Some(_)) => {
                 let why = "a body with a `centre` of its own needs its `inertia` about it";
-                return Err(MoverRefusal::at_key("centre", why));
+                return refused("centre", why);
             }
             (None, None) => solid.inertia * density,
         };
@@ -175,27 +165,20 @@ impl RigidBody {
         for (k, freedom) in self.free.as_deref().unwrap_or(there).iter().enumerate() {
             if !there.contains(freedom) {
                 let why = format!("there is no `{}` in {D}D: {}", freedom.name(), names());
-                return Err(MoverRefusal::at_key(format!("free[{k}]"), why));
+                return refused(&format!("free[{k}]"), why);
             }
             free[freedom.index()] = true;
         }
         if free == [false; 6] {
-            let why = format!(
-                "nothing is free: leave the mover out, or free some of {}",
-                names()
-            );
-            return Err(MoverRefusal::at_key("free", why));
+            let names = names();
+            let why = format!("nothing is free: leave the mover out, or free some of {names}");
+            return refused("free", why);
         }
         for (freedom, ..) in self.hold.all() {
             if !free[freedom.index()] {
-                let why = format!(
-                    "`{}` is not free, so that nothing has to hold it",
-                    freedom.name()
-                );
-                return Err(MoverRefusal::at_key(
-                    format!("hold.{}", freedom.name()),
-                    why,
-                ));
+                let name = freedom.name();
+                let why = format!("`{name}` is not free, so that nothing has to hold it");
+                return refused(&format!("hold.{name}"), why);
             }
         }
         Ok(free)
@@ -235,17 +218,10 @@ impl RigidBody {
 
 /// True if fluid is drawn within a support of the wall: two boxes around both meet.
 fn beside_fluid<const D: usize>(setting: &MoverSetting<'_, D>) -> bool {
-    let places: Vec<_> = setting.pieces().flat_map(corners).collect();
-    let reach = 3.0 * setting.smoothing_length;
-    let most = |k: usize| {
-        places
-            .iter()
-            .map(|x| x[k])
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
-    let least = |k: usize| places.iter().map(|x| x[k]).fold(f64::INFINITY, f64::min);
+    let places = setting.pieces().flat_map(Drawing::points::<D>);
+    let [least, most] = widened(bounds(places), 3.0 * setting.smoothing_length);
     let meets = |(low, high): &([f64; D], [f64; D])| {
-        (0..D).all(|k| low[k] <= most(k) + reach && high[k] >= least(k) - reach)
+        (0..D).all(|k| low[k] <= most[k] && high[k] >= least[k])
     };
     setting.fluid.iter().any(meets)
 }
@@ -261,12 +237,9 @@ fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> MoverResult<
         let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
         let mut within = own().flat_map(corners);
         if holds || within.any(|x| winding([other], x) > 0.75) {
-            let name = other.name();
-            let why = format!(
-                "the body `{}` overlaps the wall `{name}` at the start",
-                setting.wall
-            );
-            return Err(MoverRefusal::at_key("", why));
+            let (wall, name) = (setting.wall, other.name());
+            let why = format!("the body `{wall}` overlaps the wall `{name}` at the start");
+            return refused("", why);
         }
     }
     Ok(())
@@ -286,8 +259,7 @@ fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
         (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),
         (3, [x, y, z]) => Matrix3::from_diagonal(&Vector3::new(*x, *y, *z)),
         (3, [xx, yy, zz, xy, yz, zx]) => Matrix3::new(*xx, *xy, *zx, *xy, *yy, *yz, *zx, *yz, *zz),
-        (2, _) => return Err(numbers("inertia", given.len(), "1")),
-        _ => return Err(numbers("inertia", given.len(), "3 or 6")),
+        _ => return wrong_count("inertia", given.len(), ["1", "3 or 6"][D - 2]),
     };
     let sound = match D {
         2 => tensor[(2, 2)] > 0.0,
@@ -299,10 +271,10 @@ fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
     };
     match sound {
         true => Ok(tensor),
-        false => Err(MoverRefusal::at_key(
+        false => refused(
             "inertia",
             "no body has it: principal moments are positive, and none is more than the sum of the others",
-        )),
+        ),
     }
 }
 
@@ -311,7 +283,7 @@ impl<const D: usize> Mover<D> for RigidBody {
         if !setting.flush {
             let why = "half a row of fluid clings to these walls and would be carried along: give `[walls.usaw]` the key \
                        `vertices = false`";
-            return Err(MoverRefusal::at_key("", why));
+            return refused("", why);
         }
         let weighed = self.weighed(setting)?;
         check_separate(setting)?;
@@ -327,7 +299,7 @@ impl<const D: usize> Mover<D> for RigidBody {
         vector::<D>("velocity", &self.velocity)?;
         let turns = if D == 2 { 1 } else { 3 };
         if let Some(given) = self.angular_velocity.as_ref().filter(|g| g.len() != turns) {
-            return Err(numbers("angular_velocity", given.len(), &turns.to_string()));
+            return wrong_count("angular_velocity", given.len(), &turns.to_string());
         }
         let [_, heaviest] = setting.densities;
         let pieces = || setting.pieces();

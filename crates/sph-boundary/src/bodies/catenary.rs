@@ -217,4 +217,4 @@ fn solved([[a, b], [_, d]]: &[[f64; 2]; 2], [r, s]: [f64; 2]) -> [f64; 2] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

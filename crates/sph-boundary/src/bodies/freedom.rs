@@ -23,14 +23,7 @@ pub enum Freedom {
 impl Freedom {
     /// Its place among the six.
     pub fn index(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-            Self::Z => 2,
-            Self::Rx => 3,
-            Self::Ry => 4,
-            Self::Rz => 5,
-        }
+        self as usize
     }
 
     /// Those that there are in D dimensions.
@@ -96,23 +89,10 @@ pub struct Holds {
 impl Holds {
     /// Stiffness and damping of those that are given, by their degree of freedom.
     pub fn all(&self) -> impl Iterator<Item = (Freedom, f64, f64)> {
-        let along = [
-            (Freedom::X, self.x),
-            (Freedom::Y, self.y),
-            (Freedom::Z, self.z),
-        ];
-        let about = [
-            (Freedom::Rx, self.rx),
-            (Freedom::Ry, self.ry),
-            (Freedom::Rz, self.rz),
-        ];
-        let along = along
-            .into_iter()
-            .filter_map(|(f, h)| Some((f, h?.stiffness, h?.damping)));
-        along.chain(
-            about
-                .into_iter()
-                .filter_map(|(f, h)| Some((f, h?.stiffness, h?.damping))),
-        )
+        let along = [self.x, self.y, self.z].map(|h| h.map(|h| [h.stiffness, h.damping]));
+        let about = [self.rx, self.ry, self.rz].map(|h| h.map(|h| [h.stiffness, h.damping]));
+        let all = along.into_iter().chain(about);
+        let named = Freedom::in_dimension(3).iter().zip(all);
+        named.filter_map(|(f, h)| h.map(|[stiffness, damping]| (*f, stiffness, damping)))
     }
 }

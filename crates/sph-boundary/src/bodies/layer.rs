@@ -58,11 +58,8 @@ mod tests {
     /// Of a square of side a about its centre: 2 ρ h a along each axis, ρ h 4 ∫ s² ds = ρ h a³/3 about it.
     #[test]
     fn the_layer_of_a_square_has_its_inertia() {
-        let square = Drawing::Line(Polyline {
-            name: "s".into(),
-            points: vec![[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0]],
-            closed: true,
-        });
+        let corners = vec![[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0]];
+        let square = Drawing::Line(Polyline::closed("s", corners));
         let layer = layer([&square], Vector3::new(2.0, 2.0, 0.0), 1000.0, 0.1);
         let expected = [400.0, 400.0, 0.0, 0.0, 0.0, 100.0 * 8.0 / 3.0];
         for i in 0..6 {

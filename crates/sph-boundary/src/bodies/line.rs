@@ -82,11 +82,7 @@ mod tests {
     fn it_sees_walls_that_it_goes_through() {
         let way =
             |from: [f64; 3], to: [f64; 3], wall: &Drawing| crosses(from.into(), to.into(), wall);
-        let wall = Drawing::Line(Polyline {
-            name: "w".into(),
-            points: vec![[1.0, -1.0], [1.0, 1.0]],
-            closed: false,
-        });
+        let wall = Drawing::Line(Polyline::open("w", vec![[1.0, -1.0], [1.0, 1.0]]));
         assert!(way([0.0, 0.0, 0.0], [2.0, 0.5, 0.0], &wall));
         assert!(!way([0.0, 0.0, 0.0], [0.9, 0.5, 0.0], &wall));
         let along = way([1.0, 0.0, 0.0], [2.0, 0.5, 0.0], &wall);

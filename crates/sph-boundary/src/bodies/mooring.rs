@@ -50,18 +50,18 @@ impl Mooring {
         k: usize,
         setting: &MoverSetting<'_, D>,
     ) -> Result<Self, MoverRefusal> {
-        let refuse =
-            |key: &str, why: String| Err(MoverRefusal::at_key(format!("line[{k}].{key}"), why));
+        let refusal =
+            |key: &str, why: String| MoverRefusal::at_key(format!("line[{k}].{key}"), why);
         for (key, place) in [("from", &line.from), ("to", &line.to)] {
             if place.len() != D {
                 let why = format!("{} numbers, {D} are expected", place.len());
-                return refuse(key, why);
+                return Err(refusal(key, why));
             }
         }
         let drawn = line.drawn_length();
         if drawn <= 0.0 {
             let why = "the line has no length: both ends are one place";
-            return refuse("to", why.into());
+            return Err(refusal("to", why.into()));
         }
         let kind = match line.weight {
             Some(weight) => Self::hanging(line, weight, setting),
@@ -75,19 +75,14 @@ impl Mooring {
                 line.length.unwrap_or(drawn),
             )),
         };
-        let mooring = match kind {
-            Ok(kind) => Mooring {
-                from: padded(&line.from),
-                to: padded(&line.to),
-                kind,
-            },
-            Err((key, why)) => return refuse(key, why),
-        };
+        let kind = kind.map_err(|(key, why)| refusal(key, why))?;
+        let [from, to] = [&line.from, &line.to].map(|place| padded(place));
+        let mooring = Mooring { from, to, kind };
         let places = mooring.drawn_places();
         for wall in setting.others() {
             if places.windows(2).any(|w| crosses(w[0], w[1], wall)) {
                 let why = format!("the line goes through the wall `{}`", wall.name());
-                return refuse("to", why);
+                return Err(refusal("to", why));
             }
         }
         Ok(mooring)

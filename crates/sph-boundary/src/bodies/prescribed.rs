@@ -62,35 +62,30 @@ pub(crate) fn check<const D: usize>(
             return refused("to", format!("{} s is not after {} s", one.to, one.from));
         }
         before = one.to;
-        if let Some(row) = one.course.iter().position(|row| row.len() != columns) {
-            let found = one.course[row].len();
-            return refused(
-                "course",
-                format!("row {row} has {found} numbers, {columns} are expected"),
-            );
-        }
-        let finite = |row: &Vec<f64>| row.iter().all(|x| x.is_finite());
-        if let Some(row) = one.course.iter().position(|row| !finite(row)) {
-            return refused(
-                "course",
-                format!("row {row} has a number that is not finite"),
-            );
-        }
         let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let speed = |row: &Vec<f64>| size(&row[1..=D]) + radius * size(&row[D + 1..]);
-        if let Some(row) = one.course.iter().position(|row| speed(row) >= sound) {
-            let why = format!(
-                "row {row} moves the body with {:.3e} m/s, faster than sound, {sound:.3} m/s",
-                speed(&one.course[row])
-            );
-            return refused("course", why);
-        }
-        if let Some(row) = (1..one.course.len()).find(|j| one.course[*j][0] <= one.course[j - 1][0])
-        {
-            return refused(
-                "course",
-                format!("the time of row {row} is not after that of the row before it"),
-            );
+        let mut last = f64::NEG_INFINITY;
+        for (n, row) in one.course.iter().enumerate() {
+            let found = row.len();
+            if found != columns {
+                let why = format!("row {n} has {found} numbers, {columns} are expected");
+                return refused("course", why);
+            }
+            if !row.iter().all(|x| x.is_finite()) {
+                let why = format!("row {n} has a number that is not finite");
+                return refused("course", why);
+            }
+            let speed = size(&row[1..=D]) + radius * size(&row[D + 1..]);
+            if speed >= sound {
+                let why = format!(
+                    "row {n} moves the body with {speed:.3e} m/s, faster than sound, {sound:.3} m/s"
+                );
+                return refused("course", why);
+            }
+            if row[0] <= last {
+                let why = format!("the time of row {n} is not after that of the row before it");
+                return refused("course", why);
+            }
+            last = row[0];
         }
         let ends = one.course.first().zip(one.course.last());
         if ends.is_some_and(|(first, last)| first[0] > one.from || last[0] < one.to) {

@@ -158,25 +158,7 @@ fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn boxed(low: [f64; 3], high: [f64; 3]) -> Surface {
-        let corner =
-            |k: usize| std::array::from_fn(|i| if k >> i & 1 == 0 { low[i] } else { high[i] });
-        let faces = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        let halves = |f: [u32; 4]| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]];
-        Surface {
-            name: "box".into(),
-            points: (0..8).map(corner).collect(),
-            triangles: faces.into_iter().flat_map(halves).collect(),
-        }
-    }
+    use crate::geometry::surface::boxed;
 
     fn rectangle(reversed: bool, closed: bool) -> Drawing {
         let mut points = vec![[1.0, 2.0], [1.0, 3.0], [3.0, 3.0], [3.0, 2.0]];
@@ -197,9 +179,12 @@ mod tests {
         assert!((solid.centre - Vector3::new(2.0, 2.5, 0.0)).norm() < 1e-14);
         // A (a² + b²)/12
         assert!((solid.inertia[(2, 2)] - 2.0 * 5.0 / 12.0).abs() < 1e-13);
-        let solid =
-            Solid::from_pieces([&Drawing::Surface(boxed([1.0, 2.0, -1.0], [3.0, 5.0, 3.0]))])
-                .unwrap();
+        let solid = Solid::from_pieces([&Drawing::Surface(boxed(
+            "box",
+            [1.0, 2.0, -1.0],
+            [3.0, 5.0, 3.0],
+        ))])
+        .unwrap();
         assert!((solid.volume - 24.0).abs() < 1e-12);
         assert!((solid.centre - Vector3::new(2.0, 3.5, 1.0)).norm() < 1e-13);
         let expected = Vector3::new(9.0 + 16.0, 4.0 + 16.0, 4.0 + 9.0) * 2.0;
@@ -215,7 +200,7 @@ mod tests {
         for (reversed, x, expected) in [(false, 2.0, 1.0), (true, 2.0, -1.0), (false, 0.5, 0.0)] {
             assert!((at(reversed, x) - expected).abs() < 1e-12);
         }
-        let solid = [&Drawing::Surface(boxed([0.0; 3], [1.0, 2.0, 3.0]))];
+        let solid = [&Drawing::Surface(boxed("box", [0.0; 3], [1.0, 2.0, 3.0]))];
         for (x, expected) in [(0.2, 1.0), (-0.2, 0.0)] {
             let around = winding(solid, Vector3::new(x, 0.7, 1.9));
             assert!((around - expected).abs() < 1e-12, "{around}");
@@ -224,28 +209,16 @@ mod tests {
 
     #[test]
     fn vessels_lines_and_lids_are_no_solids() {
-        assert_eq!(
-            Solid::from_pieces([&rectangle(true, true)]),
-            Err(NoSolid::Vessel)
-        );
-        assert_eq!(
-            Solid::from_pieces([&rectangle(false, false)]),
-            Err(NoSolid::Open)
-        );
-        let mut open = boxed([0.0; 3], [1.0; 3]);
+        let mut open = boxed("box", [0.0; 3], [1.0; 3]);
         open.triangles.truncate(10);
-        assert_eq!(
-            Solid::from_pieces([&Drawing::Surface(open)]),
-            Err(NoSolid::Open)
-        );
-        let plate = Polyline {
-            name: "p".into(),
-            points: vec![[0.0, 0.0], [1.0, 0.0]],
-            closed: true,
-        };
-        assert_eq!(
-            Solid::from_pieces([&Drawing::Line(plate)]),
-            Err(NoSolid::Flat)
-        );
+        let plate = Polyline::closed("p", vec![[0.0, 0.0], [1.0, 0.0]]);
+        for (drawing, why) in [
+            (rectangle(true, true), NoSolid::Vessel),
+            (rectangle(false, false), NoSolid::Open),
+            (Drawing::Surface(open), NoSolid::Open),
+            (Drawing::Line(plate), NoSolid::Flat),
+        ] {
+            assert_eq!(Solid::from_pieces([&drawing]), Err(why));
+        }
     }
 }

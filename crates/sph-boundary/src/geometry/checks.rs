@@ -22,8 +22,9 @@ const NO_AREA: f64 = 1e-12;
 /// Points that are too few, not finite or repeated.
 pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
     if line.points.len() < 2 {
-        let (wall, count) = (line.name.clone(), line.points.len());
-        return Err(BoundaryError::TooFewPoints { wall, count });
+        let count = line.points.len();
+        let why = format!("has {count} point(s), at least two are needed");
+        return Err(BoundaryError::unfit(&line.name, why));
     }
     if let Some(point) = line
         .points

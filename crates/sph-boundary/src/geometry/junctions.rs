@@ -30,12 +30,9 @@ pub(crate) fn bounding(
     tolerance: f64,
 ) -> (Vec<Piece>, Vec<WallWarning>) {
     let given = Ends::new(&pieces, groups, tolerance);
-    let cut = |(wall, line): &Piece| {
-        let parts = cut(line, |place| !given.at(place, groups[*wall]).is_empty());
-        parts
-            .into_iter()
-            .map(|line| (*wall, line))
-            .collect::<Vec<_>>()
+    let cut = |&(wall, ref line): &Piece| {
+        let parts = cut(line, |place| !given.at(place, groups[wall]).is_empty());
+        parts.into_iter().map(move |line| (wall, line))
     };
     let all: Vec<Piece> = pieces.iter().flat_map(cut).collect();
     let ends = Ends::new(&all, groups, tolerance);
@@ -81,13 +78,8 @@ pub(crate) fn bounding(
     if remarks.is_empty() {
         return (pieces, remarks);
     }
-    let kept = all.into_iter().zip(bounds);
-    (
-        kept.filter(|(_, bounds)| *bounds)
-            .map(|(piece, _)| piece)
-            .collect(),
-        remarks,
-    )
+    let kept = all.into_iter().zip(bounds).filter(|(_, bounds)| *bounds);
+    (kept.map(|(piece, _)| piece).collect(), remarks)
 }
 
 /// The pieces of a line between corners at which it is to be cut.

@@ -3,7 +3,7 @@
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
 //! * `closest`, `signed`, `grid`, `near`, `rows`: elements near a place;
-//! * `rays`, `sides`, `inside`: on which side of the walls a place is.
+//! * `sides`, `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
 
@@ -14,7 +14,6 @@ mod inside;
 mod motion;
 mod near;
 mod near_element;
-mod rays;
 mod rows;
 mod sides;
 mod signed;

@@ -69,12 +69,9 @@ impl Polyline {
 
     /// The same wall with the fluid on the other side.
     pub fn reversed(&self) -> Self {
-        let points = self.points.iter().rev().copied().collect();
-        Self {
-            name: self.name.clone(),
-            points,
-            closed: self.closed,
-        }
+        let mut reversed = self.clone();
+        reversed.points.reverse();
+        reversed
     }
 
     /// Area ½ Σ x_i y_{i+1} − x_{i+1} y_i inside the closed polyline, positive when

@@ -1,5 +1,10 @@
 //! Pieces of wall that end freely, and on which side of them a point is.
 
+#[cfg(feature = "plugins")]
+use sph_neighbours::ContactBlock;
+
+#[cfg(feature = "plugins")]
+use crate::GammaSum;
 use crate::geometry::sets::Sets;
 
 /// A sum of Γ below this puts a point behind a shell; rounding does not reach it.
@@ -125,7 +130,7 @@ pub struct Gammas {
     /// Points, counted from 0, and the shells that they are behind.
     pub behind: Vec<(u32, u32)>,
     /// Of the point at hand; kept for its memory.
-    pub(crate) sides: ShellSums,
+    sides: ShellSums,
 }
 
 impl Gammas {
@@ -135,11 +140,30 @@ impl Gammas {
         self.behind.clear();
     }
 
-    /// Adds a point, and the shells that it is behind.
-    pub fn push(&mut self, gamma: f64, planes: u32, sides: &ShellSums) {
-        let point = self.all.len() as u32;
-        self.behind.extend(sides.behind().map(|(s, _)| (point, s)));
-        self.all.push((gamma, planes));
+    /// Adds a point that sees its elements, pushes their contacts but for those of hidden shells, and adds Γ to those of
+    /// the shells. What it is behind is no contact.
+    #[cfg(feature = "plugins")]
+    #[inline(always)]
+    pub(crate) fn add<const D: usize>(
+        &mut self,
+        contacts: &mut ContactBlock<D>,
+        mut see: impl FnMut(&mut ContactBlock<D>, &mut ShellSums, &[u32]) -> GammaSum<D>,
+    ) {
+        let (planes, point) = (contacts.planes(), self.all.len() as u32);
+        self.sides.clear();
+        let sum = see(contacts, &mut self.sides, &[]);
+        let behind = self.sides.gamma(sum.signed_sum);
+        let gamma = match behind.filter(|_| sum.contact_fraction == 0.0) {
+            None => sum.gamma(),
+            Some(gamma) => {
+                let hidden: Vec<u32> = self.sides.behind().map(|(shell, _)| shell).collect();
+                contacts.truncate(planes);
+                see(contacts, &mut ShellSums::default(), &hidden);
+                self.behind.extend(hidden.iter().map(|s| (point, *s)));
+                gamma
+            }
+        };
+        self.all.push((gamma, contacts.planes()));
     }
 }
 

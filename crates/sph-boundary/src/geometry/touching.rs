@@ -4,12 +4,10 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
+use crate::Polyline;
+use crate::error::{BoundaryError, MOST_PAIRS};
+use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{bounds, widened};
-use crate::limits::MOST_PAIRS;
-use crate::{BoundaryError, Polyline};
-
-/// Two lines nearer than this share of the spacing are one.
-const SAME_LINE: f64 = 1e-6;
 
 /// Lines without the stretches on which two of them lie face to face, each with its number.
 ///
@@ -28,7 +26,7 @@ pub(crate) fn without_shared(
     if lines.len() == 1 {
         return Ok(vec![(0, lines[0].clone())]);
     }
-    let tolerance = SAME_LINE * spacing;
+    let tolerance = SAME_PLACE * spacing;
     let of = |(k, line): (usize, &Polyline)| line.edges().map(|e| (k, e)).collect::<Vec<_>>();
     let edges: Vec<(usize, [[f64; 2]; 2])> = lines.iter().enumerate().flat_map(of).collect();
     let tree = BoxTree::new(edges.iter().map(|(_, e)| bounds(*e)).collect());

@@ -27,6 +27,4 @@ pub struct FreeEnd {
     pub end: WallEnd,
     /// Index of the node.
     pub node: usize,
-    /// Present position, m.
-    pub position: [f64; 2],
 }

@@ -1,8 +1,20 @@
-//! The walls of a scene, meshed, with the search for their elements.
+//! The walls of a scene for their treatments: meshed, with the search for their elements.
+
+pub(crate) mod beds;
+pub(crate) mod cover;
+mod face_sums;
+mod faces;
+mod lattice_layers;
+mod layers;
+mod planar;
+mod spatial;
+pub(crate) mod wall_mesh;
 
 use std::sync::OnceLock;
 
-use crate::geometry::faces::Planes;
+use sph_core::bed::Bed;
+
+use crate::geometry::walls::faces::Planes;
 use crate::{Grid, Mesh, Shells, WallSpec};
 
 /// Walls cut at the particle spacing, with the grid that finds their elements.
@@ -15,7 +27,8 @@ pub struct Walls<const D: usize> {
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
-    /// True if a face in space is one contact, of the element that is nearest, instead of one for each element.
+    /// True if a face in space is one contact, of the element that is nearest, instead of one for each element: that is
+    /// cheaper.
     pub(crate) whole_faces: bool,
 }
 
@@ -45,6 +58,11 @@ impl<const D: usize> Walls<D> {
     pub(crate) fn grid(&self) -> &Grid<D> {
         self.grid
             .get_or_init(|| Grid::build(&self.mesh, self.reach))
+    }
+
+    /// Sets the levels of the beds that walls follow, from the next motion on.
+    pub(crate) fn lay(&mut self, beds: &[Bed]) {
+        beds.clone_into(&mut self.mesh.beds);
     }
 
     /// Walls that have moved.

@@ -5,7 +5,6 @@ mod primitives;
 mod renormalisation;
 mod ring;
 mod segment;
-mod taylor;
 
 pub use batch::SegmentBatch;
 pub use renormalisation::Renormalisation2d;

@@ -1,6 +1,6 @@
 //! Factors that make the integral of a kernel one.
 
-use sph_kernels::PiecewisePolynomial;
+use sph_kernels::{PiecewisePolynomial, algebra};
 
 use crate::error::BoundaryError;
 
@@ -32,13 +32,34 @@ pub(crate) fn steps(shape: &PiecewisePolynomial) -> Vec<(f64, Vec<f64>)> {
     let mut steps = Vec::with_capacity(shape.pieces.len());
     let mut outside: &[f64] = &[];
     for (piece, bounds) in shape.pieces.iter().zip(shape.breaks.windows(2)).rev() {
-        let degree = piece.len().max(outside.len());
-        let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
-        let step: Vec<f64> = (0..degree).map(|n| at(piece, n) - at(outside, n)).collect();
+        let step = algebra::sum(piece, &algebra::scaled(outside, -1.0));
         outside = piece;
         if step.iter().any(|c| *c != 0.0) {
             steps.push((bounds[1], step));
         }
     }
     steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unusable_kernels_are_refused() {
+        let hat = PiecewisePolynomial {
+            breaks: vec![0.0, 1.0],
+            pieces: vec![vec![1.0, -1.0]],
+        };
+        let with = |pieces| PiecewisePolynomial {
+            pieces,
+            ..hat.clone()
+        };
+        for dimension in [2, 3] {
+            let refused =
+                |shape: &PiecewisePolynomial, h| normalisation(shape, h, dimension).is_err();
+            assert!(!refused(&hat, 0.5) && refused(&hat, 0.0) && refused(&hat, f64::NAN));
+            assert!(refused(&with(vec![vec![-1.0]]), 1.0) && refused(&with(vec![]), 1.0));
+        }
+    }
 }

@@ -10,6 +10,6 @@ mod weights;
 mod winding;
 
 pub use facet::FacetIntegral;
-pub(crate) use plane::{Circle, Foot, Patch, Plane};
+pub(crate) use plane::{Circle, Foot, Patch};
 pub use renormalisation::Renormalisation3d;
 pub use weights::Weights;

@@ -5,10 +5,9 @@ use std::sync::Arc;
 #[cfg(feature = "plugins")]
 use sph_core::Vect;
 use sph_core::bed::Bed;
-#[cfg(feature = "plugins")]
-use sph_core::course::Stage;
 use sph_core::course::{Course, Rotation, Translation};
 
+use crate::geometry::vector::unit;
 use crate::{Bend, Erodible, Pose};
 #[cfg(feature = "plugins")]
 use crate::{Movement, RigidState};
@@ -178,25 +177,18 @@ impl<const D: usize> RigidMotion<D> {
 
     /// Adds the rate and the acceleration of the bend at a point of the wall.
     pub(crate) fn add_bending(&self, movement: &mut Movement<D>, point: [f64; D], time: f64) {
-        let bending = self.bending(point, time);
-        movement.velocity[D - 1] += bending.rate;
-        movement.acceleration[D - 1] += bending.acceleration;
-    }
-
-    fn bending(&self, point: [f64; D], time: f64) -> Stage {
-        let bend = self.bend.as_ref();
-        bend.map_or(Stage::default(), |b| b.at(point[0], time))
+        if let Some(bend) = &self.bend {
+            let bending = bend.at(point[0], time);
+            movement.velocity[D - 1] += bending.rate;
+            movement.acceleration[D - 1] += bending.acceleration;
+        }
     }
 }
 
 fn unit_axis<const D: usize>(rotation: &Rotation<D>) -> [f64; 3] {
     match D {
         2 => [0.0, 0.0, 1.0],
-        _ => {
-            let [x, y, z] = rotation.axis;
-            let length = (x * x + y * y + z * z).sqrt();
-            [x, y, z].map(|e| if length > 0.0 { e / length } else { 0.0 })
-        }
+        _ => unit(rotation.axis),
     }
 }
 
@@ -243,10 +235,9 @@ mod tests {
                     axis: [0.0; 3],
                     course: Course::Steady { speed: 1.7 },
                 }),
-                bend: None,
-                bed: None,
                 start: 0.5,
                 stop: 2.0,
+                ..RigidMotion::default()
             },
             [0.9, -0.3],
         );
@@ -261,10 +252,8 @@ mod tests {
                     axis: [1.0, -2.0, 0.5],
                     course: sine,
                 }),
-                bend: None,
-                bed: None,
                 start: 0.1,
-                stop: f64::INFINITY,
+                ..RigidMotion::default()
             },
             [0.9, -0.3, 0.2],
         );

@@ -1,10 +1,10 @@
-//! The trait of movers of walls.
+//! Movers of walls: the trait, the loads on a wall, and the scene as its mover gets it.
 
 use nalgebra::Matrix6;
 use sph_core::{Vect, contract};
 use sph_neighbours::DepthGauge;
 
-use crate::{Load, MoverRefusal, MoverSetting, RigidMotion, RigidState, Touch};
+use crate::{Drawing, RigidMotion, RigidState};
 
 /// Moves one wall. The wall's state is its whole memory: it is rolled back with the particles, and in
 /// checkpoints.
@@ -59,5 +59,123 @@ impl<const D: usize> Mover<D> for RigidMotion<D> {
     }
     fn next(&self, _: &RigidState<D>, _: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
         self.state(time + dt)
+    }
+}
+
+/// Forces and moments that act on a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load<const D: usize> {
+    /// Force of the fluid, N (N/m in two dimensions): the reaction to the force of the wall on the particles.
+    pub force: Vect<D>,
+    /// Its moment about the origin, N m; only the last component in two dimensions.
+    pub moment: [f64; 3],
+    /// Force of walls that it touches, N; zero unless its mover gives a [`Touch`].
+    pub contact_force: Vect<D>,
+    /// Its moment about the origin, N m.
+    pub contact_moment: [f64; 3],
+    /// Depth of the fluid before the wall, m, for a mover that [looks](crate::Mover::looks); none if there is no fluid.
+    pub depth: Option<f64>,
+    /// Gravity, m/s²; the mover applies it to the wall.
+    pub gravity: Vect<D>,
+}
+
+impl<const D: usize> Load<D> {
+    /// Gravity alone.
+    pub fn of_gravity(gravity: Vect<D>) -> Self {
+        Load {
+            force: Vect::zeros(),
+            moment: [0.0; 3],
+            contact_force: Vect::zeros(),
+            contact_moment: [0.0; 3],
+            depth: None,
+            gravity,
+        }
+    }
+
+    /// True if neither fluid nor contact acts.
+    pub fn is_weight(&self) -> bool {
+        [self.force, self.contact_force] == [Vect::<D>::zeros(); 2]
+    }
+}
+
+/// Contact law of a wall that its mover moves freely.
+///
+/// Where two surfaces are nearer than a spacing, or than they were drawn, each area S of one pushes the other with
+/// N = S k δ, δ the missing distance, with e² of that while they part (Walton & Braun 1986), and rubs with
+/// min(μ N, 2 S √(k m / ΣS) u_t). A step is taken in parts that resolve the fastest swing of a body on its
+/// contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Mass m, kg (per metre of depth in two dimensions); of two bodies m₁m₂/(m₁ + m₂) counts.
+    pub mass: f64,
+    /// Least inertia about its centre, kg m²; infinite if it does not turn.
+    pub inertia: f64,
+    /// Area of a face, m^(D−1): that of a box in the mean.
+    pub face: f64,
+    /// Stiffness k, Pa/m; of two bodies the smaller one counts, but on the smaller face never less than holds the weight
+    /// of all bodies within a fortieth of the spacing.
+    pub stiffness: f64,
+    /// Share e of the velocity that is left after an impact. Of two bodies the smaller one counts.
+    pub restitution: f64,
+    /// Coefficient of friction μ; of two bodies √(μ₁μ₂) counts.
+    pub friction: f64,
+    /// True if the wall is too light for any fluid, so that a step in which fluid acts on it fails.
+    pub dry: bool,
+}
+
+/// The scene as a mover gets it before the start.
+#[derive(Clone, Copy, Debug)]
+pub struct MoverSetting<'a, const D: usize> {
+    /// Name of its wall.
+    pub wall: &'a str,
+    /// All walls as they are drawn; several pieces of a wall have one name.
+    pub walls: &'a [&'a Drawing],
+    /// Particle spacing δr, m.
+    pub spacing: f64,
+    /// Smoothing length h, m.
+    pub smoothing_length: f64,
+    /// Boxes around the regions that are filled with fluid, m.
+    pub fluid: &'a [([f64; D], [f64; D])],
+    /// Densities of the lightest and the heaviest phase, kg/m³.
+    pub densities: [f64; 2],
+    /// The largest speed of sound c, m/s.
+    pub sound_speed: f64,
+    /// Gravity, m/s².
+    pub gravity: Vect<D>,
+    /// True if the particles begin at the wall, so that the reaction to the particles is the force on the wall; without
+    /// it half a row of fluid clings to the wall.
+    pub flush: bool,
+}
+
+impl<'a, const D: usize> MoverSetting<'a, D> {
+    /// The pieces of its wall.
+    pub fn pieces(&self) -> impl Iterator<Item = &'a Drawing> {
+        let (walls, wall) = (self.walls, self.wall);
+        walls.iter().copied().filter(move |w| w.name() == wall)
+    }
+
+    /// The pieces of all other walls.
+    pub fn others(&self) -> impl Iterator<Item = &'a Drawing> {
+        let (walls, wall) = (self.walls, self.wall);
+        walls.iter().copied().filter(move |w| w.name() != wall)
+    }
+}
+
+/// Refusal of a mover to move its wall: a key of its table, and the fault there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MoverRefusal {
+    /// The key in its table; the table itself, if empty.
+    pub key: String,
+    /// The defect and its remedy.
+    pub why: String,
+}
+
+impl MoverRefusal {
+    /// Of a key.
+    pub fn at_key(key: impl Into<String>, why: impl Into<String>) -> Self {
+        MoverRefusal {
+            key: key.into(),
+            why: why.into(),
+        }
     }
 }

@@ -3,7 +3,8 @@
 use sph_core::Vect;
 use sph_neighbours::Domain;
 
-use crate::geometry::wall_mesh::{MeshElement, WallMesh};
+use crate::Element;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::plane::{PlaneScale, fade};
 
 /// Cosine of the angle between normals up to which faces are square to each other.
@@ -28,9 +29,10 @@ pub(crate) struct FlatFace<const D: usize> {
 
 impl<const D: usize> FlatFace<D> {
     /// True if an element is on its plane.
-    fn has(&self, element: &MeshElement<D>, size: f64) -> bool {
-        let same = (element.normal - self.normal).norm() < SQUARE;
-        same && (element.centre - self.place).dot(&self.normal).abs() < SQUARE * size
+    fn has(&self, element: &Element<D>, size: f64) -> bool {
+        let same = (Vect::from(element.normal) - self.normal).norm() < SQUARE;
+        let apart = Vect::from(element.centre) - self.place;
+        same && apart.dot(&self.normal).abs() < SQUARE * size
     }
 
     /// ln s of it alone, and its gradient, 1/m, at a place relative to its own; beyond its ends it fades out.
@@ -65,17 +67,17 @@ pub(crate) fn flat_faces<const D: usize, M: WallMesh<D>>(
     domain: &Domain<D>,
     size: f64,
 ) -> (Vec<FlatFace<D>>, Vec<bool>) {
-    let nodes: Vec<Vect<D>> = mesh.points().map(|p| p.position).collect();
-    let elements: Vec<MeshElement<D>> = mesh.elements().collect();
+    let nodes = mesh.places();
+    let elements = mesh.elements();
     let mut faces: Vec<FlatFace<D>> = Vec::new();
     let mut face_of: Vec<usize> = Vec::with_capacity(elements.len());
-    for element in &elements {
+    for element in elements {
         // Neighbours in a mesh are on the same face more often than not.
         let known = faces.iter().rposition(|face| face.has(element, size));
         let face = known.unwrap_or_else(|| {
             faces.push(FlatFace {
-                normal: element.normal,
-                place: element.centre,
+                normal: element.normal.into(),
+                place: element.centre.into(),
                 measure: 0.0,
                 walls: Vec::new(),
                 spans: Vec::new(),
@@ -123,12 +125,13 @@ const MOST: usize = 400;
 
 /// Corners of an element, m. It may go on beyond a periodic border, where its node is that of the other side.
 pub(crate) fn unrolled<const D: usize>(
-    element: &MeshElement<D>,
+    element: &Element<D>,
     nodes: &[Vect<D>],
     domain: &Domain<D>,
 ) -> [Vect<D>; D] {
-    let from = |c: u32| domain.nearest(nodes[c as usize] - element.centre);
-    element.corners.map(|c| element.centre + from(c))
+    let centre = Vect::from(element.centre);
+    let place = |n: usize| centre + domain.nearest(nodes[n] - centre);
+    element.nodes.map(place)
 }
 
 /// A face with its place in the middle of its corners, and its spans.
@@ -154,23 +157,15 @@ fn spanned<const D: usize>(
     let from = face.place;
     for along in spans {
         let ways = || corners.iter().map(|c| (c - from).dot(&along));
-        let (low, high) = (
-            ways().fold(f64::INFINITY, f64::min),
-            ways().fold(f64::NEG_INFINITY, f64::max),
-        );
-        let period = (0..D).filter(|k| domain.periodic[*k] && along[*k].abs() > 1.0 - SQUARE);
-        let endless = period
-            .map(|k| domain.length(k))
-            .any(|l| high - low > l * (1.0 - SQUARE));
+        let low = ways().fold(f64::INFINITY, f64::min);
+        let high = ways().fold(f64::NEG_INFINITY, f64::max);
+        let mut period = (0..D).filter(|k| domain.periodic[*k] && along[*k].abs() > 1.0 - SQUARE);
+        let half = match period.any(|k| high - low > domain.length(k) * (1.0 - SQUARE)) {
+            true => f64::INFINITY,
+            false => 0.5 * (high - low),
+        };
         face.place += along * (0.5 * (low + high));
-        face.spans.push((
-            along,
-            if endless {
-                f64::INFINITY
-            } else {
-                0.5 * (high - low)
-            },
-        ));
+        face.spans.push((along, half));
     }
     face
 }

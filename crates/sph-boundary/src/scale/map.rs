@@ -7,7 +7,7 @@ use sph_core::{Vect, bounds};
 use sph_kernels::Sampler;
 use sph_neighbours::Domain;
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::unrolled;
 use crate::scale::plane::{REACH, fade};
 use crate::scale::spline::{Grid, interpolate, value};
@@ -92,25 +92,24 @@ impl<const D: usize> ScaleMap<D> {
     pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self, BoundaryError> {
         let h = of.kernel.smoothing_length();
         let step = h / NODES;
-        let nodes: Vec<Vect<D>> = of.mesh.points().map(|p| p.position).collect();
-        let elements = of.mesh.elements().zip(of.curved);
-        let own = elements.filter(|(_, curved)| **curved);
-        let corners = own.flat_map(|(e, _)| unrolled(&e, &nodes, of.domain));
+        let nodes = of.mesh.places();
+        let curved = || {
+            let elements = of.mesh.elements().iter().zip(of.curved);
+            elements.filter(|(_, curved)| **curved).map(|(e, _)| e)
+        };
+        let corners = curved().flat_map(|e| unrolled(e, &nodes, of.domain));
         let [low, high] = bounds(corners.map(|x| x.into())).map(Vect::from);
         // All that an active node sees is on the grid.
         let margin = REACH * h + of.kernel.support_radius() + 4.0 * step;
         let grid = Grid::around(low.add_scalar(-margin), high.add_scalar(margin), step);
         let count: f64 = grid.nodes.iter().map(|n| *n as f64).product();
         if count > MOST_NODES as f64 {
-            return Err(BoundaryError::LargeMap {
-                wall: of.wall.into(),
-                nodes: count as usize,
-                most: MOST_NODES,
-            });
+            let why = format!(
+                "needs a map of {count} nodes, and {MOST_NODES} are the most: take `walls.usaw`, or larger particles"
+            );
+            return Err(BoundaryError::unfit(of.wall, why));
         }
-        let elements = of.mesh.elements().zip(of.curved);
-        let curved = elements.filter(|(_, curved)| **curved);
-        let walls: BTreeSet<u32> = curved.map(|(e, _)| e.wall as u32).collect();
+        let walls: BTreeSet<u32> = curved().map(|e| e.wall as u32).collect();
         let walls: Vec<u32> = walls.into_iter().collect();
         let mut cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
@@ -135,19 +134,12 @@ impl<const D: usize> ScaleMap<D> {
             counts[*node] = share * correction[*node];
         }
         let strides = grid.strides();
-        let has = |node: usize| counts[node] != 0.0;
-        let corners = |node: usize, n: usize| {
+        let corner = |node: usize, n: usize| {
             let steps = (0..D).map(|k| (n >> k & 1) * strides[k]);
-            node + steps.sum::<usize>()
+            counts.get(node + steps.sum::<usize>())
         };
-        let known = (0..grid.len()).map(|node| {
-            (0..1 << D).any(|n| {
-                counts
-                    .get(corners(node, n))
-                    .is_some_and(|_| has(corners(node, n)))
-            })
-        });
-        let known = known.collect();
+        let known = |node: usize| (0..1 << D).any(|n| corner(node, n).is_some_and(|c| *c != 0.0));
+        let known = (0..grid.len()).map(known).collect();
         let mut coefficients = counts;
         interpolate(&grid, &mut coefficients);
         Ok(ScaleMap {

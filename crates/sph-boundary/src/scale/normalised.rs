@@ -4,33 +4,15 @@ use sph_core::Vect;
 use sph_kernels::Kernel;
 use sph_neighbours::{Domain, Frame};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::surface::boxed;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::WallScales;
-use crate::{
-    Drawing, PlanarWalls, Polyline, RigidMotion, SpatialWalls, Surface, WallCondition, WallSetup,
-    WallSpec,
-};
+use crate::{Drawing, PlanarWalls, Polyline, SpatialWalls, WallSetup, WallSpec};
 
 const H: f64 = 1.0;
 
 fn kernel() -> impl Kernel {
     sph_kernels::by_name("wendland-c2").expect("a kernel")
-}
-
-fn spec<const D: usize>(drawing: Drawing) -> WallSpec<D> {
-    WallSpec {
-        drawing,
-        condition: WallCondition::NoSlip,
-        surface_velocity: Vect::zeros(),
-        motion: RigidMotion::default(),
-        mover: None,
-        open: false,
-    }
-}
-
-fn scales<const D: usize, M: WallMesh<D>>(walls: &[WallSpec<D>]) -> WallScales<D, M> {
-    let domain = Domain::open(Vect::repeat(-100.0), Vect::repeat(100.0));
-    scales_in(domain, walls)
 }
 
 fn scales_in<const D: usize, M: WallMesh<D>>(
@@ -81,97 +63,82 @@ fn product<const D: usize, M: WallMesh<D>>(
     found[n].scale * sum(&places[..n], &found[..n])
 }
 
+/// Checks s(x) ∫ s w = 1 at places next to walls to an error, on a lattice of a step.
+fn check<const D: usize, M: WallMesh<D>>(
+    walls: &[WallSpec<D>],
+    [step, most]: [f64; 2],
+    places: &[[f64; D]],
+    fluid: impl Fn(&Vect<D>) -> bool,
+) {
+    let domain = Domain::open(Vect::repeat(-100.0), Vect::repeat(100.0));
+    let scales = scales_in::<D, M>(domain, walls);
+    for x in places {
+        let whole = product(&scales, (*x).into(), step, &fluid);
+        assert!((whole - 1.0).abs() < most, "{x:?}: {whole}");
+    }
+}
+
+fn closed(corners: Vec<[f64; 2]>) -> [WallSpec<2>; 1] {
+    [WallSpec::at_rest(Drawing::Line(Polyline::closed(
+        "wall", corners,
+    )))]
+}
+
 #[test]
 fn a_corner_of_a_tank_is_a_product() {
-    let corners = vec![[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0]];
-    let tank = [spec(Drawing::Line(Polyline::closed("tank", corners)))];
-    let scales = scales::<2, PlanarWalls>(&tank);
-    for x in [[0.2, 0.2], [0.5, 0.1], [1.0, 0.6], [1.5, 1.5], [5.0, 0.3]] {
-        let whole = product(&scales, x.into(), 0.02, |y| y[0] > 0.0 && y[1] > 0.0);
-        assert!((whole - 1.0).abs() < 3e-3, "{x:?}: {whole}");
-    }
+    let tank = closed(vec![[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0]]);
+    let places = [[0.2, 0.2], [0.5, 0.1], [1.0, 0.6], [1.5, 1.5], [5.0, 0.3]];
+    let fluid = |y: &Vect<2>| y[0] > 0.0 && y[1] > 0.0;
+    check::<2, PlanarWalls>(&tank, [0.02, 3e-3], &places, fluid);
 }
 
 #[test]
 fn a_block_has_a_map() {
-    let corners = vec![[0.0, 0.0], [0.0, 4.0], [4.0, 4.0], [4.0, 0.0]];
-    let block = [spec(Drawing::Line(Polyline::closed("block", corners)))];
-    let scales = scales::<2, PlanarWalls>(&block);
+    let block = closed(vec![[0.0, 0.0], [0.0, 4.0], [4.0, 4.0], [4.0, 0.0]]);
     let inside = |v: f64| (0.0..4.0).contains(&v);
-    for x in [
+    let places = [
         [-0.3, 2.0],
         [-0.3, -0.3],
         [-0.1, 0.4],
         [2.0, -1.0],
         [4.4, 4.0],
         [-1.5, 4.2],
-    ] {
-        let whole = product(&scales, x.into(), 0.02, |y| !(inside(y[0]) && inside(y[1])));
-        assert!((whole - 1.0).abs() < 1e-2, "{x:?}: {whole}");
-    }
+    ];
+    let fluid = |y: &Vect<2>| !(inside(y[0]) && inside(y[1]));
+    check::<2, PlanarWalls>(&block, [0.02, 1e-2], &places, fluid);
 }
 
 #[test]
 fn a_step_in_a_tank_has_a_map_beside_flat_faces() {
-    let corners = vec![
+    let tank = closed(vec![
         [0.0, 0.0],
         [8.0, 0.0],
         [8.0, 3.0],
         [20.0, 3.0],
         [20.0, 20.0],
         [0.0, 20.0],
-    ];
-    let tank = [spec(Drawing::Line(Polyline::closed("tank", corners)))];
-    let scales = scales::<2, PlanarWalls>(&tank);
+    ]);
     let fluid = |y: &Vect<2>| {
         let over = y[0] < 8.0 || y[1] > 3.0;
         y[0] > 0.0 && y[0] < 20.0 && y[1] > 0.0 && over
     };
-    for x in [
+    let places = [
         [7.7, 0.3],
         [7.7, 3.0],
         [8.3, 3.3],
         [12.0, 3.2],
         [0.3, 0.5],
         [19.7, 3.3],
-    ] {
-        let whole = product(&scales, x.into(), 0.02, fluid);
-        assert!((whole - 1.0).abs() < 1e-2, "{x:?}: {whole}");
-    }
+    ];
+    check::<2, PlanarWalls>(&tank, [0.02, 1e-2], &places, fluid);
 }
 
 #[test]
 fn a_slope_has_a_map() {
-    let corners = vec![[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [-20.0, 20.0]];
-    let tank = [spec(Drawing::Line(Polyline::closed("tank", corners)))];
-    let scales = scales::<2, PlanarWalls>(&tank);
-    for x in [[0.3, 0.2], [0.0, 0.6], [-0.6, 1.2], [-3.0, 3.5]] {
-        let fluid = |y: &Vect<2>| y[1] > 0.0 && y[0] + y[1] > 0.0;
-        let whole = product(&scales, x.into(), 0.01, fluid);
-        assert!((whole - 1.0).abs() < 1e-2, "{x:?}: {whole}");
-    }
-}
-
-fn box_of(low: [f64; 3], high: [f64; 3], name: &str, outside: bool) -> Drawing {
-    let corner = |n: usize| [0, 1, 2].map(|k| if n >> k & 1 == 1 { high[k] } else { low[k] });
-    // Seen from inside, anticlockwise.
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 6, 7, 5],
-        [0, 4, 5, 1],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 5, 7, 3],
-    ];
-    let triangles = faces
-        .iter()
-        .flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]);
-    let turned = |t: [u32; 3]| if outside { [t[0], t[2], t[1]] } else { t };
-    Drawing::Surface(Surface {
-        name: name.into(),
-        points: (0..8).map(corner).collect(),
-        triangles: triangles.map(turned).collect(),
-    })
+    let tank = closed(vec![[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [-20.0, 20.0]]);
+    let places = [[0.3, 0.2], [0.0, 0.6], [-0.6, 1.2], [-3.0, 3.5]];
+    let fluid = |y: &Vect<2>| y[1] > 0.0 && y[0] + y[1] > 0.0;
+    check::<2, PlanarWalls>(&tank, [0.01, 1e-2], &places, fluid);
 }
 
 /// A floor with a ridge at the border of a periodic box: s is the same on both sides, and that of a floor far from it.
@@ -181,8 +148,9 @@ fn a_floor_goes_on_across_periodic_borders() {
     domain.periodic[0] = true;
     let flat = Polyline::open("floor", vec![[0.0, 0.0], [16.0, 0.0]]);
     let ridge = vec![[0.0, 1.0], [1.0, 0.0], [15.0, 0.0], [16.0, 1.0]];
-    let [flat, ridge] = [flat, Polyline::open("ridge", ridge)]
-        .map(|line| scales_in::<2, PlanarWalls>(domain.clone(), &[spec(Drawing::Line(line))]));
+    let [flat, ridge] = [flat, Polyline::open("ridge", ridge)].map(|line| {
+        scales_in::<2, PlanarWalls>(domain.clone(), &[WallSpec::at_rest(Drawing::Line(line))])
+    });
     let at = |scales: &WallScales<2, PlanarWalls>, x: [f64; 2]| {
         let (mut found, mut slopes) = (Vec::new(), Vec::new());
         scales.at(&[x.into()], &[], &mut found, &mut slopes);
@@ -201,21 +169,19 @@ fn a_floor_goes_on_across_periodic_borders() {
 #[test]
 fn a_block_on_the_floor_of_a_tank_has_a_map_in_space() {
     let walls = [
-        spec(box_of([0.0; 3], [12.0, 10.0, 8.0], "tank", false)),
-        spec(box_of([5.0, 4.0, 0.0], [6.0, 6.0, 1.5], "block", true)),
+        boxed("tank", [0.0; 3], [12.0, 10.0, 8.0]).reversed(),
+        boxed("block", [5.0, 4.0, 0.0], [6.0, 6.0, 1.5]),
     ];
-    let scales = scales::<3, SpatialWalls>(&walls);
+    let walls = walls.map(|surface| WallSpec::at_rest(Drawing::Surface(surface)));
     let inside =
         |y: &Vect<3>| (5.0..6.0).contains(&y[0]) && (4.0..6.0).contains(&y[1]) && y[2] < 1.5;
     let fluid = |y: &Vect<3>| y.iter().all(|v| *v > 0.0) && !inside(y);
-    for x in [
+    let places = [
         [0.3, 0.3, 0.3],
         [4.8, 5.0, 0.2],
         [4.8, 3.8, 1.6],
         [5.5, 5.0, 1.8],
         [6.5, 4.0, 0.5],
-    ] {
-        let whole = product(&scales, x.into(), 0.05, fluid);
-        assert!((whole - 1.0).abs() < 1.2e-2, "{x:?}: {whole}");
-    }
+    ];
+    check::<3, SpatialWalls>(&walls, [0.05, 1.2e-2], &places, fluid);
 }

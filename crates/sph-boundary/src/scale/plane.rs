@@ -173,14 +173,10 @@ mod tests {
         let kernel = sph_kernels::by_name("wendland-c2").expect("a kernel");
         let [plane, space] = [2, 3].map(|d| PlaneScale::new(&kernel, d));
         for (distance, in_plane, in_space) in known {
-            assert!(
-                (plane.at(distance)[0].exp() - in_plane).abs() < 1e-6,
-                "{distance}"
-            );
-            assert!(
-                (space.at(distance)[0].exp() - in_space).abs() < 1e-6,
-                "{distance}"
-            );
+            for (scale, expected) in [(&plane, in_plane), (&space, in_space)] {
+                let off = scale.at(distance)[0].exp() - expected;
+                assert!(off.abs() < 1e-6, "{distance}: {off:e}");
+            }
         }
     }
 

@@ -39,16 +39,11 @@ impl<const D: usize> Grid<D> {
         })
     }
 
-    /// The numbers of a node along every axis.
-    pub fn numbers(&self, node: usize) -> [usize; D] {
-        let strides = self.strides();
-        std::array::from_fn(|k| node / strides[k] % self.nodes[k])
-    }
-
     /// The place of a node, m.
     pub fn place(&self, node: usize) -> Vect<D> {
-        let numbers = self.numbers(node);
-        Vect::from_fn(|k, _| self.low[k] + numbers[k] as f64 * self.step)
+        let strides = self.strides();
+        let number = |k: usize| node / strides[k] % self.nodes[k];
+        Vect::from_fn(|k, _| self.low[k] + number(k) as f64 * self.step)
     }
 
     /// The cell that a place is in, by its first node, and where in it; none outside of all cells with four nodes around.

@@ -7,7 +7,7 @@ use sph_core::{Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
 use crate::geometry::sets::Sets;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
@@ -40,11 +40,11 @@ struct Group<const D: usize, M> {
 
 /// Walls of a mesh that have nodes in common, by their numbers: sets of walls without a common node.
 fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usize>> {
-    let mut wall_at: Vec<Option<usize>> = mesh.points().map(|_| None).collect();
+    let mut wall_at = vec![None; mesh.nodes().len()];
     let mut sets = Sets::new(walls);
     for element in mesh.elements() {
-        for corner in element.corners {
-            let other = *wall_at[corner as usize].get_or_insert(element.wall);
+        for node in element.nodes {
+            let other = *wall_at[node].get_or_insert(element.wall);
             sets.join([other, element.wall]);
         }
     }

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use sph_core::Vect;
-use sph_neighbours::Domain;
 
-use crate::geometry::wall_mesh::{MeshElement, MeshPoint, WallMesh};
+use crate::geometry::vector::{bounds, widened};
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
-use crate::{Touch, WallSpec};
+use crate::{Element, Node, Touch, WallSpec};
 
 /// Distance at which surfaces begin to push, over the spacing: a row of particles fits between them. Particles that are
 /// caught between surfaces half a spacing apart are few for their room, and tension draws them to a clump.
@@ -60,39 +60,6 @@ fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Bounds of a body.
-struct Extent<const D: usize> {
-    low: Vect<D>,
-    high: Vect<D>,
-}
-
-impl<const D: usize> Extent<D> {
-    fn bounds_of(places: impl Iterator<Item = Vect<D>>, margin: f64) -> Self {
-        let none = Extent {
-            low: Vect::repeat(f64::INFINITY),
-            high: Vect::repeat(f64::NEG_INFINITY),
-        };
-        let mut extent = places.fold(none, |e: Self, x| Extent {
-            low: e.low.inf(&x),
-            high: e.high.sup(&x),
-        });
-        extent.low.add_scalar_mut(-margin);
-        extent.high.add_scalar_mut(margin);
-        extent
-    }
-
-    fn centre(&self) -> Vect<D> {
-        (self.low + self.high) * 0.5
-    }
-
-    /// True if a ball may reach into it.
-    fn sees(&self, x: &Vect<D>, radius: f64, domain: &Domain<D>) -> bool {
-        let apart = domain.nearest(x - self.centre());
-        let half = (self.high - self.low) * 0.5;
-        (0..D).all(|k| apart[k].abs() <= half[k] + radius)
-    }
-}
-
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Distances at which walls begin to push that are drawn nearer to each other than a spacing, m.
     pub fn drawn_gaps(&self) -> BTreeMap<[usize; 2], f64> {
@@ -119,31 +86,39 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// All pieces of surfaces of which one moves freely and that may meet within a step.
     pub(crate) fn near_pairs(&self, touches: &[Option<Touch>]) -> Vec<SurfacePair<D>> {
-        let nodes: Vec<MeshPoint<D>> = self.mesh.points().collect();
-        let elements: Vec<MeshElement<D>> = self.mesh.elements().collect();
+        let nodes = self.mesh.nodes();
         let reach = REACH * self.spacing;
         let mut all = Vec::new();
         let free = (0..touches.len()).filter(|k| touches[*k].is_some() && self.groups[*k] == *k);
         for body in free {
             let own = nodes.iter().filter(|n| self.groups[n.wall] == body);
-            let extent = Extent::bounds_of(own.map(|n| n.position), reach);
-            let seen = |e: &&MeshElement<D>| {
-                let corners = e.corners.map(|c| nodes[c as usize].position);
-                let size = corners.map(|c| (c - e.centre).norm()).into_iter();
-                extent.sees(&e.centre, size.fold(0.0, f64::max), &self.domain)
+            let extent = widened(bounds(own.map(|n| n.position)), reach);
+            let [low, high] = extent.map(Vect::<D>::from);
+            let (centre, half) = ((low + high) * 0.5, (high - low) * 0.5);
+            // True if a ball may reach into the box around the body.
+            let meets = |x: &Vect<D>, radius: f64| {
+                let apart = self.domain.nearest(x - centre);
+                (0..D).all(|k| apart[k].abs() <= half[k] + radius)
             };
+            let seen = |e: &&Element<D>| {
+                let centre = Vect::from(e.centre);
+                let size = e
+                    .nodes
+                    .map(|n| (Vect::from(nodes[n].position) - centre).norm());
+                meets(&centre, size.into_iter().fold(0.0, f64::max))
+            };
+            let elements = self.mesh.elements().iter().filter(seen);
             let (own, others): (Vec<_>, Vec<_>) =
-                (elements.iter().filter(seen)).partition(|e| self.groups[e.wall] == body);
+                elements.partition(|e| self.groups[e.wall] == body);
             if others.is_empty() {
                 continue;
             }
-            for node in &nodes {
+            for node in nodes {
                 let group = self.groups[node.wall];
                 if group == body {
-                    self.look(node, &others, &nodes, &mut all);
-                } else if touches[group].is_none() && extent.sees(&node.position, 0.0, &self.domain)
-                {
-                    self.look(node, &own, &nodes, &mut all);
+                    self.look(node, &others, &mut all);
+                } else if touches[group].is_none() && meets(&node.position.into(), 0.0) {
+                    self.look(node, &own, &mut all);
                 }
             }
         }
@@ -151,26 +126,22 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// The nearest element of every other group of walls, if it is near enough.
-    fn look(
-        &self,
-        node: &MeshPoint<D>,
-        elements: &[&MeshElement<D>],
-        nodes: &[MeshPoint<D>],
-        found: &mut Vec<SurfacePair<D>>,
-    ) {
-        let mut nearest = BTreeMap::<usize, (f64, Vect<D>, &MeshElement<D>)>::new();
-        let to = |c: u32| nodes[c as usize].position - node.position;
+    fn look(&self, node: &Node<D>, elements: &[&Element<D>], found: &mut Vec<SurfacePair<D>>) {
+        let mut nearest = BTreeMap::<usize, (f64, Vect<D>, &Element<D>)>::new();
+        let (nodes, here) = (self.mesh.nodes(), Vect::from(node.position));
+        let to = |n: usize| Vect::from(nodes[n].position) - here;
+        let over = |element: &Element<D>, way: &Vect<D>| Vect::from(element.normal).dot(way);
         for element in elements {
-            let first = self.domain.nearest(to(element.corners[0]));
+            let first = self.domain.nearest(to(element.nodes[0]));
             let corners = element
-                .corners
-                .map(|c| first + self.domain.nearest(to(c) - first));
+                .nodes
+                .map(|n| first + self.domain.nearest(to(n) - first));
             let there = nearest_place(&corners);
             let distance = there.norm();
             let entry = nearest.entry(self.groups[element.wall]);
             let entry = entry.or_insert((f64::INFINITY, there, element));
             // At a corner the element that faces the place most gives its side.
-            let faces = element.normal.dot(&there).abs() > entry.2.normal.dot(&entry.1).abs();
+            let faces = over(element, &there).abs() > over(entry.2, &entry.1).abs();
             let same = (distance - entry.0).abs() <= 1e-9 * self.spacing;
             if (same && faces) || (!same && distance < entry.0) {
                 *entry = (distance, there, element);
@@ -178,23 +149,23 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
         let (reach, depth) = (REACH * self.spacing, DEPTH * self.spacing);
         for (group, (distance, there, element)) in nearest {
-            let outside = element.normal.dot(&there) <= 0.0;
+            let outside = over(element, &there) <= 0.0;
             let height = if outside { distance } else { -distance };
             if height >= reach || height <= -depth {
                 continue;
             }
             let away = match outside && distance > 1e-6 * self.spacing {
                 true => there / -distance,
-                false => element.normal,
+                false => element.normal.into(),
             };
             found.push(SurfacePair {
                 pair: [self.groups[node.wall], group],
                 walls: [node.wall, element.wall],
-                place: node.position + there * 0.5,
-                image: self.domain.nearest(to(element.corners[0])) - to(element.corners[0]),
+                place: here + there * 0.5,
+                image: self.domain.nearest(to(element.nodes[0])) - to(element.nodes[0]),
                 away,
                 height,
-                round: outside && away.dot(&element.normal) < 1.0 - 1e-9,
+                round: outside && over(element, &away) < 1.0 - 1e-9,
                 area: node.size * self.spacing.powi(D as i32 - 1),
             });
         }

@@ -69,6 +69,20 @@ pub struct WallSpec<const D: usize> {
     pub open: bool,
 }
 
+impl<const D: usize> WallSpec<D> {
+    /// A wall that stays, and to which the fluid sticks.
+    pub fn at_rest(drawing: Drawing) -> Self {
+        WallSpec {
+            drawing,
+            condition: WallCondition::NoSlip,
+            surface_velocity: Vect::zeros(),
+            motion: RigidMotion::default(),
+            mover: None,
+            open: false,
+        }
+    }
+}
+
 /// Input of a wall treatment.
 pub struct WallSetup<'a, const D: usize> {
     /// The walls of the scene.
@@ -116,20 +130,13 @@ pub trait WallShape<const D: usize> {
     fn contains(&self, point: &Vect<D>) -> bool;
 
     /// Winding number of walls with free ends around a point, positive where they face it; none of closed walls.
-    fn enclosed(&self, _point: &Vect<D>) -> Option<f64> {
-        None
-    }
+    fn enclosed(&self, point: &Vect<D>) -> Option<f64>;
 
     /// Distance of a point from the nearest wall, m, and that wall's name, if nearer than `within`.
     fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)>;
 
-    /// Lower and upper corner of the box around all walls, m.
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)>;
-
     /// True if any wall ends freely: particles that pass its end are outside.
-    fn ends_freely(&self) -> bool {
-        false
-    }
+    fn ends_freely(&self) -> bool;
 
     /// Refuses points near the free end of an open wall.
     ///
@@ -138,9 +145,7 @@ pub trait WallShape<const D: usize> {
     fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError>;
 
     /// The thinnest place of every wall that does not hide fluid on one side from fluid on the other; wet ones first.
-    fn thin_walls(&self, _points: &[Vect<D>]) -> Vec<ThinWall<D>> {
-        Vec::new()
-    }
+    fn thin_walls(&self, points: &[Vect<D>]) -> Vec<ThinWall<D>>;
 
     /// Remarks on the walls.
     fn warnings(&self) -> Vec<String>;
@@ -148,12 +153,6 @@ pub trait WallShape<const D: usize> {
 
 /// The motion of all walls of a scene.
 pub trait WallMotion<const D: usize> {
-    /// Moves walls with a prescribed motion to a time; those with movers are placed where they are.
-    ///
-    /// # Errors
-    /// If a wall cannot follow.
-    fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError>;
-
     /// Moves all walls from a time on by `dt`; movers get the [forces](WallSet::forces) that were measured last.
     ///
     /// # Errors
@@ -167,19 +166,13 @@ pub trait WallMotion<const D: usize> {
     ) -> Result<(), BoundaryError>;
 
     /// True if the mover of a wall, by its number, needs forces.
-    fn needs_forces(&self, _wall: usize) -> bool {
-        false
-    }
+    fn needs_forces(&self, wall: usize) -> bool;
 
     /// Gauges of the depth before walls with movers, by the numbers of these.
-    fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
-        Vec::new()
-    }
+    fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)>;
 
     /// [Numbers](crate::RigidState::numbers) of all walls with movers, one after the other.
-    fn states(&self) -> WallStates {
-        WallStates::default()
-    }
+    fn states(&self) -> WallStates;
 
     /// Puts all walls back where they were at a time.
     ///

@@ -3,11 +3,10 @@
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{
-    Contacts, Frame, LanePair, PairSum, Particles, Slopes, WallPoints, WallSet, World, add_scaled,
-    shepard, splat,
+    LanePair, PairSum, Particles, WallPoints, WallSet, World, add_scaled, shepard, splat,
 };
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::{Outline, shaped_by_outline};
@@ -55,9 +54,8 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let support = setup.kernel.support() * setup.smoothing_length;
         let rough = |w: &&WallSpec<D>| matches!(w.condition, WallCondition::Coulomb(_));
         if let Some(wall) = setup.walls.iter().find(rough) {
-            return Err(BoundaryError::NoElements {
-                wall: wall.drawing.name().into(),
-            });
+            let why = "has Coulomb's friction, which needs the wall elements of `walls.usaw`";
+            return Err(BoundaryError::unfit(wall.drawing.name(), why));
         }
         let outline = Outline::<D, M>::new(setup, support, setup.spacing)?;
         // The mesh stands where it is at time 0; the layers move from there.
@@ -88,21 +86,18 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     ) -> Result<(), BoundaryError> {
         if self.outline.moves() {
             way(&mut self.outline)?;
-            walls.frames = self.outline.frames();
-            self.place(&mut walls.points, &walls.frames);
-            walls.pulls = self.outline.pulls();
-            walls.bodies.clone_from(&self.outline.bodies);
-            walls.beds.clone_from(&self.outline.beds[0]);
+            self.place(walls);
         }
         Ok(())
     }
 
-    fn place(&self, points: &mut WallPoints<D>, frames: &[Frame<D>]) {
-        let maps = self.outline.maps();
+    fn place(&self, walls: &mut WallSet<D>) {
+        self.outline.write(walls);
+        let (points, maps) = (&mut walls.points, self.outline.maps());
         for (v, (wall, drawn)) in self.drawn.iter().enumerate() {
             let position = maps[*wall]((*drawn).into()).into();
             let movement = self.outline.movement(*wall, &position);
-            points.position[v] = Outline::<D, M>::in_box(frames, *wall, position);
+            points.position[v] = Outline::<D, M>::in_box(&walls.frames, *wall, position);
             points.velocity[v] = movement.velocity;
             if let Some(acceleration) = points.acceleration.get_mut(v) {
                 *acceleration = movement.acceleration;
@@ -136,26 +131,14 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
                 points.acceleration.push(Vect::zeros());
             }
         }
-        let (frames, pulls) = (set_up.outline.frames(), set_up.outline.pulls());
-        set_up.place(&mut points, &frames);
-        let names = set_up.outline.mesh.names().to_vec();
-        let bodies = set_up.outline.bodies.clone();
-        let beds = set_up.outline.beds[0].clone();
-        self.set_up = Some(set_up);
-        Ok(WallSet {
-            names,
+        let mut walls = WallSet {
+            names: set_up.outline.mesh.names().to_vec(),
             points,
-            elements: Default::default(),
-            contacts: Contacts::default(),
-            scales: false,
-            slopes: Slopes::default(),
-            frames,
-            bodies,
-            beds,
-            passed: Vec::new(),
-            pulls,
-            forces: Vec::new(),
-        })
+            ..WallSet::default()
+        };
+        set_up.place(&mut walls);
+        self.set_up = Some(set_up);
+        Ok(walls)
     }
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {

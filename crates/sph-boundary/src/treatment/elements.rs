@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{ContactBlock, Contacts, Slopes, WallSet, World};
+use sph_neighbours::{ContactBlock, WallSet, World};
 
 use crate::geometry::shells::Gammas;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
@@ -17,12 +17,11 @@ use crate::{BoundaryError, WallSetup};
 pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     pub outline: Outline<D, M>,
     integrals: M::Integrals,
-    spacing: f64,
     near: NearLists<D>,
     /// Moves of walls so far.
     moves: u64,
     /// Version of the near lists, moves and positions for which the contacts were found.
-    found_for: (u64, u64, Vec<Vect<D>>),
+    found_for: ((u64, u64), Vec<Vect<D>>),
     /// The last results, batch by batch; kept for their memory.
     found: Vec<BatchResults<M::Scratch>>,
     /// Least height of the particles of the near lists over the planes of their contacts, m; ∞ for
@@ -73,43 +72,40 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
 
     /// Positions, normals and movements of points and elements.
     fn place(&mut self, walls: &mut WallSet<D>) {
-        let nodes: Vec<_> = self.outline.mesh.points().collect();
         let bends = self.outline.bends();
         if walls.points.in_density() || bends {
             // All anew: shares follow from the time alone, whatever places a wall has been to.
-            for (v, node) in nodes.iter().enumerate() {
+            for (v, node) in self.outline.mesh.nodes().iter().enumerate() {
                 walls.points.share[v] = node.theta * node.size;
             }
         }
         if walls.points.in_density() {
-            for (v, share) in self.outline.covered(&nodes) {
+            for (v, share) in self.outline.covered() {
                 walls.points.share[v] = share;
             }
         }
         let outline = &self.outline;
-        walls.frames = outline.frames();
-        walls.pulls = outline.pulls();
-        walls.bodies.clone_from(&outline.bodies);
-        walls.beds.clone_from(&outline.beds[0]);
+        outline.write(walls);
         let points = &mut walls.points;
-        for (v, node) in nodes.iter().enumerate() {
-            let movement = outline.movement(node.wall, &node.position);
-            points.position[v] = Outline::<D, M>::in_box(&walls.frames, node.wall, node.position);
+        for (v, node) in outline.mesh.nodes().iter().enumerate() {
+            let place = Vect::from(node.position);
+            let movement = outline.movement(node.wall, &place);
+            points.position[v] = Outline::<D, M>::in_box(&walls.frames, node.wall, place);
             points.velocity[v] = movement.velocity;
             points.viscous_velocity[v] = movement.velocity;
             if let Some(acceleration) = points.acceleration.get_mut(v) {
                 *acceleration = movement.acceleration;
             }
-            if let Some((_, normal)) = points.slip.get_mut(v) {
-                *normal = node.normal;
-            }
+        }
+        for ((_, own), normal) in points.slip.iter_mut().zip(outline.mesh.normals()) {
+            *own = normal;
         }
         let elements = &mut walls.elements;
-        for (s, element) in outline.mesh.elements().enumerate() {
-            let movement = outline.movement(element.wall, &element.centre);
-            elements.centre[s] =
-                Outline::<D, M>::in_box(&walls.frames, element.wall, element.centre);
-            elements.normal[s] = element.normal;
+        for (s, element) in outline.mesh.elements().iter().enumerate() {
+            let centre = Vect::from(element.centre);
+            let movement = outline.movement(element.wall, &centre);
+            elements.centre[s] = Outline::<D, M>::in_box(&walls.frames, element.wall, centre);
+            elements.normal[s] = element.normal.into();
             elements.velocity[s] = movement.velocity;
             if bends {
                 elements.measure[s] = element.measure;
@@ -122,17 +118,16 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
 
     /// True if the contacts were found for these very positions of particles and walls.
     fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
-        let here = || self.near.particles.iter().map(|p| positions[*p as usize]);
-        let (version, moves, known) = &self.found_for;
-        let walls = (*version, *moves) == (self.near.version, self.moves);
-        if walls && here().eq(known.iter().copied()) {
-            return true;
+        let here = self.near.particles.iter().map(|p| positions[*p as usize]);
+        let now = (self.near.version, self.moves);
+        let (of, known) = &mut self.found_for;
+        let fresh = *of == now && here.clone().eq(known.iter().copied());
+        if !fresh {
+            *of = now;
+            known.clear();
+            known.extend(here);
         }
-        let (version, moves, known) = &mut self.found_for;
-        (*version, *moves) = (self.near.version, self.moves);
-        known.clear();
-        known.extend(self.near.particles.iter().map(|p| positions[*p as usize]));
-        false
+        fresh
     }
 
     /// Finds γ and contacts of all particles of the near lists, a block per batch; none of those that are `idle`, whose sums
@@ -210,17 +205,9 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let outline = Outline::<D, M>::new(setup, support, size)?;
         let mut walls = WallSet {
             names: outline.mesh.names().to_vec(),
-            points: outline.points(setup.spacing),
-            elements: outline.elements(setup.spacing),
-            contacts: Contacts::default(),
-            scales: false,
-            slopes: Slopes::default(),
-            frames: Vec::new(),
-            bodies: Vec::new(),
-            beds: Vec::new(),
-            passed: Vec::new(),
-            pulls: Vec::new(),
-            forces: Vec::new(),
+            points: outline.points(),
+            elements: outline.elements(),
+            ..WallSet::default()
         };
         if !vertices {
             walls.points.corners = walls.points.position.len();
@@ -229,10 +216,9 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let mut set_up = SetUp {
             outline,
             integrals,
-            spacing: setup.spacing,
             near: NearLists::default(),
             moves: 0,
-            found_for: (0, 0, Vec::new()),
+            found_for: Default::default(),
             found: Vec::new(),
             clearance: Vec::new(),
             means: Default::default(),
@@ -298,7 +284,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Pressures and volumes at points and elements.
     pub fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let [at_points, at_elements] = &mut self.means;
-        let whole = self.spacing.powi(D as i32);
+        let whole = self.outline.spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let lists = &world.lists;
         if points.in_density() {

@@ -6,7 +6,7 @@ use sph_neighbours::{ContactBlock, HiddenPairs, World};
 
 use crate::SeenElement;
 use crate::geometry::shells::Gammas;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 

@@ -1,5 +1,7 @@
 //! Walls that move together, and walls drawn in several pieces.
 
+use std::ops::Range;
+
 use crate::WallSpec;
 
 /// For every wall the first one that moves as it does.
@@ -19,6 +21,12 @@ pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
         groups.push(first);
     }
     groups
+}
+
+/// The pieces of a wall, by its first one.
+pub(crate) fn pieces<const D: usize>(walls: &[WallSpec<D>], first: usize) -> Range<usize> {
+    let more = (first + 1..walls.len()).take_while(|k| is_piece(walls, *k));
+    first..first + 1 + more.count()
 }
 
 /// True if a wall is a further piece of the one before it, of which there may be thousands.

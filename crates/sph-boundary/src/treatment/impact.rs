@@ -6,7 +6,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{FreeBody, WallForce, World, cross};
 
 use crate::NearElement;
-use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 

@@ -4,10 +4,10 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
-use crate::geometry::wall_mesh::WallMesh;
-use crate::treatment::groups::is_piece;
+use crate::geometry::walls::wall_mesh::WallMesh;
+use crate::treatment::groups::{is_piece, pieces};
 use crate::treatment::outline::Outline;
-use crate::{BoundaryError, Load, RigidState, WallSpec, WallStates};
+use crate::{BoundaryError, Load, Mover, RigidState, WallSpec, WallStates};
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
@@ -26,12 +26,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         specs.map(state).collect()
     }
 
-    /// Moves the mesh to the prescribed position at a time; returns whether anything moved.
-    pub fn move_to(&mut self, time: f64) -> Result<bool, BoundaryError> {
-        let states = self.states_at(time, &self.states);
-        self.put(states, time)
-    }
-
     /// Moves the mesh on by `dt`; returns whether anything moved.
     pub fn advance(
         &mut self,
@@ -45,14 +39,16 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.check_dry(&loads)?;
         let mut states = self.free_states(&mut loads, gravity, [time, dt])?;
         self.compare(&mut states, bodies, dt);
-        let before: Vec<_> = self.mesh.points().map(|p| p.position).collect();
+        let before = self.mesh.places();
         let moved = self.put(states, time + dt)?;
         let most = MOST_WAY * self.spacing;
-        for (point, before) in self.mesh.points().zip(before) {
-            let way = (point.position - before).norm();
+        for (node, before) in self.mesh.nodes().iter().zip(before) {
+            let way = (Vect::from(node.position) - before).norm();
             if way > most {
-                let wall = self.specs[point.wall].drawing.name().to_string();
-                return Err(BoundaryError::Leap { wall, way, most });
+                let why = format!(
+                    "moves by {way:.3e} m in one step, and {most:.3e} m, half a spacing, is the most"
+                );
+                return Err(BoundaryError::unfit(self.name(node.wall), why));
             }
         }
         Ok(moved)
@@ -68,9 +64,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             both.for_each(|(lift, rate)| *lift += dt * rate);
             let highest = grown.lift.iter().fold(0.0, |a: f64, b| a.max(*b));
             if highest.is_nan() || highest >= HIGHEST * grown.fade {
-                let wall = self.specs[grown.walls[0] as usize].drawing.name();
                 return Err(BoundaryError::Buried {
-                    wall: wall.to_string(),
+                    wall: self.name(grown.walls[0] as usize),
                     rise: highest,
                     height: grown.fade,
                 });
@@ -84,7 +79,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     fn check_dry(&self, loads: &[Load<D>]) -> Result<(), BoundaryError> {
         for (k, touch) in self.touches().into_iter().enumerate() {
             if touch.is_some_and(|t| t.dry) && loads[k].force != Vect::<D>::zeros() {
-                let wall = self.specs[k].drawing.name().to_string();
+                let wall = self.name(k);
                 return Err(BoundaryError::Light { wall });
             }
         }
@@ -93,17 +88,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Notes how fast velocities changed over a step, and by how much otherwise than the solves have expected.
     fn compare(&self, states: &mut [RigidState<D>], bodies: &[FreeBody<D>], dt: f64) {
-        for k in 0..states.len() {
-            if is_piece(&self.specs, k) {
-                states[k] = states[k - 1];
-            } else if self.specs[k].mover.is_some() {
-                let rate = states[k].rate_from(&self.states[k], dt);
-                states[k].rate = rate;
-                if let Some(body) = bodies.iter().find(|body| body.is(k)) {
-                    let missed = |i: usize| rate[i] * dt - body.expected[i];
-                    states[k].missed = std::array::from_fn(missed);
-                }
+        for (k, _) in self.movers() {
+            let mut state = states[k];
+            state.rate = state.rate_from(&self.states[k], dt);
+            if let Some(body) = bodies.iter().find(|body| body.is(k)) {
+                let missed = |i: usize| state.rate[i] * dt - body.expected[i];
+                state.missed = std::array::from_fn(missed);
             }
+            states[pieces(&self.specs, k)].fill(state);
         }
     }
 
@@ -118,16 +110,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         [time, dt]: [f64; 2],
     ) -> Result<Vec<RigidState<D>>, BoundaryError> {
         let mut states = self.states_at(time + dt, from);
-        for k in 0..states.len() {
-            if is_piece(&self.specs, k) {
-                states[k] = states[k - 1];
-            } else if let Some(mover) = &self.specs[k].mover {
-                states[k] = mover.next(&from[k], &loads[k], time, dt);
-                if RigidState::<D>::from_numbers(&states[k].numbers()).is_none() {
-                    let wall = self.specs[k].drawing.name().to_string();
-                    return Err(BoundaryError::Motion { wall });
-                }
+        for (k, mover) in self.movers() {
+            let state = mover.next(&from[k], &loads[k], time, dt);
+            if RigidState::<D>::from_numbers(&state.numbers()).is_none() {
+                let wall = self.name(k);
+                return Err(BoundaryError::Motion { wall });
             }
+            states[pieces(&self.specs, k)].fill(state);
         }
         Ok(states)
     }
@@ -138,9 +127,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             return Load::of_gravity(gravity);
         }
         let mut whole = WallForce::zero();
-        let pieces =
-            (wall..self.specs.len()).take_while(|k| *k == wall || is_piece(&self.specs, *k));
-        for k in pieces {
+        for k in pieces(&self.specs, wall) {
             let parts = [forces.get(k), self.struck.get(k)];
             parts.into_iter().flatten().for_each(|f| whole.add(f));
         }
@@ -160,11 +147,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Gauges of the depth before walls with movers.
     pub fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
-        let look = |k: usize| {
-            let mover = self.specs[k].mover.as_ref()?;
-            Some((k, mover.looks(&self.states[k])?))
-        };
-        self.moved().filter_map(look).collect()
+        let all = self.movers();
+        all.filter_map(|(k, mover)| Some((k, mover.looks(&self.states[k])?)))
+            .collect()
     }
 
     /// True if any mover needs forces.
@@ -173,15 +158,16 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// The walls with movers, each by its first piece.
-    fn moved(&self) -> impl Iterator<Item = usize> {
-        let all = 0..self.specs.len();
-        all.filter(|k| self.specs[*k].mover.is_some() && !is_piece(&self.specs, *k))
+    fn movers(&self) -> impl Iterator<Item = (usize, &dyn Mover<D>)> {
+        let all = (0..self.specs.len()).filter(|k| !is_piece(&self.specs, *k));
+        all.filter_map(|k| Some((k, self.specs[k].mover.as_deref()?)))
     }
 
     /// Numbers of the walls with movers.
     pub fn numbers(&self) -> WallStates {
         let of = |states: &[RigidState<D>]| -> Vec<f64> {
-            self.moved().flat_map(|k| states[k].numbers()).collect()
+            let all = self.movers().flat_map(|(k, _)| states[k].numbers());
+            all.collect()
         };
         let [now, listed] = [(&self.states, &self.beds[0]), (&self.listed, &self.beds[1])];
         let all = |(states, beds): (&Vec<RigidState<D>>, &Vec<Bed>)| {
@@ -198,22 +184,22 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool, BoundaryError> {
         let given = |numbers: &[f64]| {
             let mut states = self.states_at(time, &self.states);
-            let own = self.moved().count() * RigidState::<D>::NUMBERS;
+            let own = self.movers().count() * RigidState::<D>::NUMBERS;
             let (own, levels) = numbers.split_at(own.min(numbers.len()));
             let mut parts = own.chunks(RigidState::<D>::NUMBERS);
-            for k in self.moved() {
-                let wall = || self.specs[k].drawing.name().to_string();
+            let unsound = |wall: usize| BoundaryError::Motion {
+                wall: self.name(wall),
+            };
+            for (k, _) in self.movers() {
                 let part = parts.next().and_then(RigidState::from_numbers);
-                let state = part.ok_or_else(|| BoundaryError::Motion { wall: wall() })?;
-                let pieces = (k..states.len()).take_while(|p| *p == k || is_piece(&self.specs, *p));
-                pieces.for_each(|p| states[p] = state);
+                let state = part.ok_or_else(|| unsound(k))?;
+                states[pieces(&self.specs, k)].fill(state);
             }
             let mut beds = self.beds[0].clone();
             let mut rest = levels;
             for bed in &mut beds {
-                let wall = || self.specs[bed.walls[0] as usize].drawing.name().to_string();
-                let wall = wall();
-                rest = bed.put(rest).ok_or(BoundaryError::Motion { wall })?;
+                let wall = bed.walls[0] as usize;
+                rest = bed.put(rest).ok_or_else(|| unsound(wall))?;
             }
             Ok::<_, BoundaryError>((states, beds))
         };
@@ -231,7 +217,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
         let moved = !self.beds[0].is_empty() || !self.states.iter().map(|s| &s.pose).eq(&poses);
         if moved {
-            self.mesh.lay(&self.beds[0]);
+            self.mesh.walls_mut().lay(&self.beds[0]);
             self.mesh.move_walls(&poses)?;
         }
         self.states = states;
@@ -241,12 +227,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// The walls that forces move, as they are at a time.
     pub fn bodies_at(&self, time: f64) -> Vec<FreeBody<D>> {
-        let body = |k: usize| {
-            let state = &self.states[k];
-            let mobility = self.specs[k].mover.as_ref()?.mobility(state, time)?;
-            let more = (k + 1..self.specs.len()).take_while(|p| is_piece(&self.specs, *p));
+        let body = |(k, mover): (usize, &dyn Mover<D>)| {
+            let (state, walls) = (&self.states[k], pieces(&self.specs, k));
+            let mobility = mover.mobility(state, time)?;
             Some(FreeBody {
-                walls: k as u32..(k + 1 + more.count()) as u32,
+                walls: walls.start as u32..walls.end as u32,
                 place: state.place(),
                 domain: self.domain.clone(),
                 mobility,
@@ -255,7 +240,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 expected: Default::default(),
             })
         };
-        self.moved().filter_map(body).collect()
+        self.movers().filter_map(body).collect()
     }
 
     /// Asks the mesh something as if the walls were where they were at the last build of the lists, at a time.
@@ -278,10 +263,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         if there == here {
             return Ok(ask(&self.mesh));
         }
-        self.mesh.lay(&self.beds[1]);
+        self.mesh.walls_mut().lay(&self.beds[1]);
         self.mesh.move_walls(&there)?;
         let answer = ask(&self.mesh);
-        self.mesh.lay(&self.beds[0]);
+        self.mesh.walls_mut().lay(&self.beds[0]);
         self.mesh.move_walls(&here)?;
         Ok(answer)
     }

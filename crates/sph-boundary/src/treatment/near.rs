@@ -5,7 +5,7 @@ use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::World;
 
 use crate::NearElement;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
 
@@ -105,8 +105,8 @@ impl<const D: usize> NearLists<D> {
         }
         self.built_for = world.lists.builds;
         self.version += 1;
-        let (support, farthest) = (outline.support, outline.farthest());
-        let radius = (world.reach() + SKIN * support).min(farthest);
+        let radius = world.reach() + SKIN * outline.support;
+        let radius = radius.min(outline.mesh.walls().reach);
         let skin = (radius - world.reach()).max(0.0);
         let positions = &world.lists.reference;
         let identities = world.free.get(fields::IDENTITY).ok();
@@ -115,7 +115,7 @@ impl<const D: usize> NearLists<D> {
         self.behind.clear();
         let search = |mesh: &M| {
             if moves {
-                self.travel(mesh.points().map(|p| p.position).collect());
+                self.travel(mesh.places());
             }
             self.follow(identities, positions.len());
             self.search(mesh, positions, radius, skin);

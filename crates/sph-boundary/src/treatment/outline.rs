@@ -4,15 +4,17 @@ use std::collections::BTreeMap;
 
 use sph_core::Vect;
 use sph_core::bed::Bed;
-use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints};
+use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
 
-use crate::geometry::cover::Cover;
 use crate::geometry::mesh::bed_of;
-use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
-use crate::limits::MOST_PERIODS;
+use crate::geometry::walls::cover::Cover;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::kernel_reach::far_sight;
 use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+
+/// Most periods that walls may reach across: images are counted in a byte.
+const MOST_PERIODS: f64 = 100.0;
 
 /// Range of queries, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
@@ -95,6 +97,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         Ok(outline)
     }
 
+    /// Name of a wall.
+    pub fn name(&self, wall: usize) -> String {
+        self.specs[wall].drawing.name().to_string()
+    }
+
     /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
     pub fn movement(&self, wall: usize, point: &Vect<D>) -> Movement<D> {
         self.movement_in(&self.states[wall], wall, point)
@@ -128,11 +135,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.specs.iter().any(|s| s.motion.bends())
     }
 
-    /// Largest range of queries of the mesh, m.
-    pub fn farthest(&self) -> f64 {
-        FARTHEST * self.support
-    }
-
     /// True if any wall ever moves.
     pub fn moves(&self) -> bool {
         self.specs
@@ -141,13 +143,12 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Shares of the nodes of which walls that move otherwise may take a part.
-    pub fn covered(&mut self, nodes: &[MeshPoint<D>]) -> Vec<(usize, f64)> {
+    pub fn covered(&mut self) -> Vec<(usize, f64)> {
         if self.groups.iter().all(|g| *g == self.groups[0]) {
             return Vec::new();
         }
-        let visible = self
-            .cover
-            .shares(&self.mesh, nodes, &self.groups, self.spacing);
+        let visible = self.cover.shares(&self.mesh, &self.groups, self.spacing);
+        let nodes = self.mesh.nodes();
         let share = |(v, part): (usize, f64)| (v, part * nodes[v].theta * nodes[v].size);
         visible.into_iter().map(share).collect()
     }
@@ -160,9 +161,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
         let mut boxes = vec![none; self.states.len()];
         if self.domain.periodic.contains(&true) {
-            for point in self.mesh.points() {
-                let [low, high] = &mut boxes[point.wall];
-                (*low, *high) = (low.inf(&point.position), high.sup(&point.position));
+            for node in self.mesh.nodes() {
+                let ([low, high], place) = (&mut boxes[node.wall], node.position.into());
+                (*low, *high) = (low.inf(&place), high.sup(&place));
             }
         }
         let round = |[low, high]: [Vect<D>; 2]| {
@@ -203,6 +204,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.flat_map(of_wall).collect()
     }
 
+    /// Writes frames, bodies, beds and the pulls of lines as they are.
+    pub fn write(&self, walls: &mut WallSet<D>) {
+        walls.frames = self.frames();
+        walls.pulls = self.pulls();
+        walls.bodies.clone_from(&self.bodies);
+        walls.beds.clone_from(&self.beds[0]);
+    }
+
     /// True if any wall slips partly.
     pub fn slips(&self) -> bool {
         self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
@@ -214,14 +223,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// The nodes as wall points, at rest without fluid around.
-    pub fn points(&self, spacing: f64) -> WallPoints<D> {
+    pub fn points(&self) -> WallPoints<D> {
         let mut points = WallPoints::default();
         let (moves, slips) = (self.moves(), self.slips());
-        for node in self.mesh.points() {
+        for (node, normal) in self.mesh.nodes().iter().zip(self.mesh.normals()) {
             let condition = &self.specs[node.wall].condition;
-            points.position.push(node.position);
+            points.position.push(node.position.into());
             points.share.push(node.theta * node.size);
-            points.volume.push(spacing.powi(D as i32));
+            points.volume.push(self.spacing.powi(D as i32));
             points.pressure.push(0.0);
             points.friction_factor.push(condition.friction_factor());
             points.wall.push(node.wall as u32);
@@ -231,14 +240,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 points.acceleration.push(Vect::zeros());
             }
             if slips {
-                points.slip.push((condition.slip_length(), node.normal));
+                points.slip.push((condition.slip_length(), normal));
             }
         }
         points
     }
 
     /// The elements, at rest without fluid around.
-    pub fn elements(&self, spacing: f64) -> Elements<D> {
+    pub fn elements(&self) -> Elements<D> {
         let mut elements = Elements::default();
         let (moves, slips) = (self.moves(), self.slips());
         let rubs = self
@@ -247,15 +256,15 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             .any(|s| s.condition.coulomb().coefficient > 0.0);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
-            elements.centre.push(element.centre);
-            elements.normal.push(element.normal);
+            elements.centre.push(element.centre.into());
+            elements.normal.push(element.normal.into());
             elements.velocity.push(Vect::zeros());
             elements.measure.push(element.measure);
-            elements.volume.push(spacing.powi(D as i32));
+            elements.volume.push(self.spacing.powi(D as i32));
             elements.pressure.push(0.0);
             elements.friction_factor.push(condition.friction_factor());
             elements.wall.push(element.wall as u32);
-            elements.corners.push(element.corners);
+            elements.corners.push(element.nodes.map(|n| n as u32));
             if moves {
                 elements.acceleration.push(Vect::zeros());
             }
@@ -287,8 +296,10 @@ fn check_reach<const D: usize>(
     for spec in walls {
         let periods = domain.periods_to(spec.drawing.points().into_iter());
         if periods > MOST_PERIODS {
-            let wall = spec.drawing.name().to_string();
-            return Err(BoundaryError::ManyPeriods { wall, periods });
+            let why = format!(
+                "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period of it"
+            );
+            return Err(BoundaryError::unfit(spec.drawing.name(), why));
         }
     }
     Ok(())
@@ -298,55 +309,46 @@ fn check_reach<const D: usize>(
 /// and elements of the walls.
 macro_rules! shaped_by_outline {
     ($treatment:ident) => {
+        impl<const D: usize, M: WallMesh<D>> $treatment<D, M> {
+            fn outline(&self) -> Option<&crate::treatment::outline::Outline<D, M>> {
+                self.set_up.as_ref().map(|s| &s.outline)
+            }
+        }
+
         impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {
             fn contains(&self, point: &Vect<D>) -> bool {
-                let set_up = self.set_up.as_ref();
-                set_up.is_none_or(|s| s.outline.mesh.contains(point))
+                self.outline().is_none_or(|o| o.mesh.contains(point))
             }
 
             fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
-                self.set_up.as_ref()?.outline.mesh.enclosed(point)
+                self.outline()?.mesh.enclosed(point)
             }
 
             fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
-                self.set_up.as_ref()?.outline.clearance(point, within)
-            }
-
-            fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-                self.set_up.as_ref()?.outline.mesh.bounds()
+                self.outline()?.clearance(point, within)
             }
 
             fn ends_freely(&self) -> bool {
-                let set_up = self.set_up.as_ref();
-                set_up.is_some_and(|s| s.outline.mesh.shells().any())
+                self.outline().is_some_and(|o| o.mesh.shells().any())
             }
 
             fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
-                match &self.set_up {
-                    Some(SetUp { outline, .. }) => {
-                        outline.mesh.check_free_ends(points, outline.support)
-                    }
-                    None => Ok(()),
-                }
+                self.outline()
+                    .map_or(Ok(()), |o| o.mesh.check_free_ends(points, o.support))
             }
 
             fn thin_walls(&self, points: &[Vect<D>]) -> Vec<crate::ThinWall<D>> {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or_else(Vec::new, |s| s.outline.thin_walls(points))
+                self.outline().map_or(Vec::new(), |o| o.thin_walls(points))
             }
 
             fn warnings(&self) -> Vec<String> {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or(Vec::new(), |s| s.outline.mesh.warnings())
+                let mesh = self.outline().map(|o| &o.mesh.walls().mesh);
+                let all = mesh.into_iter().flat_map(|mesh| &mesh.warnings);
+                all.map(ToString::to_string).collect()
             }
         }
 
         impl<const D: usize, M: WallMesh<D>> crate::WallMotion<D> for $treatment<D, M> {
-            fn move_to(&mut self, walls: &mut WallSet<D>, time: f64) -> Result<(), BoundaryError> {
-                let set_up = self.set_up.as_mut();
-                set_up.map_or(Ok(()), |s| s.moved(walls, |outline| outline.move_to(time)))
-            }
-
             fn advance(
                 &mut self,
                 walls: &mut WallSet<D>,
@@ -369,18 +371,15 @@ macro_rules! shaped_by_outline {
             }
 
             fn needs_forces(&self, wall: usize) -> bool {
-                let set_up = self.set_up.as_ref();
-                set_up.is_some_and(|s| s.outline.needs_forces(wall))
+                self.outline().is_some_and(|o| o.needs_forces(wall))
             }
 
             fn depth_gauges(&self) -> Vec<(usize, sph_neighbours::DepthGauge<D>)> {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or_else(Vec::new, |s| s.outline.depth_gauges())
+                self.outline().map_or(Vec::new(), |o| o.depth_gauges())
             }
 
             fn states(&self) -> WallStates {
-                let set_up = self.set_up.as_ref();
-                set_up.map_or(WallStates::default(), |s| s.outline.numbers())
+                self.outline().map(|o| o.numbers()).unwrap_or_default()
             }
 
             fn put_back(

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use sph_core::Vect;
 use sph_core::place_cells::offsets;
 
-use crate::geometry::wall_mesh::{MeshElement, WallMesh};
+use crate::Element;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::contract::ThinWall;
 use crate::treatment::outline::Outline;
 
@@ -25,19 +26,18 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let cell = |x: &Vect<D>| -> [i64; D] {
             std::array::from_fn(|k| (x[k] / self.spacing).floor() as i64)
         };
-        let all: Vec<MeshElement<D>> = self.mesh.elements().collect();
+        let all = self.mesh.elements();
         let most = self.far_sight - 0.5 * self.spacing;
         // Of elements far smaller than the spacing, one for all that look the same way from nearly the same place.
         let mut looked = HashSet::new();
-        let alike = |element: &MeshElement<D>| {
-            let place = cell(&(element.centre * ALIKE));
+        let alike = |element: &Element<D>| {
+            let place = cell(&(Vect::from(element.centre) * ALIKE));
             let way: [bool; D] = std::array::from_fn(|k| element.normal[k] < 0.0);
             (element.wall, place, way)
         };
         let some: Vec<_> = all.iter().filter(|e| looked.insert(alike(e))).collect();
-        let thin =
-            |element: &&MeshElement<D>| Some((self.thickness(element, &all, most)?, **element));
-        let mut thin: Vec<(f64, MeshElement<D>)> = some.par_iter().filter_map(thin).collect();
+        let thin = |element: &&Element<D>| Some((self.thickness(element, most)?, **element));
+        let mut thin: Vec<(f64, Element<D>)> = some.par_iter().filter_map(thin).collect();
         if thin.is_empty() {
             return Vec::new();
         }
@@ -48,13 +48,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             offsets().any(|d| filled.contains::<[i64; D]>(&near(d)))
         };
         let off = 1.5 * self.spacing;
-        let both = |t: f64, e: &MeshElement<D>| {
-            wet(e.centre + e.normal * off) && wet(e.centre - e.normal * (t + off))
+        let both = |t: f64, e: &Element<D>| {
+            let (centre, normal) = (Vect::from(e.centre), Vect::from(e.normal));
+            wet(centre + normal * off) && wet(centre - normal * (t + off))
         };
         thin.sort_by(|a, b| a.0.total_cmp(&b.0));
         let all = thin.iter().map(|(t, e)| ThinWall {
             wall: self.mesh.names()[e.wall].clone(),
-            place: e.centre,
+            place: e.centre.into(),
             thickness: *t,
             least: most,
             spacing: t / (self.far_sight / self.spacing - 0.5),
@@ -68,20 +69,17 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Distance of the nearest opposite face behind an element, if it is below `most`, m.
-    fn thickness(
-        &self,
-        element: &MeshElement<D>,
-        all: &[MeshElement<D>],
-        most: f64,
-    ) -> Option<f64> {
-        let (centre, way) = (&element.centre, element.normal * -most);
-        let near = self.mesh.near(centre, most);
+    fn thickness(&self, element: &Element<D>, most: f64) -> Option<f64> {
+        let (centre, normal) = (Vect::from(element.centre), Vect::from(element.normal));
+        let way = normal * -most;
+        let near = self.mesh.near(&centre, most);
         let behind = near.into_iter().filter_map(|near| {
-            let other = &all[near.index()];
-            let faces = other.normal.dot(&element.normal) < OPPOSITE;
-            (faces && self.mesh.is_crossed(near, centre, &way)).then(|| {
-                let apart = self.domain.nearest_image(centre - other.centre);
-                apart.dot(&other.normal).abs()
+            let other = &self.mesh.elements()[near.index()];
+            let (there, back) = (Vect::from(other.centre), Vect::from(other.normal));
+            let faces = back.dot(&normal) < OPPOSITE;
+            (faces && self.mesh.is_crossed(near, &centre, &way)).then(|| {
+                let apart = self.domain.nearest_image(centre - there);
+                apart.dot(&back).abs()
             })
         });
         behind.min_by(f64::total_cmp)

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_neighbours::{Hidden, HiddenPairs, World};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 
 impl<const D: usize> NearLists<D> {

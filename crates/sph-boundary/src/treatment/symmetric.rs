@@ -3,7 +3,7 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{Slope, WallSet, World};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::{Outline, shaped_by_outline};
@@ -55,13 +55,6 @@ struct Scales<const D: usize, M> {
     slopes: Vec<Vec<Slope<D>>>,
 }
 
-impl<const D: usize, M: WallMesh<D>> Symmetric<D, M> {
-    /// True if any wall moves, so that s changes at a fixed place.
-    fn moves(&self) -> bool {
-        self.set_up.as_ref().is_some_and(|s| s.outline.moves())
-    }
-}
-
 impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
     /// s, ∇ ln s and ∂ ln s/∂t of all particles, and which wall has which part.
     fn update(
@@ -108,8 +101,7 @@ fn nearest_image<const D: usize, M: WallMesh<D>>(
     if !world.domain.any_periodic() {
         return *x;
     }
-    let state = &outline.states[wall as usize];
-    let centre = Vect::from(state.centre) + Vect::from(state.pose.translation);
+    let centre = outline.states[wall as usize].place();
     centre + world.domain.nearest(x - centre)
 }
 
@@ -122,17 +114,16 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
 
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
         for spec in setup.walls {
-            let reason = match spec {
-                WallSpec { open: true, .. } => "lets fluid pass, and a scale is for closed walls",
+            let why = match spec {
+                WallSpec { open: true, .. } => {
+                    "lets fluid pass, and a scale is for closed walls; take `walls.usaw`"
+                }
                 WallSpec { motion, .. } if motion.bends() => {
-                    "bends, and a scale is for a constant shape"
+                    "bends, and a scale is for a constant shape; take `walls.usaw`"
                 }
                 _ => continue,
             };
-            return Err(BoundaryError::NotScaled {
-                wall: spec.drawing.name().into(),
-                reason,
-            });
+            return Err(BoundaryError::unfit(spec.drawing.name(), why));
         }
         let size = element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing);
         let (mut set_up, mut walls) = SetUp::<D, M>::build(setup, false, size)?;
@@ -141,7 +132,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             found: Vec::new(),
             slopes: Vec::new(),
         });
-        set_up.outline.mesh.meet_whole_faces();
+        set_up.outline.mesh.walls_mut().whole_faces = true;
         self.set_up = Some(set_up);
         walls.scales = true;
         Ok(walls)
@@ -153,18 +144,19 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             fields::SCALE.any(),
             fields::SCALE_SLOPE.any(),
         ];
-        if self.moves() {
+        // s changes at a fixed place.
+        if self.outline().is_some_and(Outline::moves) {
             columns.push(fields::SCALE_RATE.any());
         }
         columns
     }
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let moves = self.moves();
         let both = self.set_up.as_mut().zip(self.scales.as_mut());
         let (set_up, scales) = both.ok_or_else(not_built)?;
         set_up.geometry(world)?;
-        scales.update(world, moves.then_some(&set_up.outline))
+        let outline = &set_up.outline;
+        scales.update(world, outline.moves().then_some(outline))
     }
 
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {

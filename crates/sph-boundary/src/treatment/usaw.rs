@@ -3,7 +3,7 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{WallSet, World};
 
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::outline::shaped_by_outline;

@@ -34,7 +34,7 @@ fn a_square_is_cut_into_equal_segments() {
     assert_eq!(mesh.elements[5].normal, [-1.0, 0.0], "into the square");
     for (v, vertex) in mesh.nodes.iter().enumerate() {
         assert_eq!(vertex.theta, if v % 4 == 0 { 0.25 } else { 0.5 });
-        assert_eq!(mesh.beside(v), [Some((v + 15) % 16), Some(v)]);
+        assert_eq!(mesh.beside[v], [Some((v + 15) % 16), Some(v)]);
     }
     let outside = build(&[Polyline::closed("block", SQUARE.to_vec()).reversed()]).unwrap();
     assert_eq!(outside.nodes[0].theta, 0.75, "re-entrant");

@@ -9,6 +9,14 @@ const BED: Catenary = Catenary {
     bed: true,
 };
 
+/// A light chain that stretches.
+pub(crate) const CHAIN: Catenary = Catenary {
+    weight: 30.0,
+    axial: 2e4,
+    length: 2.0,
+    bed: true,
+};
+
 /// For a line that does not stretch, hanging l_s = √(z² + 2 z H/w) of its length (Faltinsen 1990, Eq. 8.11 to 8.24):
 /// x = L − l_s + H/w acosh(1 + w z/H), T = H + w z, and ∂H/∂x = w [acosh(1 + w z/H) − 2/√(1 + 2H/(w z))]⁻¹.
 #[test]
@@ -67,15 +75,9 @@ fn a_taut_light_line_is_a_spring() {
 /// slope of the tensions.
 #[test]
 fn the_end_is_where_it_is_held_and_the_stiffness_is_the_slope() {
-    let chain = Catenary {
-        weight: 30.0,
-        axial: 2e4,
-        length: 2.0,
-        bed: true,
-    };
     let mut worst = (0.0_f64, 0.0_f64);
     for bed in [true, false] {
-        let chain = Catenary { bed, ..chain };
+        let chain = Catenary { bed, ..CHAIN };
         for x in [0.0, 0.3, 1.0, 1.7, 1.9, 2.05] {
             for z in [0.001, 0.2, 0.6, 1.2, 1.9] {
                 let hang = chain.hang(x, z);
@@ -113,13 +115,7 @@ fn the_end_is_where_it_is_held_and_the_stiffness_is_the_slope() {
 /// A line that hangs straight down carries its own weight: z = V/w + V²/(2 EA w).
 #[test]
 fn a_slack_line_carries_what_hangs() {
-    let chain = Catenary {
-        weight: 30.0,
-        axial: 2e4,
-        length: 2.0,
-        bed: true,
-    };
-    let hang = chain.hang(0.5, 0.6);
+    let hang = CHAIN.hang(0.5, 0.6);
     assert_eq!(hang.across, 0.0);
     let (w, v) = (30.0, hang.up);
     assert!((v / w + v * v / (2.0 * 2e4 * w) - 0.6).abs() < 1e-12);
@@ -128,10 +124,8 @@ fn a_slack_line_carries_what_hangs() {
 #[test]
 fn the_shape_ends_at_its_end_and_never_goes_below_the_bed() {
     let chain = Catenary {
-        weight: 30.0,
         axial: 2e3,
-        length: 2.0,
-        bed: true,
+        ..CHAIN
     };
     for (x, z) in [(1.0, 0.6), (1.8, 0.6), (1.95, 0.6), (0.2, 0.6)] {
         let shape = chain.shape(&chain.hang(x, z), x, 32);

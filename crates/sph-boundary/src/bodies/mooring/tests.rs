@@ -1,4 +1,5 @@
 use super::*;
+use crate::bodies::catenary::tests::CHAIN;
 
 #[test]
 fn a_straight_line_pulls_and_never_pushes() {
@@ -26,10 +27,8 @@ fn a_straight_line_pulls_and_never_pushes() {
 #[test]
 fn the_stiffness_of_a_hanging_line_is_the_slope_of_its_force() {
     let catenary = Catenary {
-        weight: 30.0,
-        axial: 2e4,
-        length: 2.0,
         bed: false,
+        ..CHAIN
     };
     let up = Vector3::new(0.2, -0.1, 1.0).normalize();
     let line = Mooring {

@@ -4,11 +4,10 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, MOST_PAIRS};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::{add, bounds};
-use crate::limits::MOST_PAIRS;
 
 struct Edge {
     wall: usize,

@@ -57,11 +57,12 @@ impl Mesh<2> {
             let wall = walls[piece];
             mesh.cut(wall, line, joints.after[piece], &first_nodes);
             if joints.starts_free[piece] {
-                mesh.free_end(wall, WallEnd::First, first_nodes[piece]);
+                let (end, node) = (WallEnd::First, first_nodes[piece]);
+                mesh.free_ends.push(FreeEnd { wall, end, node });
             }
             if joints.after[piece] == Continuation::Free {
-                let last = mesh.nodes.len() - 1;
-                mesh.free_end(wall, WallEnd::Last, last);
+                let (end, node) = (WallEnd::Last, mesh.nodes.len() - 1);
+                mesh.free_ends.push(FreeEnd { wall, end, node });
             }
         }
         mesh.reference = mesh.nodes.iter().map(|node| node.position).collect();
@@ -116,9 +117,6 @@ impl ElementMeasures for Mesh<2> {
             self.find_angles();
         }
         self.size_nodes();
-        for free in &mut self.free_ends {
-            free.position = self.nodes[free.node].position;
-        }
     }
 }
 
@@ -130,7 +128,8 @@ impl Mesh<2> {
             for k in 0..count {
                 let along = k as f64 / count as f64;
                 let node = self.nodes.len();
-                self.push_node([0, 1].map(|i| a[i] + (b[i] - a[i]) * along), wall);
+                let position = [0, 1].map(|i| a[i] + (b[i] - a[i]) * along);
+                self.nodes.push(Node::new(position, wall));
                 self.elements.push(Element {
                     nodes: [node, node + 1],
                     images: [[0; 2]; 2],
@@ -143,7 +142,10 @@ impl Mesh<2> {
             }
         }
         match after {
-            Continuation::Free => self.push_node(line.points[line.points.len() - 1], wall),
+            Continuation::Free => {
+                let last = line.points[line.points.len() - 1];
+                self.nodes.push(Node::new(last, wall));
+            }
             Continuation::Start { wall: next, image } => {
                 if let Some(last) = self.elements.last_mut() {
                     last.nodes[1] = first_nodes[next];
@@ -151,25 +153,6 @@ impl Mesh<2> {
                 }
             }
         }
-    }
-
-    fn push_node(&mut self, position: [f64; 2], wall: usize) {
-        self.nodes.push(Node {
-            position,
-            theta: 0.5,
-            size: 0.0,
-            wall,
-        });
-    }
-
-    fn free_end(&mut self, wall: usize, end: WallEnd, node: usize) {
-        let position = self.nodes[node].position;
-        self.free_ends.push(FreeEnd {
-            wall,
-            end,
-            node,
-            position,
-        });
     }
 
     /// Fluid angles of the nodes.

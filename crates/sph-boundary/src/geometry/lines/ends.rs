@@ -14,8 +14,9 @@ impl Mesh<2> {
         kernel_radius: f64,
     ) -> Result<(), BoundaryError> {
         for free in &self.free_ends {
+            let position = self.nodes[free.node].position;
             let distance = |point: &[f64; 2]| {
-                let apart = [0, 1].map(|k| point[k] - free.position[k]);
+                let apart = [0, 1].map(|k| point[k] - position[k]);
                 let shift = self.domain.shift(self.domain.nearest_image(apart));
                 (apart[0] - shift[0]).hypot(apart[1] - shift[1])
             };
@@ -28,7 +29,7 @@ impl Mesh<2> {
                 return Err(BoundaryError::FreeEndInReach {
                     wall: self.walls[free.wall].clone(),
                     end: free.end,
-                    at: free.position.into(),
+                    at: position.into(),
                     particle,
                     distance,
                     radius: kernel_radius,

@@ -34,20 +34,17 @@ pub(super) fn joints(
     tolerance: f64,
     domain: &PeriodicBox,
 ) -> Result<Joints, BoundaryError> {
-    let own = |wall| Continuation::Start {
-        wall,
-        image: [0; 2],
+    let alone = |(wall, line): (usize, &Polyline)| match line.closed {
+        true => Continuation::Start {
+            wall,
+            image: [0; 2],
+        },
+        false => Continuation::Free,
     };
-    let after = polylines
-        .iter()
-        .enumerate()
-        .map(|(wall, line)| match line.closed {
-            true => own(wall),
-            false => Continuation::Free,
-        })
-        .collect();
-    let starts_free = polylines.iter().map(|line| !line.closed).collect();
-    let mut joints = Joints { after, starts_free };
+    let mut joints = Joints {
+        after: polylines.iter().enumerate().map(alone).collect(),
+        starts_free: polylines.iter().map(|line| !line.closed).collect(),
+    };
     let ends = open_ends(polylines);
     let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
     let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
@@ -112,24 +109,17 @@ fn near(tree: &BoxTree<2>, place: [f64; 2], tolerance: f64, domain: &PeriodicBox
 }
 
 fn open_ends(polylines: &[Polyline]) -> Vec<OpenEnd> {
-    let mut ends = Vec::new();
-    for (wall, line) in polylines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| !line.closed)
-    {
-        for (end, position) in [
-            (WallEnd::First, line.points.first()),
-            (WallEnd::Last, line.points.last()),
-        ] {
-            ends.extend(position.map(|&position| OpenEnd {
-                wall,
-                end,
-                position,
-            }));
-        }
-    }
-    ends
+    let ends = |(wall, line): (usize, &Polyline)| {
+        let last = line.points.len() - 1;
+        [(WallEnd::First, 0), (WallEnd::Last, last)].map(|(end, k)| OpenEnd {
+            wall,
+            end,
+            position: line.points[k],
+        })
+    };
+    let open = polylines.iter().enumerate();
+    let open = open.filter(|(_, line)| !line.closed);
+    open.flat_map(ends).collect()
 }
 
 /// The image of `there` that coincides with `here`, if one does.

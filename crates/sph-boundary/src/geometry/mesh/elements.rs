@@ -30,6 +30,18 @@ pub struct Node<const D: usize> {
     pub wall: usize,
 }
 
+impl<const D: usize> Node<D> {
+    /// With half the fluid around it and no size yet.
+    pub(crate) fn new(position: [f64; D], wall: usize) -> Self {
+        Node {
+            position,
+            theta: 0.5,
+            size: 0.0,
+            wall,
+        }
+    }
+}
+
 /// An element of the wall: a segment or a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element<const D: usize> {
@@ -97,8 +109,6 @@ pub struct FreeEdge {
 /// Free edges that hang together: a hole in a wall, or the rim of an open one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
-    /// Index of the wall, or of one of several.
-    pub wall: usize,
     /// Number of straight edges around it, before they are cut at the spacing.
     pub edges: usize,
     /// Diagonal of the box around it, m.
@@ -134,7 +144,7 @@ pub struct Mesh<const D: usize> {
     /// All elements, face by face.
     pub elements: Vec<Element<D>>,
     /// Of the plane, by node: the segments that end and begin there.
-    pub(crate) beside: Vec<[Option<usize>; 2]>,
+    pub beside: Vec<[Option<usize>; 2]>,
     /// Of the plane: ends that nothing continues.
     pub free_ends: Vec<FreeEnd>,
     /// Of space: all planar faces, wall by wall.
@@ -216,13 +226,6 @@ impl<const D: usize> Mesh<D> {
             return from;
         }
         add(from, self.domain.shift(image))
-    }
-}
-
-impl Mesh<2> {
-    /// Segments that end and begin at a node.
-    pub fn beside(&self, node: usize) -> [Option<usize>; 2] {
-        self.beside[node]
     }
 }
 

@@ -19,7 +19,8 @@ pub(super) const ROUNDING: f64 = 1e-9;
 /// all cells within its radius; one far from all walls finds nothing and costs nothing.
 #[derive(Clone, Debug)]
 pub struct Grid<const D: usize> {
-    reach: f64,
+    /// Largest radius of a query, m.
+    pub(super) reach: f64,
     /// Largest radius of a sphere, m.
     widest: f64,
     lower: [f64; D],
@@ -84,11 +85,6 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// Largest radius of a query, m.
-    pub(super) fn reach(&self) -> f64 {
-        self.reach
-    }
-
     /// Calls `found` with the place of every image whose sphere is in reach and its centre's squared distance, m².
     #[inline]
     pub(super) fn visit(&self, point: [f64; D], radius: f64, mut found: impl FnMut(usize, f64)) {
@@ -127,12 +123,5 @@ impl<const D: usize> Grid<D> {
             range[1][k] = (high as usize).min(self.cells[k] - 1);
         }
         Some(range)
-    }
-
-    /// Bytes that the grid holds.
-    pub fn memory(&self) -> usize {
-        size_of_val(self.starts.as_slice())
-            + size_of_val(self.entries.as_slice())
-            + size_of_val(self.spheres.as_slice())
     }
 }

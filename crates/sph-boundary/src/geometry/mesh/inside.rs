@@ -4,8 +4,7 @@ use super::closest::{Feature, angle, nearest_to_origin};
 use super::elements::Mesh;
 use super::grid::Grid;
 use super::near_element::NearElement;
-use super::rays::{Rays, flattened};
-use super::sides::Sides;
+use super::sides::{Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.

@@ -60,11 +60,6 @@ where
         Ok(())
     }
 
-    /// Sets the beds that walls follow, from the next motion on.
-    pub fn lay(&mut self, beds: &[Bed]) {
-        beds.clone_into(&mut self.beds);
-    }
-
     fn check_poses(&self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());
@@ -94,8 +89,8 @@ where
                 });
             }
             if element.images != [[0; D]; D] && pose.turns() {
-                let wall = name(wall);
-                return Err(BoundaryError::PeriodicWallRotated { wall });
+                let why = "is closed through periodicity and cannot rotate";
+                return Err(BoundaryError::unfit(name(wall), why));
             }
         }
         Ok(())

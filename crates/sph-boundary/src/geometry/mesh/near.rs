@@ -48,7 +48,7 @@ impl<const D: usize> Grid<D> {
         point: [f64; D],
         radius: f64,
     ) -> impl Iterator<Item = NearElement<D>> + 'a {
-        debug_assert!(radius <= self.reach(), "query beyond the reach of the grid");
+        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
         let mut found = Vec::new();
         self.visit(point, radius, |place, distance2| {
             let near = self.entries[place];

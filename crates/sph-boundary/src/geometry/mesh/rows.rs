@@ -30,7 +30,7 @@ impl<const D: usize> Grid<D> {
         counts: &mut Vec<u32>,
         rows: &mut Vec<NearElement<D>>,
     ) {
-        debug_assert!(radius <= self.reach(), "query beyond the reach of the grid");
+        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
         let mut candidates = Candidates::default();
         let mut rest = points;
         while !rest.is_empty() {

@@ -74,7 +74,9 @@ impl Mesh<3> {
             mesh.append(patch, filling, &mut nodes, &places);
         }
         mesh.check_count()?;
-        mesh.place_nodes(nodes.positions, nodes.walls);
+        let places = nodes.positions.iter().zip(&nodes.walls);
+        mesh.nodes = places.map(|(x, wall)| Node::new(*x, *wall)).collect();
+        mesh.reference = nodes.positions;
         for triangle in 0..mesh.elements.len() {
             mesh.measure(triangle);
         }
@@ -124,16 +126,11 @@ fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<Wa
         let all = pieces.iter().zip(seen);
         all.filter(|(p, seen)| p.wall == wall && !**seen).count()
     };
-    let counted = surfaces
-        .iter()
-        .enumerate()
-        .map(|(k, s)| (&s.name, unseen(k)));
+    let walls = surfaces.iter().map(|s| s.name.clone()).enumerate();
+    let counted = walls.map(|(k, wall)| (wall, unseen(k)));
     let some = counted.filter(|(_, faces)| *faces > 0);
-    some.map(|(wall, faces)| WallWarning::Unseen {
-        wall: wall.clone(),
-        faces,
-    })
-    .collect()
+    some.map(|(wall, faces)| WallWarning::Unseen { wall, faces })
+        .collect()
 }
 
 /// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
@@ -211,20 +208,6 @@ impl Mesh<3> {
                 normal: patch.normal,
             });
         }
-    }
-
-    /// Nodes with half the fluid around them and no size yet.
-    fn place_nodes(&mut self, positions: Vec<[f64; 3]>, walls: Vec<usize>) {
-        self.reference = positions;
-        let at = self.reference.iter().zip(walls);
-        self.nodes = at
-            .map(|(position, wall)| Node {
-                position: *position,
-                theta: 0.5,
-                size: 0.0,
-                wall,
-            })
-            .collect();
     }
 
     fn check_count(&self) -> Result<(), BoundaryError> {

@@ -6,10 +6,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use sph_core::BoxTree;
 
 use super::drawn::{Drawn, Surface};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, MOST_PAIRS};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
-use crate::limits::MOST_PAIRS;
 use crate::parallel::*;
 
 /// Two triangles of different walls of one group that cover each other face to face: `other`,

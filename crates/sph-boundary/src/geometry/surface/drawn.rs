@@ -54,7 +54,7 @@ pub(super) struct Drawn {
 pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
     let wall = || surface.name.clone();
     if surface.triangles.is_empty() {
-        return Err(BoundaryError::NoTriangles { wall: wall() });
+        return Err(BoundaryError::unfit(wall(), "has no triangle"));
     }
     let finite = |p: &Point| p.iter().all(|x| x.is_finite());
     if let Some(point) = surface.points.iter().position(|p| !finite(p)) {
@@ -85,12 +85,11 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), Bou
         let [low, high] = bounds(surface.triangles.iter().flat_map(corners));
         let extent = norm(sub(high, low));
         if extent < SMALLEST * spacing {
-            let wall = surface.name.clone();
-            return Err(BoundaryError::TooSmall {
-                wall,
-                extent,
-                spacing,
-            });
+            let why = format!(
+                "is {extent} m across, less than two spacings of {spacing} m: draw it larger, check the unit of length, \
+                 or take a smaller spacing"
+            );
+            return Err(BoundaryError::unfit(&surface.name, why));
         }
         // Two triangles to a square of the spacing.
         let cells = |t: &[u32; 3]| norm(double_area(corners(t))) / (spacing * spacing);

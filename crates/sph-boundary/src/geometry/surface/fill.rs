@@ -6,10 +6,11 @@ use std::collections::HashMap;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::lattice::Lattice;
-use super::patches::{Patch, in_plane, in_space};
+use super::patches::Patch;
 use super::places::Site;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::plane::Plane;
 use crate::geometry::vector::{Point, add, norm, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
@@ -66,9 +67,10 @@ pub(super) fn fill(
     let longest = (0..sides.len()).find(|e| length(*e) >= (1.0 - ROUNDING) * most);
     let longest = longest.ok_or("it has no edges")?;
     let origin = at(sides[longest][0]);
-    let axes = patch.axes(sub(at(sides[longest][sides[longest].len() - 1]), origin));
-    let flat = |site: Site| in_plane(at(site), origin, &axes);
-    if let Some(filling) = rectangle(sides, longest, &flat, (origin, &axes), spacing) {
+    let direction = sub(at(sides[longest][sides[longest].len() - 1]), origin);
+    let plane = Plane::along(direction, origin, patch.normal);
+    let flat = |site: Site| plane.foot(at(site));
+    if let Some(filling) = rectangle(sides, longest, &flat, &plane, spacing) {
         return Ok(filling);
     }
 
@@ -101,7 +103,7 @@ pub(super) fn fill(
     };
     let new = points[sites.len()..].iter();
     Ok(Filling {
-        inside: new.map(|x| in_space(*x, origin, &axes)).collect(),
+        inside: new.map(|x| plane.place(*x)).collect(),
         triangles: triangles.iter().map(|t| t.map(corner)).collect(),
     })
 }
@@ -231,7 +233,7 @@ fn rectangle(
     sides: &[Vec<Site>],
     first: usize,
     flat: &impl Fn(Site) -> [f64; 2],
-    (origin, axes): (Point, &[Point; 2]),
+    plane: &Plane,
     spacing: f64,
 ) -> Option<Filling> {
     if sides.len() != 4 {
@@ -272,7 +274,7 @@ fn rectangle(
     for j in 1..n {
         for i in 1..m {
             let x = lattice.point([i as i64, j as i64]);
-            filling.inside.push(in_space(x, origin, axes));
+            filling.inside.push(plane.place(x));
         }
     }
     let side_of = |k: usize, all: usize| match all {
@@ -293,7 +295,7 @@ fn rectangle(
                         let e = Corner::Inside(filling.inside.len() as u32);
                         let [s, t] = lattice.steps;
                         let x = [(i as f64 + 0.5) * s, (j as f64 + 0.5) * t];
-                        filling.inside.push(in_space(x, origin, axes));
+                        filling.inside.push(plane.place(x));
                         let parts = [[a, b, e], [b, c, e], [c, d, e], [d, a, e]];
                         filling.triangles.extend(parts);
                     }

@@ -7,54 +7,35 @@ use sph_core::BoxTree;
 
 use crate::error::BoundaryError;
 use crate::geometry::mesh::{FreeEdge, Mesh, Opening};
+use crate::geometry::sets::Sets;
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
 impl Mesh<3> {
     /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces
     /// around the openings.
     pub(super) fn find_openings(&mut self, pieces: impl Iterator<Item = usize>) {
-        let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
-        for (e, edge) in self.free_edges.iter().enumerate() {
-            for node in edge.nodes {
-                at.entry(node).or_default().push(e);
-            }
+        let mut rims = Sets::new(self.nodes.len());
+        self.free_edges.iter().for_each(|e| rims.join(e.nodes));
+        let mut numbers: HashMap<usize, usize> = HashMap::new();
+        let mut ends: Vec<Vec<Point>> = Vec::new();
+        for e in 0..self.free_edges.len() {
+            let (edge, next) = (self.free_edges[e], ends.len());
+            let opening = *numbers.entry(rims.root(edge.nodes[0])).or_insert(next);
+            ends.resize_with(numbers.len(), Vec::new);
+            ends[opening].extend(self.free_edge_ends(&edge));
+            self.free_edges[e].opening = opening;
         }
-        let mut reached = vec![false; self.free_edges.len()];
-        let mut opening_at: HashMap<usize, usize> = HashMap::new();
-        for first in 0..self.free_edges.len() {
-            if reached[first] {
-                continue;
-            }
-            reached[first] = true;
-            let mut edges = vec![first];
-            let mut next = 0;
-            while next < edges.len() {
-                for node in self.free_edges[edges[next]].nodes {
-                    opening_at.insert(node, self.openings.len());
-                    for e in &at[&node] {
-                        if !std::mem::replace(&mut reached[*e], true) {
-                            edges.push(*e);
-                        }
-                    }
-                }
-                next += 1;
-            }
-            let ends = edges
-                .iter()
-                .flat_map(|e| self.free_edge_ends(&self.free_edges[*e]));
+        let opening = |ends: Vec<Point>| {
             let [low, high] = bounds(ends);
-            for e in edges {
-                self.free_edges[e].opening = self.openings.len();
-            }
-            self.openings.push(Opening {
-                wall: self.free_edges[first].wall,
+            Opening {
                 edges: 0,
                 extent: norm(sub(high, low)),
                 centre: along(low, 0.5, sub(high, low)),
-            });
-        }
+            }
+        };
+        self.openings = ends.into_iter().map(opening).collect();
         for node in pieces {
-            if let Some(opening) = opening_at.get(&node) {
+            if let Some(opening) = numbers.get(&rims.root(node)) {
                 self.openings[*opening].edges += 1;
             }
         }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::drawn::{Drawn, Neighbours};
 use super::places::{Places, Site};
-use crate::geometry::vector::{Point, along, cross, distance_to_segment, dot, sub, unit};
+use crate::geometry::vector::{Point, distance_to_segment, dot, sub};
 
 /// Neighbours whose normals differ by more are never one plane, at any size.
 const SAME_DIRECTION: f64 = 0.99;
@@ -22,12 +22,6 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// Two unit vectors in the plane, the first along `direction`.
-    pub fn axes(&self, direction: Point) -> [Point; 2] {
-        let u = unit(direction);
-        [u, cross(self.normal, u)]
-    }
-
     /// The boundary as closed loops of corners.
     pub fn loops(&self) -> Vec<Vec<Site>> {
         let mut after: HashMap<Site, Vec<usize>> = HashMap::new();
@@ -162,17 +156,6 @@ pub(super) fn patches(
         }
     }
     (patches, patch_of)
-}
-
-/// Coordinates of a point in the plane, m.
-pub(super) fn in_plane(p: Point, origin: Point, axes: &[Point; 2]) -> [f64; 2] {
-    let from = sub(p, origin);
-    [dot(from, axes[0]), dot(from, axes[1])]
-}
-
-/// The point with some coordinates in the plane, m.
-pub(super) fn in_space(x: [f64; 2], origin: Point, axes: &[Point; 2]) -> Point {
-    along(along(origin, x[0], axes[0]), x[1], axes[1])
 }
 
 #[cfg(test)]

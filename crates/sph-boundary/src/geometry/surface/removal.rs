@@ -8,9 +8,10 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::crossing::Contact;
-use super::patches::{Patch, in_plane, in_space};
+use super::patches::Patch;
 use super::places::{Places, Site, edge_key};
 use super::wetted::FaceContacts;
+use crate::geometry::plane::Plane;
 use crate::geometry::vector::sub;
 
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
@@ -62,10 +63,9 @@ fn difference(
 ) -> Vec<Patch> {
     let whole = &patches[patch];
     let [from, to] = whole.boundary[0].map(|c| places.at(c));
-    let axes = whole.axes(sub(to, from));
-    let flat = |site: Site, places: &Places| in_plane(places.at(site), whole.origin, &axes);
+    let plane = Plane::along(sub(to, from), whole.origin, whole.normal);
     let loops_of = |other: &Patch, image: [i32; 3], places: &Places| -> Vec<Vec<[f64; 2]>> {
-        let point = |c: &Site| flat(c.moved(image), places);
+        let point = |c: &Site| plane.foot(places.at(c.moved(image)));
         let loops = other.loops();
         loops
             .iter()
@@ -106,7 +106,7 @@ fn difference(
                 .iter()
                 .map(|p| {
                     let x = [p.x as f64 / scale, p.y as f64 / scale];
-                    places.find(in_space(x, whole.origin, &axes), group)
+                    places.find(plane.place(x), group)
                 })
                 .collect();
             for (k, a) in corners.iter().enumerate() {

@@ -43,7 +43,7 @@ use crate::integrals::normalisation::normalisation;
 /// place of 7/129.
 #[derive(Clone, Debug)]
 pub struct Renormalisation2d {
-    pub(super) smoothing_length: f64,
+    kernel_radius: f64,
     pub(super) per_h: f64,
     /// Support over h.
     pub(super) support: f64,
@@ -64,7 +64,7 @@ impl Renormalisation2d {
         let (knots, rings) = tables(shape, sigma);
         let (per_h, support) = (1.0 / smoothing_length, shape.support());
         Ok(Self {
-            smoothing_length,
+            kernel_radius: support * smoothing_length,
             per_h,
             support,
             knots,
@@ -72,41 +72,8 @@ impl Renormalisation2d {
         })
     }
 
-    /// Smoothing length h, m.
-    pub fn smoothing_length(&self) -> f64 {
-        self.smoothing_length
-    }
-
     /// Distance beyond which the kernel vanishes, m.
     pub fn kernel_radius(&self) -> f64 {
-        self.support * self.smoothing_length
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unusable_kernels_are_refused() {
-        let hat = PiecewisePolynomial {
-            breaks: vec![0.0, 1.0],
-            pieces: vec![vec![1.0, -1.0]],
-        };
-        assert_eq!(
-            Renormalisation2d::new(&hat, 0.5).unwrap().kernel_radius(),
-            0.5
-        );
-        assert!(Renormalisation2d::new(&hat, 0.0).is_err());
-        let negative = PiecewisePolynomial {
-            pieces: vec![vec![-1.0]],
-            ..hat.clone()
-        };
-        assert!(Renormalisation2d::new(&negative, 1.0).is_err());
-        let ragged = PiecewisePolynomial {
-            pieces: vec![],
-            ..hat
-        };
-        assert!(Renormalisation2d::new(&ragged, 1.0).is_err());
+        self.kernel_radius
     }
 }

@@ -5,9 +5,7 @@
 //! the integrands are smooth along a segment, the nearest singularity being at y = ± i a, and a short
 //! Gauss–Legendre rule of the kernel expanded about the middle of the ring is exact to rounding.
 
-use sph_kernels::PiecewisePolynomial;
-
-use super::taylor;
+use sph_kernels::{PiecewisePolynomial, algebra};
 
 /// Part of the distance to the point that one panel of a rule may be long.
 const SHORT_PANEL: f64 = 0.5;
@@ -50,18 +48,14 @@ impl Ring {
         sigma: f64,
     ) -> Self {
         let middle = 0.5 * (inner + outer);
-        let f: Vec<f64> = taylor::expand_about(piece, middle)
-            .iter()
-            .map(|c| c * sigma)
-            .collect();
+        let f = algebra::scaled(&algebra::expanded_about(piece, middle), sigma);
         // σ f q, its primitive G, and K/2π = K(outer)/2π + G(outer) − G.
         let at = |n: usize| f.get(n).copied().unwrap_or(0.0);
         let fq = |n: usize| middle * at(n) + if n > 0 { at(n - 1) } else { 0.0 };
         let mut k: Vec<f64> = vec![0.0];
         k.extend((0..=f.len()).map(|n| -fq(n) / (n as f64 + 1.0)));
         let half = outer - middle;
-        let to_outer: f64 = k.iter().rev().fold(0.0, |sum, c| sum * half + c);
-        k[0] = sigma * shape.integral(1, outer, shape.support()) - to_outer;
+        k[0] = sigma * shape.integral(1, outer, shape.support()) - algebra::value(&k, half);
         let terms = (0..k.len()).rev().map(|n| [at(n), k[n]]).collect();
         Self {
             inner,

@@ -24,14 +24,6 @@ pub struct FacetIntegral {
     pub gamma: f64,
 }
 
-impl FacetIntegral {
-    /// A facet out of reach.
-    pub const NOTHING: Self = Self {
-        kernel: 0.0,
-        gamma: 0.0,
-    };
-}
-
 impl Renormalisation3d {
     /// Integrals over a planar polygon, which may have holes and several parts.
     ///
@@ -49,7 +41,7 @@ impl Renormalisation3d {
     ) -> FacetIntegral {
         let height = height * self.per_h + dot(DISPLACEMENT, normal);
         if height.abs() >= self.support {
-            return FacetIntegral::NOTHING;
+            return FacetIntegral::default();
         }
         let mut facet = Facet::new(self, height, normal);
         for [start, end] in edges {
@@ -72,7 +64,7 @@ impl Renormalisation3d {
         }
         let height = -dot([a, b, c][nearest], normal);
         if height.abs() >= self.support {
-            return FacetIntegral::NOTHING;
+            return FacetIntegral::default();
         }
         let mut facet = Facet::new(self, height, normal);
         facet.add(a, b);

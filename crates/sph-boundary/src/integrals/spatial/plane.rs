@@ -1,37 +1,6 @@
-//! The plane of a face, and its triangles in two coordinates.
+//! Triangles in the coordinates of their plane.
 
-use crate::geometry::vector::{Point, along, cross, dot};
-
-/// A plane with two axes in it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Plane {
-    origin: Point,
-    axes: [Point; 2],
-}
-
-impl Plane {
-    /// The plane through a place, m, across a unit normal.
-    pub fn new(origin: [f64; 3], normal: [f64; 3]) -> Self {
-        // The coordinate axis that is farthest from the normal.
-        let mut axis = [0.0; 3];
-        let flattest = (0..3).min_by(|i, j| normal[*i].abs().total_cmp(&normal[*j].abs()));
-        axis[flattest.unwrap_or(0)] = 1.0;
-        let first = along(axis, -dot(axis, normal), normal);
-        let length = dot(first, first).sqrt();
-        let first = first.map(|x| x / length);
-        Self {
-            origin,
-            axes: [first, cross(normal, first)],
-        }
-    }
-
-    /// Coordinates of the foot of the perpendicular from a point, m.
-    #[inline]
-    pub fn foot(&self, point: [f64; 3]) -> [f64; 2] {
-        let from = along(point, -1.0, self.origin);
-        [dot(from, self.axes[0]), dot(from, self.axes[1])]
-    }
-}
+use crate::geometry::plane::Plane;
 
 /// A triangle in the coordinates of its plane, ready to be seen from many points.
 #[derive(Clone, Copy, Debug)]
@@ -72,12 +41,6 @@ impl Patch {
         let radius = squares.into_iter().fold(0.0, f64::max).sqrt() * (1.0 + 1e-9);
         (patch, Circle { centre, radius })
     }
-
-    /// The centre as seen from the foot, m.
-    #[inline(always)]
-    pub fn from(&self, foot: &Foot) -> [f64; 2] {
-        foot.to(self.centre)
-    }
 }
 
 impl Circle {
@@ -109,8 +72,9 @@ pub(crate) struct Foot {
 }
 
 impl Foot {
+    /// A place as seen from the foot, m.
     #[inline(always)]
-    fn to(&self, place: [f64; 2]) -> [f64; 2] {
+    pub fn to(&self, place: [f64; 2]) -> [f64; 2] {
         [place[0] - self.place[0], place[1] - self.place[1]]
     }
 }

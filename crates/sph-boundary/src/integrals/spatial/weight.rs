@@ -1,6 +1,5 @@
 //! ∫ w dS over small triangles by quadrature.
 
-use crate::geometry::vector::{along, dot};
 use sph_kernels::lanes::Lane;
 
 use super::Renormalisation3d;
@@ -61,44 +60,6 @@ pub(super) struct SquaredDistances {
 }
 
 impl Renormalisation3d {
-    /// ∫ w dS over a triangle, 1/m: by quadrature where that is accurate, else exactly.
-    ///
-    /// For many triangles with legs of h/2 to 3h/4 of which only shares are needed, the sum being
-    /// known from [`polygon`](Self::polygon). Six points where the centre is a leg or more away,
-    /// twelve for half a leg, and the closed form below that and for triangles larger than h.
-    /// Measured for right isosceles triangles with legs h/2: within 7·10⁻⁵ w(0) · area; of the
-    /// triangle's own largest w · area, 10⁻⁴ (3·10⁻⁴ for Wendland C6) unless a corner is within a
-    /// leg of the support's end. With legs 2h/3: within 10⁻⁴ w(0) · area for the Wendland kernels
-    /// and the quintic spline, 2·10⁻⁴ for the cubic one.
-    #[inline]
-    pub fn weight(&self, corners: [[f64; 3]; 3], normal: [f64; 3], area: f64) -> f64 {
-        let [a, b, c] = corners;
-        let centre = along(along(a, 1.0, b), 1.0, c).map(|x| x * (1.0 / 3.0));
-        let arms = corners.map(|corner| along(corner, -1.0, centre));
-        let seen = SquaredDistances {
-            centre: dot(centre, centre),
-            slopes: arms.map(|arm| 2.0 * dot(centre, arm)),
-            arms: arms.map(|arm| dot(arm, arm)),
-        };
-        let by_rule = self.by_rule(&seen, area);
-        by_rule.unwrap_or_else(|| self.triangle(corners, normal).kernel)
-    }
-
-    /// None where only the closed form is accurate.
-    #[inline(always)]
-    fn by_rule(&self, seen: &SquaredDistances, area: f64) -> Option<f64> {
-        match self.rule(seen.centre, area) {
-            Rule::Six => {
-                let squares = six(seen.centre, seen.slopes, seen.arms);
-                let mut w = [0.0; POINTS];
-                self.kernel.value(&squares, &mut w);
-                Some(area * mean_of_six(w))
-            }
-            Rule::Twelve => Some(area * self.mean_of_twelve(seen)),
-            Rule::Exact => None,
-        }
-    }
-
     /// The accurate rule for a squared distance of the centre and an area, m².
     #[inline(always)]
     pub(super) fn rule(&self, centre: f64, area: f64) -> Rule {
@@ -205,6 +166,7 @@ impl SquaredDistances {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::vector::{along, dot};
 
     #[test]
     fn the_rules_have_their_degree() {

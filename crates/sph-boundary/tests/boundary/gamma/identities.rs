@@ -2,13 +2,13 @@
 
 use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Pose, Renormalisation2d};
 
-use crate::gamma::random::Random;
 use crate::gamma::scene::{H, Scene};
+use crate::random::Random;
 
 const TANK: [[f64; 2]; 5] = [[0.0, 0.0], [5.0, 0.5], [6.0, 5.0], [3.0, 2.5], [-0.5, 6.0]];
 
 fn points(scene: &Scene, count: usize) -> Vec<[f64; 2]> {
-    let mut random = Random::new(4);
+    let mut random = Random(4);
     let candidates =
         std::iter::repeat_with(|| [random.between(-1.0, 6.0), random.between(0.0, 6.0)]);
     candidates

@@ -5,7 +5,6 @@ mod kernels;
 mod plates;
 mod polygons;
 mod quadrature;
-mod random;
 mod reference;
 mod scan;
 mod scene;

@@ -2,12 +2,12 @@
 
 use sph_boundary::thin_plate;
 
-use crate::gamma::random::Random;
 use crate::gamma::scene::{Errors, H, Scene};
+use crate::random::Random;
 
 #[test]
 fn plates_of_every_thickness() {
-    let mut random = Random::new(2);
+    let mut random = Random(2);
     let mut errors = Errors::none();
     let tank = vec![[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]];
     let middle = [[-0.8, 0.1], [0.9, 0.3], [1.4, 1.5]];

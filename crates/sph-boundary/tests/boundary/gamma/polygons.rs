@@ -1,7 +1,7 @@
 //! Closed polygons: a gear, and blocks that touch.
 
-use crate::gamma::random::Random;
 use crate::gamma::scene::{Errors, H, Scene};
+use crate::random::Random;
 
 fn gear(teeth: usize) -> Vec<[f64; 2]> {
     (0..4 * teeth)
@@ -15,7 +15,7 @@ fn gear(teeth: usize) -> Vec<[f64; 2]> {
 
 #[test]
 fn inside_and_outside_of_a_gear() {
-    let mut random = Random::new(3);
+    let mut random = Random(3);
     let mut errors = Errors::none();
     let holding = Scene::new(vec![gear(9)], 0.1);
     let tank = vec![[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]];

@@ -3,7 +3,7 @@
 use sph_boundary::Renormalisation2d;
 
 use crate::gamma::quadrature::{Gauss, breaks};
-use crate::gamma::random::Random;
+use crate::random::Random;
 
 #[test]
 fn straight_wall_at_all_distances() {
@@ -11,7 +11,7 @@ fn straight_wall_at_all_distances() {
     for kernel in crate::gamma::kernels::all() {
         let renormalisation = Renormalisation2d::new(&kernel.shape, 1.0).unwrap();
         let radius = kernel.shape.support();
-        let mut random = Random::new(7);
+        let mut random = Random(7);
         let (mut single, mut whole): (f64, f64) = (0.0, 0.0);
         for i in 0..3000 {
             let a = radius * f64::from(i) / 3000.0 + 1e-5;

@@ -1,7 +1,7 @@
 //! Wedges of 10°, 20°, … 350°, at all distances from the faces and the vertex.
 
-use crate::gamma::random::Random;
 use crate::gamma::scene::{Errors, H, Scene};
+use crate::random::Random;
 
 /// A wedge of the given angle, closed far away.
 fn wedge(vertex: [f64; 2], first_arm: f64, angle: f64) -> Vec<[f64; 2]> {
@@ -17,7 +17,7 @@ fn wedge(vertex: [f64; 2], first_arm: f64, angle: f64) -> Vec<[f64; 2]> {
 
 #[test]
 fn every_wedge_at_every_distance() {
-    let mut random = Random::new(1);
+    let mut random = Random(1);
     let mut errors = Errors::none();
     for tens in 1..=35 {
         let angle = f64::from(10 * tens).to_radians();

@@ -3,7 +3,7 @@
 use sph_boundary::{Polyline, RigidMotion, WallSpec, thin_plate};
 use sph_core::{Vect, fields};
 
-use crate::plugin::bench::{Bench, Random, fixed, line, wide};
+use crate::bench::{Bench, Random, fixed_line, line, wide};
 
 const SPACING: f64 = 0.5;
 const SPEED: f64 = 10.0;
@@ -18,7 +18,7 @@ fn crosses(a: Vect<2>, b: Vect<2>, c: Vect<2>, d: Vect<2>) -> bool {
 }
 
 /// Shots from random places of a square, at least a quarter of a spacing from all walls.
-fn shooters(specs: &[WallSpec<2>], low: f64, high: f64, seed: u64) -> Bench {
+fn shooters(specs: &[WallSpec<2>], low: f64, high: f64, seed: u64) -> Bench<2> {
     let probe = Bench::new("usaw", specs, SPACING, wide(), vec![Vect::repeat(50.0)]);
     let mut random = Random::new(seed);
     let mut places = Vec::new();
@@ -90,17 +90,22 @@ fn no_particle_is_lost(what: &str, specs: &[WallSpec<2>], low: f64, high: f64) {
 #[test]
 fn ten_thousand_shots_at_a_flat_wall_stay_in_front_of_it() {
     let floor = Polyline::open("floor", vec![[-40.0, 0.0], [40.0, 0.0]]);
-    no_particle_is_lost("flat wall", &[fixed(floor)], -2.0, 2.5);
+    no_particle_is_lost("flat wall", &[fixed_line(floor)], -2.0, 2.5);
 }
 
 #[test]
 fn ten_thousand_shots_into_corners_stay_in_them() {
     let room = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-    no_particle_is_lost("square", &[fixed(Polyline::closed("room", room))], 0.0, 4.0);
+    no_particle_is_lost(
+        "square",
+        &[fixed_line(Polyline::closed("room", room))],
+        0.0,
+        4.0,
+    );
     let wedge = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0]];
     no_particle_is_lost(
         "acute corner",
-        &[fixed(Polyline::closed("wedge", wedge))],
+        &[fixed_line(Polyline::closed("wedge", wedge))],
         0.0,
         4.0,
     );
@@ -109,7 +114,7 @@ fn ten_thousand_shots_into_corners_stay_in_them() {
         [2.0 * angle.cos(), 2.0 * angle.sin()]
     });
     let octagon = Polyline::closed("octagon", octagon.collect());
-    no_particle_is_lost("obtuse corner", &[fixed(octagon)], -2.0, 2.0);
+    no_particle_is_lost("obtuse corner", &[fixed_line(octagon)], -2.0, 2.0);
 }
 
 #[test]
@@ -117,14 +122,14 @@ fn ten_thousand_shots_at_a_re_entrant_corner_stay_outside() {
     let block = vec![[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
     no_particle_is_lost(
         "block",
-        &[fixed(Polyline::closed("block", block))],
+        &[fixed_line(Polyline::closed("block", block))],
         -3.0,
         3.0,
     );
     let blade = vec![[-1.0, -0.3], [0.0, 0.9], [1.0, -0.3]];
     no_particle_is_lost(
         "blade",
-        &[fixed(Polyline::closed("blade", blade))],
+        &[fixed_line(Polyline::closed("blade", blade))],
         -3.0,
         3.0,
     );
@@ -137,7 +142,7 @@ fn ten_thousand_shots_at_a_thin_plate_stay_on_their_side() {
         let plate = thin_plate("plate", &middle, thickness).unwrap();
         no_particle_is_lost(
             &format!("plate of {thickness} m"),
-            &[fixed(plate)],
+            &[fixed_line(plate)],
             -2.5,
             2.5,
         );
@@ -145,15 +150,15 @@ fn ten_thousand_shots_at_a_thin_plate_stay_on_their_side() {
 }
 
 /// One particle over a flat wall of both treatments.
-fn over_the_floor(name: &str, height: f64, across: f64, velocity: Vect<2>) -> Bench {
+fn over_the_floor(name: &str, height: f64, across: f64, velocity: Vect<2>) -> Bench<2> {
     let floor = Polyline::open("floor", vec![[-40.0, 0.0], [40.0, 0.0]]);
     let place = vec![Vect::<2>::new(across, height)];
-    let mut bench = Bench::new(name, &[fixed(floor)], SPACING, wide(), place);
+    let mut bench = Bench::new(name, &[fixed_line(floor)], SPACING, wide(), place);
     bench.world.free.get_mut(fields::VELOCITY).unwrap()[0] = velocity;
     bench
 }
 
-fn velocity(bench: &Bench) -> Vect<2> {
+fn velocity(bench: &Bench<2>) -> Vect<2> {
     bench.world.free.get(fields::VELOCITY).unwrap()[0]
 }
 
@@ -203,7 +208,7 @@ fn a_particle_at_rest_at_half_a_spacing_is_not_touched_by_a_bit() {
 #[test]
 fn a_wall_that_comes_takes_the_particle_along_at_its_own_speed() {
     let floor = Polyline::open("floor", vec![[-40.0, 0.0], [40.0, 0.0]]);
-    let mut spec = fixed(floor);
+    let mut spec = fixed_line(floor);
     spec.motion = RigidMotion::steady([0.5, 2.0]);
     let place = vec![Vect::<2>::new(0.1, 0.25 * SPACING)];
     let mut bench = Bench::new("usaw", &[spec], SPACING, wide(), place);

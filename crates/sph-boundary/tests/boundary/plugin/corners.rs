@@ -3,10 +3,10 @@
 use sph_boundary::Polyline;
 use sph_core::Vect;
 
-use crate::plugin::bench::{Bench, fixed, wide};
+use crate::bench::{Bench, fixed_line, wide};
 
 /// A room of 8 × 8 with a block of 4 × 4 taken from its upper right; h = 1.
-fn room(positions: Vec<Vect<2>>) -> Bench {
+fn room(positions: Vec<Vect<2>>) -> Bench<2> {
     let corners = [
         [0.0, 0.0],
         [8.0, 0.0],
@@ -16,7 +16,7 @@ fn room(positions: Vec<Vect<2>>) -> Bench {
         [0.0, 8.0],
     ];
     let room = Polyline::closed("room", corners.to_vec());
-    Bench::new("usaw", &[fixed(room)], 0.5, wide(), positions)
+    Bench::new("usaw", &[fixed_line(room)], 0.5, wide(), positions)
 }
 
 #[test]

@@ -3,19 +3,25 @@
 use sph_boundary::Polyline;
 use sph_core::Vect;
 
-use crate::plugin::bench::{Bench, fixed, over_a_flat_wall, wide};
+use crate::bench::{Bench, fixed_line, over_a_flat_wall, wide};
 
 /// h/δr = 2 with a support of 2h: four rows fill the kernel.
 const ROWS: i64 = 4;
 const SPACING: f64 = 0.5;
 
-fn around(polyline: Polyline) -> Bench {
+fn around(polyline: Polyline) -> Bench<2> {
     let far = vec![Vect::<2>::new(3.0, 2.0)];
-    Bench::new("dummy-particles", &[fixed(polyline)], SPACING, wide(), far)
+    Bench::new(
+        "dummy-particles",
+        &[fixed_line(polyline)],
+        SPACING,
+        wide(),
+        far,
+    )
 }
 
 /// Cell (i, j) with its centre at ((i + ½) δr, (j + ½) δr); refuses places off the lattice.
-fn cells(bench: &Bench) -> Vec<(i64, i64)> {
+fn cells(bench: &Bench<2>) -> Vec<(i64, i64)> {
     let positions = bench.world.walls.points.position.iter();
     let mut cells: Vec<_> = positions
         .map(|x| {
@@ -83,9 +89,15 @@ fn a_solid_block_is_filled_to_its_middle() {
     );
 }
 
-fn around_outside(polyline: Polyline) -> Bench {
+fn around_outside(polyline: Polyline) -> Bench<2> {
     let far = vec![Vect::<2>::new(-3.0, 2.0)];
-    Bench::new("dummy-particles", &[fixed(polyline)], SPACING, wide(), far)
+    Bench::new(
+        "dummy-particles",
+        &[fixed_line(polyline)],
+        SPACING,
+        wide(),
+        far,
+    )
 }
 
 #[test]

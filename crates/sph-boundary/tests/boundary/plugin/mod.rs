@@ -1,6 +1,5 @@
 //! The wall treatments as plugins: what a solver sees of them.
 
-mod bench;
 mod constrain;
 mod corners;
 mod dummy;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sph_boundary::{Bend, Course, Polyline, RigidMotion, Rotation};
 use sph_core::Vect;
 
-use crate::plugin::bench::{Bench, Random, fixed, wide};
+use crate::bench::{Bench, Random, fixed_line, wide};
 
 /// A tilted block of 2 × 1 around the origin; h = 1. The fluid is outside.
 fn block() -> Polyline {
@@ -34,21 +34,19 @@ fn around() -> Vec<Vect<2>> {
     places.filter(|x| x.norm() > 2.2).collect()
 }
 
-fn moving(name: &str, time: f64) -> Bench {
-    let mut spec = fixed(block());
+fn moving(name: &str, time: f64) -> Bench<2> {
+    let mut spec = fixed_line(block());
     spec.motion = motion();
     let mut bench = Bench::new(name, &[spec], 0.5, wide(), around());
-    bench.world.time = time;
-    bench.wall.move_to(&mut bench.world.walls, time).unwrap();
-    bench.refresh();
+    bench.move_to(time);
     bench
 }
 
-fn drawn_there(name: &str, time: f64) -> Bench {
+fn drawn_there(name: &str, time: f64) -> Bench<2> {
     let map = motion().pose(time).map();
     let mut moved = block();
     moved.points = moved.points.iter().map(|p| map(*p)).collect();
-    Bench::new(name, &[fixed(moved)], 0.5, wide(), around())
+    Bench::new(name, &[fixed_line(moved)], 0.5, wide(), around())
 }
 
 fn farthest(a: &[Vect<2>], b: &[Vect<2>]) -> f64 {
@@ -96,7 +94,7 @@ fn the_velocity_of_a_moving_wall_is_the_rate_of_its_position() {
             let (before, after) = (moving(name, time - step), moving(name, time + step));
             let points = &bench.world.walls.points;
             for v in 0..points.position.len() {
-                let at = |b: &Bench| b.world.walls.points.position[v];
+                let at = |b: &Bench<2>| b.world.walls.points.position[v];
                 let rate = (at(&after) - at(&before)) / (2.0 * step);
                 // Truncation ω³ r Δt²/6 ≈ 1e-11, rounding 1e-15/1e-5.
                 let error = (rate - points.velocity[v]).norm();
@@ -104,7 +102,7 @@ fn the_velocity_of_a_moving_wall_is_the_rate_of_its_position() {
             }
             let elements = &bench.world.walls.elements;
             for s in 0..elements.centre.len() {
-                let at = |b: &Bench| b.world.walls.elements.centre[s];
+                let at = |b: &Bench<2>| b.world.walls.elements.centre[s];
                 let rate = (at(&after) - at(&before)) / (2.0 * step);
                 let error = (rate - elements.velocity[s]).norm();
                 assert!(error < 1e-9, "{name}, t = {time}: element {error:e}");
@@ -115,11 +113,11 @@ fn the_velocity_of_a_moving_wall_is_the_rate_of_its_position() {
 
 #[test]
 fn a_belt_has_the_velocity_of_its_surface_and_stays() {
-    let mut spec = fixed(block());
+    let mut spec = fixed_line(block());
     spec.surface_velocity = Vect::<2>::new(1.5, 0.0);
     let mut bench = Bench::new("usaw", &[spec], 0.5, wide(), around());
     let before = bench.world.walls.points.position.clone();
-    bench.wall.move_to(&mut bench.world.walls, 2.0).unwrap();
+    bench.move_to(2.0);
     let walls = &bench.world.walls;
     assert_eq!(walls.points.position, before);
     let belt = Vect::<2>::new(1.5, 0.0);
@@ -138,13 +136,11 @@ fn bent() -> RigidMotion {
     }
 }
 
-fn bending(name: &str, time: f64) -> Bench {
-    let mut spec = fixed(block());
+fn bending(name: &str, time: f64) -> Bench<2> {
+    let mut spec = fixed_line(block());
     spec.motion = bent();
     let mut bench = Bench::new(name, &[spec], 0.5, wide(), around());
-    bench.world.time = time;
-    bench.wall.move_to(&mut bench.world.walls, time).unwrap();
-    bench.refresh();
+    bench.move_to(time);
     bench
 }
 
@@ -154,7 +150,7 @@ fn a_bent_wall_is_the_wall_drawn_so_with_its_angles_and_lengths() {
         let mut shape = block();
         let lift = |x: f64| time * (0.01 - 0.05 * x);
         shape.points.iter_mut().for_each(|p| p[1] += lift(p[0]));
-        let drawn = Bench::new("usaw", &[fixed(shape)], 0.5, wide(), around());
+        let drawn = Bench::new("usaw", &[fixed_line(shape)], 0.5, wide(), around());
         let moved = bending("usaw", time);
         let (a, b) = (&moved.world.walls, &drawn.world.walls);
         assert!(farthest(&a.points.position, &b.points.position) < 1e-14);

@@ -2,15 +2,15 @@
 
 use sph_core::Vect;
 
-use crate::plugin::bench::{Bench, over_a_flat_wall};
+use crate::bench::{Bench, over_a_flat_wall};
 
 /// Rows 1 to 4 at y = ½, 1, 1½, 2 h; ten rows fill their supports.
-fn row(bench: &Bench, k: usize) -> usize {
+fn row(bench: &Bench<2>, k: usize) -> usize {
     bench.at(Vect::<2>::new(4.0, 0.5 * k as f64))
 }
 
 /// Σ_b θ_b V ∂_y w over free particles and vertices, 1/m (h = 1 m).
-fn discrete_gradient(bench: &Bench, i: usize) -> f64 {
+fn discrete_gradient(bench: &Bench<2>, i: usize) -> f64 {
     let world = &bench.world;
     let x = bench.positions()[i];
     let points = &world.walls.points;

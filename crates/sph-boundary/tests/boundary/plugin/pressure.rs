@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, fields};
 
-use crate::plugin::bench::{Bench, over_a_flat_wall};
+use crate::bench::{Bench, over_a_flat_wall};
 
 const GRAVITY: f64 = 9.81;
 const DENSITY: f64 = 1000.0;
@@ -13,9 +13,9 @@ fn hydrostatic(x: &Vect<2>) -> f64 {
 }
 
 /// Ten disordered rows under hydrostatic pressure.
-fn tank(name: &str, offset: f64, gravity: f64) -> Bench {
+fn tank(name: &str, offset: f64, gravity: f64) -> Bench<2> {
     let mut bench = over_a_flat_wall(name, 10, offset);
-    let mut random = crate::plugin::bench::Random::new(7);
+    let mut random = crate::bench::Random::new(7);
     let positions = bench.world.free.get_mut(fields::POSITION).unwrap();
     for x in positions.iter_mut() {
         *x += Vect::<2>::new(random.between(-0.1, 0.1), random.between(-0.1, 0.1));
@@ -29,7 +29,7 @@ fn tank(name: &str, offset: f64, gravity: f64) -> Bench {
 }
 
 /// Largest relative error of the pressure on points, and on elements if there are any.
-fn worst(bench: &Bench) -> f64 {
+fn worst(bench: &Bench<2>) -> f64 {
     let walls = &bench.world.walls;
     let points = walls.points.position.iter().zip(&walls.points.pressure);
     let elements = walls.elements.centre.iter().zip(&walls.elements.pressure);

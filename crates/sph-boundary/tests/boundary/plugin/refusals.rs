@@ -4,7 +4,7 @@ use sph_boundary::{BoundaryError, Drawing, Polyline, WallSpec};
 use sph_core::Vect;
 use sph_kernels::{Kernel, Sampler, ScalarSampler, wendland_c2};
 
-use crate::plugin::bench::{fixed, line, setup, treatment, wide};
+use crate::bench::{fixed_line, line, setup, treatment, wide};
 
 /// f(q) = exp(−q²), cut at q = 3.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl Kernel for Gaussian {
 
 fn square() -> WallSpec<2> {
     let corners = vec![[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
-    fixed(Polyline::closed("tank", corners))
+    fixed_line(Polyline::closed("tank", corners))
 }
 
 fn built(name: &str, walls: &[WallSpec<2>], kernel: &dyn Kernel) -> Result<(), BoundaryError> {
@@ -59,7 +59,7 @@ fn a_kernel_without_polynomial_is_refused_by_usaw_and_by_nobody_else() {
 fn a_free_end_within_reach_is_refused_by_name_and_one_beyond_is_not() {
     for name in ["usaw", "dummy-particles"] {
         let line = vec![[0.0, 3.0], [0.0, 0.0], [8.0, 0.0], [8.0, 5.0]];
-        let open = fixed(Polyline::open("beaker", line));
+        let open = fixed_line(Polyline::open("beaker", line));
         let domain = wide();
         let mut wall = treatment(name);
         wall.build(&setup(&[open], 0.5, &wendland_c2(), &domain))
@@ -93,7 +93,7 @@ fn walls_that_cross_are_refused_with_both_names_and_the_place() {
             "sill",
             vec![[3.0, -1.0], [3.0, 1.0], [5.0, 1.0], [5.0, -1.0]],
         );
-        let refused = built(name, &[square(), fixed(sill)], &wendland_c2()).unwrap_err();
+        let refused = built(name, &[square(), fixed_line(sill)], &wendland_c2()).unwrap_err();
         let BoundaryError::Crossing {
             wall, other, at, ..
         } = &refused

@@ -3,11 +3,11 @@
 use sph_boundary::{Polyline, thin_plate};
 use sph_core::Vect;
 
-use crate::plugin::bench::{Bench, Random, fixed, wide};
+use crate::bench::{Bench, Random, fixed_line, wide};
 
-fn around(polyline: Polyline) -> Bench {
+fn around(polyline: Polyline) -> Bench<2> {
     let far = vec![Vect::<2>::new(50.0, 50.0)];
-    Bench::new("usaw", &[fixed(polyline)], 0.5, wide(), far)
+    Bench::new("usaw", &[fixed_line(polyline)], 0.5, wide(), far)
 }
 
 /// Points near the plate, within reach of its segments, and ten lengths away.

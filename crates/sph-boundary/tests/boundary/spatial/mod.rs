@@ -9,7 +9,6 @@ mod solids;
 mod touching;
 mod triangles;
 mod vector;
-mod weight;
 
 use sph_boundary::Renormalisation3d;
 use sph_kernels::{Kernel, PolynomialKernel};

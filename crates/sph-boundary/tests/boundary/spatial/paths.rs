@@ -3,8 +3,9 @@
 use sph_boundary::Renormalisation3d;
 
 use super::solid::Solid;
-use super::vector::{Random, Vector, dot, minus, plus, turned};
+use super::vector::{Vector, dot, minus, plus, turned};
 use super::{assert_within, kernels, quadrature};
+use crate::random::Random;
 
 /// The difference of γ along a straight path less the integral of its gradient.
 fn defect(of: &Renormalisation3d, solid: &Solid, from: Vector, to: Vector, via: &[f64]) -> f64 {

@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use sph_boundary::GammaSum;
 use sph_kernels::PiecewisePolynomial;
 
-use super::vector::{Random, Vector, minus, plus};
+use super::vector::{Vector, minus, plus};
 use super::{TOLERANCE, assert_within, kernels, quadrature};
+use crate::random::Random;
 
 const UP: Vector = [0.0, 0.0, 1.0];
 

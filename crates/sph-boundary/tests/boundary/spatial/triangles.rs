@@ -4,8 +4,9 @@ use sph_boundary::FacetIntegral;
 use sph_kernels::PiecewisePolynomial;
 use std::f64::consts::PI;
 
-use super::vector::{Random, Vector, cross, dot, minus, normal, plus, unit};
+use super::vector::{Vector, cross, dot, minus, normal, plus, unit};
 use super::{TOLERANCE, assert_within, kernels, quadrature};
+use crate::random::Random;
 
 /// The integrals over a triangle, in polar coordinates about the foot of the point (the origin).
 pub fn reference(shape: &PiecewisePolynomial, t: [Vector; 3], n: Vector) -> FacetIntegral {

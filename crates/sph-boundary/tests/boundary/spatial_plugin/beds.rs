@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use sph_boundary::{Drawing, Erodible, Polyline, RigidMotion};
+use sph_boundary::{Drawing, Erodible, Polyline, RigidMotion, WallSpec};
 use sph_core::Vect;
 use sph_core::bed::horizontal;
 
-use crate::spatial_plugin::bench::{Bench, Random, fixed, moving, wide};
+use crate::bench::{Bench, Random, moving, wide};
 use crate::spatial_plugin::shapes::{block, wall};
 
 /// A block whose top is a bed, as it was drawn or sheared upwards.
@@ -76,7 +76,7 @@ fn a_sloping_bed_is_the_wall_drawn_so<B: Block<D>, const D: usize>() {
     moved.refresh();
     let drawn = Bench::new(
         "usaw",
-        &[fixed(B::drawing(lift))],
+        &[WallSpec::at_rest(B::drawing(lift))],
         B::SPACING,
         wide(),
         around(),

@@ -3,7 +3,7 @@
 use sph_boundary::{RigidMotion, Surface, WallSpec};
 use sph_core::{Vect, fields};
 
-use crate::spatial_plugin::bench::{Bench, Random, moving, wide};
+use crate::bench::{Bench, Random, moving, wide};
 use crate::spatial_plugin::shapes::{block, wall};
 
 const SPACING: f64 = 0.4;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use sph_boundary::Surface;
+use sph_boundary::{Surface, WallSpec};
 use sph_core::{Vect, fields};
 
-use crate::spatial_plugin::bench::{Bench, Random, fixed, wide};
+use crate::bench::{Bench, Random, wide};
 use crate::spatial_plugin::shapes::{block, prism, pyramid, tank, wall};
 
 const SPACING: f64 = 0.5;
@@ -31,7 +31,7 @@ fn crosses(a: &Vect<3>, b: &Vect<3>, [p, q, r]: &[Vect<3>; 3]) -> bool {
 /// Flies three metres in steps from random places of a box, a third of the shots at `aims`;
 /// returns how many went through the wall and how many it turned away.
 fn flown(surface: &Surface, low: f64, high: f64, aims: &[Vect<3>], dt: f64) -> [usize; 2] {
-    let walls = [fixed(wall(surface.clone()))];
+    let walls = [WallSpec::at_rest(wall(surface.clone()))];
     let nobody = vec![Vect::repeat(50.0)];
     let probe = Bench::new("usaw", &walls, SPACING, wide(), nobody);
     let mut random = Random::new(11 + (1e4 * dt) as u64);
@@ -177,7 +177,7 @@ fn the_velocity_along_a_flat_wall_is_kept_wherever_the_particle_stands() {
         let height = |k: usize| SPACING * (0.25 + 0.05 * (k % 10) as f64);
         let place = |k: usize| Vect::from([0.013 * k as f64, 0.007 * k as f64, height(k)]);
         let places = (0..100).map(place).collect();
-        let walls = [fixed(wall(slab.clone()))];
+        let walls = [WallSpec::at_rest(wall(slab.clone()))];
         let mut bench = Bench::new(name, &walls, SPACING, wide(), places);
         for dt in [1.0, 3.0, 7.0, 20.0].map(|n| 0.1 * n * SPACING / SPEED) {
             let before = bench.world.free.get_mut(fields::VELOCITY).unwrap();

@@ -4,7 +4,7 @@
 use sph_boundary::{Drawing, Polyline, RigidMotion, WallSpec};
 use sph_core::Vect;
 
-use crate::spatial_plugin::bench::{Bench, fixed, moving, wide};
+use crate::bench::{Bench, moving, wide};
 use crate::spatial_plugin::shapes::{block, floor, wall};
 
 const SPACING: f64 = 0.25;
@@ -34,7 +34,7 @@ impl Scene<2> for Plane {
         let gate = Polyline::closed("gate", corners);
         let motion = RigidMotion::steady(velocity.into());
         vec![
-            fixed(Drawing::Line(floor)),
+            WallSpec::at_rest(Drawing::Line(floor)),
             moving(Drawing::Line(gate), motion),
         ]
     }
@@ -44,7 +44,10 @@ impl Scene<3> for Space {
     fn walls(velocity: Vect<3>) -> Vec<WallSpec<3>> {
         let gate = block("gate", [-0.5, -0.5, 0.0], [0.5, 0.5, 1.5]);
         let motion = RigidMotion::steady(velocity.into());
-        vec![fixed(wall(floor(-3.0, 3.0))), moving(wall(gate), motion)]
+        vec![
+            WallSpec::at_rest(wall(floor(-3.0, 3.0))),
+            moving(wall(gate), motion),
+        ]
     }
 }
 

@@ -1,9 +1,10 @@
 //! Where dummy particles stand in space.
 
+use sph_boundary::WallSpec;
 use sph_core::Vect;
 use sph_neighbours::Domain;
 
-use crate::spatial_plugin::bench::{Bench, fixed, wide};
+use crate::bench::{Bench, wide};
 use crate::spatial_plugin::shapes::{block, floor, tank, wall};
 
 const SPACING: f64 = 0.5;
@@ -29,7 +30,7 @@ fn around(surface: sph_boundary::Surface, particle: [f64; 3]) -> Bench<3> {
     let particles = vec![Vect::from(particle)];
     Bench::new(
         "dummy-particles",
-        &[fixed(wall(surface))],
+        &[WallSpec::at_rest(wall(surface))],
         SPACING,
         wide(),
         particles,
@@ -91,7 +92,7 @@ fn the_kernel_is_as_full_next_to_a_flat_wall_as_in_the_bulk() {
             positions.extend((0..10).map(place));
         }
     }
-    let walls = [fixed(wall(floor(0.0, 6.0)))];
+    let walls = [WallSpec::at_rest(wall(floor(0.0, 6.0)))];
     let bench = Bench::new("dummy-particles", &walls, SPACING, domain, positions);
     assert_eq!(
         bench.world.walls.points.position.len(),

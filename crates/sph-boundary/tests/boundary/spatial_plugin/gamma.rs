@@ -1,10 +1,11 @@
 //! γ and ∇γ of particles next to a plane and in the corner of a box, against closed forms.
 
+use sph_boundary::WallSpec;
 use sph_core::Vect;
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::Domain;
 
-use crate::spatial_plugin::bench::{Bench, fixed, wide};
+use crate::bench::{Bench, wide};
 use crate::spatial_plugin::shapes::{floor, tank, wall};
 
 /// h = 1.
@@ -19,7 +20,7 @@ fn over_a_floor(heights: &[f64]) -> Bench<3> {
     };
     let place = |(k, z): (usize, &f64)| Vect::from([0.7 + 0.9 * k as f64, 7.9, *z]);
     let positions = heights.iter().enumerate().map(place).collect();
-    let walls = [fixed(wall(floor(0.0, 8.0)))];
+    let walls = [WallSpec::at_rest(wall(floor(0.0, 8.0)))];
     Bench::new("usaw", &walls, SPACING, domain, positions)
 }
 
@@ -120,7 +121,7 @@ fn in_the_corner_of_a_box_gamma_and_its_gradient_are_the_integrals_to_1e_8() {
         [1.1, 0.05, 1.9],
         [1.5, 0.6, 3.0],
     ];
-    let walls = [fixed(wall(tank([0.0; 3], [8.0; 3])))];
+    let walls = [WallSpec::at_rest(wall(tank([0.0; 3], [8.0; 3])))];
     let positions = places.map(Vect::from).to_vec();
     let bench = Bench::new("usaw", &walls, SPACING, wide(), positions);
     for place in places {
@@ -144,7 +145,7 @@ fn in_the_corner_of_a_box_gamma_and_its_gradient_are_the_integrals_to_1e_8() {
 #[test]
 fn contacts_of_one_face_sum_to_the_integral_over_that_face() {
     let place = Vect::from([0.4, 1.3, 0.7]);
-    let walls = [fixed(wall(tank([0.0; 3], [8.0; 3])))];
+    let walls = [WallSpec::at_rest(wall(tank([0.0; 3], [8.0; 3])))];
     let bench = Bench::new("usaw", &walls, SPACING, wide(), vec![place]);
     let (_, expected) = in_a_corner([0.4, 1.3, 0.7]);
     let elements = &bench.world.walls.elements;

@@ -1,9 +1,9 @@
 //! Walls that touch and move alike are one wall: drawn in pieces or in one outline.
 
-use sph_boundary::{Drawing, Polyline};
+use sph_boundary::{Drawing, Polyline, WallSpec};
 use sph_core::Vect;
 
-use crate::spatial_plugin::bench::{Bench, Random, fixed, wide};
+use crate::bench::{Bench, Random, wide};
 use crate::spatial_plugin::shapes::{block, prism, tank, wall};
 
 const SPACING: f64 = 0.25;
@@ -51,7 +51,7 @@ fn in_the_plane_a_block_on_the_floor_is_a_step_of_it_gamma_to_1e_14() {
         [4.0, 3.0],
         [0.0, 3.0],
     ];
-    let line = |name, points| fixed(Drawing::Line(Polyline::closed(name, points)));
+    let line = |name, points| WallSpec::at_rest(Drawing::Line(Polyline::closed(name, points)));
     let mut random = Random::new(4);
     let inside = |x: &Vect<2>| !(x[0] > 1.0 && x[0] < 2.0 && x[1] < 1.0);
     let places: Vec<Vect<2>> = (0..2000).map(|_| random.point(0.05, 2.95)).collect();
@@ -83,11 +83,11 @@ fn in_space_a_block_on_the_floor_is_a_step_of_it_gamma_to_1e_12() {
     let new = |walls: &[_]| Bench::new("usaw", walls, SPACING, wide(), places.clone());
     let sill = block("sill", [0.0; 3], [1.0, 2.0, 1.0]);
     let pieces = new(&[
-        fixed(wall(tank([0.0; 3], [3.0, 2.0, 3.0]))),
-        fixed(wall(sill)),
+        WallSpec::at_rest(wall(tank([0.0; 3], [3.0, 2.0, 3.0]))),
+        WallSpec::at_rest(wall(sill)),
     ]);
     let step = prism("tank", &outline, [0.0, 2.0]).reversed();
-    let whole = new(&[fixed(wall(step))]);
+    let whole = new(&[WallSpec::at_rest(wall(step))]);
     let [gamma, gradient] = largest(&pieces, &whole);
     println!("γ {gamma:.1e}, ∇γ {gradient:.1e}");
     assert!(gamma < 1e-12 && gradient < 1e-11, "{gamma:e} {gradient:e}");

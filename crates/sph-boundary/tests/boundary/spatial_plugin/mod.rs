@@ -1,7 +1,6 @@
 //! The wall treatments in three dimensions: what a solver sees of them.
 
 mod beds;
-mod bench;
 mod caching;
 mod constrain;
 mod cover;

@@ -1,9 +1,9 @@
 //! Walls that move in space: γ is that of a wall drawn there, velocities are rates.
 
-use sph_boundary::{Course, RigidMotion, Rotation, Surface};
+use sph_boundary::{Course, RigidMotion, Rotation, Surface, WallSpec};
 use sph_core::Vect;
 
-use crate::spatial_plugin::bench::{Bench, Random, fixed, moving, wide};
+use crate::bench::{Bench, Random, moving, wide};
 use crate::spatial_plugin::shapes::{block, wall};
 
 const SPACING: f64 = 0.4;
@@ -55,7 +55,13 @@ fn a_moved_and_turned_block_is_the_block_drawn_there_gamma_to_1e_12() {
         let map = motion().pose(time).map();
         let mut there = solid();
         there.points = there.points.iter().map(|p| map(*p)).collect();
-        let drawn = Bench::new("usaw", &[fixed(wall(there))], SPACING, wide(), around());
+        let drawn = Bench::new(
+            "usaw",
+            &[WallSpec::at_rest(wall(there))],
+            SPACING,
+            wide(),
+            around(),
+        );
         let moved = moved("usaw", time);
         assert_eq!(moved.positions(), drawn.positions(), "the particles stayed");
         let pairs = moved.gamma().iter().zip(drawn.gamma());

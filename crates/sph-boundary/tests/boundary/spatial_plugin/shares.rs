@@ -1,8 +1,9 @@
 //! What the wall points stand for: θ times their part of the wall.
 
+use sph_boundary::WallSpec;
 use sph_core::Vect;
 
-use crate::spatial_plugin::bench::{Bench, fixed, wide};
+use crate::bench::{Bench, wide};
 use crate::spatial_plugin::shapes::{block, tank, wall};
 
 const SPACING: f64 = 0.25;
@@ -11,7 +12,13 @@ const N: usize = 8;
 
 fn boxed(surface: sph_boundary::Surface) -> Bench<3> {
     let far = vec![Vect::repeat(1.0)];
-    Bench::new("usaw", &[fixed(wall(surface))], SPACING, wide(), far)
+    Bench::new(
+        "usaw",
+        &[WallSpec::at_rest(wall(surface))],
+        SPACING,
+        wide(),
+        far,
+    )
 }
 
 /// How many coordinates are on a face of the box.

@@ -42,12 +42,10 @@ fn a_ball_of_eighty_thousand_triangles() {
             .unwrap();
         let moved = start.elapsed();
         println!(
-            "{} triangles drawn, {} meshed at {spacing} m in {built:.2?}; grid {sorted:.2?}, {} \
-             bytes; 10⁴ points sided in {asked:.2?} ({fluid} fluid), listed in {listed:.2?} \
+            "{} triangles drawn, {} meshed at {spacing} m in {built:.2?}; grid {sorted:.2?}; 10⁴ points sided in {asked:.2?} ({fluid} fluid), listed in {listed:.2?} \
              ({near} near); moved in {moved:.2?}",
             ball.triangles.len(),
             mesh.elements.len(),
-            grid.memory(),
         );
         let ball = 4.0 / 3.0 * std::f64::consts::PI / 2.4f64.powi(3);
         assert!((1.0 - fluid as f64 / 1e4 - ball).abs() < 0.015);

@@ -7,5 +7,5 @@ mod large;
 mod near;
 mod open;
 mod refused;
-mod shapes;
+pub mod shapes;
 mod stacked;

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use sph_core::Vect;
 
 use crate::PeriodicBox;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::vector::bounds;
+use crate::geometry::walls::wall_mesh::WallMesh;
 
 /// A place nearer to the fluid's side than this share of the spacing is left out.
 const TOO_NEAR: f64 = 0.25;
@@ -20,9 +21,7 @@ pub(crate) fn layers<M: WallMesh<3>>(
     spacing: f64,
     support: f64,
 ) -> Vec<(usize, Vect<3>)> {
-    let Some((low, high)) = walls.bounds() else {
-        return Vec::new();
-    };
+    let [low, high] = bounds(walls.nodes().iter().map(|n| n.position));
     let axis = |k: usize| -> Vec<f64> {
         if domain.periodic[k] {
             let period = domain.upper[k] - domain.lower[k];

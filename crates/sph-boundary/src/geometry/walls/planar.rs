@@ -1,18 +1,17 @@
 //! Walls in the plane: segments for the wall treatments.
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::beds::laid;
 use crate::geometry::checks::check_points;
 use crate::geometry::junctions::bounding;
-use crate::geometry::layers::layers;
 use crate::geometry::mesh::SAME_PLACE;
-use crate::geometry::shells::{Gammas, ShellSums};
+use crate::geometry::shells::Gammas;
 use crate::geometry::touching::without_shared;
-use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::geometry::walls::beds::laid;
+use crate::geometry::walls::layers::layers;
+use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,
@@ -95,10 +94,10 @@ impl WallMesh<2> for Walls<2> {
     ) -> Result<Self, BoundaryError> {
         let line = |spec: &WallSpec<2>| match &spec.drawing {
             Drawing::Line(line) => check_points(line).map(|()| line.clone()),
-            Drawing::Surface(surface) => {
-                let wall = surface.name.clone();
-                Err(BoundaryError::Dimension { wall, dimension: 2 })
-            }
+            Drawing::Surface(surface) => Err(BoundaryError::unfit(
+                &surface.name,
+                "is not drawn for 2 dimensions: a polyline is a wall of two, a surface one of three",
+            )),
         };
         let lines: Vec<Polyline> = walls.iter().map(line).collect::<Result<_, _>>()?;
         let pieces = without_shared(&lines, &groups(walls), spacing)?;
@@ -120,8 +119,8 @@ impl WallMesh<2> for Walls<2> {
         self
     }
 
-    fn lay(&mut self, beds: &[Bed]) {
-        self.mesh.lay(beds);
+    fn walls_mut(&mut self) -> &mut Walls<2> {
+        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
@@ -177,46 +176,25 @@ impl WallMesh<2> for Walls<2> {
         }
         integrals.weigh(batch);
         let mut from = 0;
-        let mut sides = std::mem::take(&mut found.sides);
         for &end in &batch.ends {
-            let mut sum = GammaSum::<2>::default();
-            let planes = contacts.planes();
-            sides.clear();
-            for k in from..end {
-                let (element, distance) = batch.seen[k];
-                let normal = self.mesh.elements[element as usize].normal;
-                let integral = integrals.weighed(batch, k);
-                sum.add(&integral, element as usize, &self.mesh);
-                sides.add(self.shells.shell_of(element as usize), integral.gamma);
-                if integral.kernel != 0.0 {
-                    let share = std::iter::once((element, integral.kernel));
-                    contacts.push(normal.into(), distance, share);
-                }
-            }
-            let touches = sum.contact_fraction > 0.0;
-            match sides.gamma(sum.signed_sum).filter(|_| !touches) {
-                None => found.push(sum.gamma(), contacts.planes(), &ShellSums::default()),
-                Some(gamma) => {
-                    contacts.truncate(planes);
-                    for k in from..end {
-                        let (element, distance) = batch.seen[k];
-                        let shell = self.shells.shell_of(element as usize);
-                        let kernel = integrals.weighed(batch, k).kernel;
-                        if kernel != 0.0 && sides.behind().all(|(s, _)| s != shell) {
-                            let normal = self.mesh.elements[element as usize].normal;
-                            contacts.push(
-                                normal.into(),
-                                distance,
-                                std::iter::once((element, kernel)),
-                            );
-                        }
+            found.add(contacts, |contacts, sides, hidden| {
+                let mut sum = GammaSum::<2>::default();
+                for k in from..end {
+                    let (element, distance) = batch.seen[k];
+                    let normal = self.mesh.elements[element as usize].normal;
+                    let integral = integrals.weighed(batch, k);
+                    sum.add(&integral, element as usize, &self.mesh);
+                    let shell = self.shells.shell_of(element as usize);
+                    sides.add(shell, integral.gamma);
+                    if integral.kernel != 0.0 && !hidden.contains(&shell) {
+                        let share = std::iter::once((element, integral.kernel));
+                        contacts.push(normal.into(), distance, share);
                     }
-                    found.push(gamma, contacts.planes(), &sides);
                 }
-            }
+                sum
+            });
             from = end;
         }
-        found.sides = sides;
     }
 
     fn is_crossed(&self, near: NearElement<2>, point: &Vect<2>, by: &Vect<2>) -> bool {

@@ -1,9 +1,10 @@
 //! Places of dummy particles behind a polyline.
 
 use sph_core::Vect;
+use sph_core::place_cells::PlaceCells;
 
 use crate::Mesh;
-use crate::geometry::wall_mesh::WallMesh;
+use crate::geometry::walls::wall_mesh::WallMesh;
 
 /// Two particles nearer than this share of the spacing are one.
 const TOO_CLOSE: f64 = 0.7;
@@ -20,12 +21,8 @@ pub(crate) fn layers(
     [spacing, support]: [f64; 2],
 ) -> Vec<(usize, Vect<2>)> {
     let rows = (support / spacing - 1e-9).ceil() as usize;
-    let (mut kept, mut places) = (Vec::<(usize, Vect<2>)>::new(), Vec::new());
-    let mut cells = std::collections::HashMap::<(i64, i64), Vec<usize>>::new();
-    let cell = |p: [f64; 2]| {
-        let index = |x: f64| (x / spacing).floor() as i64;
-        (index(p[0]), index(p[1]))
-    };
+    let mut kept = Vec::new();
+    let mut places = PlaceCells::new(spacing, []);
     let domain = &mesh.domain;
     let inside_period = |p: [f64; 2]| {
         (0..2).all(|k| {
@@ -62,20 +59,11 @@ pub(crate) fn layers(
                     true => p,
                     false => domain.wrapped(p),
                 };
-                let (cx, cy) = cell(seen);
-                let taken = (-1..=1).any(|dx| {
-                    (-1..=1).any(|dy| {
-                        cells.get(&(cx + dx, cy + dy)).is_some_and(|list| {
-                            list.iter().any(|&i: &usize| {
-                                let q: [f64; 2] = places[i];
-                                (seen[0] - q[0]).hypot(seen[1] - q[1]) < TOO_CLOSE * spacing
-                            })
-                        })
-                    })
+                let taken = places.around(seen).any(|q: &[f64; 2]| {
+                    (seen[0] - q[0]).hypot(seen[1] - q[1]) < TOO_CLOSE * spacing
                 });
                 if !taken {
-                    cells.entry((cx, cy)).or_default().push(kept.len());
-                    places.push(seen);
+                    places.add(seen, seen);
                     kept.push((segment.wall, p.into()));
                 }
             }

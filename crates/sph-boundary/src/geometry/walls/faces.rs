@@ -2,7 +2,8 @@
 
 use sph_core::Vect;
 
-use crate::integrals::spatial::{Circle, Patch, Plane};
+use crate::geometry::plane::Plane;
+use crate::integrals::spatial::{Circle, Patch};
 use crate::{FaceEdge, Mesh};
 
 /// The faces as planes, and the triangles in them.

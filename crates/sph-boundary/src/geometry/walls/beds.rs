@@ -56,9 +56,8 @@ fn bed<const D: usize>(
     walls: Vec<u32>,
     domain: &PeriodicBox<D>,
 ) -> Result<Bed, BoundaryError> {
-    let wall = || erodible.wall.clone();
     if floor.is_empty() {
-        return Err(BoundaryError::NoFloor { wall: wall() });
+        return Err(no_floor(erodible));
     }
     let (grid, cut) = grid(erodible, floor, domain)?;
     let levels: Vec<_> = (0..grid.len())
@@ -69,7 +68,7 @@ fn bed<const D: usize>(
         let index = grid.index(place);
         (0..2).any(|k| cut[k][0] && index[k] == 0 || cut[k][1] && index[k] + 1 == grid.count[k])
     };
-    let drawn = filled(&grid, levels).ok_or_else(|| BoundaryError::NoFloor { wall: wall() })?;
+    let drawn = filled(&grid, levels).ok_or_else(|| no_floor(erodible))?;
     Ok(Bed {
         walls,
         held: (0..grid.len()).map(at_cut).collect(),
@@ -78,6 +77,11 @@ fn bed<const D: usize>(
         fade: erodible.fade,
         ..Bed::drawn(grid, drawn)
     })
+}
+
+fn no_floor(erodible: &Erodible) -> BoundaryError {
+    let why = "has no part that faces upwards, which a bed of grains needs";
+    BoundaryError::unfit(&erodible.wall, why)
 }
 
 /// The places of a bed, and at which ends of the axes it is cut off from the rest of the wall.
@@ -103,8 +107,7 @@ fn grid<const D: usize>(
         let (low, high) = (low.max(erodible.from[k]), high.min(erodible.to[k]));
         let length = high - low;
         if length.is_nan() || length <= 0.0 {
-            let wall = erodible.wall.clone();
-            return Err(BoundaryError::NoFloor { wall });
+            return Err(no_floor(erodible));
         }
         let cells = (length / erodible.cell).round().max(1.0);
         if cells * grid.count[0] as f64 > MOST_PLACES as f64 {

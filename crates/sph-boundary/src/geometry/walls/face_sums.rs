@@ -3,8 +3,8 @@
 use sph_core::Vect;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::faces::Corner;
 use crate::geometry::shells::ShellSums;
+use crate::geometry::walls::faces::Corner;
 use crate::integrals::spatial::{Foot, Weights};
 use crate::{GammaSum, NearElement, Renormalisation3d, Walls};
 

@@ -1,14 +1,13 @@
 //! Walls in space: triangles for the wall treatments.
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::beds::laid;
-use crate::geometry::faces::{Corner, Planes};
-use crate::geometry::shells::{Gammas, ShellSums};
-use crate::geometry::wall_mesh::{Hindrance, WallMesh};
+use crate::geometry::shells::Gammas;
+use crate::geometry::walls::beds::laid;
+use crate::geometry::walls::faces::{Corner, Planes};
+use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::integrals::spatial::Weights;
 use crate::treatment::groups::groups;
 use crate::{
@@ -36,10 +35,10 @@ impl WallMesh<3> for Walls<3> {
     ) -> Result<Self, BoundaryError> {
         let surface = |spec: &WallSpec<3>| match &spec.drawing {
             Drawing::Surface(surface) => Ok(surface.clone()),
-            Drawing::Line(line) => {
-                let wall = line.name.clone();
-                Err(BoundaryError::Dimension { wall, dimension: 3 })
-            }
+            Drawing::Line(line) => Err(BoundaryError::unfit(
+                &line.name,
+                "is not drawn for 3 dimensions: a polyline is a wall of two, a surface one of three",
+            )),
         };
         let surfaces: Vec<Surface> = walls.iter().map(surface).collect::<Result<_, _>>()?;
         let mut mesh = Mesh::<3>::build(&surfaces, &groups(walls), spacing, domain)?;
@@ -59,12 +58,8 @@ impl WallMesh<3> for Walls<3> {
         self
     }
 
-    fn meet_whole_faces(&mut self) {
-        self.whole_faces = true;
-    }
-
-    fn lay(&mut self, beds: &[Bed]) {
-        self.mesh.lay(beds);
+    fn walls_mut(&mut self) -> &mut Walls<3> {
+        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
@@ -110,21 +105,11 @@ impl WallMesh<3> for Walls<3> {
         contacts: &mut ContactBlock<3>,
         found: &mut Gammas,
     ) {
-        let mut sides = std::mem::take(&mut found.sides);
         for of in points {
-            let planes = contacts.planes();
-            sides.clear();
-            let sum = self.see(integrals, of, room, contacts, (&mut sides, &[]));
-            let behind: Vec<u32> = sides.behind().map(|(shell, _)| shell).collect();
-            if !behind.is_empty() {
-                contacts.truncate(planes);
-                let again = &mut ShellSums::default();
-                self.see(integrals, of, room, contacts, (again, &behind));
-            }
-            let gamma = sides.gamma(sum.signed_sum).unwrap_or_else(|| sum.gamma());
-            found.push(gamma, contacts.planes(), &sides);
+            found.add(contacts, |contacts, sides, hidden| {
+                self.see(integrals, of, room, contacts, (sides, hidden))
+            });
         }
-        found.sides = sides;
     }
 
     fn is_crossed(&self, near: NearElement<3>, point: &Vect<3>, by: &Vect<3>) -> bool {
@@ -205,6 +190,6 @@ impl WallMesh<3> for Walls<3> {
     }
 
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
-        crate::geometry::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
+        crate::geometry::walls::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
     }
 }

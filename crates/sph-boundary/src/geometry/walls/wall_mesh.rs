@@ -1,44 +1,14 @@
 //! Geometry of the walls for a wall treatment, in either dimension.
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::vector::{bounds, dot};
+use crate::geometry::vector::dot;
 use crate::{
-    BoundaryError, Gammas, NearElement, PeriodicBox, Pose, SeenElement, Shells, WallSpec, Walls,
+    BoundaryError, Element, Gammas, NearElement, Node, PeriodicBox, Pose, SeenElement, Shells,
+    WallSpec, Walls,
 };
-
-/// A node of the mesh.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshPoint<const D: usize> {
-    /// Position, m.
-    pub position: Vect<D>,
-    /// Unit normal into the fluid, the mean of those around.
-    pub normal: Vect<D>,
-    /// Fluid angle over 2π in the plane, fluid solid angle over 4π in space.
-    pub theta: f64,
-    /// Length or area of wall that the node answers for over δr^(d−1).
-    pub size: f64,
-    /// Index of the wall.
-    pub wall: usize,
-}
-
-/// An element of the mesh: a segment or a triangle.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshElement<const D: usize> {
-    /// Centre, m.
-    pub centre: Vect<D>,
-    /// Unit normal into the fluid.
-    pub normal: Vect<D>,
-    /// Length or area, m^(d−1).
-    pub measure: f64,
-    /// Index of the wall.
-    pub wall: usize,
-    /// Its nodes.
-    pub corners: [u32; D],
-}
 
 /// A direction in which a wall keeps a particle off.
 #[derive(Clone, Copy, Debug)]
@@ -88,11 +58,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     /// The mesh and the search for its elements.
     fn walls(&self) -> &Walls<D>;
 
-    /// Makes a face one contact, where that is cheaper.
-    fn meet_whole_faces(&mut self) {}
-
-    /// Sets the levels of the beds that walls follow, from the next motion on.
-    fn lay(&mut self, beds: &[Bed]);
+    /// The same, to change.
+    fn walls_mut(&mut self) -> &mut Walls<D>;
 
     /// Moves every wall to its pose.
     ///
@@ -110,8 +77,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         rows: &mut Vec<NearElement<D>>,
     );
 
-    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely. An
-    /// element hidden behind such a shell is no contact.
+    /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely.
+    /// Those that are within it become contacts, but for those hidden behind such a shell; further ones change nothing.
     fn gammas<'a>(
         &self,
         integrals: &Self::Integrals,
@@ -158,7 +125,17 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     }
 
     /// All nodes at the present position of the walls.
-    fn points(&self) -> impl Iterator<Item = MeshPoint<D>> + '_ {
+    fn nodes(&self) -> &[Node<D>] {
+        &self.walls().mesh.nodes
+    }
+
+    /// Places of the nodes, m.
+    fn places(&self) -> Vec<Vect<D>> {
+        self.nodes().iter().map(|n| n.position.into()).collect()
+    }
+
+    /// Unit normals of the nodes into the fluid, the means of those around.
+    fn normals(&self) -> impl Iterator<Item = Vect<D>> + '_ {
         let mesh = &self.walls().mesh;
         let mut normals = vec![Vect::<D>::zeros(); mesh.nodes.len()];
         for element in &mesh.elements {
@@ -170,31 +147,13 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         }
         // The two faces of a plate of no thickness have none where they meet.
         let least = if D == 2 { 1e-9 } else { 0.0 };
-        mesh.nodes
-            .iter()
-            .zip(normals)
-            .map(move |(node, normal)| MeshPoint {
-                position: node.position.into(),
-                normal: normal.try_normalize(least).unwrap_or_else(Vect::zeros),
-                theta: node.theta,
-                size: node.size,
-                wall: node.wall,
-            })
+        let unit = move |n: Vect<D>| n.try_normalize(least).unwrap_or_else(Vect::zeros);
+        normals.into_iter().map(unit)
     }
 
     /// All elements at the present position of the walls.
-    fn elements(&self) -> impl Iterator<Item = MeshElement<D>> + '_ {
-        self.walls()
-            .mesh
-            .elements
-            .iter()
-            .map(|element| MeshElement {
-                centre: element.centre.into(),
-                normal: element.normal.into(),
-                measure: element.measure,
-                wall: element.wall,
-                corners: element.nodes.map(|n| n as u32),
-            })
+    fn elements(&self) -> &[Element<D>] {
+        &self.walls().mesh.elements
     }
 
     /// Elements within a radius of a point, or a few more, ascending.
@@ -207,22 +166,6 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
             &mut row,
         );
         row
-    }
-
-    /// γ at a point from all elements that may be within the support; those that are become
-    /// contacts. Further elements of the row change nothing.
-    fn gamma(
-        &self,
-        integrals: &Self::Integrals,
-        point: &Vect<D>,
-        near: &[NearElement<D>],
-        room: &mut Self::Scratch,
-        contacts: &mut ContactBlock<D>,
-    ) -> f64 {
-        let mut found = Gammas::default();
-        let one = std::iter::once((point, near));
-        self.gammas(integrals, one, room, contacts, &mut found);
-        found.all[0].0
     }
 
     /// Pieces that end freely.
@@ -250,18 +193,5 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         };
         let nearest = near.map(distance2).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map(|(d2, near)| (d2.sqrt(), self.wall_of(near)))
-    }
-
-    /// Lower and upper corner of the box around all walls, m.
-    fn bounds(&self) -> Option<(Vect<D>, Vect<D>)> {
-        let nodes = &self.walls().mesh.nodes;
-        let [low, high] = bounds(nodes.iter().map(|n| n.position));
-        (!nodes.is_empty()).then(|| (low.into(), high.into()))
-    }
-
-    /// Remarks on the walls.
-    fn warnings(&self) -> Vec<String> {
-        let all = self.walls().mesh.warnings.iter();
-        all.map(ToString::to_string).collect()
     }
 }

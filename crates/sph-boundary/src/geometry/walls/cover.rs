@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::geometry::wall_mesh::{MeshPoint, WallMesh};
+use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::{NearElement, SeenElement};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
@@ -43,11 +43,11 @@ impl<const D: usize> Cover<D> {
     pub fn shares<M: WallMesh<D>>(
         &mut self,
         mesh: &M,
-        points: &[MeshPoint<D>],
         groups: &[usize],
         spacing: f64,
     ) -> Vec<(usize, f64)> {
-        let nodes = points.iter().map(|p| (p.position, groups[p.wall]));
+        let nodes = mesh.nodes().iter();
+        let nodes = nodes.map(|n| (Vect::from(n.position), groups[n.wall]));
         let nodes: Vec<_> = nodes.collect();
         if self.outdated(&nodes, spacing) {
             let near = |(node, (x, group)): (usize, &(Vect<D>, usize))| {

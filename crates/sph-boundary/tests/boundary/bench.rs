@@ -1,6 +1,8 @@
-//! A world of particles next to walls in either dimension, built through the registry.
+//! A world of particles next to walls in either dimension, built through the registry as a solver would.
 
-use sph_boundary::{Drawing, RigidMotion, Wall, WallCondition, WallEntry, WallSetup, WallSpec};
+use sph_boundary::{
+    Drawing, Polyline, RigidMotion, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+};
 use sph_core::{Registry, Role, Store, Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, WallSet, World};
@@ -11,31 +13,63 @@ pub struct Bench<const D: usize> {
     pub world: World<D>,
 }
 
-/// A wall that stands still and rubs.
-pub fn fixed<const D: usize>(drawing: Drawing) -> WallSpec<D> {
-    WallSpec {
-        drawing,
-        condition: WallCondition::NoSlip,
-        surface_velocity: Vect::zeros(),
-        motion: RigidMotion::default(),
-        mover: None,
-        open: false,
-    }
+/// A line that stands still and rubs.
+pub fn fixed_line(polyline: Polyline) -> WallSpec<2> {
+    WallSpec::at_rest(Drawing::Line(polyline))
 }
 
 /// A wall with a motion.
 pub fn moving<const D: usize>(drawing: Drawing, motion: RigidMotion<D>) -> WallSpec<D> {
     WallSpec {
         motion,
-        mover: None,
-        open: false,
-        ..fixed(drawing)
+        ..WallSpec::at_rest(drawing)
     }
+}
+
+/// The line of a wall.
+pub fn line(spec: &WallSpec<2>) -> &Polyline {
+    let Drawing::Line(line) = &spec.drawing else {
+        unreachable!("walls here are lines")
+    };
+    line
+}
+
+/// A treatment by its name in scenes.
+pub fn treatment<const D: usize>(name: &str) -> Box<dyn Wall<D>> {
+    let registry = Registry::<WallEntry>::discovered().expect("a registry");
+    let entry = registry.find(name).expect("a registered treatment");
+    let built = entry.build::<D>(&toml::Table::new());
+    built.expect("no parameters")
 }
 
 /// A box that nothing wraps.
 pub fn wide<const D: usize>() -> Domain<D> {
     Domain::open(Vect::repeat(-100.0), Vect::repeat(100.0))
+}
+
+/// A box periodic in x with this period.
+pub fn periodic_in_x(period: f64) -> Domain<2> {
+    Domain {
+        lower: Vect::<2>::new(0.0, -100.0),
+        upper: Vect::<2>::new(period, 100.0),
+        periodic: [true, false],
+    }
+}
+
+/// The set-up of h/δr = 2 with the Wendland C2 kernel.
+pub fn setup<'a, const D: usize>(
+    walls: &'a [WallSpec<D>],
+    spacing: f64,
+    kernel: &'a dyn Kernel,
+    domain: &'a Domain<D>,
+) -> WallSetup<'a, D> {
+    WallSetup {
+        walls,
+        spacing,
+        smoothing_length: 2.0 * spacing,
+        kernel,
+        domain,
+    }
 }
 
 impl<const D: usize> Bench<D> {
@@ -48,17 +82,8 @@ impl<const D: usize> Bench<D> {
         positions: Vec<Vect<D>>,
     ) -> Self {
         let kernel = wendland_c2();
-        let registry = Registry::<WallEntry>::discovered().expect("a registry");
-        let entry = registry.find(name).expect("a registered treatment");
-        let built = entry.build::<D>(&toml::Table::new());
-        let mut wall = built.expect("no parameters");
-        let walls = wall.build(&WallSetup {
-            walls: specs,
-            spacing,
-            smoothing_length: 2.0 * spacing,
-            kernel: &kernel,
-            domain: &domain,
-        });
+        let mut wall = treatment(name);
+        let walls = wall.build(&setup(specs, spacing, &kernel, &domain));
         let walls: WallSet<D> = walls.expect("walls that are accepted");
         let mut free = Store::new(positions.len());
         for field in [fields::POSITION, fields::VELOCITY] {
@@ -104,10 +129,28 @@ impl<const D: usize> Bench<D> {
         self.wall.geometry(&mut self.world).expect("geometry");
     }
 
+    /// [`Bench::refresh`], and the marks follow their particles if those are sorted anew.
+    pub fn refresh_sorting(&mut self, marks: &mut [bool]) {
+        let before = self.positions().to_vec();
+        self.refresh();
+        if before != self.positions() {
+            let mut order: Vec<usize> = (0..marks.len()).collect();
+            let key = |x: &Vect<D>| x.map(f64::to_bits).data.0;
+            order.sort_by_key(|&i| key(&before[i]));
+            let old = marks.to_vec();
+            for (i, x) in self.positions().iter().enumerate() {
+                let found = order.binary_search_by_key(&key(x), |&k| key(&before[k]));
+                marks[i] = old[order[found.expect("the same particles")]];
+            }
+        }
+    }
+
     /// The walls at a time, geometry fresh.
     pub fn move_to(&mut self, time: f64) {
         self.world.time = time;
-        self.wall.move_to(&mut self.world.walls, time).unwrap();
+        let states = WallStates::default();
+        let walls = &mut self.world.walls;
+        self.wall.put_back(walls, &states, time).unwrap();
         self.refresh();
     }
 
@@ -119,6 +162,12 @@ impl<const D: usize> Bench<D> {
     /// γ of the particles.
     pub fn gamma(&self) -> &[f64] {
         self.world.free.get(fields::RENORMALISATION).unwrap()
+    }
+
+    /// Sets a scalar from the position.
+    pub fn set(&mut self, field: sph_core::Field<sph_core::Scalar>, of: impl Fn(&Vect<D>) -> f64) {
+        let values: Vec<f64> = self.positions().iter().map(of).collect();
+        *self.world.free.get_mut(field).unwrap() = values;
     }
 
     /// ∇γ of a particle, 1/m.
@@ -144,6 +193,21 @@ impl<const D: usize> Bench<D> {
     }
 }
 
+/// Rows k = 1 … `rows` over a flat wall at y = 0 that is periodic in x; h = 1, δr = 1/2.
+pub fn over_a_flat_wall(name: &str, rows: usize, offset: f64) -> Bench<2> {
+    let floor = Polyline::open("floor", vec![[0.0, 0.0], [8.0, 0.0]]);
+    let row = |k: usize| (0..16).map(move |i| [i as f64, k as f64]);
+    let place = |[i, k]: [f64; 2]| Vect::<2>::new(0.5 * (i + offset), 0.5 * (k - offset));
+    let positions = (1..=rows).flat_map(row).map(place).collect();
+    Bench::new(
+        name,
+        &[fixed_line(floor)],
+        0.5,
+        periodic_in_x(8.0),
+        positions,
+    )
+}
+
 /// Numbers in [0, 1) that are the same at every run.
 pub struct Random(u64);
 
@@ -152,13 +216,16 @@ impl Random {
         Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
     pub fn point<const D: usize>(&mut self, low: f64, high: f64) -> Vect<D> {
         Vect::from_fn(|_, _| self.between(low, high))
     }
