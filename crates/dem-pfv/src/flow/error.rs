@@ -1,9 +1,8 @@
 //! Errors of the pore flow, with their reasons.
 
 use sparse::SparseError;
+use sph_core::RegistryError;
 use thiserror::Error;
-
-use crate::PluginError;
 
 /// Spheres, walls or conditions through which no flow can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -97,7 +96,7 @@ pub enum FlowError {
     Unsolved(#[from] SparseError),
     /// A conductance that cannot be found by name, or built.
     #[error(transparent)]
-    Plugin(#[from] PluginError),
+    Plugin(#[from] RegistryError),
     /// A parameter of a conductance out of range.
     #[error("the {what} of the conductance {name:?} is {value}; it must be {valid}")]
     BadParameter {

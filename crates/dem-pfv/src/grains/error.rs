@@ -1,8 +1,7 @@
 //! Errors of grains, with their reasons.
 
+use sph_core::RegistryError;
 use thiserror::Error;
-
-use crate::PluginError;
 
 /// Grains, walls, laws or steps with which nothing can be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -161,7 +160,7 @@ pub enum GrainError {
     },
     /// A contact law that cannot be found by name, or built.
     #[error(transparent)]
-    Plugin(#[from] PluginError),
+    Plugin(#[from] RegistryError),
     /// A wall or a mesh names a law by a number that none has.
     #[error("{what} {number} follows contact law {law}, but there are {laws}")]
     NoLaw {

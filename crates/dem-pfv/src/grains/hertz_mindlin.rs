@@ -1,11 +1,12 @@
 //! The law of Hertz and Mindlin.
 
 use serde::Serialize;
-use sph_derive::parameters;
+use sph_core::plugin;
 
 use crate::grains::law::{reduced, require};
-use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness};
-use crate::register_law;
+use crate::grains::{
+    Contact, ContactLaw, ContactLawEntry, GrainError, RollingResistance, Stiffness,
+};
 
 /// F_n = (4/3) E* √R* δ^{3/2} − c_n v_n and ΔF_s = −k_t Δu_s with k_t = 4 G √(R* δ) / (2 − ν), |F_s| ≤ µ F_n.
 ///
@@ -14,7 +15,12 @@ use crate::register_law;
 /// tangent stiffness alone would give back more than was put in (Elata & Berryman 1996; Thornton,
 /// Cummins & Cleary 2011). c_n = √5 ζ √(m* k_H) δ^¼ with k_H = (4/3) E* √R*, which rebounds at
 /// e = exp(−π ζ / √(1 − ζ²)) at any speed (Antypov & Elliott 2011).
-#[parameters(crate: crate::reexport)]
+#[plugin(
+    ContactLawEntry,
+    "hertz-mindlin",
+    "Hertz's normal force and Mindlin's tangential stiffness with Coulomb friction",
+    source: "Catalano 2012, Eqs. (2.10), (2.11)"
+)]
 #[derive(Copy, PartialEq, Serialize)]
 pub struct HertzMindlin {
     /// Shear modulus G of the grains.
@@ -33,13 +39,6 @@ pub struct HertzMindlin {
     #[parameter(default)]
     pub rolling: Option<RollingResistance>,
 }
-
-register_law!(
-    HertzMindlin as ContactLaw,
-    "hertz-mindlin",
-    "Hertz's normal force and Mindlin's tangential stiffness with Coulomb friction",
-    "Catalano 2012, Eqs. (2.10), (2.11)"
-);
 
 const NAME: &str = "hertz-mindlin";
 

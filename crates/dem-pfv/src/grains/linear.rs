@@ -1,11 +1,12 @@
 //! The linear elastic–frictional law.
 
 use serde::Serialize;
-use sph_derive::parameters;
+use sph_core::plugin;
 
 use crate::grains::law::require;
-use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness};
-use crate::register_law;
+use crate::grains::{
+    Contact, ContactLaw, ContactLawEntry, GrainError, RollingResistance, Stiffness,
+};
 
 /// F_n = k_n δ − c_n v_n and ΔF_s = −k_t Δu_s, |F_s| ≤ µ F_n.
 ///
@@ -14,7 +15,12 @@ use crate::register_law;
 /// (m), c = 2 ζ √(m* k) (N s/m) with the reduced mass m*. A pair rebounds at e = exp(−π ζ / √(1 − ζ²)) times
 /// its speed; to hold this exactly the dashpot may pull just before the contact opens. Source: Catalano
 /// 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2).
-#[parameters(crate: crate::reexport)]
+#[plugin(
+    ContactLawEntry,
+    "linear-elastic",
+    "springs in the normal and the tangential direction with Coulomb friction",
+    source: "Catalano 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2)"
+)]
 #[derive(Copy, PartialEq, Serialize)]
 pub struct LinearElastic {
     /// Micro modulus E.
@@ -33,13 +39,6 @@ pub struct LinearElastic {
     #[parameter(default)]
     pub rolling: Option<RollingResistance>,
 }
-
-register_law!(
-    LinearElastic as ContactLaw,
-    "linear-elastic",
-    "springs in the normal and the tangential direction with Coulomb friction",
-    "Catalano 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2)"
-);
 
 const NAME: &str = "linear-elastic";
 

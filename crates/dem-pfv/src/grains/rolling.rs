@@ -1,7 +1,7 @@
 //! Resistance to rolling, a part of the contact laws.
 
 use serde::Serialize;
-use sph_derive::parameters;
+use sph_core::parameters;
 
 use crate::grains::law::require;
 use crate::grains::{Contact, GrainError};
@@ -11,7 +11,7 @@ use crate::grains::{Contact, GrainError};
 /// Δθ_t is the tangential part of the relative rotation, R* the reduced radius, F_n the normal force. A
 /// sphere stays on a slope up to tan θ = η. The moment turns with the contact; spin about the normal is free.
 /// Source: Iwashita & Oda 1998; Ai, Chen, Rotter & Ooi 2011, model C.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[derive(PartialEq, Serialize)]
 pub struct RollingResistance {
     /// η, the tangent of the angle of rolling resistance.

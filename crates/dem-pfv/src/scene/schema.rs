@@ -2,10 +2,10 @@
 
 use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
+use sph_core::{PluginInfo, plugins_of};
 
-use crate::Entry;
-use crate::flow::conductances;
-use crate::grains::contact_laws;
+use crate::flow::ConductanceEntry;
+use crate::grains::ContactLawEntry;
 use crate::scene::tables::{Probe, Reference, Scene};
 
 /// The schema of the scene's own keys; tables of plugins, probes and references are open in it.
@@ -17,7 +17,10 @@ pub(crate) fn of_scene() -> Json {
 pub fn editor_schema() -> Json {
     let mut root = of_scene();
     let mut shared = Map::new();
-    let (laws, throats) = (described(contact_laws()), described(conductances()));
+    let (laws, throats) = (
+        plugins_of::<ContactLawEntry>(),
+        plugins_of::<ConductanceEntry>(),
+    );
     for owner in ["Grains", "Start", "Box", "Wall"] {
         let place = format!("/$defs/{owner}/properties/contact");
         plugins(root.pointer_mut(&place), &laws, &mut shared);
@@ -48,21 +51,15 @@ pub fn editor_schema() -> Json {
     root
 }
 
-/// Names, descriptions and schemas of laws.
-fn described<L: ?Sized>(entries: Vec<&Entry<L>>) -> Vec<(&'static str, String, Json)> {
-    let told = |e: &Entry<L>| (e.name, format!("{}. {}", e.summary, e.source), (e.schema)());
-    entries.into_iter().map(told).collect()
-}
-
 /// Plugins as the keys of a table.
-fn plugins(place: Option<&mut Json>, all: &[(&str, String, Json)], shared: &mut Map<String, Json>) {
+fn plugins(place: Option<&mut Json>, all: &[PluginInfo], shared: &mut Map<String, Json>) {
     let Some(place) = place else { return };
     let mut properties = Map::new();
-    for (name, text, schema) in all {
-        let mut schema = schema.clone();
+    for plugin in all {
+        let mut schema = (plugin.schema)();
         lift(&mut schema, shared);
-        schema["description"] = json!(text);
-        properties.insert((*name).to_string(), schema);
+        schema["description"] = json!(format!("{}. {}", plugin.summary, plugin.source));
+        properties.insert(plugin.name.to_string(), schema);
     }
     place["properties"] = Json::Object(properties);
     place["additionalProperties"] = json!(false);

@@ -1,9 +1,9 @@
 //! Axes by name.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 /// An axis.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// From left to right.

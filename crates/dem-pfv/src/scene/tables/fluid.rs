@@ -1,11 +1,11 @@
 //! The table `[fluid]`.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 use super::{AnyPlugins, Plugins};
 
 /// The fluid that fills the pores of the box.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Fluid {
     /// Dynamic viscosity µ, Pa s.
     #[parameter(unit: "Pa s", above: 0.0)]
@@ -34,7 +34,7 @@ pub struct Fluid {
 }
 
 /// F = 6 π µ a² (1/max(h, ε a) − 1/(c a)) v_n between neighbours with the gap h < c a, a = R₁ R₂/(R₁ + R₂).
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Lubrication {
     /// Roughness ε in terms of a: no gap counts as narrower.
     #[parameter(default: 0.01, unit: "1", above: 0.0)]

@@ -1,10 +1,10 @@
 //! The table `[output]`.
 
 use scene_text::PictureRange;
-use sph_derive::parameters;
+use sph_core::parameters;
 
 /// Files of a run, and the times of writing.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Output {
     /// Simulated time between pictures and files for ParaView, s; a twentieth of the end if left out.
     #[parameter(default, unit: "s", above: 0.0)]

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
 
 /// Grains, walls, fluid, times and output of a scene.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Scene {
     /// The scene in one line, with its publication.
     pub title: String,
@@ -62,7 +62,7 @@ impl Scene {
 }
 
 /// Duration and accuracy of the run.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Run {
     /// Simulated time at which the run ends, s, counted from the end of the preparation.
     #[parameter(unit: "s", above: 0.0)]
@@ -83,7 +83,7 @@ pub struct Run {
 
 /// A sudden load on a piston, and the measures of its answer: the strain under the same load when it comes slowly and
 /// dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Oedometer {
     /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.
     pub wall: String,

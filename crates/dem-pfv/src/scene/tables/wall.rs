@@ -1,11 +1,11 @@
 //! The tables `[box]` and `[wall.NAME]`.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 use super::{AnyPlugins, Axis, Plugins, Triple};
 
 /// A box of six walls, `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z).
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Box {
     /// Lower corner, m.
     #[parameter(unit: "m")]
@@ -27,7 +27,7 @@ pub struct Box {
 
 /// Further properties of a wall of the box; or a plane with `point` and `normal`; or a surface of triangles from a
 /// `file`.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Wall {
     /// A point of the plane, m.
     #[parameter(default, unit: "m")]
@@ -91,7 +91,7 @@ pub struct Wall {
 }
 
 /// A wall that is a body: M dv/dt = σ A − F. σ = stress + ramp · t + amplitude · sin(2π t / period).
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Piston {
     /// Stress σ from outside, Pa, positive in compression.
     #[parameter(unit: "Pa")]
@@ -114,7 +114,7 @@ pub struct Piston {
 }
 
 /// A wall that is moved so that it bears a stress.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Servo {
     /// Stress, Pa, positive in compression.
     #[parameter(unit: "Pa")]
@@ -126,7 +126,7 @@ pub struct Servo {
 
 /// p = (amplitude + ramp · t) cos(π (x − crest) / half_length), times sin(2π t / period) if there is one. Catalano 2012,
 /// §6.3.2 and §6.4.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct WaveLoad {
     /// Axis along which it runs.
     #[parameter(default)]
@@ -150,7 +150,7 @@ pub struct WaveLoad {
 
 /// p(x, t) less `less`, linear between places and rows, constant before the first and after the last. The pressure is
 /// piezometric: take off that of still water.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct RecordedLoad {
     /// A table with a column `time` (s) and one of pressures (Pa) for each place: `series.csv` of `sph run`, for example.
     pub file: String,
