@@ -63,7 +63,7 @@ pub use columns::Grains;
 pub use error::GrainError;
 pub use growth::{Growth, Target, step_to_rest};
 pub use hertz_mindlin::HertzMindlin;
-pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_law, require};
+pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_law};
 pub use linear::LinearElastic;
 pub use measure::{Partner, Touch};
 pub use mesh::Mesh;

@@ -15,3 +15,7 @@ pub mod grains;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod triangulation;
+
+mod range;
+
+pub use range::{OutOfRange, require};

@@ -90,10 +90,7 @@ impl WallBoundary {
     }
 
     pub(crate) fn check(&self, wall: usize) -> Result<(), CoupledError> {
-        let bad = |problem: &str| {
-            let problem = problem.to_string();
-            Err(CoupledError::BadCondition { wall, problem })
-        };
+        let bad = |problem| Err(CoupledError::BadCondition(wall, problem));
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         match &self.condition {
             FlowCondition::Closed => Ok(()),

@@ -2,9 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::coupled::error::number;
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
+use crate::{OutOfRange, require};
+
+/// Valid values of most numbers.
+pub(crate) const POSITIVE: &str = "positive and finite";
 
 /// The fluid in the pores.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -75,29 +78,27 @@ impl Fluid {
     }
 
     fn check(&self) -> Result<(), CoupledError> {
-        let positive = "positive and finite";
-        number(
-            "the viscosity",
-            self.viscosity,
-            positive,
-            self.viscosity > 0.0,
-        )?;
-        number(
-            "the fluid's density",
-            self.density,
-            "at least 0 and finite",
-            self.density >= 0.0,
-        )?;
+        let Self {
+            viscosity, density, ..
+        } = *self;
+        require("the viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
+        let valid = "at least 0 and finite";
+        require("the fluid's density is", density, valid, density >= 0.0)?;
         if let Some(Lubrication { roughness, range }) = self.lubrication {
-            let (fine, rule) = (roughness > 0.0, "positive and finite");
-            number("the roughness of lubrication", roughness, rule, fine)?;
-            let (fine, rule) = (range > roughness, "above the roughness and finite");
-            number("the range of lubrication", range, rule, fine)?;
+            let what = "the roughness of lubrication is";
+            require(what, roughness, POSITIVE, roughness > 0.0)?;
+            let valid = "above the roughness and finite";
+            require(
+                "the range of lubrication is",
+                range,
+                valid,
+                range > roughness,
+            )?;
         }
-        match self.bulk_modulus {
-            Some(k) => number("the bulk modulus", k, positive, k > 0.0),
-            None => Ok(()),
+        if let Some(k) = self.bulk_modulus {
+            require("the bulk modulus is", k, POSITIVE, k > 0.0)?;
         }
+        Ok(())
     }
 }
 
@@ -206,18 +207,17 @@ impl FlowSetup {
     pub(crate) fn check(&self, walls: usize) -> Result<(), CoupledError> {
         self.fluid.check()?;
         if self.sides.len() != walls {
-            let sides = self.sides.len();
-            return Err(CoupledError::Sides { sides, walls });
+            return Err(CoupledError::Sides(self.sides.len(), walls));
         }
         for (wall, side) in self.sides.iter().enumerate() {
             side.check(wall)?;
         }
         match self.remeshing.strain {
-            Some(strain) if strain.is_nan() || strain < 0.0 => Err(CoupledError::BadNumber {
-                what: "the strain for remeshing",
-                value: strain,
+            Some(value) if value.is_nan() || value < 0.0 => Err(CoupledError::Number(OutOfRange {
+                what: "the strain for remeshing is".into(),
+                value,
                 valid: "at least 0",
-            }),
+            })),
             _ => Ok(()),
         }
     }

@@ -65,12 +65,10 @@ impl CoupledSystem {
             solver: state.solver,
         };
         check(&grains, &setup)?;
-        let bad = |problem: &str| CoupledError::BadState {
-            problem: problem.to_string(),
-        };
+        let bad = |problem| Err(CoupledError::BadState(problem));
         let (places, clock) = (state.places, state.clock);
         if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
-            return Err(bad("the mesh is that of other grains or walls"));
+            return bad("the mesh is that of other grains or walls");
         }
         let now = [grains.time, clock.storage_step];
         let radii = &grains.grains.radius;
@@ -80,7 +78,7 @@ impl CoupledSystem {
             .iter()
             .any(|c| c.len() != cells)
         {
-            return Err(bad("columns of the pores differ in length from the mesh"));
+            return bad("columns of the pores differ in length from the mesh");
         }
         Ok(Self {
             grains,

@@ -19,10 +19,7 @@ pub fn conductances(
         let value = law.conductance(t);
         match value >= 0.0 && value.is_finite() {
             true => Ok(value / (viscosity * t.length)),
-            false => Err(FlowError::BadConductance {
-                cells: t.cells,
-                value,
-            }),
+            false => Err(FlowError::BadConductance(t.cells, value)),
         }
     };
     geometry.throats.iter().map(conductance).collect()
@@ -85,7 +82,7 @@ pub fn reachable(
         .iter()
         .position(|p| !reached[regions[*p as usize] as usize])
     {
-        Some(cell) => Err(FlowError::NoPressure { cell }),
+        Some(cell) => Err(FlowError::NoPressure(cell)),
         None => Ok(()),
     }
 }

@@ -6,6 +6,7 @@ use sph_core::{Registry, plugin};
 use toml::Table;
 
 use crate::flow::{FlowError, Throat};
+use crate::require;
 
 /// A law for the conductance of throats.
 pub trait Conductance: Send + Sync {
@@ -15,7 +16,7 @@ pub trait Conductance: Send + Sync {
     /// Checks the parameters.
     ///
     /// # Errors
-    /// [`FlowError::BadParameter`] with the parameter and its value.
+    /// The parameter and its value: [`require`].
     fn check(&self) -> Result<(), FlowError> {
         Ok(())
     }
@@ -79,16 +80,13 @@ impl Conductance for HydraulicRadius {
     }
 
     fn check(&self) -> Result<(), FlowError> {
-        let value = self.shape_factor;
-        match value > 0.0 && value.is_finite() {
-            true => Ok(()),
-            false => Err(FlowError::BadParameter {
-                name: "hydraulic-radius",
-                what: "shape factor",
-                value,
-                valid: "positive",
-            }),
-        }
+        let what = "the shape factor of the conductance \"hydraulic-radius\" is";
+        Ok(require(
+            what,
+            self.shape_factor,
+            "positive",
+            self.shape_factor > 0.0,
+        )?)
     }
 }
 

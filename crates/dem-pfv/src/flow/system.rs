@@ -7,6 +7,7 @@ use crate::flow::assembly::{
     GIVEN, assemble, conductances, given, givers, joined, numbered, reachable,
 };
 use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
+use crate::require;
 
 /// Solvers of the system.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -110,7 +111,7 @@ impl FlowSystem {
         storage: Option<Storage>,
         solver: Solver,
     ) -> Result<Self, FlowError> {
-        positive("viscosity", viscosity)?;
+        positive("viscosity is", viscosity)?;
         let conductances = conductances(geometry, law, viscosity)?;
         let ends: Vec<_> = geometry
             .throats
@@ -168,8 +169,8 @@ impl FlowSystem {
     fn refresh(&mut self) -> Result<(), FlowError> {
         let mut diagonal = self.diagonal.clone();
         if let Some(storage) = self.storage {
-            positive("bulk modulus", storage.bulk_modulus)?;
-            positive("step", storage.step)?;
+            positive("bulk modulus is", storage.bulk_modulus)?;
+            positive("step is", storage.step)?;
             for (c, &u) in self.unknowns.iter().enumerate() {
                 if u != GIVEN {
                     diagonal[u as usize] += self.capacity(c);
@@ -290,7 +291,7 @@ impl FlowSystem {
         }
         let changed = |c: &usize| boundary.pressures[*c].is_some() != self.given[*c];
         if let Some(cell) = (0..cells).find(changed) {
-            return Err(FlowError::ConditionsChanged { cell });
+            return Err(FlowError::ConditionsChanged(cell));
         }
         let mut right = vec![0.0; self.matrix.len()];
         for (c, &u) in self.unknowns.iter().enumerate() {
@@ -359,10 +360,7 @@ impl FlowSystem {
 }
 
 fn positive(what: &'static str, value: f64) -> Result<(), FlowError> {
-    match value > 0.0 && value.is_finite() {
-        true => Ok(()),
-        false => Err(FlowError::NotPositive { what, value }),
-    }
+    Ok(require(what, value, "positive and finite", value > 0.0)?)
 }
 
 fn chosen(solver: Solver, unknowns: usize) -> Solver {

@@ -1,6 +1,6 @@
 //! Random clouds of spheres that do not touch.
 
-use crate::grains::setup::Period;
+use crate::grains::setup::{Period, positive};
 use crate::grains::space::separation;
 use crate::grains::{Grain, GrainError, Vector};
 
@@ -41,10 +41,7 @@ impl Cloud {
     /// of about 0.62 downwards.
     pub fn place(&self, radii: &[f64], seed: u64) -> Result<Vec<Vector>, GrainError> {
         for (grain, &value) in radii.iter().enumerate() {
-            if !(value > 0.0 && value.is_finite()) {
-                let what = "radius";
-                return Err(GrainError::NotPositive { grain, what, value });
-            }
+            positive(grain, "radius", value)?;
         }
         let largest = radii.iter().copied().fold(0.0, f64::max);
         let mut order: Vec<usize> = (0..radii.len()).collect();
@@ -73,11 +70,7 @@ impl Cloud {
                 free.then_some(at)
             });
             let Some(at) = place else {
-                return Err(GrainError::NoRoom {
-                    grain,
-                    radius,
-                    tries: self.tries,
-                });
+                return Err(GrainError::NoRoom(grain, radius, self.tries));
             };
             places[grain] = at;
             cells.put(&at, grain);

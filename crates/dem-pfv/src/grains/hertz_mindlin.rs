@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sph_core::plugin;
 
-use crate::grains::law::{reduced, require};
+use crate::grains::law::{AT_LEAST_0, BELOW_1, check, reduced};
 use crate::grains::{
     Contact, ContactLaw, ContactLawEntry, GrainError, RollingResistance, Stiffness,
 };
@@ -67,21 +67,32 @@ impl HertzMindlin {
 
 impl ContactLaw for HertzMindlin {
     fn check(&self) -> Result<(), GrainError> {
-        let &Self {
-            shear_modulus: shear,
-            poisson,
-            friction,
-            damping,
-            rolling,
-        } = self;
-        require(NAME, "shear modulus", shear, "positive", shear > 0.0)?;
-        let fine = poisson > -1.0 && poisson <= 0.5;
-        let valid = "above -1 and at most 0.5";
-        require(NAME, "Poisson's ratio", poisson, valid, fine)?;
-        require(NAME, "friction", friction, "at least 0", friction >= 0.0)?;
-        let fine = (0.0..1.0).contains(&damping);
-        require(NAME, "damping", damping, "at least 0 and below 1", fine)?;
-        rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
+        let poisson = self.poisson > -1.0 && self.poisson <= 0.5;
+        check(
+            NAME,
+            [
+                (
+                    "shear modulus",
+                    self.shear_modulus,
+                    "positive",
+                    self.shear_modulus > 0.0,
+                ),
+                (
+                    "Poisson's ratio",
+                    self.poisson,
+                    "above -1 and at most 0.5",
+                    poisson,
+                ),
+                ("friction", self.friction, AT_LEAST_0, self.friction >= 0.0),
+                (
+                    "damping",
+                    self.damping,
+                    BELOW_1,
+                    (0.0..1.0).contains(&self.damping),
+                ),
+            ],
+        )?;
+        self.rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
     }
 
     fn memory(&self) -> &'static [&'static str] {

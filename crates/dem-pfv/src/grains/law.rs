@@ -6,6 +6,7 @@ use sph_core::Registry;
 use toml::Table;
 
 use crate::grains::{GrainError, Vector};
+use crate::require;
 
 /// Largest number of values in the memory of a contact.
 pub const MEMORY: usize = 8;
@@ -125,7 +126,7 @@ pub trait ContactLaw: Debug + Send + Sync {
     /// Checks the parameters.
     ///
     /// # Errors
-    /// [`GrainError::BadLaw`] with the parameter and its value.
+    /// The parameter and its value: [`require`](crate::require).
     fn check(&self) -> Result<(), GrainError>;
 
     /// Names of the numbers that are remembered per contact, at most [`MEMORY`].
@@ -175,24 +176,22 @@ pub fn contact_law(name: &str, parameters: &Table) -> Result<Box<dyn ContactLaw>
     Ok(law)
 }
 
-/// Checks a parameter of a law.
-///
-/// # Errors
-/// [`GrainError::BadLaw`] unless `fine`.
-pub fn require(
-    law: &'static str,
-    what: &'static str,
-    value: f64,
-    valid: &'static str,
-    fine: bool,
+/// Valid values of parameters.
+pub(crate) const AT_LEAST_0: &str = "at least 0";
+pub(crate) const BELOW_1: &str = "at least 0 and below 1";
+
+/// Checks parameters of a law: name, value, valid values, and whether it is one of them.
+pub(crate) fn check<const N: usize>(
+    law: &str,
+    parameters: [(&str, f64, &'static str, bool); N],
 ) -> Result<(), GrainError> {
-    if fine && value.is_finite() {
-        return Ok(());
+    for (what, value, valid, fine) in parameters {
+        require(
+            format!("the contact law {law} has the {what}"),
+            value,
+            valid,
+            fine,
+        )?;
     }
-    Err(GrainError::BadLaw {
-        law,
-        what,
-        value,
-        valid,
-    })
+    Ok(())
 }

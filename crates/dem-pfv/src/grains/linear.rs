@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sph_core::plugin;
 
-use crate::grains::law::require;
+use crate::grains::law::{AT_LEAST_0, BELOW_1, check, reduced};
 use crate::grains::{
     Contact, ContactLaw, ContactLawEntry, GrainError, RollingResistance, Stiffness,
 };
@@ -66,20 +66,26 @@ impl LinearElastic {
 
 impl ContactLaw for LinearElastic {
     fn check(&self) -> Result<(), GrainError> {
-        let &Self {
-            modulus,
-            stiffness_ratio,
-            friction,
-            damping,
-            rolling,
-        } = self;
-        require(NAME, "modulus", modulus, "positive", modulus > 0.0)?;
-        let fine = stiffness_ratio >= 0.0;
-        require(NAME, "stiffness ratio", stiffness_ratio, "at least 0", fine)?;
-        require(NAME, "friction", friction, "at least 0", friction >= 0.0)?;
-        let fine = (0.0..1.0).contains(&damping);
-        require(NAME, "damping", damping, "at least 0 and below 1", fine)?;
-        rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
+        check(
+            NAME,
+            [
+                ("modulus", self.modulus, "positive", self.modulus > 0.0),
+                (
+                    "stiffness ratio",
+                    self.stiffness_ratio,
+                    AT_LEAST_0,
+                    self.stiffness_ratio >= 0.0,
+                ),
+                ("friction", self.friction, AT_LEAST_0, self.friction >= 0.0),
+                (
+                    "damping",
+                    self.damping,
+                    BELOW_1,
+                    (0.0..1.0).contains(&self.damping),
+                ),
+            ],
+        )?;
+        self.rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
     }
 
     fn memory(&self) -> &'static [&'static str] {
@@ -121,7 +127,7 @@ impl ContactLaw for LinearElastic {
     fn stiffness(&self, radius: [f64; 2], _overlap: f64) -> Stiffness {
         let normal = self.normal_stiffness(radius);
         let tangential = self.stiffness_ratio * normal;
-        let radius = crate::grains::law::reduced(radius);
+        let radius = reduced(radius);
         let rolling = self.rolling.map(|r| r.stiffness(tangential, radius));
         Stiffness {
             normal,

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::grains::columns::INERTIA;
 use crate::grains::wall::sign;
 use crate::grains::{Control, GrainError, GrainSystem, Vector, Wall, space};
+use crate::require;
 
 /// Grains per task at least.
 const TASK: usize = 512;
@@ -119,7 +120,7 @@ impl GrainSystem {
     /// # Errors
     /// A time that is not positive and finite.
     pub fn drift(&mut self, step: f64) -> Result<(), GrainError> {
-        crate::grains::system::number("step", step, "positive", step > 0.0)?;
+        require("the step is", step, "positive", step > 0.0)?;
         let g = &mut self.grains;
         for (x, v) in g.position.iter_mut().zip(&g.velocity) {
             *x += v * step;

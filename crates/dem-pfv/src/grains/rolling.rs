@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sph_core::parameters;
 
-use crate::grains::law::require;
+use crate::grains::law::{AT_LEAST_0, check};
 use crate::grains::{Contact, GrainError};
 
 /// An elastic moment against rolling that yields: ΔM = −k_r Δθ_t with k_r = β k_t R*², |M| ≤ η R* F_n.
@@ -25,8 +25,11 @@ pub struct RollingResistance {
 impl RollingResistance {
     pub(crate) fn check(&self, law: &'static str) -> Result<(), GrainError> {
         let (eta, beta) = (self.coefficient, self.stiffness);
-        require(law, "rolling coefficient", eta, "at least 0", eta >= 0.0)?;
-        require(law, "rolling stiffness", beta, "positive", beta > 0.0)
+        let of_eta = ("rolling coefficient", eta, AT_LEAST_0, eta >= 0.0);
+        check(
+            law,
+            [of_eta, ("rolling stiffness", beta, "positive", beta > 0.0)],
+        )
     }
 
     /// k_r, N m.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::grains::setup::Period;
+use crate::grains::setup::{Period, positive};
 use crate::grains::stability::Limit;
 use crate::grains::table::Table;
 use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, Wall};
@@ -54,17 +54,15 @@ impl GrainSystem {
     /// # Errors
     /// A state whose parts do not fit together, and laws out of range.
     pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, GrainError> {
-        let bad = |problem: &str| GrainError::BadState {
-            problem: problem.to_string(),
-        };
+        let bad = |problem| Err(GrainError::BadState(problem));
         let (table, n) = (&state.contacts, state.grains.len());
         if !state.grains.fits() {
-            return Err(bad("columns of the grains differ in length"));
+            return bad("columns of the grains differ in length");
         }
         let parts = 1 + state.walls.len() + state.meshes.len();
         let ordered = table.ends.is_sorted() && table.ends.last() == Some(&table.slots.len());
         if table.ends.len() != parts || !ordered {
-            return Err(bad("contacts do not fit the walls and meshes"));
+            return bad("contacts do not fit the walls and meshes");
         }
         for part in 0..parts {
             let most = match part.checked_sub(1 + state.walls.len()) {
@@ -76,22 +74,12 @@ impl GrainSystem {
                 (slot.first as usize) < n && (slot.second as usize) < most
             };
             if !table.part(part).all(known) {
-                return Err(bad("a contact names a body that is not there"));
+                return bad("a contact names a body that is not there");
             }
         }
         for i in 0..n {
-            for (what, value) in [
-                ("radius", state.grains.radius[i]),
-                ("mass", state.grains.mass[i]),
-            ] {
-                if !(value > 0.0 && value.is_finite()) {
-                    return Err(GrainError::NotPositive {
-                        grain: i,
-                        what,
-                        value,
-                    });
-                }
-            }
+            positive(i, "radius", state.grains.radius[i])?;
+            positive(i, "mass", state.grains.mass[i])?;
         }
         let mut system = Self {
             grains: state.grains,

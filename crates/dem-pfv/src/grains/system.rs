@@ -1,10 +1,12 @@
 //! The system: made, evaluated, integrated.
 
+use crate::grains::law::BELOW_1;
 use crate::grains::setup::{Period, finite};
 use crate::grains::stability::{CHECKED_EVERY, Limit, critical};
 use crate::grains::table::{Bodies, Table};
 use crate::grains::touch::View;
 use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector, Wall, space};
+use crate::require;
 
 /// Grains with their walls, meshes and contacts.
 ///
@@ -85,13 +87,11 @@ impl GrainSystem {
             return Err(GrainError::NoGrains);
         }
         if grains > most {
-            return Err(GrainError::TooMany { grains, most });
+            return Err(GrainError::TooMany(grains, most));
         }
-        number("skin", self.skin, "positive", self.skin > 0.0)?;
-        let fine = (0.0..1.0).contains(&self.damping);
-        number("damping", self.damping, "at least 0 and below 1", fine)?;
-        let gravity = self.gravity.norm();
-        number("gravity", gravity, "finite", true)?;
+        require("the skin is", self.skin, "positive", self.skin > 0.0)?;
+        check_damping(self.damping)?;
+        require("the gravity is", self.gravity.norm(), "finite", true)?;
         self.check_laws()?;
         let largest = self.grains.radius.iter().copied().fold(0.0, f64::max);
         space::check(&self.period, 2.0 * largest + self.skin)?;
@@ -100,7 +100,7 @@ impl GrainSystem {
             for (axis, ends) in self.period.iter().enumerate() {
                 if ends.is_some() && wall.normal[axis] != 0.0 {
                     let problem = format!("is turned towards axis {axis}, which is periodic");
-                    return Err(GrainError::BadWall { wall: w, problem });
+                    return Err(GrainError::BadWall(w, problem));
                 }
             }
         }
@@ -109,17 +109,11 @@ impl GrainSystem {
         }
         for (grain, position) in self.grains.position.iter().enumerate() {
             for (axis, ends) in self.period.iter().enumerate() {
-                let value = position[axis];
+                let x = position[axis];
                 if let Some([from, to]) = *ends
-                    && !(from..=to).contains(&value)
+                    && !(from..=to).contains(&x)
                 {
-                    return Err(GrainError::OutsidePeriod {
-                        grain,
-                        axis,
-                        value,
-                        from,
-                        to,
-                    });
+                    return Err(GrainError::OutsidePeriod(grain, axis, x, [from, to]));
                 }
             }
         }
@@ -132,11 +126,7 @@ impl GrainSystem {
             law.check()?;
             let wanted = law.memory().len();
             if wanted > MEMORY {
-                return Err(GrainError::Memory {
-                    law: number,
-                    wanted,
-                    room: MEMORY,
-                });
+                return Err(GrainError::Memory(number, wanted, MEMORY));
             }
         }
         let walls = self.walls.iter().map(|w| w.law).enumerate();
@@ -145,12 +135,7 @@ impl GrainSystem {
         let named = named.chain(walls.map(|w| ("wall", w)));
         for (what, (number, law)) in named.chain(meshes.map(|m| ("mesh", m))) {
             if law >= laws {
-                return Err(GrainError::NoLaw {
-                    what,
-                    number,
-                    law,
-                    laws,
-                });
+                return Err(GrainError::NoLaw(what, number, law, laws));
             }
         }
         Ok(())
@@ -253,7 +238,7 @@ impl GrainSystem {
     /// [`GrainError::StepTooLarge`] above [`GrainSystem::critical_step`], which is computed anew every hundred
     /// steps; nothing is moved then. A step that is not positive and finite. A pressed wall of unknown area.
     pub fn integrate(&mut self, step: f64) -> Result<(), GrainError> {
-        number("step", step, "positive", step > 0.0)?;
+        require("the step is", step, "positive", step > 0.0)?;
         let limit = self.fresh_limit();
         if step > limit.step {
             return Err(GrainError::StepTooLarge {
@@ -272,7 +257,7 @@ impl GrainSystem {
     /// then.
     pub fn integrate_unchecked(&mut self, step: f64) -> Result<(), GrainError> {
         let moves = self.time + step > self.time;
-        number("step", step, "long enough to move the clock", moves)?;
+        require("the step is", step, "long enough to move the clock", moves)?;
         self.check_depths()?;
         self.steer_walls(step)?;
         self.advance_grains(step);
@@ -312,14 +297,7 @@ impl GrainSystem {
     }
 }
 
-pub(crate) fn number(
-    what: &'static str,
-    value: f64,
-    valid: &'static str,
-    fine: bool,
-) -> Result<(), GrainError> {
-    if fine && value.is_finite() {
-        return Ok(());
-    }
-    Err(GrainError::BadNumber { what, value, valid })
+pub(crate) fn check_damping(damping: f64) -> Result<(), GrainError> {
+    let fine = (0.0..1.0).contains(&damping);
+    Ok(require("the damping is", damping, BELOW_1, fine)?)
 }

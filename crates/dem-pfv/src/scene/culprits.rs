@@ -1,6 +1,6 @@
 //! Names in the scene of the grains and walls that a refusal numbers.
 
-use crate::grains::GrainError;
+use crate::grains::{GrainError, Partner};
 use crate::scene::error::DemError;
 use crate::scene::names::planes;
 use crate::scene::read::Loaded;
@@ -16,9 +16,10 @@ pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
 pub fn named(loaded: &Loaded, error: &GrainError) -> String {
     let mut names = Vec::new();
     if let GrainError::InWall { wall, .. }
-    | GrainError::BadWall { wall, .. }
+    | GrainError::BadWall(wall, _)
     | GrainError::TooDeep {
-        wall: Some(wall), ..
+        body: Partner::Wall(wall),
+        ..
     } = error
         && let Some(name) = planes(&loaded.scene).get(*wall)
     {
@@ -40,13 +41,13 @@ pub fn named(loaded: &Loaded, error: &GrainError) -> String {
 /// The grains that an error names.
 fn grains(error: &GrainError) -> Vec<usize> {
     match *error {
-        GrainError::Overlap { first, second, .. } => vec![first, second],
+        GrainError::Overlap(first, second, _) => vec![first, second],
         GrainError::InWall { grain, .. }
         | GrainError::InMesh { grain, .. }
         | GrainError::TooDeep { grain, .. }
-        | GrainError::NotPositive { grain, .. }
-        | GrainError::NotFinite { grain, .. }
-        | GrainError::OutsidePeriod { grain, .. } => vec![grain],
+        | GrainError::NotPositive(grain, ..)
+        | GrainError::NotFinite(grain, ..)
+        | GrainError::OutsidePeriod(grain, ..) => vec![grain],
         _ => Vec::new(),
     }
 }

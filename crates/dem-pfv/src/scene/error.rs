@@ -4,7 +4,7 @@ use scene_text::SceneProblem;
 use sph_io::IoError;
 use thiserror::Error;
 
-use crate::coupled::CoupledError;
+use crate::coupled::{CoupledError, StepLimit};
 use crate::flow::FlowError;
 use crate::grains::GrainError;
 
@@ -72,18 +72,18 @@ pub struct Failure {
 pub(crate) fn grain_of(error: &CoupledError) -> Option<usize> {
     match error {
         CoupledError::Grains(
-            GrainError::NotFinite { grain, .. }
+            GrainError::NotFinite(grain, ..)
             | GrainError::InWall { grain, .. }
             | GrainError::InMesh { grain, .. }
             | GrainError::TooDeep { grain, .. }
-            | GrainError::NotPositive { grain, .. }
+            | GrainError::NotPositive(grain, ..)
             | GrainError::StepTooLarge { grain, .. }
-            | GrainError::Overlap { first: grain, .. },
+            | GrainError::Overlap(grain, ..),
         )
-        | CoupledError::StepTooLarge { grain, .. }
-        | CoupledError::Flow(
-            FlowError::Overlap { first: grain, .. } | FlowError::InWall { sphere: grain, .. },
-        ) => Some(*grain),
+        | CoupledError::StepTooLarge(_, StepLimit { grain, .. })
+        | CoupledError::Flow(FlowError::Overlap(grain, ..) | FlowError::InWall(grain, ..)) => {
+            Some(*grain)
+        }
         _ => None,
     }
 }

@@ -2,8 +2,8 @@
 
 use dem_pfv::grains::{
     Contact, ContactLaw, ContactLawEntry, GrainError, GrainSystem, Setup, Stiffness, contact_law,
-    require,
 };
+use dem_pfv::require;
 use sph_core::{plugin, plugins_of};
 
 use crate::grains::{RADIUS, close, grain, position};
@@ -19,7 +19,12 @@ struct Bruised {
 impl ContactLaw for Bruised {
     fn check(&self) -> Result<(), GrainError> {
         let k = self.stiffness;
-        require("bruised", "stiffness", k, "positive", k > 0.0)
+        Ok(require(
+            "the contact law bruised has the stiffness",
+            k,
+            "positive",
+            k > 0.0,
+        )?)
     }
     fn memory(&self) -> &'static [&'static str] {
         &["largest overlap"]
