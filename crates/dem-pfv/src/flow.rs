@@ -26,7 +26,7 @@
 //! let mut boundary = Boundary::closed(&geometry);
 //! boundary.pressure(&geometry, 2, |_| Some(0.0)); // the wall y = 0, Pa
 //! boundary.pressure(&geometry, 3, |_| Some(1.0)); // the wall y = 1
-//! let mut system = FlowSystem::new(&geometry, &boundary, &HydraulicRadius::default(), 1e-3, Solver::Direct)?;
+//! let mut system = FlowSystem::new(&geometry, &boundary, &HydraulicRadius::default(), 1e-3, None, Solver::Direct)?;
 //! let pressures = system.solve(&boundary, &[])?;
 //! let inflow = system.inflow(&geometry, 3, &pressures); // m³/s
 //! assert!(inflow > 0.0);

@@ -100,6 +100,7 @@ impl CoupledSystem {
             &boundary,
             &*self.law,
             viscosity,
+            None,
             Solver::Automatic,
         )?;
         let pressures = system.solve(&boundary, &[])?;

@@ -153,7 +153,7 @@ impl Remeshing {
 }
 
 /// Everything about the fluid that a [`crate::coupled::CoupledSystem`] starts from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct FlowSetup {
     /// The fluid.
     pub fluid: Fluid,

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::coupled::pores::{PRESSED, Places, Pores};
 use crate::coupled::system::{Clock, check};
-use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
-use crate::flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
+use crate::coupled::{CoupledError, CoupledSystem, FlowSetup};
+use crate::flow::Conductance;
 use crate::grains::{ContactLaw, GrainSystem};
 
 /// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
@@ -13,11 +13,7 @@ use crate::grains::{ContactLaw, GrainSystem};
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct State {
     grains: crate::grains::State,
-    fluid: Fluid,
-    sides: Vec<WallBoundary>,
-    remeshing: Remeshing,
-    angles: SolidAngles,
-    solver: Solver,
+    setup: FlowSetup,
     /// Places at which the mesh was made; it is made again there.
     places: Places,
     clock: Clock,
@@ -26,44 +22,25 @@ pub struct State {
 impl CoupledSystem {
     /// State to resume.
     pub fn save(&self) -> State {
-        let setup = &self.setup;
         State {
             grains: self.grains.save(),
-            fluid: setup.fluid,
-            sides: setup.sides.clone(),
-            remeshing: setup.remeshing,
-            angles: setup.angles,
-            solver: setup.solver,
+            setup: self.setup.clone(),
             places: self.pores.places.clone(),
             clock: self.clock.clone(),
         }
     }
 
-    /// Goes on from a saved state with the same contact laws, conductances by hydraulic radii.
+    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
     ///
     /// # Errors
     /// A state whose parts do not fit together.
-    pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, CoupledError> {
-        Self::resume_with_law(state, laws, Box::new(HydraulicRadius::default()))
-    }
-
-    /// The same with the law for the conductances that the saved run had.
-    ///
-    /// # Errors
-    /// As [`CoupledSystem::resume`].
-    pub fn resume_with_law(
+    pub fn resume(
         state: State,
         laws: Vec<Box<dyn ContactLaw>>,
         law: Box<dyn Conductance>,
     ) -> Result<Self, CoupledError> {
         let grains = GrainSystem::resume(state.grains, laws)?;
-        let setup = FlowSetup {
-            fluid: state.fluid,
-            sides: state.sides,
-            remeshing: state.remeshing,
-            angles: state.angles,
-            solver: state.solver,
-        };
+        let setup = state.setup;
         check(&grains, &setup)?;
         let bad = |problem| Err(CoupledError::BadState(problem));
         let (places, clock) = (state.places, state.clock);

@@ -65,45 +65,14 @@ pub struct FlowSystem {
 }
 
 impl FlowSystem {
-    /// The system of an incompressible fluid of a dynamic viscosity, Pa s.
-    ///
-    /// # Errors
-    /// See [`FlowSystem::compressible`]; and pores that no given pressure can reach.
-    pub fn new(
-        geometry: &PoreGeometry,
-        boundary: &Boundary,
-        conductance: &dyn Conductance,
-        viscosity: f64,
-        solver: Solver,
-    ) -> Result<Self, FlowError> {
-        Self::assembled(geometry, boundary, conductance, viscosity, None, solver)
-    }
-
-    /// The system of a compressible fluid, in which no pressure need be given. Where none is, the mean pressure
-    /// loses as many digits as k K Δt/V has: a closed room of stiff fluid (10¹¹) is known to 1e-4.
+    /// The system of a fluid of a dynamic viscosity (Pa s); with a `storage` that of a compressible one, in which no
+    /// pressure need be given. Where none is, the mean pressure loses as many digits as k K Δt/V has: a closed room of
+    /// stiff fluid (10¹¹) is known to 1e-4.
     ///
     /// # Errors
     /// A viscosity, bulk modulus or step that is not positive; a conductance that is not a number; a
-    /// factorisation that fails.
-    pub fn compressible(
-        geometry: &PoreGeometry,
-        boundary: &Boundary,
-        conductance: &dyn Conductance,
-        viscosity: f64,
-        storage: Storage,
-        solver: Solver,
-    ) -> Result<Self, FlowError> {
-        Self::assembled(
-            geometry,
-            boundary,
-            conductance,
-            viscosity,
-            Some(storage),
-            solver,
-        )
-    }
-
-    fn assembled(
+    /// factorisation that fails; pores of an incompressible fluid that no given pressure can reach.
+    pub fn new(
         geometry: &PoreGeometry,
         boundary: &Boundary,
         law: &dyn Conductance,

@@ -41,23 +41,7 @@ impl GrainSystem {
     ///
     /// # Errors
     /// Parameters out of range; no law of that number.
-    pub fn set_law(
-        &mut self,
-        number: usize,
-        law: impl ContactLaw + 'static,
-    ) -> Result<(), GrainError> {
-        self.replace_law(number, Box::new(law))
-    }
-
-    /// The same for a law that was found by its name ([`crate::grains::contact_law`]).
-    ///
-    /// # Errors
-    /// As [`GrainSystem::set_law`].
-    pub fn replace_law(
-        &mut self,
-        number: usize,
-        law: Box<dyn ContactLaw>,
-    ) -> Result<(), GrainError> {
+    pub fn set_law(&mut self, number: usize, law: Box<dyn ContactLaw>) -> Result<(), GrainError> {
         law.check()?;
         let laws = self.laws.len();
         let slot = self.laws.get_mut(number);

@@ -188,7 +188,7 @@ impl Model {
         Ok(match saved {
             Saved::Dry(state) => Self::Dry(Box::new(GrainSystem::resume(*state, laws)?)),
             Saved::Wet(state) => {
-                let system = CoupledSystem::resume_with_law(*state, laws, throats)?;
+                let system = CoupledSystem::resume(*state, laws, throats)?;
                 Self::Wet(Box::new(system))
             }
         })

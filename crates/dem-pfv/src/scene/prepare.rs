@@ -68,7 +68,7 @@ pub fn grains(
     }
     settled(loaded, &mut system, tell)?;
     for (number, law) in run_laws {
-        system.replace_law(number, law).map_err(told)?;
+        system.set_law(number, law).map_err(told)?;
     }
     lower_the_top(scene, &mut system, top)?;
     Ok(system)

@@ -4,7 +4,7 @@ use dem_pfv::coupled::{
     CoupledError, CoupledSystem, FlowCondition, FlowSetup, Fluid, Remeshing, StepLimit,
     WallBoundary, Wave,
 };
-use dem_pfv::flow::FlowError;
+use dem_pfv::flow::{FlowError, HydraulicRadius};
 use dem_pfv::grains::{Grain, GrainError, GrainSystem, LinearElastic, Setup, Wall};
 
 fn grains(spheres: Vec<Grain>) -> Result<GrainSystem, GrainError> {
@@ -226,7 +226,7 @@ fn a_state_of_other_grains_is_refused() {
     let laws: Vec<Box<dyn dem_pfv::grains::ContactLaw>> =
         vec![Box::new(LinearElastic::new(1e6, 0.5, 0.3))];
     assert!(matches!(
-        CoupledSystem::resume(state, laws),
+        CoupledSystem::resume(state, laws, Box::new(HydraulicRadius::default())),
         Err(CoupledError::BadState(_))
     ));
 }

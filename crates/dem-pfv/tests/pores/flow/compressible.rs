@@ -14,12 +14,12 @@ fn a_closed_box_stores_what_is_pumped_in() {
         bulk_modulus: 1e3,
         step: 0.5,
     };
-    let mut system = FlowSystem::compressible(
+    let mut system = FlowSystem::new(
         &geometry,
         &boundary,
         &hydraulic(),
         1.0,
-        storage,
+        Some(storage),
         Solver::Direct,
     )
     .expect("a system");
@@ -44,20 +44,27 @@ fn a_closed_box_stores_what_is_pumped_in() {
 fn pressures_diffuse_to_the_steady_ones() {
     let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let boundary = drop_along_y(&geometry);
-    let mut steady =
-        FlowSystem::new(&geometry, &boundary, &hydraulic(), 1.0, Solver::Direct).expect("a system");
+    let mut steady = FlowSystem::new(
+        &geometry,
+        &boundary,
+        &hydraulic(),
+        1.0,
+        None,
+        Solver::Direct,
+    )
+    .expect("a system");
     let steady = steady.solve(&boundary, &[]).expect("pressures");
     // Diffusivity κ K/(µ n) is about 0.08 m²/s: 1 s goes a third of the way through the box.
     let storage = Storage {
         bulk_modulus: 1e3,
         step: 1.0,
     };
-    let mut system = FlowSystem::compressible(
+    let mut system = FlowSystem::new(
         &geometry,
         &boundary,
         &hydraulic(),
         1.0,
-        storage,
+        Some(storage),
         Solver::Direct,
     )
     .expect("a system");

@@ -63,7 +63,7 @@ struct Permeameter {
 fn permeameter(geometry: &PoreGeometry, law: &dyn Conductance) -> Permeameter {
     let boundary = drop_along_y(geometry);
     let mut system =
-        FlowSystem::new(geometry, &boundary, law, 1.0, Solver::Direct).expect("a system");
+        FlowSystem::new(geometry, &boundary, law, 1.0, None, Solver::Direct).expect("a system");
     let pressures = system.solve(&boundary, &[]).expect("pressures");
     let [low, high] = [2, 3].map(|w| system.inflow(geometry, w, &pressures));
     Permeameter {

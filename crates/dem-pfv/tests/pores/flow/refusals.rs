@@ -41,7 +41,7 @@ fn rooms_that_are_no_box_are_named() {
 fn closed_rooms_have_no_pressure() {
     let geometry = geometry(&spheres(BOX25), SlipCondition::NoSlip, SolidAngles::Signed);
     let closed = Boundary::closed(&geometry);
-    let error = FlowSystem::new(&geometry, &closed, &hydraulic(), 1.0, Solver::Direct)
+    let error = FlowSystem::new(&geometry, &closed, &hydraulic(), 1.0, None, Solver::Direct)
         .err()
         .expect("singular");
     assert!(
@@ -60,14 +60,22 @@ fn bad_numbers_and_changed_conditions_are_named() {
             &boundary,
             &hydraulic(),
             viscosity,
+            None,
             Solver::Direct,
         )
         .err();
         let told = error.expect("refused").to_string();
         assert!(told.starts_with("viscosity is"), "{told}");
     }
-    let mut system =
-        FlowSystem::new(&geometry, &boundary, &hydraulic(), 1.0, Solver::Direct).expect("a system");
+    let mut system = FlowSystem::new(
+        &geometry,
+        &boundary,
+        &hydraulic(),
+        1.0,
+        None,
+        Solver::Direct,
+    )
+    .expect("a system");
     let error = system
         .solve(&Boundary::closed(&geometry), &[])
         .expect_err("changed");
