@@ -4,22 +4,15 @@ mod measurements;
 mod start;
 mod walls;
 
-use std::collections::BTreeMap;
-
 use scene_text::{Problems, SceneProblem, Source, suggestion};
 
 use crate::scene::error::DemError;
 use crate::scene::laws::{Laws, throats};
 use crate::scene::names::BOX;
-use crate::scene::tables::{Probe, Reference, Scene};
+use crate::scene::tables::Scene;
 
 /// Everything that is wrong.
-pub fn scene(
-    scene: &Scene,
-    probes: &BTreeMap<String, Probe>,
-    references: &BTreeMap<String, Reference>,
-    source: &Source,
-) -> Vec<SceneProblem> {
+pub fn scene(scene: &Scene, source: &Source) -> Vec<SceneProblem> {
     let mut found = Problems::default();
     for problems in [Laws::from_scene(scene).err(), throats(scene).err()]
         .into_iter()
@@ -36,11 +29,11 @@ pub fn scene(
     }
     fluid(scene, &mut found);
     oedometer(scene, &mut found);
-    for (name, probe) in probes {
+    for (name, probe) in &scene.probe {
         measurements::probe(scene, name, probe, &mut found);
     }
-    for (name, reference) in references {
-        measurements::reference(scene, probes, name, reference, &mut found);
+    for (name, reference) in &scene.reference {
+        measurements::reference(scene, name, reference, &mut found);
     }
     files(scene, source, &mut found);
     output(scene, &mut found);

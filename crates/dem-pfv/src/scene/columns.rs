@@ -1,13 +1,11 @@
 //! Columns of the series.
 
-use std::collections::BTreeMap;
-
 use crate::scene::measure;
 use crate::scene::model::Model;
 use crate::scene::names::periodic;
 use crate::scene::origin::Origin;
 use crate::scene::read::Loaded;
-use crate::scene::tables::{Probe, Scene};
+use crate::scene::tables::Scene;
 
 /// Columns that every run of a kind has, with their units.
 fn common(scene: &Scene) -> Vec<(&'static str, &'static str)> {
@@ -41,8 +39,7 @@ fn closed(scene: &Scene) -> bool {
 pub fn headings(loaded: &Loaded) -> Vec<(String, &'static str)> {
     let own = common(&loaded.scene).into_iter();
     let own = own.map(|(name, unit)| (name.to_string(), unit));
-    let probes: &BTreeMap<String, Probe> = &loaded.probes;
-    let probes = probes
+    let probes = (loaded.scene.probe)
         .iter()
         .map(|(name, probe)| (name.clone(), measure::unit(probe)));
     own.chain(probes).collect()
@@ -63,7 +60,7 @@ pub fn row(loaded: &Loaded, model: &Model, origin: &Origin, dt: f64) -> Vec<f64>
         "meshes" => model.wet().map_or(0.0, |w| w.meshes() as f64),
         _ => f64::NAN,
     });
-    let probes = loaded.probes.values();
+    let probes = scene.probe.values();
     own.chain(probes.map(|p| measure::value(p, scene, model, origin)))
         .collect()
 }

@@ -41,11 +41,11 @@ pub fn errors(
     series: &Path,
 ) -> Result<BTreeMap<String, Compared>, DemError> {
     let mut all = BTreeMap::new();
-    if loaded.references.is_empty() {
+    if loaded.scene.reference.is_empty() {
         return Ok(all);
     }
     let table = read_table(series)?;
-    for (name, reference) in &loaded.references {
+    for (name, reference) in &loaded.scene.reference {
         let compared = one(loaded, origin, &table, name, reference)?;
         all.insert(name.clone(), compared);
     }
@@ -101,7 +101,7 @@ fn one(
         } => {
             let rows = rows(table, probe, window(*from, *to));
             let found = statistic(&rows, *of);
-            let unit = loaded.probes.get(probe).map_or("", measure::unit);
+            let unit = loaded.scene.probe.get(probe).map_or("", measure::unit);
             let against = format!("{probe} = {value} {unit}");
             Ok(relative(
                 found,
@@ -159,7 +159,7 @@ fn scaled(
     let path = path.map_err(|e| DemError::at(&key, e))?;
     let law = scaling::read(&path, geometry, quantity);
     let law = law.map_err(|why| DemError::at(&key, why))?;
-    let length = match loaded.probes.get(probe) {
+    let length = match loaded.scene.probe.get(probe) {
         Some(Probe::RunOut { length, .. }) => *length,
         _ => f64::NAN,
     };
@@ -196,7 +196,7 @@ fn terzaghi(
     shorter_by: f64,
     factors: [f64; 2],
 ) -> Compared {
-    let settles = matches!(loaded.probes.get(probe), Some(Probe::Consolidation {}));
+    let settles = matches!(loaded.scene.probe.get(probe), Some(Probe::Consolidation {}));
     let half = origin.lengths.map_or(f64::NAN, |l| 0.5 * l[2]);
     let coefficient = origin.consolidation().unwrap_or(f64::NAN);
     let plain = Terzaghi {

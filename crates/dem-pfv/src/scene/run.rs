@@ -161,7 +161,7 @@ impl sph_run::Model for Running<'_> {
                 return Err(DemError::Resume(why.into()));
             }
         }
-        let mut probes = self.loaded.probes.values();
+        let mut probes = self.loaded.scene.probe.values();
         if let Some(parts) = &mut self.parts
             && probes.any(|p| matches!(p, Probe::Flux { .. }))
         {

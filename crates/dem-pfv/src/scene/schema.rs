@@ -6,9 +6,9 @@ use sph_core::{PluginInfo, plugins_of};
 
 use crate::flow::ConductanceEntry;
 use crate::grains::ContactLawEntry;
-use crate::scene::tables::{Probe, Reference, Scene};
+use crate::scene::tables::Scene;
 
-/// The schema of the scene's own keys; tables of plugins, probes and references are open in it.
+/// The schema of the scene's own keys; tables of plugins are open in it.
 pub(crate) fn of_scene() -> Json {
     schemars::schema_for!(Scene).to_value()
 }
@@ -28,18 +28,6 @@ pub fn editor_schema() -> Json {
     plugins(
         root.pointer_mut("/$defs/Fluid/properties/conductance"),
         &throats,
-        &mut shared,
-    );
-    tagged(
-        &mut root,
-        "probe",
-        schemars::schema_for!(Probe).to_value(),
-        &mut shared,
-    );
-    tagged(
-        &mut root,
-        "reference",
-        schemars::schema_for!(Reference).to_value(),
         &mut shared,
     );
     if let Some(defs) = root.get_mut("$defs").and_then(Json::as_object_mut) {
@@ -64,14 +52,6 @@ fn plugins(place: Option<&mut Json>, all: &[PluginInfo], shared: &mut Map<String
     place["properties"] = Json::Object(properties);
     place["additionalProperties"] = json!(false);
     place["maxProperties"] = json!(1);
-}
-
-/// Alternatives that the key `kind` distinguishes.
-fn tagged(root: &mut Json, key: &str, mut all: Json, shared: &mut Map<String, Json>) {
-    lift(&mut all, shared);
-    if let Some(place) = root.pointer_mut(&format!("/properties/{key}")) {
-        place["additionalProperties"] = json!({ "oneOf": all["oneOf"] });
-    }
 }
 
 /// Moves definitions to those of the whole.

@@ -40,7 +40,7 @@ impl Subject for Scene {
     }
 
     fn references(&self) -> Vec<String> {
-        self.0.references.keys().cloned().collect()
+        self.0.scene.reference.keys().cloned().collect()
     }
 
     fn resolved(&self) -> Table {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use sph_core::parameters;
 
-use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
+use super::{Box, Fluid, Grains, Output, Probe, Reference, Start, Wall};
 
 /// Grains, walls, fluid, times and output of a scene.
 #[parameters]
@@ -30,12 +30,10 @@ pub struct Scene {
     pub oedometer: Option<Oedometer>,
     /// Measurements by name, `[probe.NAME]`; `kind` chooses it, the other keys are its parameters.
     #[parameter(default)]
-    #[schemars(with = "AnyPlugins")]
-    pub probe: Plugins,
+    pub probe: BTreeMap<String, Probe>,
     /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
     #[parameter(default)]
-    #[schemars(with = "AnyPlugins")]
-    pub reference: Plugins,
+    pub reference: BTreeMap<String, Reference>,
     /// Files of a run, and the times of writing.
     #[parameter(default)]
     pub output: Output,
@@ -53,10 +51,11 @@ impl Scene {
             let recorded = wall.recorded.iter();
             found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
         }
-        found.extend(self.reference.iter().filter_map(|(name, table)| {
-            let file = table.get("file")?.as_str()?.to_string();
-            Some((format!("reference.{name}.file"), file))
-        }));
+        for (name, reference) in &self.reference {
+            if let Reference::Scaling { file, .. } | Reference::Curve { file, .. } = reference {
+                found.push((format!("reference.{name}.file"), file.clone()));
+            }
+        }
         found
     }
 }
