@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use sph_run::{
     BAD_STATE, BAD_STATE_PICTURE, Frames, Identity, ModelTime, Outlay, RunCounters, RunOptions,
-    SERIES, Schedule, Start, Status, Watch, next_multiple,
+    SERIES, Schedule, Start, Status, Watch,
 };
 
 use crate::coupled::CoupledError;
@@ -105,8 +105,9 @@ impl<'a> Running<'a> {
         if options.start == Start::Afresh {
             let begun = Instant::now();
             running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
-            running.progress.preparation_seconds = begun.elapsed().as_secs_f64();
-            running.progress.wall_seconds = running.progress.preparation_seconds;
+            let seconds = begun.elapsed().as_secs_f64();
+            running.progress.preparation_seconds = seconds;
+            running.progress.books.wall_seconds = seconds;
         }
         Ok(running)
     }
@@ -167,20 +168,10 @@ impl sph_run::Model for Running<'_> {
         {
             parts.model.measure_inflow();
         }
-        let progress = &self.progress;
-        let end = self.loaded.scene.run.end;
-        let interval = self.loaded.scene.output.interval(end);
+        let time = self.parts()?.model.grains().time;
         Ok(RunCounters {
-            time: self.parts()?.model.grains().time,
-            rows: progress.rows,
-            last_row: progress.last_row,
-            series: progress.series,
-            outputs: progress.frames,
-            next_output: next_multiple(interval, end, progress.last_output.unwrap_or(-1.0)),
-            checkpoints: progress.checkpoints.saturating_sub(1),
-            colours: progress.colours.clone(),
-            wall_seconds: progress.wall_seconds,
-            output_seconds: 0.0,
+            time,
+            ..self.progress.books.clone()
         })
     }
 
@@ -240,34 +231,18 @@ impl sph_run::Model for Running<'_> {
                 frames::picture(model, origin, field, range, &scene.title, None, &path)?;
             }
         }
-        self.progress.last_output = Some(time);
         Ok(())
     }
 
     fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), DemError> {
-        let scene = &self.loaded.scene;
-        let (end, last) = (scene.run.end, self.progress.last_output);
-        let progress = &mut self.progress;
-        progress.rows = books.rows;
-        progress.last_row = books.last_row;
-        progress.series = books.series;
-        let begun = |time: f64| (time / scene.output.interval(end)).floor() as u64 + 1;
-        progress.outputs = last.map_or(0, begun);
-        progress.frames = books.outputs;
-        // The last state is no checkpoint of those that are due.
-        if books.time < end && books.checkpoints > 0 {
-            progress.checkpoints = books.checkpoints + 1;
-        }
-        progress.colours.clone_from(&books.colours);
-        progress.wall_seconds = books.wall_seconds;
-        let progress = progress.clone();
+        self.progress.books = books.clone();
         let parts = self.parts()?;
         let kept = CheckpointState {
             model: parts.model.save(),
             origin: parts.origin.clone(),
-            progress,
+            progress: self.progress.clone(),
         };
-        checkpoint::save(&kept, &self.options.identity.scene, own)
+        checkpoint::save(kept, &self.options.identity.scene, own)
     }
 
     fn conclude(
