@@ -54,7 +54,6 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
     loaded.check_files()?;
     let scene = &loaded.scene;
     let coupled = scene.fluid.is_some();
-    let columns = headings(loaded).into_iter();
     let (estimate, warnings) = foreseen(loaded, count(scene))?;
     Ok(Examination {
         scene: scene.title.clone(),
@@ -65,9 +64,7 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
         surfaces: surfaces(scene),
         coupled,
         plugins: plugins(scene),
-        columns: columns
-            .map(|(name, unit)| (name, unit.to_string()))
-            .collect(),
+        columns: headings(scene),
         memory: memory(count(scene), coupled),
         stages: stages(scene.fluid.as_ref()),
         limits: limits(coupled),

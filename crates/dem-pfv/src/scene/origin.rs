@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
+use crate::coupled::Terzaghi;
 use crate::grains::GrainSystem;
 use crate::scene::highest_point::highest;
 use crate::scene::tables::Scene;
@@ -74,5 +75,13 @@ impl Origin {
     /// C_v = K Δσ / ε, m²/s.
     pub fn consolidation(&self) -> Option<f64> {
         Some(self.mobility? * self.load? / self.dry_strain?)
+    }
+
+    /// Consolidation from this state, drained at top and bottom; not a number without an oedometer.
+    pub fn terzaghi(&self) -> Terzaghi {
+        Terzaghi {
+            coefficient: self.consolidation().unwrap_or(f64::NAN),
+            drainage: self.lengths.map_or(f64::NAN, |l| 0.5 * l[2]),
+        }
     }
 }

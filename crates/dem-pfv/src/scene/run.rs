@@ -168,11 +168,7 @@ impl sph_run::Model for Running<'_> {
         {
             parts.model.measure_inflow();
         }
-        let time = self.parts()?.model.grains().time;
-        Ok(RunCounters {
-            time,
-            ..self.progress.books.clone()
-        })
+        Ok(self.progress.books.clone())
     }
 
     fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, DemError> {
@@ -189,18 +185,13 @@ impl sph_run::Model for Running<'_> {
     }
 
     fn columns(&self) -> Vec<(String, String)> {
-        let columns = headings(self.loaded).into_iter();
-        columns.map(|(name, unit)| (name, unit.into())).collect()
+        headings(&self.loaded.scene)
     }
 
     fn row(&mut self, _: &mut Watch<'_>) -> Result<Vec<f64>, DemError> {
-        let parts = self.parts()?;
-        Ok(row(
-            self.loaded,
-            &parts.model,
-            &parts.origin,
-            self.progress.dt,
-        ))
+        let Assembled { model, origin, .. } = self.parts()?;
+        let dt = self.progress.dt;
+        Ok(row(&self.loaded.scene, model, origin, dt))
     }
 
     fn show(
