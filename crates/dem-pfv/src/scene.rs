@@ -83,7 +83,7 @@ pub use schema::editor_schema;
 pub use subject::DiscreteElements;
 pub use summary::{PluginInForce, Summary};
 pub use tables::{
-    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,
-    Plugins, Probe, Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple,
-    Wall, WaveLoad, Weight,
+    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
+    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, WaveLoad,
+    Weight,
 };

@@ -1,6 +1,7 @@
 //! Parameters of the fluid and of its computation.
 
 use serde::{Deserialize, Serialize};
+use sph_core::parameters;
 
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
@@ -10,19 +11,22 @@ use crate::{OutOfRange, require};
 pub(crate) const POSITIVE: &str = "positive and finite";
 
 /// The fluid in the pores.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[parameters]
+#[derive(Copy, PartialEq, Serialize)]
 pub struct Fluid {
     /// Dynamic viscosity µ, Pa s.
+    #[parameter(unit: "Pa s", above: 0.0)]
     pub viscosity: f64,
     /// Density ρ_f, kg/m³, for buoyancy; zero for none.
+    #[parameter(default, unit: "kg/m³", min: 0.0)]
     pub density: f64,
-    /// Bulk modulus K_f, Pa; none for a fluid that does not give way.
+    /// Bulk modulus K_f, Pa; a fluid that does not give way if left out.
+    #[parameter(unit: "Pa", above: 0.0)]
     pub bulk_modulus: Option<f64>,
-    /// True if it shears between neighbours that slide past each other: Catalano 2012, Eqs. (6.29), (6.30).
-    #[serde(default)]
+    /// True if it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
+    #[parameter(default)]
     pub shear: bool,
-    /// Resistance to a change of the gap between neighbours; nothing beyond the pores' pressures if none.
-    #[serde(default)]
+    /// Lubrication of the gaps between neighbours; none if left out.
     pub lubrication: Option<Lubrication>,
 }
 
@@ -36,11 +40,14 @@ pub struct Fluid {
 /// The leading term of Jeffrey and Onishi (J. Fluid Mech. 139, 1984), less its value at the range c a, beyond which the
 /// pores' pressures have to do (as Nguyen and Ladd, Phys. Rev. E 66, 046708, 2002, subtract what their fluid resolves).
 /// No gap counts as narrower than the roughness ε a, so that spheres touch.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[parameters]
+#[derive(PartialEq, Serialize)]
 pub struct Lubrication {
-    /// Roughness ε in terms of a.
+    /// Roughness ε in terms of a: no gap counts as narrower.
+    #[parameter(default: 0.01, unit: "1", above: 0.0)]
     pub roughness: f64,
-    /// Range c in terms of a.
+    /// Range c in terms of a, beyond which the pores' pressures have to do.
+    #[parameter(default: 1.0, unit: "1", above: 0.0)]
     pub range: f64,
 }
 

@@ -110,14 +110,7 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 
 /// The fluid and its conditions.
 fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
-    let mut given = crate::coupled::Fluid::new(fluid.viscosity, fluid.density);
-    given.bulk_modulus = fluid.bulk_modulus;
-    given.shear = fluid.shear;
-    given.lubrication = fluid.lubrication.map(|l| crate::coupled::Lubrication {
-        roughness: l.roughness,
-        range: l.range,
-    });
-    let mut setup = FlowSetup::new(given).remeshing(Remeshing {
+    let mut setup = FlowSetup::new(fluid.given).remeshing(Remeshing {
         strain: Some(fluid.remesh_strain),
         most_steps: fluid.remesh_steps,
     });

@@ -70,7 +70,7 @@ fn fluid(scene: &Scene, found: &mut Problems) {
         .wall
         .values()
         .any(|w| w.pressure.is_some() || w.wave.is_some() || w.recorded.is_some());
-    if !pressed && fluid.bulk_modulus.is_none() {
+    if !pressed && fluid.given.bulk_modulus.is_none() {
         let message = "no wall has a `pressure`, a `wave` or what was `recorded`: pressures would be known but for a constant; give one, \
                        or a `bulk_modulus`";
         found.add("fluid", message);

@@ -171,7 +171,7 @@ fn stages(fluid: Option<&Fluid>) -> Vec<String> {
         "contacts: overlaps, forces by law, what is remembered of each".to_string(),
         "sums: each grain adds its own contacts in the order of their numbers".to_string(),
     ];
-    let edges = fluid.is_some_and(|f| f.shear || f.lubrication.is_some());
+    let edges = fluid.is_some_and(|f| f.given.shear || f.given.lubrication.is_some());
     if fluid.is_some() {
         all.push("pores: one pressure each, from the rates of their volumes; factor kept while the mesh lasts".into());
         all.push("fluid: forces of pressures and viscosity on grains and walls".into());
@@ -207,7 +207,7 @@ fn derived(scene: &Scene) -> Vec<(String, f64, String)> {
         .gravity
         .map(|g| g.iter().map(|x| x * x).sum::<f64>().sqrt());
     if let (Some(fluid), Some(g)) = (&scene.fluid, gravity) {
-        let weight = (density - fluid.density) * g;
+        let weight = (density - fluid.given.density) * g;
         all.push((
             "buoyant weight of a solid volume".to_string(),
             weight,
@@ -216,8 +216,8 @@ fn derived(scene: &Scene) -> Vec<(String, f64, String)> {
     }
     if let (Some(fluid), Some([small, _])) = (&scene.fluid, scene.grains.radius) {
         // Catalano 2012, Eq. (4.20): about a third of it is stable for narrow gradings.
-        let step =
-            std::f64::consts::PI * density * (2.0 * small).powi(2) / (1200.0 * fluid.viscosity);
+        let step = std::f64::consts::PI * density * (2.0 * small).powi(2)
+            / (1200.0 * fluid.given.viscosity);
         all.push((
             "viscous step by (4.20), three to six times too long".into(),
             step,

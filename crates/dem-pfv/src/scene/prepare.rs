@@ -109,7 +109,7 @@ fn settled(
         }
     }
     let gravity = system.gravity;
-    let lift = |fluid: &Fluid| fluid.density / scene.grains.density;
+    let lift = |fluid: &Fluid| fluid.given.density / scene.grains.density;
     let buoyant = 1.0 - scene.fluid.as_ref().map_or(0.0, lift);
     let shares: &[f64] = match scene.start.weight {
         Weight::Buoyant => &[buoyant],

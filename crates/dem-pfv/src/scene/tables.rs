@@ -10,7 +10,7 @@ mod scene;
 mod wall;
 
 pub use axis::Axis;
-pub use fluid::{Fluid, Lubrication};
+pub use fluid::Fluid;
 pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start, Weight};
 pub use output::Output;
 pub use probe::Probe;
