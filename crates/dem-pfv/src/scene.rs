@@ -52,7 +52,6 @@ mod examine;
 mod fields;
 mod forecast;
 mod frames;
-mod highest_point;
 mod laws;
 mod level;
 mod measure;

@@ -47,3 +47,17 @@ pub enum CoupledError {
     #[error("the saved state cannot be resumed: {0}")]
     BadState(&'static str),
 }
+
+impl CoupledError {
+    /// The first grain that it names.
+    pub fn grain(&self) -> Option<usize> {
+        match self {
+            Self::Grains(error) => error.grains().first().copied(),
+            Self::StepTooLarge(_, limit) => Some(limit.grain),
+            Self::Flow(FlowError::Overlap(grain, ..) | FlowError::InWall(grain, ..)) => {
+                Some(*grain)
+            }
+            _ => None,
+        }
+    }
+}

@@ -127,3 +127,20 @@ pub enum GrainError {
     #[error("the grains are not at rest after {0} steps: {1}")]
     NotSettled(u64, Unrest),
 }
+
+impl GrainError {
+    /// The grains that it names.
+    pub fn grains(&self) -> Vec<usize> {
+        match *self {
+            Self::Overlap(first, second, _) => vec![first, second],
+            Self::NotPositive(grain, ..)
+            | Self::NotFinite(grain, ..)
+            | Self::InWall { grain, .. }
+            | Self::InMesh { grain, .. }
+            | Self::TooDeep { grain, .. }
+            | Self::OutsidePeriod(grain, ..)
+            | Self::StepTooLarge { grain, .. } => vec![grain],
+            _ => Vec::new(),
+        }
+    }
+}

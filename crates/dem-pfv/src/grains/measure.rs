@@ -222,6 +222,12 @@ impl GrainSystem {
         Ok(force / self.section(axis)?)
     }
 
+    /// The highest point of a grain, m.
+    pub fn highest(&self) -> f64 {
+        let tops = self.grains.position.iter().zip(&self.grains.radius);
+        tops.map(|(x, r)| x.z + r).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Volume of the box, m³, if it is closed.
     pub fn box_volume(&self) -> Option<f64> {
         Some(self.box_lengths()?.iter().product())

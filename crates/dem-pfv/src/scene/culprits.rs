@@ -26,7 +26,7 @@ pub fn named(loaded: &Loaded, error: &GrainError) -> String {
         names.push(format!("wall {wall} is `{name}`"));
     }
     if let Some(file) = &loaded.scene.start.file {
-        for grain in grains(error) {
+        for grain in error.grains() {
             if let Some(line) = line(loaded, file, grain) {
                 names.push(format!("grain {grain} is line {line} of `{file}`"));
             }
@@ -35,20 +35,6 @@ pub fn named(loaded: &Loaded, error: &GrainError) -> String {
     match names.is_empty() {
         true => String::new(),
         false => format!(" ({})", names.join(", ")),
-    }
-}
-
-/// The grains that an error names.
-fn grains(error: &GrainError) -> Vec<usize> {
-    match *error {
-        GrainError::Overlap(first, second, _) => vec![first, second],
-        GrainError::InWall { grain, .. }
-        | GrainError::InMesh { grain, .. }
-        | GrainError::TooDeep { grain, .. }
-        | GrainError::NotPositive(grain, ..)
-        | GrainError::NotFinite(grain, ..)
-        | GrainError::OutsidePeriod(grain, ..) => vec![grain],
-        _ => Vec::new(),
     }
 }
 

@@ -4,9 +4,7 @@ use scene_text::SceneProblem;
 use sph_io::IoError;
 use thiserror::Error;
 
-use crate::coupled::{CoupledError, StepLimit};
-use crate::flow::FlowError;
-use crate::grains::GrainError;
+use crate::coupled::CoupledError;
 
 /// Errors that keep a scene from its end.
 #[derive(Debug, Error)]
@@ -66,24 +64,4 @@ pub struct Failure {
     pub grain: Option<usize>,
     /// Place of that grain, m.
     pub position: Option<[f64; 3]>,
-}
-
-/// The grain that an error names.
-pub(crate) fn grain_of(error: &CoupledError) -> Option<usize> {
-    match error {
-        CoupledError::Grains(
-            GrainError::NotFinite(grain, ..)
-            | GrainError::InWall { grain, .. }
-            | GrainError::InMesh { grain, .. }
-            | GrainError::TooDeep { grain, .. }
-            | GrainError::NotPositive(grain, ..)
-            | GrainError::StepTooLarge { grain, .. }
-            | GrainError::Overlap(grain, ..),
-        )
-        | CoupledError::StepTooLarge(_, StepLimit { grain, .. })
-        | CoupledError::Flow(FlowError::Overlap(grain, ..) | FlowError::InWall(grain, ..)) => {
-            Some(*grain)
-        }
-        _ => None,
-    }
 }

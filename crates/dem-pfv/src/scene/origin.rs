@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::coupled::Terzaghi;
 use crate::grains::GrainSystem;
-use crate::scene::highest_point::highest;
 use crate::scene::tables::Scene;
 use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 
@@ -41,7 +40,7 @@ impl Origin {
         Self {
             lengths: grains.box_lengths(),
             positions: all.position.iter().map(|x| [x.x, x.y, x.z]).collect(),
-            top: highest(grains),
+            top: grains.highest(),
             diameter: 2.0 * all.radius.iter().sum::<f64>() / all.len() as f64,
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
             dry_strain: None,

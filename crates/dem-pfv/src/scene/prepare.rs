@@ -7,7 +7,6 @@ use crate::grains::{
 };
 use crate::scene::culprits::{at_start, named, rows};
 use crate::scene::error::DemError;
-use crate::scene::highest_point::highest;
 use crate::scene::laws::Laws;
 use crate::scene::names::planes;
 use crate::scene::read::Loaded;
@@ -136,7 +135,7 @@ fn lower_the_top(
     let (Some(top), Some(given)) = (top, &scene.r#box) else {
         return Ok(());
     };
-    let highest = highest(system);
+    let highest = system.highest();
     let at = match scene.start.headroom {
         Some(room) => highest + room,
         None if scene.start.rained.is_some() => given.high[2],
