@@ -240,30 +240,14 @@ impl<'s> Walk<'s> {
         let unit = unit
             .filter(|u| *u != "1")
             .map_or(String::new(), |u| format!(" {u}"));
-        let checks: [(Option<f64>, bool, &str); 4] = [
-            (
-                bound("minimum"),
-                bound("minimum").is_some_and(|b| x < b),
-                "at least",
-            ),
-            (
-                bound("exclusiveMinimum"),
-                bound("exclusiveMinimum").is_some_and(|b| x <= b),
-                "more than",
-            ),
-            (
-                bound("maximum"),
-                bound("maximum").is_some_and(|b| x > b),
-                "at most",
-            ),
-            (
-                bound("exclusiveMaximum"),
-                bound("exclusiveMaximum").is_some_and(|b| x >= b),
-                "less than",
-            ),
+        let checks: [(&str, fn(f64, f64) -> bool, &str); 4] = [
+            ("minimum", |x, b| x < b, "at least"),
+            ("exclusiveMinimum", |x, b| x <= b, "more than"),
+            ("maximum", |x, b| x > b, "at most"),
+            ("exclusiveMaximum", |x, b| x >= b, "less than"),
         ];
-        for (bound, violated, words) in checks {
-            if let (Some(bound), true) = (bound, violated) {
+        for (key, violated, words) in checks {
+            if let Some(bound) = bound(key).filter(|b| violated(x, *b)) {
                 return self.problem(path, format!("must be {words} {bound}{unit}, found {x}"));
             }
         }

@@ -49,7 +49,7 @@ pub use picture_range::PictureRange;
 pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
-pub use text::{FILE_BYTES, read_text};
+pub use text::{FILE_BYTES, read_bytes, read_text};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use scene_text::{Diagnostic, Override, Source, read_text};
 use sph_core::{SceneProblem, conform, kinds};
@@ -86,24 +86,12 @@ pub enum LoadError {
 /// # Errors
 /// If the file cannot be read, or with the mistakes in it: all of its form and its plugins, or else all of its content.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
-    load_allowing(path, overrides, &[])
-}
-
-/// Reads a scene file that may name files in further folders than its own.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_allowing(
-    path: &Path,
-    overrides: &[Override],
-    folders: &[PathBuf],
-) -> Result<Loaded, LoadError> {
     let file = path.display().to_string();
     let text = read_text(path).map_err(|reason| LoadError::Unreadable {
         file: file.clone(),
         reason,
     })?;
-    let source = Source::new(&text, &file, overrides).allowing(folders);
+    let source = Source::new(&text, &file, overrides);
     read(source).map_err(|refused| LoadError::Refused(Box::new(refused)))
 }
 
