@@ -4,7 +4,8 @@ mod measurements;
 mod start;
 mod walls;
 
-use scene_text::{Problems, SceneProblem, Source, suggestion};
+use scene_text::{Problems, SceneProblem, Source, named_files, suggestion};
+use toml::Table;
 
 use crate::scene::error::DemError;
 use crate::scene::laws::{Laws, throats};
@@ -12,7 +13,7 @@ use crate::scene::names::BOX;
 use crate::scene::tables::Scene;
 
 /// Everything that is wrong.
-pub fn scene(scene: &Scene, source: &Source) -> Vec<SceneProblem> {
+pub fn scene(scene: &Scene, table: &Table, source: &Source) -> Vec<SceneProblem> {
     let mut found = Problems::default();
     for problems in [Laws::from_scene(scene).err(), throats(scene).err()]
         .into_iter()
@@ -35,7 +36,11 @@ pub fn scene(scene: &Scene, source: &Source) -> Vec<SceneProblem> {
     for (name, reference) in &scene.reference {
         measurements::reference(scene, name, reference, &mut found);
     }
-    files(scene, source, &mut found);
+    for (key, file) in named_files(table) {
+        if let Err(problem) = source.resolve(&key, &file) {
+            found.add(key, problem.to_string());
+        }
+    }
     output(scene, &mut found);
     found.0
 }
@@ -103,14 +108,6 @@ fn oedometer(scene: &Scene, found: &mut Problems) {
             "start",
             "an oedometer test starts from rest: give `settle` below 1",
         );
-    }
-}
-
-fn files(scene: &Scene, source: &Source, found: &mut Problems) {
-    for (key, file) in scene.files() {
-        if let Err(problem) = source.resolve(&key, &file) {
-            found.add(key, problem.to_string());
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! From a text to a scene of grains, or to all its mistakes.
 
-use scene_text::{Diagnostic, SceneProblem, Source, conform};
+use scene_text::{Diagnostic, SceneProblem, Source, conform, named_files};
 use toml::{Table, Value};
 
 use crate::scene::check;
@@ -45,14 +45,20 @@ fn loaded(source: &Source) -> Result<(Scene, Table), Vec<Diagnostic>> {
     conform(&mut value, &of_scene()).map_err(keyed)?;
     let unread = |e: toml::de::Error| keyed(vec![SceneProblem::new("", e.message())]);
     let scene: Scene = value.clone().try_into().map_err(unread)?;
-    let problems = check::scene(&scene, source);
-    match value {
-        Value::Table(table) if problems.is_empty() => Ok((scene, table)),
-        _ => Err(keyed(problems)),
+    let table = value.as_table().cloned().unwrap_or_default();
+    let problems = check::scene(&scene, &table, source);
+    match problems.is_empty() {
+        true => Ok((scene, table)),
+        false => Err(keyed(problems)),
     }
 }
 
 impl Loaded {
+    /// Every file that the scene names, as it names it, with the key that does.
+    pub fn files(&self) -> Vec<(String, String)> {
+        named_files(&self.table)
+    }
+
     /// Checks that every file of the scene exists, and that those with loads hold the columns of the scene.
     ///
     /// # Errors
@@ -63,7 +69,8 @@ impl Loaded {
             let message = format!("there is no file `{}`", path.display());
             (!path.is_file()).then(|| SceneProblem::new(key, message))
         };
-        let mut problems: Vec<_> = self.scene.files().into_iter().filter_map(missing).collect();
+        let files = self.files().into_iter();
+        let mut problems: Vec<_> = files.filter_map(missing).collect();
         // Nothing is read from a file that is missing.
         let whole = problems.is_empty();
         for (name, wall) in self.scene.wall.iter().filter(|_| whole) {

@@ -56,7 +56,7 @@ impl Subject for Scene {
             let content = content.map_err(|e| told(e.to_string()))?;
             Ok((key, content.to_string()))
         };
-        self.0.scene.files().into_iter().map(mark).collect()
+        self.0.files().into_iter().map(mark).collect()
     }
 
     fn end(&self) -> f64 {

@@ -39,27 +39,6 @@ pub struct Scene {
     pub output: Output,
 }
 
-impl Scene {
-    /// Every file that the scene names, as it names it, with the key that does.
-    pub fn files(&self) -> Vec<(String, String)> {
-        let mut found = Vec::new();
-        let start = self.start.file.iter();
-        found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
-        for (name, wall) in &self.wall {
-            let file = wall.file.iter();
-            found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
-            let recorded = wall.recorded.iter();
-            found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
-        }
-        for (name, reference) in &self.reference {
-            if let Reference::Scaling { file, .. } | Reference::Curve { file, .. } = reference {
-                found.push((format!("reference.{name}.file"), file.clone()));
-            }
-        }
-        found
-    }
-}
-
 /// Duration and accuracy of the run.
 #[parameters]
 pub struct Run {
