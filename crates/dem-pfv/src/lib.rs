@@ -16,6 +16,8 @@ pub mod grains;
 pub mod scene;
 pub mod triangulation;
 
+mod axis;
 mod range;
 
+pub use axis::Axis;
 pub use range::{OutOfRange, require};

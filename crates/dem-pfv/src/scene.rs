@@ -83,6 +83,6 @@ pub use subject::DiscreteElements;
 pub use summary::{PluginInForce, Summary};
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
-    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, WaveLoad,
+    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, Wave,
     Weight,
 };

@@ -2,7 +2,7 @@
 
 use sph_core::parameters;
 
-use super::{AnyPlugins, Axis, Plugins, Triple};
+use super::{AnyPlugins, Axis, Plugins, Triple, Wave};
 
 /// A box of six walls, `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z).
 #[parameters]
@@ -81,7 +81,7 @@ pub struct Wall {
     pub inflow: Option<f64>,
     /// Pressure of waves.
     #[parameter(default)]
-    pub wave: Option<WaveLoad>,
+    pub wave: Option<Wave>,
     /// Pressure from a table, such as the series of a scene with a free surface.
     #[parameter(default)]
     pub recorded: Option<RecordedLoad>,
@@ -122,30 +122,6 @@ pub struct Servo {
     /// Largest speed, m/s.
     #[parameter(unit: "m/s", above: 0.0)]
     pub speed: f64,
-}
-
-/// p = (amplitude + ramp · t) cos(π (x − crest) / half_length), times sin(2π t / period) if there is one. Catalano 2012,
-/// §6.3.2 and §6.4.
-#[parameters]
-pub struct WaveLoad {
-    /// Axis along which it runs.
-    #[parameter(default)]
-    pub axis: Axis,
-    /// Place of the crest, m.
-    #[parameter(default, unit: "m")]
-    pub crest: f64,
-    /// Half the length of the wave, m.
-    #[parameter(unit: "m", above: 0.0)]
-    pub half_length: f64,
-    /// Amplitude of the pressure at the start, Pa.
-    #[parameter(default, unit: "Pa")]
-    pub amplitude: f64,
-    /// Growth of the amplitude, Pa/s.
-    #[parameter(default, unit: "Pa/s")]
-    pub ramp: f64,
-    /// Period, s; the load stands still if left out.
-    #[parameter(unit: "s", above: 0.0)]
-    pub period: Option<f64>,
 }
 
 /// p(x, t) less `less`, linear between places and rows, constant before the first and after the last. The pressure is

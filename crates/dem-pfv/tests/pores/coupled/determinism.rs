@@ -1,5 +1,6 @@
 //! The same bits on any number of threads, and after a resumption.
 
+use dem_pfv::Axis;
 use dem_pfv::coupled::{CoupledSystem, FlowCondition, FlowSetup, Fluid, State, WallBoundary, Wave};
 use dem_pfv::flow::HydraulicRadius;
 use dem_pfv::grains::{Control, GrainSystem};
@@ -15,7 +16,7 @@ fn system() -> CoupledSystem {
         mass: 100.0,
     };
     let wave = Wave {
-        axis: 0,
+        axis: Axis::X,
         crest: 0.0,
         half_length: 1.0,
         amplitude: 2e3,

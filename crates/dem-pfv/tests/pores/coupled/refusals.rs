@@ -1,7 +1,8 @@
 //! Refusals name the grain, the wall or the cell; extreme flows that can be computed are stable.
 
+use dem_pfv::Axis;
 use dem_pfv::coupled::{
-    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Fluid, Remeshing, StepLimit,
+    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, Remeshing, StepLimit,
     WallBoundary, Wave,
 };
 use dem_pfv::flow::{FlowError, HydraulicRadius};
@@ -129,9 +130,9 @@ fn closed_walls_are_refused_unless_the_fluid_gives_way() {
 
 #[test]
 fn conditions_and_rooms_that_mean_nothing_are_named() {
-    let wave = |half_length: f64, axis: usize| {
+    let wave = |half_length: f64| {
         FlowCondition::Wave(Wave {
-            axis,
+            axis: Axis::X,
             crest: 0.0,
             half_length,
             amplitude: 1.0,
@@ -139,16 +140,18 @@ fn conditions_and_rooms_that_mean_nothing_are_named() {
             period: None,
         })
     };
-    let profile = |places: Vec<f64>| FlowCondition::Profile {
-        axis: 0,
-        pressures: vec![0.0; 2],
-        places,
+    let profile = |places: Vec<f64>| {
+        FlowCondition::Recorded(Recorded {
+            axis: Axis::X,
+            places,
+            times: vec![0.0],
+            pressures: vec![0.0; 2],
+        })
     };
     for condition in [
         FlowCondition::Pressure(f64::NAN),
         FlowCondition::Inflow(f64::INFINITY),
-        wave(0.0, 0),
-        wave(1.0, 3),
+        wave(0.0),
         profile(vec![0.0]),
         profile(vec![1.0, 0.0]),
     ] {
