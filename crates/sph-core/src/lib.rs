@@ -28,6 +28,8 @@ mod boxes;
 pub mod course;
 mod duct;
 #[cfg(feature = "plugins")]
+pub mod editors;
+#[cfg(feature = "plugins")]
 mod error;
 #[cfg(feature = "plugins")]
 mod evolve;
