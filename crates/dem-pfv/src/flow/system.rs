@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use sparse::{Cholesky, Order, UpperTriangle, conjugate_gradient, nested_dissection};
 
 use crate::flow::assembly::{
-    GIVEN, assemble, conductances, given, givers, joined, numbered, reachable,
+    GIVEN, assemble, conductances, firsts, givers, joined, numbered, reachable,
 };
 use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
 use crate::require;
@@ -89,12 +89,12 @@ impl FlowSystem {
             .collect();
         let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
         let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
-        let given = given(boundary, &pores);
+        let first = firsts(boundary, &pores);
         if storage.is_none() {
-            reachable(&conductances, &ends, &given, &pores)?;
+            reachable(&conductances, &ends, &first, &pores)?;
         }
-        let givers = givers(boundary, &pores);
-        let (unknowns, count) = numbered(&pores, &given);
+        let givers = givers(boundary, &pores, &first);
+        let (unknowns, count) = numbered(&pores, &first);
         let (diagonal, matrix) = assemble(&conductances, &ends, &unknowns, count);
         let mut system = Self {
             conductances,

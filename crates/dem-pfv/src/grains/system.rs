@@ -2,7 +2,7 @@
 
 use crate::grains::law::BELOW_1;
 use crate::grains::setup::{Period, finite};
-use crate::grains::stability::{CHECKED_EVERY, Limit, critical};
+use crate::grains::stability::{CHECKED_EVERY, Limit};
 use crate::grains::table::{Bodies, Table};
 use crate::grains::touch::View;
 use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector, Wall, space};
@@ -283,13 +283,7 @@ impl GrainSystem {
             Some(limit) if self.steps < self.limit_due => limit,
             _ => {
                 self.limit_due = self.steps + CHECKED_EVERY;
-                critical(
-                    &self.grains,
-                    &self.table,
-                    &self.walls,
-                    &self.meshes,
-                    &self.laws,
-                )
+                self.critical()
             }
         };
         self.limit = Some(limit);
