@@ -21,14 +21,8 @@ const FIRST_TOUCH: f64 = 1e-3;
 impl GrainSystem {
     /// The value of [`GrainSystem::critical_step`], and the grain that sets it.
     pub(crate) fn critical(&self) -> Limit {
-        let Self {
-            grains: g,
-            table,
-            walls,
-            meshes,
-            laws,
-            ..
-        } = self;
+        let Self { state, laws } = self;
+        let (g, table, walls) = (&state.grains, &state.table, &state.walls);
         let zero = Matrix3::zeros();
         let mut sums = vec![[zero; 2]; g.len()];
         let mut damping = 0.0_f64;
@@ -42,7 +36,7 @@ impl GrainSystem {
             let slots = &table.slots[table.part(part)];
             let (mut law, mut weight, mut piston) = (0, 2.0, None);
             if part > walls.len() {
-                (law, weight) = (meshes[part - 1 - walls.len()].law, 1.0);
+                (law, weight) = (state.meshes[part - 1 - walls.len()].law, 1.0);
             } else if part > 0 {
                 let wall = &walls[part - 1];
                 (law, weight) = (wall.law, 1.0);

@@ -11,41 +11,37 @@ use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, W
 /// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct State {
-    grains: Grains,
-    walls: Vec<Wall>,
-    meshes: Vec<Mesh>,
-    period: Period,
-    gravity: Vector,
-    damping: f64,
-    skin: f64,
-    time: f64,
-    steps: u64,
-    last_step: f64,
-    limit: Option<Limit>,
-    limit_due: u64,
-    contacts: Table,
-    renewals: u64,
+    /// The grains; the next evaluation finds the contacts of those that were moved.
+    pub grains: Grains,
+    /// The walls.
+    pub walls: Vec<Wall>,
+    /// The meshes.
+    pub meshes: Vec<Mesh>,
+    /// Axes along which the box repeats itself.
+    pub period: Period,
+    /// Gravity, m/s².
+    pub gravity: Vector,
+    pub(crate) damping: f64,
+    pub(crate) skin: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Motion since the last evaluation, s.
+    pub(crate) last_step: f64,
+    pub(crate) limit: Option<Limit>,
+    /// Step at which the limit is found anew.
+    pub(crate) limit_due: u64,
+    #[serde(rename = "contacts")]
+    pub(crate) table: Table,
+    /// Number of times that the lists of neighbours were made.
+    pub renewals: u64,
 }
 
 impl GrainSystem {
     /// State to resume.
     pub fn save(&self) -> State {
-        State {
-            grains: self.grains.clone(),
-            walls: self.walls.clone(),
-            meshes: self.meshes.clone(),
-            period: self.period,
-            gravity: self.gravity,
-            damping: self.damping,
-            skin: self.skin,
-            time: self.time,
-            steps: self.steps,
-            last_step: self.last_step,
-            limit: self.limit,
-            limit_due: self.limit_due,
-            contacts: self.table.touching(),
-            renewals: self.renewals,
-        }
+        self.state.clone()
     }
 
     /// Goes on from a saved state with the same laws. The lists of neighbours are made anew, which changes no
@@ -55,7 +51,7 @@ impl GrainSystem {
     /// A state whose parts do not fit together, and laws out of range.
     pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, GrainError> {
         let bad = |problem| Err(GrainError::BadState(problem));
-        let (table, n) = (&state.contacts, state.grains.len());
+        let (table, n) = (&state.table, state.grains.len());
         if !state.grains.fits() {
             return bad("columns of the grains differ in length");
         }
@@ -81,23 +77,7 @@ impl GrainSystem {
             positive(i, "radius", state.grains.radius[i])?;
             positive(i, "mass", state.grains.mass[i])?;
         }
-        let mut system = Self {
-            grains: state.grains,
-            laws,
-            walls: state.walls,
-            meshes: state.meshes,
-            period: state.period,
-            gravity: state.gravity,
-            damping: state.damping,
-            skin: state.skin,
-            time: state.time,
-            steps: state.steps,
-            last_step: state.last_step,
-            limit: state.limit,
-            limit_due: state.limit_due,
-            table: state.contacts,
-            renewals: state.renewals,
-        };
+        let mut system = Self { state, laws };
         system.check()?;
         system.renew();
         Ok(system)

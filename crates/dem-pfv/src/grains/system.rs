@@ -1,45 +1,38 @@
 //! The system: made, evaluated, integrated.
 
+use std::ops::{Deref, DerefMut};
+
 use crate::grains::law::BELOW_1;
-use crate::grains::setup::{Period, finite};
+use crate::grains::setup::finite;
 use crate::grains::stability::{CHECKED_EVERY, Limit};
 use crate::grains::table::{Bodies, Table};
 use crate::grains::touch::View;
-use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector, Wall, space};
+use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector, space};
 use crate::require;
 
-/// Grains with their walls, meshes and contacts.
+/// Grains with their walls, meshes and contacts: a [`State`] that moves by contact laws.
 ///
 /// A step is [`GrainSystem::evaluate`] (contacts and their forces where the grains are) and
 /// [`GrainSystem::integrate`] (velocities, then positions). Results are the same bit for bit on any number of
 /// threads: a contact is computed once, and each grain sums its own contacts in the order of their numbers.
 #[derive(Debug)]
 pub struct GrainSystem {
-    /// The grains; the next evaluation finds the contacts of those that were moved.
-    pub grains: Grains,
+    pub(crate) state: State,
     pub(crate) laws: Vec<Box<dyn ContactLaw>>,
-    /// The walls.
-    pub walls: Vec<Wall>,
-    /// The meshes.
-    pub meshes: Vec<Mesh>,
-    /// Axes along which the box repeats itself.
-    pub period: Period,
-    /// Gravity, m/s².
-    pub gravity: Vector,
-    pub(crate) damping: f64,
-    pub(crate) skin: f64,
-    /// Time, s.
-    pub time: f64,
-    /// Steps made.
-    pub steps: u64,
-    /// Motion since the last evaluation, s.
-    pub(crate) last_step: f64,
-    pub(crate) limit: Option<Limit>,
-    /// Step at which the limit is found anew.
-    pub(crate) limit_due: u64,
-    pub(crate) table: Table,
-    /// Number of times that the lists of neighbours were made.
-    pub renewals: u64,
+}
+
+impl Deref for GrainSystem {
+    type Target = State;
+
+    fn deref(&self) -> &State {
+        &self.state
+    }
+}
+
+impl DerefMut for GrainSystem {
+    fn deref_mut(&mut self) -> &mut State {
+        &mut self.state
+    }
 }
 
 impl GrainSystem {
@@ -56,9 +49,8 @@ impl GrainSystem {
         }
         let grains = Grains::new(&setup.grains);
         let mean = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
-        let mut system = Self {
+        let state = State {
             grains,
-            laws: setup.laws,
             walls: setup.walls,
             meshes: setup.meshes,
             period: setup.period,
@@ -72,6 +64,10 @@ impl GrainSystem {
             limit_due: 0,
             table: Table::default(),
             renewals: 0,
+        };
+        let mut system = Self {
+            state,
+            laws: setup.laws,
         };
         system.check()?;
         system.renew();
@@ -170,18 +166,18 @@ impl GrainSystem {
         if self.table.expired(self.bodies(), self.skin) {
             self.renew();
         }
-        let Self {
+        let Self { state, laws } = self;
+        let State {
             grains,
-            laws,
             walls,
             meshes,
             table,
             ..
-        } = self;
+        } = state;
         let view = View {
             grains,
-            period: &self.period,
-            step: self.last_step,
+            period: &state.period,
+            step: state.last_step,
         };
         let (pairs, mut rest) = table.slots.split_at_mut(table.ends[0]);
         view.pairs(pairs, &*laws[0]);
