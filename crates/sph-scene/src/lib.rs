@@ -53,7 +53,7 @@ mod reading;
 mod tables;
 
 pub use drawings::drawing::DrawingError;
-pub use filling::disorder::{SplitMix, disturb, noise};
+pub use filling::disorder::{disturb, noise};
 pub use filling::estimate::estimate;
 pub use filling::fill::{BodyParticles, fill};
 pub use filling::nodes::Offset;
