@@ -55,7 +55,6 @@ mod strain;
 mod system;
 mod table;
 mod touch;
-mod unrest;
 mod wall;
 
 pub use cloud::{Cloud, rain, uniform_radii};
@@ -67,12 +66,12 @@ pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_l
 pub use linear::LinearElastic;
 pub use measure::{Partner, Touch};
 pub use mesh::Mesh;
+pub use rest::Unrest;
 pub use rolling::RollingResistance;
 pub use setup::{Grain, Period, Setup};
 pub use state::State;
 pub use strain::strains;
 pub use system::GrainSystem;
-pub use unrest::Unrest;
 pub use wall::{Control, Wall};
 
 /// A vector in space, SI units of its quantity.

@@ -1,7 +1,7 @@
 //! Comparisons of the series with references.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Serialize;
 use sph_io::{Table, read_table};
@@ -132,7 +132,7 @@ impl RunSeries<'_> {
                 geometry,
                 quantity,
             } => {
-                let law = scaling::read(&self.resolved(&key, file)?, geometry, quantity);
+                let law = scaling::read(&self.loaded.resolve(&key, file)?, geometry, quantity);
                 let law = law.map_err(|why| DemError::at(&key, why))?;
                 Ok(self.scaled(probe, &law, [geometry, quantity]))
             }
@@ -157,7 +157,7 @@ impl RunSeries<'_> {
                 file,
                 column,
             } => {
-                let table = read_table(self.resolved(&key, file)?)?;
+                let table = read_table(self.loaded.resolve(&key, file)?)?;
                 let wanted = table.column(column).ok_or_else(|| {
                     let why = format!("there is no column `{column}`");
                     DemError::at(format!("reference.{name}.column"), why)
@@ -218,11 +218,6 @@ impl RunSeries<'_> {
         );
         let error = mean_square(&pairs).sqrt();
         Compared::new(Some(error), "rms", against, rows.len())
-    }
-
-    fn resolved(&self, key: &str, file: &str) -> Result<PathBuf, DemError> {
-        let path = self.loaded.source.resolve(key, file);
-        path.map_err(|e| DemError::at(key, e))
     }
 
     /// Times of the rows of a table, s.

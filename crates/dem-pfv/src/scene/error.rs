@@ -19,14 +19,9 @@ pub enum DemError {
     /// A checkpoint that does not fit.
     #[error("cannot resume: {0}")]
     Resume(String),
-    /// The threads could not be started.
-    #[error("cannot start {threads} threads: {reason}")]
-    Threads {
-        /// Asked for.
-        threads: usize,
-        /// The reason of the system.
-        reason: String,
-    },
+    /// Threads that could not be started, and the reason of the system.
+    #[error("cannot start {0} threads: {1}")]
+    Threads(usize, String),
     /// The run failed.
     #[error(transparent)]
     Failed(#[from] Box<Failure>),
@@ -42,7 +37,7 @@ impl DemError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Scene(_) | Self::Resume(_) => 2,
-            Self::Io(_) | Self::Threads { .. } | Self::Failed(_) => 1,
+            Self::Io(_) | Self::Threads(..) | Self::Failed(_) => 1,
         }
     }
 }

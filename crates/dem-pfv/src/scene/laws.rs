@@ -1,7 +1,8 @@
 //! Contact laws and conductances by name.
 
+use std::collections::BTreeMap;
+
 use scene_text::OnePlugin;
-use serde_json::Value as Json;
 use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of, reexport::inventory};
 
 use crate::flow::{Conductance, ConductanceEntry, HydraulicRadius};
@@ -33,8 +34,8 @@ pub struct Laws {
     pub of_others: usize,
     /// Number of the law of the walls of the box.
     pub of_box: usize,
-    /// Numbers of the laws of `[wall.NAME]`, in their order.
-    pub of_walls: Vec<Option<usize>>,
+    /// Numbers of the laws of walls that have one of their own.
+    pub of_walls: BTreeMap<String, usize>,
 }
 
 /// The only plugin of a table, built, with its path.
@@ -104,13 +105,12 @@ impl Laws {
             of_box = all.len();
             all.push(law);
         }
-        let mut of_walls = Vec::new();
+        let mut of_walls = BTreeMap::new();
         for (name, wall) in &scene.wall {
-            let law = contact(&wall.contact, &format!("wall.{name}.contact"))?;
-            of_walls.push(law.map(|law| {
+            if let Some(law) = contact(&wall.contact, &format!("wall.{name}.contact"))? {
+                of_walls.insert(name.clone(), all.len());
                 all.push(law);
-                all.len() - 1
-            }));
+            }
         }
         let mut prepared = Vec::new();
         prepared.extend(contact(&scene.start.contact, "start.contact")?.map(|law| (0, law)));
@@ -139,11 +139,4 @@ pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
     };
     law.check().map_err(|e| DemError::at(inside, e))?;
     Ok(law)
-}
-
-/// Name and parameters of a plugin that a scene names, for listings.
-pub(crate) fn listing(plugins: &Plugins) -> Option<(String, Json)> {
-    let (name, table) = plugins.first_key_value()?;
-    let json = serde_json::to_value(table).unwrap_or(Json::Null);
-    Some((name.clone(), json))
 }

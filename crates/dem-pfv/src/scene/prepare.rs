@@ -250,8 +250,7 @@ fn lattice_of(
 
 pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
     let key = "start.file";
-    let path = loaded.source.resolve(key, file);
-    let path = path.map_err(|e| DemError::at(key, e))?;
+    let path = loaded.resolve(key, file)?;
     let told = |why: String| DemError::at(key, format!("`{}`: {why}", path.display()));
     let text = scene_text::read_text(&path).map_err(told)?;
     let unit = loaded.scene.start.unit.as_deref();

@@ -1,5 +1,7 @@
 //! From a text to a scene of grains, or to all its mistakes.
 
+use std::path::PathBuf;
+
 use scene_text::{Diagnostic, SceneProblem, Source, conform, named_files};
 use toml::{Table, Value};
 
@@ -57,6 +59,15 @@ impl Loaded {
     /// Every file that the scene names, as it names it, with the key that does.
     pub fn files(&self) -> Vec<(String, String)> {
         named_files(&self.table)
+    }
+
+    /// The path of a file that a key of the scene names.
+    ///
+    /// # Errors
+    /// A path that leads out of the folders of the scene.
+    pub(crate) fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, DemError> {
+        let path = self.source.resolve(key, file);
+        path.map_err(|e| DemError::at(key, e))
     }
 
     /// Checks that every file of the scene exists, and that those with loads hold the columns of the scene.

@@ -43,14 +43,10 @@ pub fn run(
     observer: &mut Watch<'_>,
 ) -> Result<Summary, DemError> {
     loaded.check_files()?;
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = options.threads {
-        pool = pool.num_threads(threads);
-    }
-    let pool = pool.build().map_err(|e| DemError::Threads {
-        threads: options.threads.unwrap_or(0),
-        reason: e.to_string(),
-    })?;
+    // Of zero threads as many as there are cores.
+    let threads = options.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|e| DemError::Threads(threads, e.to_string()))?;
     let (run, output) = (&loaded.scene.run, &loaded.scene.output);
     let schedule = Schedule {
         rows: output.series_interval(run.end),
@@ -65,12 +61,7 @@ pub fn run(
         pictures: output.picture.clone(),
         digits: 6,
         animation: Some(output.animation.unwrap_or(10.0)).filter(|speed| *speed > 0.0),
-        folders: output
-            .picture
-            .first()
-            .map(|_| "pictures")
-            .into_iter()
-            .collect(),
+        folders: output.picture.iter().take(1).map(|_| "pictures").collect(),
     };
     pool.install(|| {
         let mut running = Running::new(loaded, options, observer)?;

@@ -30,41 +30,36 @@ pub struct Box {
 #[parameters]
 pub struct Wall {
     /// A point of the plane, m.
-    #[parameter(default, unit: "m")]
+    #[parameter(unit: "m")]
     pub point: Option<Triple>,
     /// Its normal, towards the grains, of any length.
-    #[parameter(default)]
     pub normal: Option<Triple>,
     /// An STL file.
-    #[parameter(default)]
     pub file: Option<String>,
     /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
-    #[parameter(default)]
     pub unit: Option<String>,
     /// Factor on the coordinates of the `file`, instead of a unit.
-    #[parameter(default, unit: "1", above: 0.0)]
+    #[parameter(unit: "1", above: 0.0)]
     pub scale: Option<f64>,
     /// Shift of the surface of the `file`, after scaling, m.
-    #[parameter(default, unit: "m")]
+    #[parameter(unit: "m")]
     pub translate: Option<Triple>,
     /// Velocity, m/s.
-    #[parameter(default, unit: "m/s")]
+    #[parameter(unit: "m/s")]
     pub velocity: Option<Triple>,
     /// Angular velocity of a surface of triangles about `point`, rad/s.
-    #[parameter(default, unit: "1/s")]
+    #[parameter(unit: "1/s")]
     pub spin: Option<Triple>,
     /// The law of contacts with it, `[wall.NAME.contact.LAW]`.
     #[schemars(with = "AnyPlugins")]
     #[parameter(default)]
     pub contact: Plugins,
     /// Lets it move freely along its normal under a load.
-    #[parameter(default)]
     pub piston: Option<Piston>,
     /// Holds a stress.
-    #[parameter(default)]
     pub servo: Option<Servo>,
     /// Rate of strain between this wall and the one that faces it, 1/s, positive when they approach; give it to both.
-    #[parameter(default, unit: "1/s")]
+    #[parameter(unit: "1/s")]
     pub strain_rate: Option<f64>,
     /// True for a wall that gives way as much as others press in, so that the volume of the box stays: an undrained test
     /// without a fluid.
@@ -74,16 +69,14 @@ pub struct Wall {
     #[parameter(default)]
     pub removed: bool,
     /// Pressure of the fluid there, Pa.
-    #[parameter(default, unit: "Pa")]
+    #[parameter(unit: "Pa")]
     pub pressure: Option<f64>,
     /// Even inflow of fluid, m/s; negative lets it out.
-    #[parameter(default, unit: "m/s")]
+    #[parameter(unit: "m/s")]
     pub inflow: Option<f64>,
     /// Pressure of waves.
-    #[parameter(default)]
     pub wave: Option<Wave>,
     /// Pressure from a table, such as the series of a scene with a free surface.
-    #[parameter(default)]
     pub recorded: Option<RecordedLoad>,
     /// True if fluid sticks to it.
     #[parameter(default)]

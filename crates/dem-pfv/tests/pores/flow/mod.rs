@@ -10,7 +10,7 @@ mod systems;
 
 use dem_pfv::flow::{
     Boundary, Conductance, FlowSystem, Forces, HydraulicRadius, PoreGeometry, SlipCondition,
-    SolidAngles, Solver,
+    SolidAngles, Solver, Storage,
 };
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
@@ -48,6 +48,12 @@ fn drop_along_y(geometry: &PoreGeometry) -> Boundary {
     boundary.pressure(geometry, 2, |_| Some(0.0));
     boundary.pressure(geometry, 3, |_| Some(1.0));
     boundary
+}
+
+/// The factorised system of a fluid of 1 Pa s, by hydraulic radii.
+fn direct(geometry: &PoreGeometry, boundary: &Boundary, storage: Option<Storage>) -> FlowSystem {
+    let law = hydraulic();
+    FlowSystem::new(geometry, boundary, &law, 1.0, storage, Solver::Direct).expect("a system")
 }
 
 /// What a permeameter shows of a unit cube with µ = 1 Pa s.

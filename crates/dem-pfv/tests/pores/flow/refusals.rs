@@ -5,7 +5,7 @@ use dem_pfv::flow::{
 };
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
-use crate::flow::{BOX25, drop_along_y, geometry, hydraulic, spheres};
+use crate::flow::{BOX25, direct, drop_along_y, geometry, hydraulic, spheres};
 
 fn pores(spheres: &[Sphere], walls: &[Wall]) -> Result<PoreGeometry, FlowError> {
     let mesh = Triangulation::within(spheres, walls).expect("cells");
@@ -67,15 +67,7 @@ fn bad_numbers_and_changed_conditions_are_named() {
         let told = error.expect("refused").to_string();
         assert!(told.starts_with("viscosity is"), "{told}");
     }
-    let mut system = FlowSystem::new(
-        &geometry,
-        &boundary,
-        &hydraulic(),
-        1.0,
-        None,
-        Solver::Direct,
-    )
-    .expect("a system");
+    let mut system = direct(&geometry, &boundary, None);
     let error = system
         .solve(&Boundary::closed(&geometry), &[])
         .expect_err("changed");
