@@ -153,8 +153,9 @@ impl<'s> Walk<'s> {
     /// A table whose kind a key distinguishes: that key, the name of each kind, its schema.
     fn tagged(&mut self, value: &mut Value, kinds: &[(&str, &str, &'s Json)], path: &str) {
         let key = kinds[0].0;
-        let names = || kinds.iter().map(|(_, name, _)| *name);
-        let known = || names().collect::<Vec<_>>().join(", ");
+        let mut names: Vec<_> = kinds.iter().map(|(_, name, _)| *name).collect();
+        names.sort_unstable();
+        let known = || names.join(", ");
         let Some(kind) = value.get(key).and_then(Value::as_str) else {
             let message = format!("the key `{key}` is missing: one of {}", known());
             return self.problem(path, message);
@@ -162,8 +163,14 @@ impl<'s> Walk<'s> {
         match kinds.iter().find(|(_, name, _)| *name == kind) {
             Some((_, _, schema)) => self.object(value, schema, path),
             None => {
-                let near = suggestion(kind, names());
-                let message = format!("there is no {key} `{kind}`{near} (there are: {})", known());
+                let near = suggestion(kind, names.iter().copied());
+                // `probe.NAME` is a probe.
+                let what = path.split('.').next().filter(|root| !root.is_empty());
+                let what = what.unwrap_or("table");
+                let message = format!(
+                    "there is no {what} of the {key} `{kind}`{near} (there are: {})",
+                    known()
+                );
                 self.problem(&joined(path, key), message);
             }
         }
