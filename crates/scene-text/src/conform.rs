@@ -247,7 +247,8 @@ impl<'s> Walk<'s> {
         let unit = unit
             .filter(|u| *u != "1")
             .map_or(String::new(), |u| format!(" {u}"));
-        let checks: [(&str, fn(f64, f64) -> bool, &str); 4] = [
+        type Violated = fn(f64, f64) -> bool;
+        let checks: [(&str, Violated, &str); 4] = [
             ("minimum", |x, b| x < b, "at least"),
             ("exclusiveMinimum", |x, b| x <= b, "more than"),
             ("maximum", |x, b| x > b, "at most"),

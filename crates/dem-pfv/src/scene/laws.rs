@@ -38,11 +38,11 @@ pub struct Laws {
     pub of_walls: BTreeMap<String, usize>,
 }
 
-/// The only plugin of a table, built, with its path.
-fn chosen<E: Makes<3>>(
-    plugins: &Plugins,
-    path: &str,
-) -> Result<Option<(Box<E::Made>, String)>, DemError> {
+/// A plugin with its path.
+type Placed<E> = (Box<<E as Makes<3>>::Made>, String);
+
+/// The only plugin of a table, built.
+fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<Placed<E>>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
     };
