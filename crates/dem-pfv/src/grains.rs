@@ -44,7 +44,9 @@ mod measure;
 mod mesh;
 mod motion;
 mod overlaps;
+mod partner;
 mod rest;
+mod resume;
 mod rolling;
 mod setup;
 mod space;
@@ -55,6 +57,7 @@ mod strain;
 mod system;
 mod table;
 mod touch;
+mod unrest;
 mod wall;
 
 pub use cloud::{Cloud, rain, uniform_radii};
@@ -64,14 +67,15 @@ pub use growth::{Growth, Target, step_to_rest};
 pub use hertz_mindlin::HertzMindlin;
 pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_law};
 pub use linear::LinearElastic;
-pub use measure::{Partner, Touch};
+pub use measure::Touch;
 pub use mesh::Mesh;
-pub use rest::Unrest;
+pub use partner::Partner;
 pub use rolling::RollingResistance;
 pub use setup::{Grain, Period, Setup};
 pub use state::State;
 pub use strain::strains;
 pub use system::GrainSystem;
+pub use unrest::Unrest;
 pub use wall::{Control, Wall};
 
 /// A vector in space, SI units of its quantity.

@@ -1,10 +1,10 @@
 //! The coupled system: made, stepped, meshed anew.
 
-use crate::coupled::limit::{Mode, StepLimit, combined, strongest_drag};
+use crate::coupled::limit::{Mode, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
 use crate::coupled::setup::POSITIVE;
 use crate::coupled::transfer::transferred;
-use crate::coupled::{CoupledError, FlowSetup, Vector, WallBoundary, condition};
+use crate::coupled::{CoupledError, FlowSetup, StepLimit, Vector, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
 use crate::grains::GrainSystem;
 use crate::require;

@@ -1,29 +1,10 @@
 //! Rest of grains: in balance, carried, slow.
 
-use thiserror::Error;
-
 use crate::grains::wall::Control;
-use crate::grains::{GrainError, GrainSystem, Vector};
+use crate::grains::{GrainError, GrainSystem, Unrest, Vector};
 
 /// Resultant force of a carried grain at the most, over its weight and the contact forces on it.
 const CARRIED: f64 = 0.1;
-
-/// Causes of unrest of grains.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum Unrest {
-    /// The mean resultant force on a grain, over the mean contact force: [`unbalanced_force`](crate::grains::GrainSystem::unbalanced_force).
-    #[error("the unbalanced force ratio is {0:.3e}")]
-    Unbalanced(f64),
-    /// A grain whose weight nothing balances: it falls, or something hits it.
-    #[error("nothing carries grain {0}")]
-    NotCarried(usize),
-    /// A piston whose load nothing balances.
-    #[error("no grain carries the piston, wall {0}")]
-    Piston(usize),
-    /// The mean speed of the grains, that of their surfaces by spin added, m/s.
-    #[error("the grains move with {0:.3e} m/s in the mean")]
-    Moving(f64),
-}
 
 impl GrainSystem {
     /// The condition of rest that does not hold at the last evaluation; none for grains at rest to a `tolerance` below 1:

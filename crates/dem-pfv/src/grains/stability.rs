@@ -1,19 +1,9 @@
 //! The critical time step.
 
 use nalgebra::Matrix3;
-use serde::{Deserialize, Serialize};
 
+use crate::grains::state::Limit;
 use crate::grains::{Control, GrainSystem};
-
-/// Steps between two computations of the critical one.
-pub(crate) const CHECKED_EVERY: u64 = 100;
-
-/// A step and the grain that sets it.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-pub(crate) struct Limit {
-    pub step: f64,
-    pub grain: usize,
-}
 
 /// Overlap over radius from which the stiffness of the first touch is guessed.
 const FIRST_TOUCH: f64 = 1e-3;

@@ -1,11 +1,17 @@
-//! Saving and resuming.
+//! The state of a system of grains.
 
 use serde::{Deserialize, Serialize};
 
-use crate::grains::setup::{Period, positive};
-use crate::grains::stability::Limit;
+use crate::grains::setup::Period;
 use crate::grains::table::Table;
-use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, Wall};
+use crate::grains::{Grains, Mesh, Vector, Wall};
+
+/// A step and the grain that sets it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct Limit {
+    pub step: f64,
+    pub grain: usize,
+}
 
 /// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
 /// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
@@ -36,50 +42,4 @@ pub struct State {
     pub(crate) table: Table,
     /// Number of times that the lists of neighbours were made.
     pub renewals: u64,
-}
-
-impl GrainSystem {
-    /// State to resume.
-    pub fn save(&self) -> State {
-        self.state.clone()
-    }
-
-    /// Goes on from a saved state with the same laws. The lists of neighbours are made anew, which changes no
-    /// bit of what follows: contacts are summed in the order of the grains' numbers, whatever else is in the lists.
-    ///
-    /// # Errors
-    /// A state whose parts do not fit together, and laws out of range.
-    pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, GrainError> {
-        let bad = |problem| Err(GrainError::BadState(problem));
-        let (table, n) = (&state.table, state.grains.len());
-        if !state.grains.fits() {
-            return bad("columns of the grains differ in length");
-        }
-        let parts = 1 + state.walls.len() + state.meshes.len();
-        let ordered = table.ends.is_sorted() && table.ends.last() == Some(&table.slots.len());
-        if table.ends.len() != parts || !ordered {
-            return bad("contacts do not fit the walls and meshes");
-        }
-        for part in 0..parts {
-            let most = match part.checked_sub(1 + state.walls.len()) {
-                Some(mesh) => state.meshes[mesh].triangles.len(),
-                None => n,
-            };
-            let known = |k: usize| {
-                let slot = &table.slots[k];
-                (slot.first as usize) < n && (slot.second as usize) < most
-            };
-            if !table.part(part).all(known) {
-                return bad("a contact names a body that is not there");
-            }
-        }
-        for i in 0..n {
-            positive(i, "radius", state.grains.radius[i])?;
-            positive(i, "mass", state.grains.mass[i])?;
-        }
-        let mut system = Self { state, laws };
-        system.check()?;
-        system.renew();
-        Ok(system)
-    }
 }

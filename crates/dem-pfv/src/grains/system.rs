@@ -4,11 +4,14 @@ use std::ops::{Deref, DerefMut};
 
 use crate::grains::law::BELOW_1;
 use crate::grains::setup::finite;
-use crate::grains::stability::{CHECKED_EVERY, Limit};
+use crate::grains::state::Limit;
 use crate::grains::table::{Bodies, Table};
 use crate::grains::touch::View;
 use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector, space};
 use crate::require;
+
+/// Steps between two computations of the critical one.
+const CHECKED_EVERY: u64 = 100;
 
 /// Grains with their walls, meshes and contacts: a [`State`] that moves by contact laws.
 ///

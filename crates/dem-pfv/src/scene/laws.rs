@@ -39,10 +39,10 @@ pub struct Laws {
 }
 
 /// A plugin with its path.
-type Placed<E> = (Box<<E as Makes<3>>::Made>, String);
+type PluginAtPath<E> = (Box<<E as Makes<3>>::Made>, String);
 
 /// The only plugin of a table, built.
-fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<Placed<E>>, DemError> {
+fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<PluginAtPath<E>>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
     };
