@@ -8,6 +8,7 @@
 
 use std::fmt::Debug;
 
+use sph_core::SplitMix;
 use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::diffusion::BrezziPitkaranta;
@@ -20,7 +21,6 @@ use sph_neighbours::{
     Particles, Rates, Terms, World, interactions, interactions_with, kernel_sums,
 };
 use sph_rheology::state::{EquationOfState, Laws, Linear, Reference};
-use sph_scene::SplitMix;
 
 /// Viscosity of the terms, Pa s.
 const VISCOSITY: f64 = 1e-3;

@@ -34,7 +34,7 @@ fn pores() -> (PoreGeometry, Boundary) {
 
 fn system(pores: &PoreGeometry, boundary: &Boundary) -> FlowSystem {
     let law = HydraulicRadius::default();
-    FlowSystem::new(pores, boundary, &law, 1.0, Solver::Direct).expect("a system")
+    FlowSystem::new(pores, boundary, &law, 1.0, None, Solver::Direct).expect("a system")
 }
 
 #[divan::bench]

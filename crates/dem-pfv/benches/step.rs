@@ -29,7 +29,7 @@ fn packing(grains: usize, law: impl ContactLaw + 'static) -> GrainSystem {
         ..Growth::new(Target::Porosity(0.39), MODULUS)
     };
     growth.run(&mut system).expect("grown");
-    system.set_law(0, law).expect("a law");
+    system.set_law(0, Box::new(law)).expect("a law");
     system
 }
 

@@ -6,6 +6,7 @@ mod common;
 
 use std::f64::consts::PI;
 
+use dem_pfv::Axis;
 use dem_pfv::coupled::{CoupledSystem, FlowCondition, FlowSetup, Fluid, WallBoundary, Wave};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -16,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     grains.iter_mut().for_each(|g| g.held = true);
     for up in [1, 2] {
         let condition = FlowCondition::Wave(Wave {
-            axis: 0,
+            axis: Axis::X,
             crest: 0.0,
             half_length: 1.0,
             amplitude: 0.5,

@@ -32,7 +32,7 @@ fn sample(grains: usize, degrees: f64) -> Result<GrainSystem, GrainError> {
     let steps = Growth::new(Target::Stress(STRESS), MODULUS).run(&mut system)?;
     let porosity = system.porosity().unwrap_or_default();
     println!("# prepared at {degrees} degrees in {steps} steps: porosity {porosity:.4}");
-    system.set_law(0, law(30.0))?;
+    system.set_law(0, Box::new(law(30.0)))?;
     Ok(system)
 }
 

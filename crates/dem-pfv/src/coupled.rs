@@ -38,6 +38,7 @@ mod pores;
 mod recorded;
 mod setup;
 mod state;
+mod step_limit;
 mod system;
 mod terzaghi;
 mod transfer;
@@ -45,10 +46,10 @@ mod unit_forces;
 
 pub use condition::{FlowCondition, WallBoundary, Wave};
 pub use error::CoupledError;
-pub use limit::StepLimit;
 pub use recorded::Recorded;
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
 pub use state::State;
+pub use step_limit::StepLimit;
 pub use system::CoupledSystem;
 pub use terzaghi::Terzaghi;
 

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! * [`PoreGeometry`]: cells and [`Throat`]s of spheres in a box, by signed [`SolidAngles`].
-//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`register_law!`](crate::register_law),
+//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`ConductanceEntry`],
 //!   [`conductance()`].
 //! * [`Boundary`]: pressures and inflows on any part of a wall, in any cell.
 //! * [`FlowSystem`]: the system, its [`Solver`], compressibility of the fluid, permeability.
@@ -26,7 +26,7 @@
 //! let mut boundary = Boundary::closed(&geometry);
 //! boundary.pressure(&geometry, 2, |_| Some(0.0)); // the wall y = 0, Pa
 //! boundary.pressure(&geometry, 3, |_| Some(1.0)); // the wall y = 1
-//! let mut system = FlowSystem::new(&geometry, &boundary, &HydraulicRadius::default(), 1e-3, Solver::Direct)?;
+//! let mut system = FlowSystem::new(&geometry, &boundary, &HydraulicRadius::default(), 1e-3, None, Solver::Direct)?;
 //! let pressures = system.solve(&boundary, &[])?;
 //! let inflow = system.inflow(&geometry, 3, &pressures); // m³/s
 //! assert!(inflow > 0.0);
@@ -48,7 +48,9 @@ mod throat;
 mod volume;
 
 pub use boundary::Boundary;
-pub use conductance::{Conductance, EffectiveRadius, HydraulicRadius, conductance, conductances};
+pub use conductance::{
+    Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance,
+};
 pub use edges::Edge;
 pub use error::FlowError;
 pub use forces::Forces;

@@ -5,7 +5,7 @@
 //!
 //! * [`Setup`] of [`Grain`]s, [`Wall`]s and [`Mesh`]es; [`GrainSystem`] steps it, [`Grains`] are its columns.
 //! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:
-//!   [`register_law!`](crate::register_law), [`contact_law`].
+//!   [`ContactLawEntry`], [`contact_law`].
 //! * [`Control`]: walls at a velocity, a stress or a rate of strain, and free pistons.
 //! * [`Cloud`], [`rain`], [`Growth`], [`step_to_rest`]: samples.
 //! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
@@ -44,7 +44,9 @@ mod measure;
 mod mesh;
 mod motion;
 mod overlaps;
+mod partner;
 mod rest;
+mod resume;
 mod rolling;
 mod setup;
 mod space;
@@ -63,10 +65,11 @@ pub use columns::Grains;
 pub use error::GrainError;
 pub use growth::{Growth, Target, step_to_rest};
 pub use hertz_mindlin::HertzMindlin;
-pub use law::{Contact, ContactLaw, MEMORY, Stiffness, contact_law, contact_laws, require};
+pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_law};
 pub use linear::LinearElastic;
-pub use measure::{Partner, Touch};
+pub use measure::Touch;
 pub use mesh::Mesh;
+pub use partner::Partner;
 pub use rolling::RollingResistance;
 pub use setup::{Grain, Period, Setup};
 pub use state::State;

@@ -6,7 +6,8 @@
 //! * [`coupled`]: grains and flow together, coupled both ways.
 //! * `scene`, with the feature of that name: scenes that are read, run, measured and written.
 //!
-//! Contact laws and conductances are plugins: [`register_law!`], [`Entry`].
+//! Contact laws and conductances are plugins of `sph-core`: [`ContactLawEntry`](grains::ContactLawEntry),
+//! [`ConductanceEntry`](flow::ConductanceEntry).
 
 pub mod coupled;
 pub mod flow;
@@ -15,14 +16,8 @@ pub mod grains;
 pub mod scene;
 pub mod triangulation;
 
-mod registry;
+mod axis;
+mod range;
 
-pub use registry::{Entry, PluginError};
-
-/// Crates that the registration macros name; use them through the macros only.
-#[doc(hidden)]
-pub mod reexport {
-    pub use inventory;
-    pub use schemars;
-    pub use serde;
-}
+pub use axis::Axis;
+pub use range::{OutOfRange, require};

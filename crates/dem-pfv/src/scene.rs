@@ -52,7 +52,6 @@ mod examine;
 mod fields;
 mod forecast;
 mod frames;
-mod highest_point;
 mod laws;
 mod level;
 mod measure;
@@ -83,7 +82,7 @@ pub use schema::editor_schema;
 pub use subject::DiscreteElements;
 pub use summary::{PluginInForce, Summary};
 pub use tables::{
-    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Lubrication, Oedometer, Output, Piston,
-    Plugins, Probe, Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple,
-    Wall, WaveLoad, Weight,
+    Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
+    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, Wave,
+    Weight,
 };

@@ -104,12 +104,14 @@ impl<'s> Walk<'s> {
         path: &str,
         unit: Option<&'s str>,
     ) {
-        let names: Vec<&str> = options
-            .iter()
-            .filter_map(|o| o.get("const")?.as_str())
-            .collect();
-        if names.len() == options.len() {
+        let names = options.iter().map(|o| o.get("const")?.as_str());
+        if let Some(names) = names.collect::<Option<Vec<_>>>() {
             return self.one_of_names(value, names.into_iter(), path);
+        }
+        if let Some(tagged) = options.iter().map(tag).collect::<Option<Vec<_>>>()
+            && let Value::Table(_) = value
+        {
+            return self.tagged(value, &tagged, path);
         }
         let before = self.problems.len();
         let mut first = None;
@@ -145,6 +147,32 @@ impl<'s> Walk<'s> {
                 );
             }
             _ => self.problems.extend(first.unwrap_or_default()),
+        }
+    }
+
+    /// A table whose kind a key distinguishes: that key, the name of each kind, its schema.
+    fn tagged(&mut self, value: &mut Value, kinds: &[(&str, &str, &'s Json)], path: &str) {
+        let key = kinds[0].0;
+        let mut names: Vec<_> = kinds.iter().map(|(_, name, _)| *name).collect();
+        names.sort_unstable();
+        let known = || names.join(", ");
+        let Some(kind) = value.get(key).and_then(Value::as_str) else {
+            let message = format!("the key `{key}` is missing: one of {}", known());
+            return self.problem(path, message);
+        };
+        match kinds.iter().find(|(_, name, _)| *name == kind) {
+            Some((_, _, schema)) => self.object(value, schema, path),
+            None => {
+                let near = suggestion(kind, names.iter().copied());
+                // `probe.NAME` is a probe.
+                let what = path.split('.').next().filter(|root| !root.is_empty());
+                let what = what.unwrap_or("table");
+                let message = format!(
+                    "there is no {what} of the {key} `{kind}`{near} (there are: {})",
+                    known()
+                );
+                self.problem(&joined(path, key), message);
+            }
         }
     }
 
@@ -219,30 +247,15 @@ impl<'s> Walk<'s> {
         let unit = unit
             .filter(|u| *u != "1")
             .map_or(String::new(), |u| format!(" {u}"));
-        let checks: [(Option<f64>, bool, &str); 4] = [
-            (
-                bound("minimum"),
-                bound("minimum").is_some_and(|b| x < b),
-                "at least",
-            ),
-            (
-                bound("exclusiveMinimum"),
-                bound("exclusiveMinimum").is_some_and(|b| x <= b),
-                "more than",
-            ),
-            (
-                bound("maximum"),
-                bound("maximum").is_some_and(|b| x > b),
-                "at most",
-            ),
-            (
-                bound("exclusiveMaximum"),
-                bound("exclusiveMaximum").is_some_and(|b| x >= b),
-                "less than",
-            ),
+        type Violated = fn(f64, f64) -> bool;
+        let checks: [(&str, Violated, &str); 4] = [
+            ("minimum", |x, b| x < b, "at least"),
+            ("exclusiveMinimum", |x, b| x <= b, "more than"),
+            ("maximum", |x, b| x > b, "at most"),
+            ("exclusiveMaximum", |x, b| x >= b, "less than"),
         ];
-        for (bound, violated, words) in checks {
-            if let (Some(bound), true) = (bound, violated) {
+        for (key, violated, words) in checks {
+            if let Some(bound) = bound(key).filter(|b| violated(x, *b)) {
                 return self.problem(path, format!("must be {words} {bound}{unit}, found {x}"));
             }
         }
@@ -292,10 +305,7 @@ impl<'s> Walk<'s> {
             let found = describe(value);
             return self.problem(path, format!("expected a table, found {found}"));
         };
-        let join = |key: &str| match path {
-            "" => key.to_string(),
-            _ => format!("{path}.{key}"),
-        };
+        let join = |key: &str| joined(path, key);
         let properties = schema.get("properties").and_then(Json::as_object);
         let others = schema.get("additionalProperties");
         for (key, item) in table.iter_mut() {
@@ -338,6 +348,19 @@ impl<'s> Walk<'s> {
             }
         }
     }
+}
+
+fn joined(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_string(),
+        _ => format!("{path}.{key}"),
+    }
+}
+
+/// The key of an alternative that has one value only, and that value.
+fn tag(option: &Json) -> Option<(&str, &str, &Json)> {
+    let mut properties = option.get("properties")?.as_object()?.iter();
+    properties.find_map(|(key, p)| Some((key.as_str(), p.get("const")?.as_str()?, option)))
 }
 
 /// The expected type of a value of another type.

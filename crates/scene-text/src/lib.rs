@@ -23,6 +23,7 @@ mod conform;
 mod defaults;
 mod diagnostic;
 mod editors;
+mod files;
 mod locate;
 mod names;
 pub mod number;
@@ -42,14 +43,15 @@ pub use conform::conform;
 pub use defaults::defaults;
 pub use diagnostic::{Diagnostic, Origin, line_and_column};
 pub use editors::for_editors;
-pub use names::{nearest, suggestion};
+pub use files::named_files;
+pub use names::{is_within, nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
 pub use paths::{PathProblem, within};
 pub use picture_range::PictureRange;
 pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
-pub use text::{FILE_BYTES, read_text};
+pub use text::{FILE_BYTES, read_bytes, read_text};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,4 +1,4 @@
-//! The nearest valid name for a misspelt one.
+//! Names of keys: the nearest valid one for a misspelt one, and keys within others.
 
 /// The candidate most like `name`, if any is near enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -15,6 +15,12 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 /// `, did you mean `x`?` or nothing.
 pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     nearest(name, candidates).map_or(String::new(), |c| format!(", did you mean `{c}`?"))
+}
+
+/// True if a dotted path is that of a key or of something within it.
+pub fn is_within(path: &str, key: &str) -> bool {
+    let rest = path.strip_prefix(key);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
 #[cfg(test)]

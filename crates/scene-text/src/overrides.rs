@@ -90,12 +90,6 @@ impl Override {
         })
     }
 
-    /// True if the value of a key is its own or within its own.
-    pub(crate) fn gives(&self, key: &str) -> bool {
-        let rest = key.strip_prefix(self.path.as_str());
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-    }
-
     /// Sets the value in a scene's table, making tables on the way where there are none.
     ///
     /// # Errors

@@ -58,6 +58,14 @@ impl Problems {
         }
         false
     }
+
+    /// Checks that one of some keys at most is given.
+    pub fn at_most_one(&mut self, given: &[&str], path: &str) {
+        if let [_, .., last] = given {
+            let message = format!("only one of `{}` can be given", given.join("`, `"));
+            self.add(format!("{path}.{last}"), message);
+        }
+    }
 }
 
 /// The names of the keys that are given.

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
 use crate::locate::locate;
 use crate::overrides::Override;
 use crate::paths::{PathProblem, joined, within};
-use crate::{MOST_PROBLEMS, SceneProblem};
+use crate::{MOST_PROBLEMS, SceneProblem, is_within};
 
 /// The text of a scene file and the overrides on top of it.
 #[derive(Clone, Debug)]
@@ -80,10 +80,7 @@ impl Source {
     }
 
     fn place(&self, table: &DeTable<'_>, problem: &SceneProblem) -> Diagnostic {
-        let within = |inner: &str, outer: &str| {
-            let rest = inner.strip_prefix(outer);
-            rest.is_some_and(|r| outer.is_empty() || r.is_empty() || r.starts_with(['.', '[']))
-        };
+        let within = |inner: &str, outer: &str| outer.is_empty() || is_within(inner, outer);
         let path = problem.path.as_str();
         let set_by = |hit: &dyn Fn(&str) -> bool| self.overrides.iter().rposition(|o| hit(&o.path));
         let in_file = locate(table, path);
@@ -137,7 +134,7 @@ impl Source {
     /// If the path leads elsewhere.
     pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, PathProblem> {
         let folder = Path::new(&self.file).parent().unwrap_or(Path::new(""));
-        let by = self.overrides.iter().rfind(|o| o.gives(key));
+        let by = self.overrides.iter().rfind(|o| is_within(key, &o.path));
         match by.is_some_and(|o| o.users) {
             true => joined(folder, file),
             false => within(folder, file, &self.allowed),

@@ -1,5 +1,6 @@
-//! The text of a scene, read from a file.
+//! The text of a scene, and the bytes of its data, read from files.
 
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -24,7 +25,7 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     if !known.is_file() && !is_given(path) {
         return Err("it is not a file (a pipe of the shell or /dev/stdin is taken as well)".into());
     }
-    let file = std::fs::File::open(path).map_err(|e| e.to_string())?;
+    let file = File::open(path).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
     let most = FILE_BYTES as u64 + 1;
     file.take(most)
@@ -39,4 +40,27 @@ pub fn read_text(path: &Path) -> Result<String, String> {
         let (line, column) = line_and_column(&before, at);
         format!("byte {at}, in line {line}, is not UTF-8 text (column {column})")
     })
+}
+
+/// The bytes of a plain file that is neither empty nor longer than `most` bytes.
+///
+/// # Errors
+/// The name of the file and its fault.
+pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    let name = path.display();
+    let refused = |e: std::io::Error| format!("cannot read `{name}`: {e}");
+    // Asked before it is opened: opening a pipe would wait for its writer.
+    let known = std::fs::metadata(path).map_err(refused)?;
+    if !known.is_file() {
+        return Err(format!("`{name}` is not a file"));
+    }
+    let length = match known.len() {
+        0 => return Err(format!("`{name}` is empty")),
+        n if n > most => return Err(format!("`{name}` is longer than {} MiB", most >> 20)),
+        n => n,
+    };
+    let mut bytes = Vec::with_capacity(length as usize);
+    let file = File::open(path).map_err(refused)?;
+    file.take(most).read_to_end(&mut bytes).map_err(refused)?;
+    Ok(bytes)
 }

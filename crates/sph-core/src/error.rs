@@ -1,6 +1,6 @@
 //! Typed errors of the shared vocabulary.
 
-use scene_text::SceneProblem;
+use scene_text::{SceneProblem, suggestion};
 use thiserror::Error;
 
 /// A column of another kind than its reader expects.
@@ -89,6 +89,22 @@ pub enum RegistryError {
     /// A parameter is wrong; the paths are relative to the plugin's table.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Parameters(Vec<SceneProblem>),
+}
+
+impl RegistryError {
+    /// Of a name that none of the known plugins of a kind has.
+    pub fn unknown<'n>(
+        kind: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'n str> + Clone,
+    ) -> Self {
+        RegistryError::Unknown {
+            kind,
+            name: name.to_string(),
+            hint: suggestion(name, known.clone()),
+            known: known.collect::<Vec<_>>().join(", "),
+        }
+    }
 }
 
 /// A time step that went wrong, with the particle and the quantity.

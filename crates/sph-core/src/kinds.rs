@@ -112,6 +112,8 @@ pub struct PluginKind {
     pub order: u8,
     /// The account of its work.
     pub work: Work,
+    /// Dimensions of its plugins that have none of their own.
+    pub dimensions: &'static [usize],
     /// Its plugins in this binary, by name.
     pub plugins: fn() -> Vec<PluginInfo>,
 }
@@ -136,6 +138,7 @@ impl PluginKind {
             idle: None,
             order: u8::MAX,
             work: Work::Own,
+            dimensions: &[2, 3],
             plugins: Vec::new,
         }
     }
@@ -174,6 +177,12 @@ impl PluginKind {
     /// With an account of its work.
     pub const fn works(mut self, work: Work) -> Self {
         self.work = work;
+        self
+    }
+
+    /// With plugins in space alone.
+    pub const fn in_space(mut self) -> Self {
+        self.dimensions = &[3];
         self
     }
 

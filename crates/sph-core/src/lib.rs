@@ -28,6 +28,8 @@ mod boxes;
 pub mod course;
 mod duct;
 #[cfg(feature = "plugins")]
+pub mod editors;
+#[cfg(feature = "plugins")]
 mod error;
 #[cfg(feature = "plugins")]
 mod evolve;
@@ -51,6 +53,7 @@ mod plugin_choice;
 #[cfg(feature = "plugins")]
 mod plugin_info;
 mod pool;
+mod random;
 #[cfg(feature = "plugins")]
 mod registry;
 #[cfg(feature = "plugins")]
@@ -72,6 +75,7 @@ mod winding;
 pub use boxes::{BoxTree, Corners, bounds};
 pub use duct::rectangular_duct;
 pub use pool::{Pool, PoolGuard};
+pub use random::SplitMix;
 pub use slots::Slots;
 pub use symmetric::Symmetric;
 pub use winding::Winding;

@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
-use crate::{PluginInfo, PluginKind, RegistryError, SceneProblem, conform, suggestion};
+use crate::{PluginInfo, PluginKind, RegistryError, SceneProblem, conform};
 
 /// One parameter of a plugin, for listings.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -121,14 +121,10 @@ impl<E: Contract> Registry<E> {
     /// # Errors
     /// An unknown name; the message lists the known names and the nearest one.
     pub fn find(&self, name: &str) -> Result<&'static E, RegistryError> {
-        let names = || self.entries.iter().map(|e| e.info().name);
+        let names = self.entries.iter().map(|e| e.info().name);
         let found = self.entries.iter().find(|e| e.info().name == name);
-        found.copied().ok_or_else(|| RegistryError::Unknown {
-            kind: E::KIND.name,
-            name: name.to_string(),
-            hint: suggestion(name, names()),
-            known: names().collect::<Vec<_>>().join(", "),
-        })
+        let unknown = || RegistryError::unknown(E::KIND.name, name, names);
+        found.copied().ok_or_else(unknown)
     }
 
     /// All entries, sorted by name.

@@ -116,11 +116,11 @@ impl Registration {
         };
         let forms = self.forms.as_deref();
         let dimensions = match forms {
-            Some(forms) => forms
-                .iter()
-                .map(|f| f.dimension.to_token_stream())
-                .collect(),
-            None => vec![quote!(2), quote!(3)],
+            Some(forms) => {
+                let all = forms.iter().map(|f| &f.dimension);
+                quote!(&[#(#all),*])
+            }
+            None => quote!(<#entry as ::sph_core::Contract>::KIND.dimensions),
         };
         let described = forms.and_then(<[Form]>::first).map_or(own.clone(), of);
         let build = match forms {
@@ -150,7 +150,7 @@ impl Registration {
                         summary: #summary,
                         source: #source,
                         provider: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
-                        dimensions: &[#(#dimensions),*],
+                        dimensions: #dimensions,
                         schema: ::sph_core::schema_of::<#described>,
                     },
                     #build

@@ -53,7 +53,7 @@ mod reading;
 mod tables;
 
 pub use drawings::drawing::DrawingError;
-pub use filling::disorder::{SplitMix, disturb, noise};
+pub use filling::disorder::{disturb, noise};
 pub use filling::estimate::estimate;
 pub use filling::fill::{BodyParticles, fill};
 pub use filling::nodes::Offset;
@@ -65,7 +65,7 @@ pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
 pub use geometry::sided::sense;
 pub use reading::files::DataFile;
-pub use reading::load::{LoadError, Loaded, Refused, load, load_allowing, parse, read};
+pub use reading::load::{LoadError, Loaded, Refused, load, parse, read};
 pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};

@@ -6,6 +6,7 @@ pub(crate) mod hints;
 pub(crate) mod kinematic;
 pub(crate) mod limits;
 pub(crate) mod load;
+pub(crate) mod one_or_many;
 pub(crate) mod plugins;
 pub(crate) mod remarks;
 pub(crate) mod renamed;

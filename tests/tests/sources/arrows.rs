@@ -22,7 +22,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
     ),
     (
         "dem-pfv",
-        &["sparse", "sph-derive", "scene-text", "sph-io", "sph-run"],
+        &["sparse", "scene-text", "sph-core", "sph-io", "sph-run"],
     ),
     ("scene-text", &[]),
     ("sph-kernels", &[]),
@@ -237,12 +237,12 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
     }
 }
 
-/// `sph-io` writes files, `sph-run` drives any model and `sph-derive` declares parameters; they know no particles.
+/// `sph-io` writes files, `sph-run` drives any model and `sph-core` registers plugins; they compute no particles.
 #[test]
 fn grains_know_no_particles() {
     for (name, room) in rooms() {
         let known = room.uses.union(&room.tests_use).find(|d| {
-            d.starts_with("sph-") && !["sph-io", "sph-run", "sph-derive"].contains(&d.as_str())
+            d.starts_with("sph-") && !["sph-io", "sph-run", "sph-core"].contains(&d.as_str())
         });
         assert!(
             !name.starts_with("dem-") || known.is_none(),

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
+use sph_core::parameters;
 
-use crate::coupled::recorded::interpolated;
+use crate::Axis;
 use crate::coupled::{CoupledError, Recorded, Vector};
 use crate::flow::{Boundary, PoreGeometry};
 use crate::triangulation::Vertex;
@@ -27,46 +28,43 @@ pub enum FlowCondition {
     Closed,
     /// One pressure, Pa: drained.
     Pressure(f64),
-    /// A pressure that is linear between places along an axis and constant beyond the ends; that of any other
-    /// computation, such as a free surface with waves above a bed. Replace it as often as it changes.
-    Profile {
-        /// 0, 1 or 2.
-        axis: usize,
-        /// Places along the axis, ascending, m.
-        places: Vec<f64>,
-        /// Pressures there, Pa.
-        pressures: Vec<f64>,
-    },
     /// The load of a wave.
     Wave(Wave),
-    /// Result of another computation.
+    /// Result of another computation, such as a free surface with waves above a bed. Replace it as often as it changes.
     Recorded(Recorded),
     /// An even inflow, m/s; negative lets fluid out.
     Inflow(f64),
 }
 
-/// p = (A + r t) cos(π (x − x₀)/ℒ), times sin(2π t/T) if there is a period T: waves on the bed's surface, the mean
-/// pressure removed. Source: Catalano 2012, §6.3.2 (ramps) and §6.4 (standing waves).
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+/// p = (amplitude + ramp · t) cos(π (x − crest) / half_length), times sin(2π t / period) if there is one: waves on the
+/// bed's surface, the mean pressure removed. Source: Catalano 2012, §6.3.2 (ramps) and §6.4 (standing waves).
+#[parameters]
+#[derive(Copy, PartialEq, Serialize)]
 pub struct Wave {
-    /// Axis along which it runs, 0, 1 or 2.
-    pub axis: usize,
-    /// Place x₀ of the crest, m.
+    /// Axis along which it runs.
+    #[parameter(default)]
+    pub axis: Axis,
+    /// Place of the crest, m.
+    #[parameter(default, unit: "m")]
     pub crest: f64,
-    /// Half the wave's length ℒ, m.
+    /// Half the length of the wave, m.
+    #[parameter(unit: "m", above: 0.0)]
     pub half_length: f64,
-    /// Amplitude A at time zero, Pa.
+    /// Amplitude of the pressure at the start, Pa.
+    #[parameter(default, unit: "Pa")]
     pub amplitude: f64,
-    /// Growth r of the amplitude, Pa/s.
+    /// Growth of the amplitude, Pa/s.
+    #[parameter(default, unit: "Pa/s")]
     pub ramp: f64,
-    /// Period T, s; none for a load that stands still.
+    /// Period, s; the load stands still if left out.
+    #[parameter(unit: "s", above: 0.0)]
     pub period: Option<f64>,
 }
 
 impl Wave {
     /// Pressure (Pa) at a place (m) and a time (s).
     pub fn pressure(&self, place: &Vector, time: f64) -> f64 {
-        let phase = PI * (place[self.axis] - self.crest) / self.half_length;
+        let phase = PI * (place[self.axis.number()] - self.crest) / self.half_length;
         let swing = self.period.map_or(1.0, |t| (2.0 * PI * time / t).sin());
         (self.amplitude + self.ramp * time) * phase.cos() * swing
     }
@@ -90,36 +88,17 @@ impl WallBoundary {
     }
 
     pub(crate) fn check(&self, wall: usize) -> Result<(), CoupledError> {
-        let bad = |problem: &str| {
-            let problem = problem.to_string();
-            Err(CoupledError::BadCondition { wall, problem })
-        };
+        let bad = |problem| Err(CoupledError::BadCondition(wall, problem));
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         match &self.condition {
             FlowCondition::Closed => Ok(()),
             FlowCondition::Pressure(p) if !p.is_finite() => bad("is a pressure that is not finite"),
             FlowCondition::Inflow(v) if !v.is_finite() => bad("is an inflow that is not finite"),
             FlowCondition::Pressure(_) | FlowCondition::Inflow(_) => Ok(()),
-            FlowCondition::Profile {
-                axis,
-                places,
-                pressures,
-            } => match () {
-                () if *axis > 2 => bad("is along an axis that is not 0, 1 or 2"),
-                () if places.is_empty() || places.len() != pressures.len() => {
-                    bad("needs as many pressures as places, and one at least")
-                }
-                () if !finite(places) || !finite(pressures) => {
-                    bad("has numbers that are not finite")
-                }
-                () if !places.is_sorted() => bad("has places that do not ascend"),
-                () => Ok(()),
-            },
             FlowCondition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
             FlowCondition::Wave(w) => {
                 let lengths = [w.half_length, w.period.unwrap_or(1.0)];
                 match () {
-                    () if w.axis > 2 => bad("is along an axis that is not 0, 1 or 2"),
                     () if !finite(&[w.crest, w.amplitude, w.ramp]) || !finite(&lengths) => {
                         bad("has numbers that are not finite")
                     }
@@ -158,18 +137,11 @@ impl WallBoundary {
         match &self.condition {
             FlowCondition::Closed => {}
             FlowCondition::Pressure(p) => boundary.pressure(pores, wall, |_| Some(*p)),
-            FlowCondition::Profile {
-                axis,
-                places,
-                pressures,
-            } => boundary.pressure(pores, wall, |x| {
-                Some(interpolated(places, pressures, x[*axis]))
-            }),
             FlowCondition::Wave(w) => {
                 boundary.pressure(pores, wall, |x| Some(w.pressure(&x, time)))
             }
             FlowCondition::Recorded(r) => {
-                boundary.pressure(pores, wall, |x| Some(r.pressure(x[r.axis], time)));
+                boundary.pressure(pores, wall, |x| Some(r.pressure(x[r.axis.number()], time)));
             }
             FlowCondition::Inflow(v) => {
                 boundary.inflow(pores, wall, *v, |_| true);

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::OutOfRange;
+use crate::coupled::StepLimit;
 use crate::flow::FlowError;
 use crate::grains::GrainError;
 use crate::triangulation::TriangulationError;
@@ -19,80 +21,43 @@ pub enum CoupledError {
     /// The mesh of the pores; spheres are numbered as the grains.
     #[error(transparent)]
     Mesh(#[from] TriangulationError),
-    /// The flow sees plane walls only.
-    #[error(
-        "there are {meshes} meshes of triangles; fluid would flow through them, use plane walls"
-    )]
-    Meshes {
-        /// Number of meshes.
-        meshes: usize,
-    },
-    /// The flow has no periodic rooms.
-    #[error("axis {axis} is periodic; the flow needs a box of six walls")]
-    Periodic {
-        /// 0, 1 or 2.
-        axis: usize,
-    },
-    /// One side per wall is needed.
-    #[error("there are conditions for {sides} walls and {walls} walls")]
-    Sides {
-        /// Given.
-        sides: usize,
-        /// Needed.
-        walls: usize,
-    },
+    /// A number of meshes, where the flow sees plane walls only.
+    #[error("there are {0} meshes of triangles; fluid would flow through them, use plane walls")]
+    Meshes(usize),
+    /// An axis that is periodic, where the flow has no periodic rooms.
+    #[error("axis {0} is periodic; the flow needs a box of six walls")]
+    Periodic(usize),
+    /// Other numbers of conditions and of walls.
+    #[error("there are conditions for {0} walls and {1} walls")]
+    Sides(usize, usize),
     /// A number out of range.
-    #[error("{what} is {value}; it must be {valid}")]
-    BadNumber {
-        /// Name of the quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// The allowed values.
-        valid: &'static str,
-    },
-    /// A condition at a wall that means nothing.
-    #[error("the condition at wall {wall} {problem}")]
-    BadCondition {
-        /// The wall.
-        wall: usize,
-        /// The fault.
-        problem: String,
-    },
-    /// A step for which the scheme is not stable; nothing was moved.
+    #[error(transparent)]
+    Number(#[from] OutOfRange),
+    /// A wall whose condition means nothing.
+    #[error("the condition at wall {0} {1}")]
+    BadCondition(usize, &'static str),
+    /// A step (s) for which the scheme is not stable; nothing was moved.
     #[error(
-        "the step {step} s is above the limit {limit} s, which grain {grain} sets \
-         (contacts alone {elastic} s, drag alone {viscous} s)"
+        "the step {0} s is above the limit {limit} s, which grain {grain} sets \
+         (contacts alone {elastic} s, drag alone {viscous} s)",
+        limit = .1.step, grain = .1.grain, elastic = .1.elastic, viscous = .1.viscous
     )]
-    StepTooLarge {
-        /// Asked for, s.
-        step: f64,
-        /// Largest one, s.
-        limit: f64,
-        /// 2/ω of the contacts, s.
-        elastic: f64,
-        /// 2/λ of the drag, s.
-        viscous: f64,
-        /// The grain that moves most in the mode of strongest drag.
-        grain: usize,
-    },
+    StepTooLarge(f64, StepLimit),
     /// A saved state whose parts do not fit together.
-    #[error("the saved state cannot be resumed: {problem}")]
-    BadState {
-        /// The fault.
-        problem: String,
-    },
+    #[error("the saved state cannot be resumed: {0}")]
+    BadState(&'static str),
 }
 
-/// Refuses a number unless it is `fine` and finite.
-pub(crate) fn number(
-    what: &'static str,
-    value: f64,
-    valid: &'static str,
-    fine: bool,
-) -> Result<(), CoupledError> {
-    match fine && value.is_finite() {
-        true => Ok(()),
-        false => Err(CoupledError::BadNumber { what, value, valid }),
+impl CoupledError {
+    /// The first grain that it names.
+    pub fn grain(&self) -> Option<usize> {
+        match self {
+            Self::Grains(error) => error.grains().first().copied(),
+            Self::StepTooLarge(_, limit) => Some(limit.grain),
+            Self::Flow(FlowError::Overlap(grain, ..) | FlowError::InWall(grain, ..)) => {
+                Some(*grain)
+            }
+            _ => None,
+        }
     }
 }

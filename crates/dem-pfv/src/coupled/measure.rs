@@ -87,7 +87,7 @@ impl CoupledSystem {
             let found = walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
             found.map(|(number, _)| number)
         };
-        let none = crate::grains::GrainError::NoArea { wall: 2 * axis };
+        let none = crate::grains::GrainError::NoArea(2 * axis);
         let (Some(low), Some(high)) = (facing(1.0), facing(-1.0)) else {
             return Err(none.into());
         };
@@ -100,6 +100,7 @@ impl CoupledSystem {
             &boundary,
             &*self.law,
             viscosity,
+            None,
             Solver::Automatic,
         )?;
         let pressures = system.solve(&boundary, &[])?;

@@ -95,13 +95,10 @@ impl Pores {
         step: f64,
     ) -> Result<FlowSystem, CoupledError> {
         let (viscosity, solver) = (setup.fluid.viscosity, setup.solver);
-        Ok(match setup.fluid.bulk_modulus {
-            None => FlowSystem::new(geometry, boundary, law, viscosity, solver)?,
-            Some(bulk_modulus) => {
-                let storage = Storage { bulk_modulus, step };
-                FlowSystem::compressible(geometry, boundary, law, viscosity, storage, solver)?
-            }
-        })
+        let bulk_modulus = setup.fluid.bulk_modulus;
+        let storage = bulk_modulus.map(|bulk_modulus| Storage { bulk_modulus, step });
+        let system = FlowSystem::new(geometry, boundary, law, viscosity, storage, solver)?;
+        Ok(system)
     }
 
     /// Values of the conditions at a time (s).

@@ -2,12 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Axis;
+
 /// p(x, t) on a wall, linear between places and between times, constant beyond the first and the last of both: the
 /// load of a free surface on a bed, one way.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Recorded {
-    /// Axis of the places, 0, 1 or 2.
-    pub axis: usize,
+    /// Axis of the places.
+    pub axis: Axis,
     /// Places along it, ascending, m.
     pub places: Vec<f64>,
     /// Times, ascending, s.
@@ -33,7 +35,6 @@ impl Recorded {
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         let whole = self.places.len() * self.times.len();
         match () {
-            () if self.axis > 2 => Some("is along an axis that is not 0, 1 or 2"),
             () if whole == 0 || self.pressures.len() != whole => {
                 Some("needs one pressure for each place and time, and one at least")
             }
@@ -51,7 +52,7 @@ impl Recorded {
 }
 
 /// A value that is linear between places, constant beyond the ends.
-pub(crate) fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
+fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
     let (here, next, share) = bracket(places, x);
     values[here] + share * (values[next] - values[here])
 }
@@ -82,7 +83,7 @@ mod tests {
             .iter()
             .flat_map(|t| places.iter().map(|x| load(*x, *t)));
         let recorded = Recorded {
-            axis: 0,
+            axis: Axis::X,
             pressures: rows.collect(),
             places,
             times,
@@ -99,7 +100,7 @@ mod tests {
     #[test]
     fn tables_that_do_not_fit_are_named() {
         let good = Recorded {
-            axis: 0,
+            axis: Axis::X,
             places: vec![0.0, 1.0],
             times: vec![0.0],
             pressures: vec![1.0, 2.0],
@@ -109,7 +110,6 @@ mod tests {
             change(&mut recorded);
             recorded.problem().unwrap_or("nothing").to_string()
         };
-        assert!(with(|r| r.axis = 3).contains("axis"));
         assert!(with(|r| r.pressures = vec![1.0]).contains("one pressure for each"));
         assert!(with(|r| r.times = vec![]).contains("one at least"));
         assert!(with(|r| r.places = vec![1.0, 0.0]).contains("places"));

@@ -1,25 +1,32 @@
 //! Parameters of the fluid and of its computation.
 
 use serde::{Deserialize, Serialize};
+use sph_core::parameters;
 
-use crate::coupled::error::number;
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
+use crate::{OutOfRange, require};
+
+/// Valid values of most numbers.
+pub(crate) const POSITIVE: &str = "positive and finite";
 
 /// The fluid in the pores.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[parameters]
+#[derive(Copy, PartialEq, Serialize)]
 pub struct Fluid {
     /// Dynamic viscosity µ, Pa s.
+    #[parameter(unit: "Pa s", above: 0.0)]
     pub viscosity: f64,
     /// Density ρ_f, kg/m³, for buoyancy; zero for none.
+    #[parameter(default, unit: "kg/m³", min: 0.0)]
     pub density: f64,
-    /// Bulk modulus K_f, Pa; none for a fluid that does not give way.
+    /// Bulk modulus K_f, Pa; a fluid that does not give way if left out.
+    #[parameter(unit: "Pa", above: 0.0)]
     pub bulk_modulus: Option<f64>,
-    /// True if it shears between neighbours that slide past each other: Catalano 2012, Eqs. (6.29), (6.30).
-    #[serde(default)]
+    /// True if it shears between neighbours that slide past each other. Catalano 2012, Eqs. (6.29), (6.30).
+    #[parameter(default)]
     pub shear: bool,
-    /// Resistance to a change of the gap between neighbours; nothing beyond the pores' pressures if none.
-    #[serde(default)]
+    /// Lubrication of the gaps between neighbours; none if left out.
     pub lubrication: Option<Lubrication>,
 }
 
@@ -33,11 +40,14 @@ pub struct Fluid {
 /// The leading term of Jeffrey and Onishi (J. Fluid Mech. 139, 1984), less its value at the range c a, beyond which the
 /// pores' pressures have to do (as Nguyen and Ladd, Phys. Rev. E 66, 046708, 2002, subtract what their fluid resolves).
 /// No gap counts as narrower than the roughness ε a, so that spheres touch.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[parameters]
+#[derive(PartialEq, Serialize)]
 pub struct Lubrication {
-    /// Roughness ε in terms of a.
+    /// Roughness ε in terms of a: no gap counts as narrower.
+    #[parameter(default: 0.01, unit: "1", above: 0.0)]
     pub roughness: f64,
-    /// Range c in terms of a.
+    /// Range c in terms of a, beyond which the pores' pressures have to do.
+    #[parameter(default: 1.0, unit: "1", above: 0.0)]
     pub range: f64,
 }
 
@@ -75,29 +85,27 @@ impl Fluid {
     }
 
     fn check(&self) -> Result<(), CoupledError> {
-        let positive = "positive and finite";
-        number(
-            "the viscosity",
-            self.viscosity,
-            positive,
-            self.viscosity > 0.0,
-        )?;
-        number(
-            "the fluid's density",
-            self.density,
-            "at least 0 and finite",
-            self.density >= 0.0,
-        )?;
+        let Self {
+            viscosity, density, ..
+        } = *self;
+        require("the viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
+        let valid = "at least 0 and finite";
+        require("the fluid's density is", density, valid, density >= 0.0)?;
         if let Some(Lubrication { roughness, range }) = self.lubrication {
-            let (fine, rule) = (roughness > 0.0, "positive and finite");
-            number("the roughness of lubrication", roughness, rule, fine)?;
-            let (fine, rule) = (range > roughness, "above the roughness and finite");
-            number("the range of lubrication", range, rule, fine)?;
+            let what = "the roughness of lubrication is";
+            require(what, roughness, POSITIVE, roughness > 0.0)?;
+            let valid = "above the roughness and finite";
+            require(
+                "the range of lubrication is",
+                range,
+                valid,
+                range > roughness,
+            )?;
         }
-        match self.bulk_modulus {
-            Some(k) => number("the bulk modulus", k, positive, k > 0.0),
-            None => Ok(()),
+        if let Some(k) = self.bulk_modulus {
+            require("the bulk modulus is", k, POSITIVE, k > 0.0)?;
         }
+        Ok(())
     }
 }
 
@@ -152,7 +160,7 @@ impl Remeshing {
 }
 
 /// Everything about the fluid that a [`crate::coupled::CoupledSystem`] starts from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct FlowSetup {
     /// The fluid.
     pub fluid: Fluid,
@@ -206,18 +214,17 @@ impl FlowSetup {
     pub(crate) fn check(&self, walls: usize) -> Result<(), CoupledError> {
         self.fluid.check()?;
         if self.sides.len() != walls {
-            let sides = self.sides.len();
-            return Err(CoupledError::Sides { sides, walls });
+            return Err(CoupledError::Sides(self.sides.len(), walls));
         }
         for (wall, side) in self.sides.iter().enumerate() {
             side.check(wall)?;
         }
         match self.remeshing.strain {
-            Some(strain) if strain.is_nan() || strain < 0.0 => Err(CoupledError::BadNumber {
-                what: "the strain for remeshing",
-                value: strain,
+            Some(value) if value.is_nan() || value < 0.0 => Err(CoupledError::Number(OutOfRange {
+                what: "the strain for remeshing is".into(),
+                value,
                 valid: "at least 0",
-            }),
+            })),
             _ => Ok(()),
         }
     }

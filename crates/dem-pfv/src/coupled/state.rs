@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::coupled::pores::{PRESSED, Places, Pores};
 use crate::coupled::system::{Clock, check};
-use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
-use crate::flow::{Conductance, HydraulicRadius, SolidAngles, Solver};
+use crate::coupled::{CoupledError, CoupledSystem, FlowSetup};
+use crate::flow::Conductance;
 use crate::grains::{ContactLaw, GrainSystem};
 
 /// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
@@ -13,11 +13,7 @@ use crate::grains::{ContactLaw, GrainSystem};
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct State {
     grains: crate::grains::State,
-    fluid: Fluid,
-    sides: Vec<WallBoundary>,
-    remeshing: Remeshing,
-    angles: SolidAngles,
-    solver: Solver,
+    setup: FlowSetup,
     /// Places at which the mesh was made; it is made again there.
     places: Places,
     clock: Clock,
@@ -26,51 +22,30 @@ pub struct State {
 impl CoupledSystem {
     /// State to resume.
     pub fn save(&self) -> State {
-        let setup = &self.setup;
         State {
             grains: self.grains.save(),
-            fluid: setup.fluid,
-            sides: setup.sides.clone(),
-            remeshing: setup.remeshing,
-            angles: setup.angles,
-            solver: setup.solver,
+            setup: self.setup.clone(),
             places: self.pores.places.clone(),
             clock: self.clock.clone(),
         }
     }
 
-    /// Goes on from a saved state with the same contact laws, conductances by hydraulic radii.
+    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
     ///
     /// # Errors
     /// A state whose parts do not fit together.
-    pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, CoupledError> {
-        Self::resume_with_law(state, laws, Box::new(HydraulicRadius::default()))
-    }
-
-    /// The same with the law for the conductances that the saved run had.
-    ///
-    /// # Errors
-    /// As [`CoupledSystem::resume`].
-    pub fn resume_with_law(
+    pub fn resume(
         state: State,
         laws: Vec<Box<dyn ContactLaw>>,
         law: Box<dyn Conductance>,
     ) -> Result<Self, CoupledError> {
         let grains = GrainSystem::resume(state.grains, laws)?;
-        let setup = FlowSetup {
-            fluid: state.fluid,
-            sides: state.sides,
-            remeshing: state.remeshing,
-            angles: state.angles,
-            solver: state.solver,
-        };
+        let setup = state.setup;
         check(&grains, &setup)?;
-        let bad = |problem: &str| CoupledError::BadState {
-            problem: problem.to_string(),
-        };
+        let bad = |problem| Err(CoupledError::BadState(problem));
         let (places, clock) = (state.places, state.clock);
         if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
-            return Err(bad("the mesh is that of other grains or walls"));
+            return bad("the mesh is that of other grains or walls");
         }
         let now = [grains.time, clock.storage_step];
         let radii = &grains.grains.radius;
@@ -80,7 +55,7 @@ impl CoupledSystem {
             .iter()
             .any(|c| c.len() != cells)
         {
-            return Err(bad("columns of the pores differ in length from the mesh"));
+            return bad("columns of the pores differ in length from the mesh");
         }
         Ok(Self {
             grains,

@@ -1,12 +1,13 @@
 //! The coupled system: made, stepped, meshed anew.
 
-use crate::coupled::error::number;
-use crate::coupled::limit::{Mode, StepLimit, combined, strongest_drag};
+use crate::coupled::limit::{Mode, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
+use crate::coupled::setup::POSITIVE;
 use crate::coupled::transfer::transferred;
-use crate::coupled::{CoupledError, FlowSetup, Vector, WallBoundary, condition};
+use crate::coupled::{CoupledError, FlowSetup, StepLimit, Vector, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
 use crate::grains::GrainSystem;
+use crate::require;
 
 /// Grains that move, and the fluid in the pores between them.
 ///
@@ -126,18 +127,12 @@ impl CoupledSystem {
     /// [`CoupledError::StepTooLarge`] above [`CoupledSystem::step_limit`]; nothing is moved then. What
     /// [`CoupledSystem::step_unchecked`] may refuse.
     pub fn step(&mut self, step: f64) -> Result<(), CoupledError> {
-        number("the step", step, "positive and finite", step > 0.0)?;
+        require("the step is", step, POSITIVE, step > 0.0)?;
         self.evaluate()?;
         self.store(step)?;
         let limit = self.limit_here()?;
         if step > limit.step {
-            return Err(CoupledError::StepTooLarge {
-                step,
-                limit: limit.step,
-                elastic: limit.elastic,
-                viscous: limit.viscous,
-                grain: limit.grain,
-            });
+            return Err(CoupledError::StepTooLarge(step, limit));
         }
         self.step_unchecked(step)
     }
@@ -148,7 +143,7 @@ impl CoupledSystem {
     /// A step that is not positive; grains that flew away, that overlap or reach into walls by more than half their
     /// radius when pores are made anew; a system that cannot be solved.
     pub fn step_unchecked(&mut self, step: f64) -> Result<(), CoupledError> {
-        number("the step", step, "positive and finite", step > 0.0)?;
+        require("the step is", step, POSITIVE, step > 0.0)?;
         self.evaluate()?;
         // Volumes changed, and fluid gave way, over the last step.
         self.store(self.clock.last_step.unwrap_or(step))?;
@@ -174,12 +169,8 @@ impl CoupledSystem {
     /// # Errors
     /// As [`CoupledSystem::step`]; a share that is not between 0 and 1.
     pub fn run_to(&mut self, time: f64, safety: f64) -> Result<u64, CoupledError> {
-        number(
-            "the share of the limit",
-            safety,
-            "in (0, 1]",
-            safety > 0.0 && safety <= 1.0,
-        )?;
+        let fine = safety > 0.0 && safety <= 1.0;
+        require("the share of the limit is", safety, "in (0, 1]", fine)?;
         let mut steps = 0;
         while self.time() < time {
             let step = safety * self.step_limit()?.step;
@@ -344,8 +335,8 @@ impl CoupledSystem {
     pub fn set_side(&mut self, wall: usize, side: WallBoundary) -> Result<(), CoupledError> {
         side.check(wall)?;
         let Some(slot) = self.setup.sides.get_mut(wall) else {
-            let problem = "is at no wall: there are six".to_string();
-            return Err(CoupledError::BadCondition { wall, problem });
+            let problem = "is at no wall: there are six";
+            return Err(CoupledError::BadCondition(wall, problem));
         };
         let old = std::mem::replace(slot, side.clone());
         let done = if old.like(&side) {
@@ -383,11 +374,10 @@ pub(crate) fn sphere(radius: f64) -> f64 {
 
 pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
     if !grains.meshes.is_empty() {
-        let meshes = grains.meshes.len();
-        return Err(CoupledError::Meshes { meshes });
+        return Err(CoupledError::Meshes(grains.meshes.len()));
     }
     if let Some(axis) = grains.period.iter().position(Option::is_some) {
-        return Err(CoupledError::Periodic { axis });
+        return Err(CoupledError::Periodic(axis));
     }
     setup.check(grains.walls.len())
 }

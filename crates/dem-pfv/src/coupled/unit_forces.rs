@@ -28,14 +28,9 @@ impl UnitForces {
         let mesh = &pores.mesh;
         let mut slots = vec![[Vector::zeros(); 4]; mesh.cells.len()];
         for throat in &pores.throats {
-            let wetted = throat.wetted.iter().sum::<f64>();
+            let shares = throat.shares();
             for (c, vertex) in throat.vertices.iter().enumerate() {
-                let share = if throat.open {
-                    0.0
-                } else {
-                    throat.wetted[c] / wetted
-                };
-                let vector = (throat.sectors[c] + throat.fluid_area * share) * throat.normal;
+                let vector = (throat.sectors[c] + throat.fluid_area * shares[c]) * throat.normal;
                 for (cell, sign) in throat.cells.into_iter().zip([1.0, -1.0]) {
                     let vertices = mesh.cells[cell].vertices();
                     if let Some(place) = vertices.iter().position(|v| v == vertex) {

@@ -19,10 +19,7 @@ pub fn conductances(
         let value = law.conductance(t);
         match value >= 0.0 && value.is_finite() {
             true => Ok(value / (viscosity * t.length)),
-            false => Err(FlowError::BadConductance {
-                cells: t.cells,
-                value,
-            }),
+            false => Err(FlowError::BadConductance(t.cells, value)),
         }
     };
     geometry.throats.iter().map(conductance).collect()
@@ -45,22 +42,19 @@ pub fn joined(cells: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Vec<u32> {
     (0..cells as u32).map(|c| root(&mut first, c)).collect()
 }
 
-/// True for pores of which a cell has a given pressure.
-pub fn given(boundary: &Boundary, pores: &[u32]) -> Vec<bool> {
-    let mut given = vec![false; pores.len()];
-    for (c, pore) in pores.iter().enumerate() {
-        given[*pore as usize] |= boundary.pressures[c].is_some();
-    }
-    given
-}
-
-pub fn givers(boundary: &Boundary, pores: &[u32]) -> Vec<u32> {
+/// For every pore, the first of its cells that has a given pressure.
+pub fn firsts(boundary: &Boundary, pores: &[u32]) -> Vec<u32> {
     let mut first = vec![GIVEN; pores.len()];
     for (c, pore) in pores.iter().enumerate() {
         if boundary.pressures[c].is_some() && first[*pore as usize] == GIVEN {
             first[*pore as usize] = c as u32;
         }
     }
+    first
+}
+
+/// The cell whose given pressure holds in each cell: itself, or the first of its pore that has one.
+pub fn givers(boundary: &Boundary, pores: &[u32], first: &[u32]) -> Vec<u32> {
     let giver = |(c, pore): (usize, &u32)| match (boundary.pressures[c], first[*pore as usize]) {
         (None, giver) if giver != GIVEN => giver,
         _ => c as u32,
@@ -71,31 +65,31 @@ pub fn givers(boundary: &Boundary, pores: &[u32]) -> Vec<u32> {
 pub fn reachable(
     conductances: &[f64],
     ends: &[[u32; 2]],
-    given: &[bool],
+    first: &[u32],
     pores: &[u32],
 ) -> Result<(), FlowError> {
     let passable = conductances.iter().zip(ends).filter(|(k, _)| **k > 0.0);
     let pairs = passable.map(|(_, e)| e.map(|c| pores[c as usize]));
     let regions = joined(pores.len(), pairs);
     let mut reached = vec![false; pores.len()];
-    for (pore, given) in given.iter().enumerate() {
-        reached[regions[pore] as usize] |= given;
+    for (pore, first) in first.iter().enumerate() {
+        reached[regions[pore] as usize] |= *first != GIVEN;
     }
     match pores
         .iter()
         .position(|p| !reached[regions[*p as usize] as usize])
     {
-        Some(cell) => Err(FlowError::NoPressure { cell }),
+        Some(cell) => Err(FlowError::NoPressure(cell)),
         None => Ok(()),
     }
 }
 
 /// Unknowns of all cells, in the order of the pores, and their count.
-pub fn numbered(pores: &[u32], given: &[bool]) -> (Vec<u32>, usize) {
+pub fn numbered(pores: &[u32], first: &[u32]) -> (Vec<u32>, usize) {
     let mut numbers = vec![GIVEN; pores.len()];
     let mut count = 0;
     for (c, &pore) in pores.iter().enumerate() {
-        if given[pore as usize] {
+        if first[pore as usize] != GIVEN {
             continue;
         }
         if pore as usize == c {

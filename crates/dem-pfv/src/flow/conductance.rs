@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
-use serde_json::Value as Json;
-use sph_derive::parameters;
+use sph_core::{Registry, plugin};
+use toml::Table;
 
 use crate::flow::{FlowError, Throat};
-use crate::registry::{built, entries};
-use crate::{Entry, register_law};
+use crate::require;
 
 /// A law for the conductance of throats.
 pub trait Conductance: Send + Sync {
@@ -17,41 +16,49 @@ pub trait Conductance: Send + Sync {
     /// Checks the parameters.
     ///
     /// # Errors
-    /// [`FlowError::BadParameter`] with the parameter and its value.
+    /// The parameter and its value: [`require`].
     fn check(&self) -> Result<(), FlowError> {
         Ok(())
     }
 }
 
-inventory::collect!(Entry<dyn Conductance>);
+sph_core::contract!(
+    /// A law for the conductance of throats by its name.
+    pub ConductanceEntry,
+    "conductance",
+    Elsewhere,
+    "the conductance of a throat between two pores, in [fluid.conductance.LAW]",
+    Conductance,
+    .in_space()
+);
 
-/// Every conductance registered in this binary, sorted by name.
-pub fn conductances() -> Vec<&'static Entry<dyn Conductance>> {
-    entries()
-}
-
-/// The conductance of that name with these parameters (a JSON object, SI units).
+/// The conductance of that name with these parameters.
 ///
 /// # Errors
 /// None or two of that name; an unknown parameter; a value out of range.
 ///
 /// ```
 /// use dem_pfv::flow::conductance;
-/// use serde_json::json;
 ///
-/// assert!(conductance("hydraulic-radius", &json!({ "shape_factor": 0.5 })).is_ok());
-/// let refused = conductance("hydraulic-radius", &json!({ "shape_factor": -1.0 }));
-/// assert!(refused.err().is_some_and(|e| e.to_string().contains("shape factor")));
+/// let with = |parameters: &str| conductance("hydraulic-radius", &parameters.parse().expect("TOML"));
+/// assert!(with("shape_factor = 0.5").is_ok());
+/// assert!(with("shape_factor = -1.0").err().is_some_and(|e| e.to_string().contains("shape_factor")));
 /// ```
-pub fn conductance(name: &str, parameters: &Json) -> Result<Box<dyn Conductance>, FlowError> {
-    let law = built::<dyn Conductance>("conductance", name, parameters)?;
+pub fn conductance(name: &str, parameters: &Table) -> Result<Box<dyn Conductance>, FlowError> {
+    let registry = Registry::<ConductanceEntry>::discovered()?;
+    let law = (registry.find(name)?.build)(parameters)?;
     law.check()?;
     Ok(law)
 }
 
 /// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
 /// a round tube of radius 2R. Source: Catalano 2012, Eqs. (3.4), (3.5).
-#[parameters(crate: crate::reexport)]
+#[plugin(
+    ConductanceEntry,
+    "hydraulic-radius",
+    "a tube with the throat's ratio of fluid volume to wetted surface",
+    source: "Catalano 2012, Eqs. (3.4), (3.5)"
+)]
 #[derive(PartialEq)]
 pub struct HydraulicRadius {
     /// Shape factor α.
@@ -63,13 +70,6 @@ pub struct HydraulicRadius {
     pub reduced_at_slip_walls: bool,
 }
 
-register_law!(
-    HydraulicRadius as Conductance,
-    "hydraulic-radius",
-    "a tube with the throat's ratio of fluid volume to wetted surface",
-    "Catalano 2012, Eqs. (3.4), (3.5)"
-);
-
 impl Conductance for HydraulicRadius {
     fn conductance(&self, throat: &Throat) -> f64 {
         let mut radius = throat.hydraulic_radius();
@@ -80,31 +80,26 @@ impl Conductance for HydraulicRadius {
     }
 
     fn check(&self) -> Result<(), FlowError> {
-        let value = self.shape_factor;
-        match value > 0.0 && value.is_finite() {
-            true => Ok(()),
-            false => Err(FlowError::BadParameter {
-                name: "hydraulic-radius",
-                what: "shape factor",
-                value,
-                valid: "positive",
-            }),
-        }
+        let what = "the shape factor of the conductance \"hydraulic-radius\" is";
+        Ok(require(
+            what,
+            self.shape_factor,
+            "positive",
+            self.shape_factor > 0.0,
+        )?)
     }
 }
 
 /// g = 2π R⁴ / µ with R = ¼ (√(A/π) + r), A the fluid area and r the radius of the inscribed circle.
 /// Source: Bryant & Blunt 1992; Catalano 2012, Eq. (3.6).
-#[parameters(crate: crate::reexport)]
-#[derive(PartialEq)]
-pub struct EffectiveRadius {}
-
-register_law!(
-    EffectiveRadius as Conductance,
+#[plugin(
+    ConductanceEntry,
     "effective-radius",
     "a tube between the throat's inscribed circle and the circle of its area; about half as permeable",
-    "Bryant & Blunt 1992; Catalano 2012, Eq. (3.6)"
-);
+    source: "Bryant & Blunt 1992; Catalano 2012, Eq. (3.6)"
+)]
+#[derive(PartialEq)]
+pub struct EffectiveRadius {}
 
 impl EffectiveRadius {
     /// R, m.

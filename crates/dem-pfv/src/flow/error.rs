@@ -1,29 +1,22 @@
 //! Errors of the pore flow, with their reasons.
 
 use sparse::SparseError;
+use sph_core::RegistryError;
 use thiserror::Error;
 
-use crate::PluginError;
+use crate::OutOfRange;
 
-/// Spheres, walls or conditions through which no flow can be computed.
+/// Spheres, walls or conditions through which no flow can be computed. Lengths are in m.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FlowError {
-    /// There are no walls.
-    #[error("pore flow needs the six walls of a box; the triangulation has {walls} walls")]
-    NoBox {
-        /// Given.
-        walls: usize,
-    },
-    /// Two walls are neither parallel nor at right angles.
-    #[error("walls {first} and {second} meet at an angle that is not a right one")]
-    ObliqueWalls {
-        /// A wall.
-        first: usize,
-        /// Another.
-        second: usize,
-    },
-    /// A list has not the length it should have.
+    /// Another number of walls than six.
+    #[error("pore flow needs the six walls of a box; the triangulation has {0} walls")]
+    NoBox(usize),
+    /// Two walls that are neither parallel nor at right angles.
+    #[error("walls {0} and {1} meet at an angle that is not a right one")]
+    ObliqueWalls(usize, usize),
+    /// A list that has not the length it should have.
     #[error("there are {given} {what}; {needed} are needed")]
     Length {
         /// Name of the list.
@@ -33,81 +26,31 @@ pub enum FlowError {
         /// Needed.
         needed: usize,
     },
-    /// Two spheres overlap deeply.
+    /// Two spheres that overlap deeply: the depth, and the allowed one in terms of the smaller radius.
+    #[error("spheres {0} and {1} overlap by {2} m, more than {3} of the smaller radius")]
+    Overlap(usize, usize, f64, f64),
+    /// A sphere that reaches far into a wall: the depth, and the allowed one in terms of the radius.
+    #[error("sphere {0} reaches {2} m into wall {1}, more than {3} of its radius")]
+    InWall(usize, usize, f64, f64),
+    /// A number that is out of range.
+    #[error(transparent)]
+    Number(#[from] OutOfRange),
+    /// The cells beside a throat whose conductance is negative or not a number.
+    #[error("the throat between cells {0:?} has the conductance {1} m⁴")]
+    BadConductance([usize; 2], f64),
+    /// One of the cells without any way to a pressure that is given.
     #[error(
-        "spheres {first} and {second} overlap by {overlap} m, more than {deepest} of the smaller radius"
-    )]
-    Overlap {
-        /// A sphere.
-        first: usize,
-        /// Another.
-        second: usize,
-        /// Depth of the overlap, m.
-        overlap: f64,
-        /// Allowed, in terms of the smaller radius.
-        deepest: f64,
-    },
-    /// A sphere reaches far into a wall.
-    #[error(
-        "sphere {sphere} reaches {overlap} m into wall {wall}, more than {deepest} of its radius"
-    )]
-    InWall {
-        /// The sphere.
-        sphere: usize,
-        /// The wall.
-        wall: usize,
-        /// Depth, m.
-        overlap: f64,
-        /// Allowed, in terms of the radius.
-        deepest: f64,
-    },
-    /// A number that must be positive is not.
-    #[error("{what} is {value}; it must be positive and finite")]
-    NotPositive {
-        /// Name of the quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A conductance is negative or not a number.
-    #[error("the throat between cells {cells:?} has the conductance {value} m⁴")]
-    BadConductance {
-        /// The cells on both sides.
-        cells: [usize; 2],
-        /// g µ.
-        value: f64,
-    },
-    /// Cells without any way to a pressure that is given.
-    #[error(
-        "no pressure is given in the pores around cell {cell}: all walls that they reach are closed, \
+        "no pressure is given in the pores around cell {0}: all walls that they reach are closed, \
          and pressures would be known but for a constant; give one pressure, or a compressible fluid"
     )]
-    NoPressure {
-        /// One of them.
-        cell: usize,
-    },
-    /// Pressures are given in other cells than when the system was made.
-    #[error("cell {cell} changed between a given and an unknown pressure; make a new system")]
-    ConditionsChanged {
-        /// One of them.
-        cell: usize,
-    },
+    NoPressure(usize),
+    /// A cell in which a pressure is given now and was not when the system was made, or the other way round.
+    #[error("cell {0} changed between a given and an unknown pressure; make a new system")]
+    ConditionsChanged(usize),
     /// The system of the pressures could not be solved.
     #[error("pressures: {0}")]
     Unsolved(#[from] SparseError),
     /// A conductance that cannot be found by name, or built.
     #[error(transparent)]
-    Plugin(#[from] PluginError),
-    /// A parameter of a conductance out of range.
-    #[error("the {what} of the conductance {name:?} is {value}; it must be {valid}")]
-    BadParameter {
-        /// The conductance.
-        name: &'static str,
-        /// The parameter.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// The valid range.
-        valid: &'static str,
-    },
+    Plugin(#[from] RegistryError),
 }

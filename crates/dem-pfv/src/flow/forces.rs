@@ -42,14 +42,9 @@ impl Forces {
         for throat in &geometry.throats {
             let [i, j] = throat.cells;
             let drop = (pressures[i] - pressures[j]) * throat.normal;
-            let wetted = throat.wetted.iter().sum::<f64>();
+            let shares = throat.shares();
             for (c, vertex) in throat.vertices.iter().enumerate() {
-                let share = if throat.open {
-                    0.0
-                } else {
-                    throat.wetted[c] / wetted
-                };
-                let viscous = throat.fluid_area * share * drop;
+                let viscous = throat.fluid_area * shares[c] * drop;
                 match *vertex {
                     Vertex::Sphere(k) => {
                         forces.pressure[k] += throat.sectors[c] * drop;

@@ -100,13 +100,13 @@ fn check_walls(mesh: &Triangulation) -> Result<(), FlowError> {
         for (second, w) in walls.iter().enumerate().skip(first + 1) {
             let cosine = v.normal.dot(&w.normal).abs();
             if cosine > 1e-12 && cosine < 1.0 - 1e-12 {
-                return Err(FlowError::ObliqueWalls { first, second });
+                return Err(FlowError::ObliqueWalls(first, second));
             }
         }
     }
     match walls.len() {
         6 => Ok(()),
-        walls => Err(FlowError::NoBox { walls }),
+        walls => Err(FlowError::NoBox(walls)),
     }
 }
 
@@ -121,23 +121,13 @@ fn check_overlaps(mesh: &Triangulation, deepest: f64) -> Result<(), FlowError> {
                         let b = &mesh.spheres[second];
                         let overlap = a.radius + b.radius - (a.centre - b.centre).norm();
                         if overlap > deepest * a.radius.min(b.radius) {
-                            return Err(FlowError::Overlap {
-                                first,
-                                second,
-                                overlap,
-                                deepest,
-                            });
+                            return Err(FlowError::Overlap(first, second, overlap, deepest));
                         }
                     }
                     Vertex::Wall(wall) => {
                         let overlap = a.radius - mesh.walls[wall].distance(a.centre);
                         if overlap > deepest * a.radius {
-                            return Err(FlowError::InWall {
-                                sphere: first,
-                                wall,
-                                overlap,
-                                deepest,
-                            });
+                            return Err(FlowError::InWall(first, wall, overlap, deepest));
                         }
                     }
                     Vertex::Sphere(_) => {}

@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 use sparse::{Cholesky, Order, UpperTriangle, conjugate_gradient, nested_dissection};
 
 use crate::flow::assembly::{
-    GIVEN, assemble, conductances, given, givers, joined, numbered, reachable,
+    GIVEN, assemble, conductances, firsts, givers, joined, numbered, reachable,
 };
 use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
+use crate::require;
 
 /// Solvers of the system.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -64,45 +65,14 @@ pub struct FlowSystem {
 }
 
 impl FlowSystem {
-    /// The system of an incompressible fluid of a dynamic viscosity, Pa s.
-    ///
-    /// # Errors
-    /// See [`FlowSystem::compressible`]; and pores that no given pressure can reach.
-    pub fn new(
-        geometry: &PoreGeometry,
-        boundary: &Boundary,
-        conductance: &dyn Conductance,
-        viscosity: f64,
-        solver: Solver,
-    ) -> Result<Self, FlowError> {
-        Self::assembled(geometry, boundary, conductance, viscosity, None, solver)
-    }
-
-    /// The system of a compressible fluid, in which no pressure need be given. Where none is, the mean pressure
-    /// loses as many digits as k K Δt/V has: a closed room of stiff fluid (10¹¹) is known to 1e-4.
+    /// The system of a fluid of a dynamic viscosity (Pa s); with a `storage` that of a compressible one, in which no
+    /// pressure need be given. Where none is, the mean pressure loses as many digits as k K Δt/V has: a closed room of
+    /// stiff fluid (10¹¹) is known to 1e-4.
     ///
     /// # Errors
     /// A viscosity, bulk modulus or step that is not positive; a conductance that is not a number; a
-    /// factorisation that fails.
-    pub fn compressible(
-        geometry: &PoreGeometry,
-        boundary: &Boundary,
-        conductance: &dyn Conductance,
-        viscosity: f64,
-        storage: Storage,
-        solver: Solver,
-    ) -> Result<Self, FlowError> {
-        Self::assembled(
-            geometry,
-            boundary,
-            conductance,
-            viscosity,
-            Some(storage),
-            solver,
-        )
-    }
-
-    fn assembled(
+    /// factorisation that fails; pores of an incompressible fluid that no given pressure can reach.
+    pub fn new(
         geometry: &PoreGeometry,
         boundary: &Boundary,
         law: &dyn Conductance,
@@ -110,7 +80,7 @@ impl FlowSystem {
         storage: Option<Storage>,
         solver: Solver,
     ) -> Result<Self, FlowError> {
-        positive("viscosity", viscosity)?;
+        positive("viscosity is", viscosity)?;
         let conductances = conductances(geometry, law, viscosity)?;
         let ends: Vec<_> = geometry
             .throats
@@ -119,12 +89,12 @@ impl FlowSystem {
             .collect();
         let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
         let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
-        let given = given(boundary, &pores);
+        let first = firsts(boundary, &pores);
         if storage.is_none() {
-            reachable(&conductances, &ends, &given, &pores)?;
+            reachable(&conductances, &ends, &first, &pores)?;
         }
-        let givers = givers(boundary, &pores);
-        let (unknowns, count) = numbered(&pores, &given);
+        let givers = givers(boundary, &pores, &first);
+        let (unknowns, count) = numbered(&pores, &first);
         let (diagonal, matrix) = assemble(&conductances, &ends, &unknowns, count);
         let mut system = Self {
             conductances,
@@ -168,8 +138,8 @@ impl FlowSystem {
     fn refresh(&mut self) -> Result<(), FlowError> {
         let mut diagonal = self.diagonal.clone();
         if let Some(storage) = self.storage {
-            positive("bulk modulus", storage.bulk_modulus)?;
-            positive("step", storage.step)?;
+            positive("bulk modulus is", storage.bulk_modulus)?;
+            positive("step is", storage.step)?;
             for (c, &u) in self.unknowns.iter().enumerate() {
                 if u != GIVEN {
                     diagonal[u as usize] += self.capacity(c);
@@ -290,7 +260,7 @@ impl FlowSystem {
         }
         let changed = |c: &usize| boundary.pressures[*c].is_some() != self.given[*c];
         if let Some(cell) = (0..cells).find(changed) {
-            return Err(FlowError::ConditionsChanged { cell });
+            return Err(FlowError::ConditionsChanged(cell));
         }
         let mut right = vec![0.0; self.matrix.len()];
         for (c, &u) in self.unknowns.iter().enumerate() {
@@ -359,10 +329,7 @@ impl FlowSystem {
 }
 
 fn positive(what: &'static str, value: f64) -> Result<(), FlowError> {
-    match value > 0.0 && value.is_finite() {
-        true => Ok(()),
-        false => Err(FlowError::NotPositive { what, value }),
-    }
+    Ok(require(what, value, "positive and finite", value > 0.0)?)
 }
 
 fn chosen(solver: Solver, unknowns: usize) -> Solver {

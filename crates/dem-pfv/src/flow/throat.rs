@@ -64,6 +64,13 @@ impl Throat {
     pub fn hydraulic_radius(&self) -> f64 {
         self.fluid_volume / self.wetted.iter().sum::<f64>()
     }
+
+    /// Share γ_k/γ of each vertex in the viscous force; none of an open throat.
+    pub(crate) fn shares(&self) -> [f64; 3] {
+        let wetted = self.wetted.iter().sum::<f64>();
+        let share = |w: f64| if self.open { 0.0 } else { w / wetted };
+        self.wetted.map(share)
+    }
 }
 
 /// Input of throats.

@@ -1,6 +1,8 @@
 //! Readings of a system of grains, and its changes from outside.
 
+use crate::grains::system::check_damping;
 use crate::grains::{ContactLaw, GrainError, GrainSystem, Vector};
+use crate::require;
 
 impl GrainSystem {
     /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
@@ -13,13 +15,8 @@ impl GrainSystem {
         velocity: Vector,
         spin: Vector,
     ) -> Result<(), GrainError> {
-        let problem = "there is no such mesh".to_string();
-        let none = GrainError::BadMesh {
-            mesh,
-            triangle: 0,
-            problem,
-        };
-        let moved = self.meshes.get_mut(mesh).ok_or(none)?;
+        let none = || GrainError::BadMesh(mesh, 0, "there is no such mesh".into());
+        let moved = self.meshes.get_mut(mesh).ok_or_else(none)?;
         (moved.velocity, moved.spin) = (velocity, spin);
         moved.check(mesh)
     }
@@ -34,8 +31,7 @@ impl GrainSystem {
     /// # Errors
     /// Unless it is at least 0 and below 1.
     pub fn set_damping(&mut self, damping: f64) -> Result<(), GrainError> {
-        let fine = (0.0..1.0).contains(&damping);
-        crate::grains::system::number("damping", damping, "at least 0 and below 1", fine)?;
+        check_damping(damping)?;
         self.damping = damping;
         Ok(())
     }
@@ -45,32 +41,11 @@ impl GrainSystem {
     ///
     /// # Errors
     /// Parameters out of range; no law of that number.
-    pub fn set_law(
-        &mut self,
-        number: usize,
-        law: impl ContactLaw + 'static,
-    ) -> Result<(), GrainError> {
-        self.replace_law(number, Box::new(law))
-    }
-
-    /// The same for a law that was found by its name ([`crate::grains::contact_law`]).
-    ///
-    /// # Errors
-    /// As [`GrainSystem::set_law`].
-    pub fn replace_law(
-        &mut self,
-        number: usize,
-        law: Box<dyn ContactLaw>,
-    ) -> Result<(), GrainError> {
+    pub fn set_law(&mut self, number: usize, law: Box<dyn ContactLaw>) -> Result<(), GrainError> {
         law.check()?;
         let laws = self.laws.len();
-        let slot = self.laws.get_mut(number).ok_or(GrainError::NoLaw {
-            what: "grain",
-            number: 0,
-            law: number,
-            laws,
-        })?;
-        *slot = law;
+        let slot = self.laws.get_mut(number);
+        *slot.ok_or(GrainError::NoLaw("grain", 0, number, laws))? = law;
         self.limit = None;
         self.check()
     }
@@ -80,7 +55,12 @@ impl GrainSystem {
     /// # Errors
     /// A factor that is not positive and finite; a period that becomes too short.
     pub fn scale_radii(&mut self, factor: f64) -> Result<(), GrainError> {
-        crate::grains::system::number("factor of the radii", factor, "positive", factor > 0.0)?;
+        require(
+            "the factor of the radii is",
+            factor,
+            "positive",
+            factor > 0.0,
+        )?;
         for radius in &mut self.grains.radius {
             *radius *= factor;
         }

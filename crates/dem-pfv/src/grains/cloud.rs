@@ -1,6 +1,8 @@
 //! Random clouds of spheres that do not touch.
 
-use crate::grains::setup::Period;
+use sph_core::SplitMix;
+
+use crate::grains::setup::{Period, positive};
 use crate::grains::space::separation;
 use crate::grains::{Grain, GrainError, Vector};
 
@@ -41,15 +43,12 @@ impl Cloud {
     /// of about 0.62 downwards.
     pub fn place(&self, radii: &[f64], seed: u64) -> Result<Vec<Vector>, GrainError> {
         for (grain, &value) in radii.iter().enumerate() {
-            if !(value > 0.0 && value.is_finite()) {
-                let what = "radius";
-                return Err(GrainError::NotPositive { grain, what, value });
-            }
+            positive(grain, "radius", value)?;
         }
         let largest = radii.iter().copied().fold(0.0, f64::max);
         let mut order: Vec<usize> = (0..radii.len()).collect();
         order.sort_by(|&i, &j| radii[j].total_cmp(&radii[i]).then(i.cmp(&j)));
-        let mut draw = Draw(seed);
+        let mut draw = SplitMix(seed);
         let mut cells = Cells::new(self, largest, radii.len());
         let mut places = vec![Vector::zeros(); radii.len()];
         for grain in order {
@@ -65,7 +64,7 @@ impl Cloud {
             let ranges = [inner(0), inner(1), inner(2)];
             let fits = ranges.iter().all(|(from, to)| from <= to);
             let place = (0..if fits { self.tries } else { 0 }).find_map(|_| {
-                let at = Vector::from(ranges.map(|(from, to)| from + (to - from) * draw.next()));
+                let at = Vector::from(ranges.map(|(from, to)| from + (to - from) * draw.unit()));
                 let free = cells.around(&at).all(|other| {
                     let reach = radius + radii[other];
                     separation(&at, &places[other], &self.period).norm_squared() >= reach * reach
@@ -73,11 +72,7 @@ impl Cloud {
                 free.then_some(at)
             });
             let Some(at) = place else {
-                return Err(GrainError::NoRoom {
-                    grain,
-                    radius,
-                    tries: self.tries,
-                });
+                return Err(GrainError::NoRoom(grain, radius, self.tries));
             };
             places[grain] = at;
             cells.put(&at, grain);
@@ -88,9 +83,9 @@ impl Cloud {
 
 /// Radii drawn evenly from an interval, m; the same for the same seed.
 pub fn uniform_radii(count: usize, smallest: f64, largest: f64, seed: u64) -> Vec<f64> {
-    let mut draw = Draw(seed ^ 0x5eed);
+    let mut draw = SplitMix(seed ^ 0x5eed);
     (0..count)
-        .map(|_| smallest + (largest - smallest) * draw.next())
+        .map(|_| smallest + (largest - smallest) * draw.unit())
         .collect()
 }
 
@@ -121,20 +116,6 @@ pub fn rain(
     Ok(grains
         .map(|(at, &radius)| Grain::new((*at).into(), radius, density))
         .collect())
-}
-
-/// Random numbers. Source: Steele, Lea & Flood 2014 (SplitMix64).
-struct Draw(u64);
-
-impl Draw {
-    /// Even in [0, 1).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 /// A grid that is filled as spheres are placed.

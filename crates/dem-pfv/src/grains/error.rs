@@ -1,57 +1,31 @@
 //! Errors of grains, with their reasons.
 
+use sph_core::RegistryError;
 use thiserror::Error;
 
-use crate::PluginError;
+use crate::OutOfRange;
+use crate::grains::{Partner, Unrest};
 
-/// Grains, walls, laws or steps with which nothing can be computed.
+/// Grains, walls, laws or steps with which nothing can be computed. Lengths are in m, times in s, stresses in Pa.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GrainError {
     /// Nothing to move.
     #[error("there are no grains; at least one is needed")]
     NoGrains,
-    /// More than the lists can number.
-    #[error("there are {grains} grains; at most {most} can be numbered")]
-    TooMany {
-        /// Given.
-        grains: usize,
-        /// Allowed.
-        most: usize,
-    },
-    /// A quantity of a grain that must be positive is not.
-    #[error("grain {grain} has the {what} {value}; it must be positive and finite")]
-    NotPositive {
-        /// The grain.
-        grain: usize,
-        /// Name of the quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A place, a velocity or a force of a grain is infinite or not a number.
-    #[error("grain {grain} has the {what} {value:?}; it must be finite")]
-    NotFinite {
-        /// The grain.
-        grain: usize,
-        /// Name of the quantity.
-        what: &'static str,
-        /// Its value.
-        value: [f64; 3],
-    },
-    /// Two grains overlap deeply.
-    #[error(
-        "grains {first} and {second} overlap by {overlap:.3e} m, more than a tenth of the smaller radius"
-    )]
-    Overlap {
-        /// A grain.
-        first: usize,
-        /// Another.
-        second: usize,
-        /// Depth, m.
-        overlap: f64,
-    },
-    /// A grain is in a wall or beyond it.
+    /// More grains than the lists can number, and the most.
+    #[error("there are {0} grains; at most {1} can be numbered")]
+    TooMany(usize, usize),
+    /// A grain of which a quantity that must be positive is not.
+    #[error("grain {0} has the {1} {2}; it must be positive and finite")]
+    NotPositive(usize, &'static str, f64),
+    /// A grain of which a place, a velocity or a force is infinite or not a number.
+    #[error("grain {0} has the {1} {2:?}; it must be finite")]
+    NotFinite(usize, &'static str, [f64; 3]),
+    /// Two grains that overlap deeply, and the depth.
+    #[error("grains {0} and {1} overlap by {2:.3e} m, more than a tenth of the smaller radius")]
+    Overlap(usize, usize, f64),
+    /// A grain in a wall or beyond it.
     #[error(
         "grain {grain} reaches {overlap:.3e} m into wall {wall}, more than a tenth of its radius; \
          its centre is {distance:.3e} m from the wall"
@@ -66,7 +40,7 @@ pub enum GrainError {
         /// Signed distance of its centre, negative beyond the wall, m.
         distance: f64,
     },
-    /// A grain is in a triangle of a mesh.
+    /// A grain in a triangle of a mesh.
     #[error(
         "grain {grain} reaches {overlap:.3e} m into triangle {triangle} of mesh {mesh}, \
          more than a tenth of its radius"
@@ -81,7 +55,7 @@ pub enum GrainError {
         /// Depth, m.
         overlap: f64,
     },
-    /// A grain overlaps another body too deep for a step.
+    /// A grain that overlaps another body too deep for a step.
     #[error(
         "grain {grain} at ({:.4e}, {:.4e}, {:.4e}) m overlaps {body} by {overlap:.3e} m, {share:.2} of its radius; \
          contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
@@ -92,10 +66,8 @@ pub enum GrainError {
         grain: usize,
         /// Its centre, m.
         at: [f64; 3],
-        /// The grain, wall or triangle that it overlaps.
-        body: String,
-        /// The number of that wall, if it is one.
-        wall: Option<usize>,
+        /// The body that it overlaps.
+        body: Partner,
         /// Depth, m.
         overlap: f64,
         /// Depth over the radius of the grain.
@@ -103,97 +75,30 @@ pub enum GrainError {
         /// Depth over the smaller radius that a step may have.
         most: f64,
     },
-    /// A grain is not in the periodic box.
-    #[error(
-        "grain {grain} is at {value} m on axis {axis}, outside the period from {from} to {to} m"
-    )]
-    OutsidePeriod {
-        /// The grain.
-        grain: usize,
-        /// 0, 1 or 2.
-        axis: usize,
-        /// Its coordinate, m.
-        value: f64,
-        /// Lower end, m.
-        from: f64,
-        /// Upper end, m.
-        to: f64,
-    },
-    /// A period in which a grain could touch another one from two sides.
-    #[error("the period {length} m of axis {axis} is too short; it must exceed {least} m")]
-    ShortPeriod {
-        /// 0, 1 or 2.
-        axis: usize,
-        /// Given, m.
-        length: f64,
-        /// Needed, m.
-        least: f64,
-    },
+    /// A grain outside the periodic box: its number, the axis, its coordinate, the ends of the period.
+    #[error("grain {0} is at {2} m on axis {1}, outside the period from {from} to {to} m", from = .3[0], to = .3[1])]
+    OutsidePeriod(usize, usize, f64, [f64; 2]),
+    /// An axis whose period is so short that a grain could touch another one from two sides, and the least one.
+    #[error("the period {1} m of axis {0} is too short; it must exceed {2} m")]
+    ShortPeriod(usize, f64, f64),
     /// A wall without a direction or a place, or that is turned towards a periodic axis.
-    #[error("wall {wall} {problem}")]
-    BadWall {
-        /// Its number.
-        wall: usize,
-        /// The fault.
-        problem: String,
-    },
+    #[error("wall {0} {1}")]
+    BadWall(usize, String),
     /// A mesh with a triangle that is none.
-    #[error("triangle {triangle} of mesh {mesh} {problem}")]
-    BadMesh {
-        /// The mesh.
-        mesh: usize,
-        /// The triangle.
-        triangle: usize,
-        /// The fault.
-        problem: String,
-    },
-    /// A parameter of a contact law is out of range.
-    #[error("the contact law {law} has the {what} {value}; it must be {valid}")]
-    BadLaw {
-        /// The law.
-        law: &'static str,
-        /// Name of the quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// The valid values.
-        valid: &'static str,
-    },
+    #[error("triangle {1} of mesh {0} {2}")]
+    BadMesh(usize, usize, String),
     /// A contact law that cannot be found by name, or built.
     #[error(transparent)]
-    Plugin(#[from] PluginError),
-    /// A wall or a mesh names a law by a number that none has.
-    #[error("{what} {number} follows contact law {law}, but there are {laws}")]
-    NoLaw {
-        /// Wall, mesh, or grains.
-        what: &'static str,
-        /// Number of the item, as the setup counts.
-        number: usize,
-        /// The law that it names.
-        law: usize,
-        /// Laws given.
-        laws: usize,
-    },
-    /// The memory of a law exceeds the space of a contact.
-    #[error("contact law {law} remembers {wanted} numbers per contact; there is room for {room}")]
-    Memory {
-        /// Its number.
-        law: usize,
-        /// Wanted.
-        wanted: usize,
-        /// Given.
-        room: usize,
-    },
-    /// A number of the whole system is out of range.
-    #[error("the {what} is {value}; it must be {valid}")]
-    BadNumber {
-        /// Name of the quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// The valid values.
-        valid: &'static str,
-    },
+    Plugin(#[from] RegistryError),
+    /// A wall, a mesh or grains that name a law by a number that none has, and how many there are.
+    #[error("{0} {1} follows contact law {2}, but there are {3}")]
+    NoLaw(&'static str, usize, usize, usize),
+    /// A law whose memory exceeds the room of a contact.
+    #[error("contact law {0} remembers {1} numbers per contact; there is room for {2}")]
+    Memory(usize, usize, usize),
+    /// A parameter of a law or a number of the whole system that is out of range.
+    #[error(transparent)]
+    Number(#[from] OutOfRange),
     /// A step that the stiffest contacts do not bear.
     #[error("the step {step} s is above the critical one, {critical} s, which grain {grain} sets")]
     StepTooLarge {
@@ -204,50 +109,38 @@ pub enum GrainError {
         /// The grain with the largest ratio of stiffness to mass.
         grain: usize,
     },
-    /// A wall is pressed but its area is not known.
+    /// A wall that is pressed and whose area is not known.
     #[error(
-        "the area of wall {wall} is not known: give it, or close the box with walls along the axes"
+        "the area of wall {0} is not known: give it, or close the box with walls along the axes"
     )]
-    NoArea {
-        /// The wall.
-        wall: usize,
-    },
+    NoArea(usize),
     /// A saved state that does not fit together.
-    #[error("the saved state cannot be resumed: {problem}")]
-    BadState {
-        /// The fault.
-        problem: String,
-    },
-    /// No place is left for a grain of a cloud.
-    #[error("no place is left for grain {grain} of radius {radius} m after {tries} tries")]
-    NoRoom {
-        /// The grain.
-        grain: usize,
-        /// Its radius, m.
-        radius: f64,
-        /// Random places tried.
-        tries: usize,
-    },
-    /// A preparation did not end.
-    #[error(
-        "{what} did not end within {steps} steps: unbalanced force ratio {unbalanced}, mean stress {stress} Pa"
-    )]
-    NotReached {
-        /// Kind of the item.
-        what: &'static str,
-        /// Steps made.
-        steps: u64,
-        /// The rest.
-        unbalanced: f64,
-        /// Reached, Pa.
-        stress: f64,
-    },
-    /// Grains did not come to rest.
-    #[error("the grains are not at rest after {steps} steps: {unrest}")]
-    NotSettled {
-        /// Steps made.
-        steps: u64,
-        /// The condition of rest that does not hold.
-        unrest: crate::grains::Unrest,
-    },
+    #[error("the saved state cannot be resumed: {0}")]
+    BadState(&'static str),
+    /// A grain of a cloud without a place: its number, its radius, the tries.
+    #[error("no place is left for grain {0} of radius {1} m after {2} tries")]
+    NoRoom(usize, f64, usize),
+    /// A growth that did not end: its steps, the unbalanced force ratio, the mean stress.
+    #[error("growth did not end within {0} steps: unbalanced force ratio {1}, mean stress {2} Pa")]
+    NotReached(u64, f64, f64),
+    /// Grains that did not come to rest within so many steps.
+    #[error("the grains are not at rest after {0} steps: {1}")]
+    NotSettled(u64, Unrest),
+}
+
+impl GrainError {
+    /// The grains that it names.
+    pub fn grains(&self) -> Vec<usize> {
+        match *self {
+            Self::Overlap(first, second, _) => vec![first, second],
+            Self::NotPositive(grain, ..)
+            | Self::NotFinite(grain, ..)
+            | Self::InWall { grain, .. }
+            | Self::InMesh { grain, .. }
+            | Self::TooDeep { grain, .. }
+            | Self::OutsidePeriod(grain, ..)
+            | Self::StepTooLarge { grain, .. } => vec![grain],
+            _ => Vec::new(),
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Samples that are grown or left to settle.
 
 use crate::grains::{GrainError, GrainSystem, Unrest};
+use crate::require;
 
 /// End of the growth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,10 +56,10 @@ impl Growth {
     /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; the refusals of a step.
     pub fn run(&self, system: &mut GrainSystem) -> Result<u64, GrainError> {
         let (what, value, fine) = match self.target {
-            Target::Stress(stress) => ("stress", stress, stress > 0.0),
-            Target::Porosity(n) => ("porosity", n, n > 0.0 && n < 1.0),
+            Target::Stress(stress) => ("the stress is", stress, stress > 0.0),
+            Target::Porosity(n) => ("the porosity is", n, n > 0.0 && n < 1.0),
         };
-        crate::grains::system::number(what, value, "positive, a porosity below 1", fine)?;
+        require(what, value, "positive, a porosity below 1", fine)?;
         let mut reached = false;
         let (mut unbalanced, mut stress) = (f64::INFINITY, 0.0);
         for made in 0..self.most_steps {
@@ -78,7 +79,7 @@ impl Growth {
                     }
                     Target::Porosity(goal) => {
                         let (volume, solid) = (system.box_volume(), system.grains.volume());
-                        let volume = volume.ok_or(GrainError::NoArea { wall: 0 })?;
+                        let volume = volume.ok_or(GrainError::NoArea(0))?;
                         let left = ((1.0 - goal) * volume / solid).cbrt();
                         if left <= 1.0 && still {
                             return Ok(made);
@@ -94,12 +95,7 @@ impl Growth {
             let step = self.safety * system.current_limit();
             system.integrate(step)?;
         }
-        Err(GrainError::NotReached {
-            what: "growth",
-            steps: self.most_steps,
-            unbalanced,
-            stress,
-        })
+        Err(GrainError::NotReached(self.most_steps, unbalanced, stress))
     }
 }
 
@@ -130,8 +126,5 @@ pub fn step_to_rest(
         let step = safety * system.current_limit();
         system.integrate(step)?;
     }
-    Err(GrainError::NotSettled {
-        steps: most_steps,
-        unrest: last,
-    })
+    Err(GrainError::NotSettled(most_steps, last))
 }

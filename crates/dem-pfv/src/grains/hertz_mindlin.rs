@@ -1,11 +1,12 @@
 //! The law of Hertz and Mindlin.
 
 use serde::Serialize;
-use sph_derive::parameters;
+use sph_core::plugin;
 
-use crate::grains::law::{reduced, require};
-use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness};
-use crate::register_law;
+use crate::grains::law::{AT_LEAST_0, BELOW_1, check, reduced};
+use crate::grains::{
+    Contact, ContactLaw, ContactLawEntry, GrainError, RollingResistance, Stiffness,
+};
 
 /// F_n = (4/3) E* √R* δ^{3/2} − c_n v_n and ΔF_s = −k_t Δu_s with k_t = 4 G √(R* δ) / (2 − ν), |F_s| ≤ µ F_n.
 ///
@@ -14,7 +15,12 @@ use crate::register_law;
 /// tangent stiffness alone would give back more than was put in (Elata & Berryman 1996; Thornton,
 /// Cummins & Cleary 2011). c_n = √5 ζ √(m* k_H) δ^¼ with k_H = (4/3) E* √R*, which rebounds at
 /// e = exp(−π ζ / √(1 − ζ²)) at any speed (Antypov & Elliott 2011).
-#[parameters(crate: crate::reexport)]
+#[plugin(
+    ContactLawEntry,
+    "hertz-mindlin",
+    "Hertz's normal force and Mindlin's tangential stiffness with Coulomb friction",
+    source: "Catalano 2012, Eqs. (2.10), (2.11)"
+)]
 #[derive(Copy, PartialEq, Serialize)]
 pub struct HertzMindlin {
     /// Shear modulus G of the grains.
@@ -33,13 +39,6 @@ pub struct HertzMindlin {
     #[parameter(default)]
     pub rolling: Option<RollingResistance>,
 }
-
-register_law!(
-    HertzMindlin as ContactLaw,
-    "hertz-mindlin",
-    "Hertz's normal force and Mindlin's tangential stiffness with Coulomb friction",
-    "Catalano 2012, Eqs. (2.10), (2.11)"
-);
 
 const NAME: &str = "hertz-mindlin";
 
@@ -68,21 +67,32 @@ impl HertzMindlin {
 
 impl ContactLaw for HertzMindlin {
     fn check(&self) -> Result<(), GrainError> {
-        let &Self {
-            shear_modulus: shear,
-            poisson,
-            friction,
-            damping,
-            rolling,
-        } = self;
-        require(NAME, "shear modulus", shear, "positive", shear > 0.0)?;
-        let fine = poisson > -1.0 && poisson <= 0.5;
-        let valid = "above -1 and at most 0.5";
-        require(NAME, "Poisson's ratio", poisson, valid, fine)?;
-        require(NAME, "friction", friction, "at least 0", friction >= 0.0)?;
-        let fine = (0.0..1.0).contains(&damping);
-        require(NAME, "damping", damping, "at least 0 and below 1", fine)?;
-        rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
+        let poisson = self.poisson > -1.0 && self.poisson <= 0.5;
+        check(
+            NAME,
+            [
+                (
+                    "shear modulus",
+                    self.shear_modulus,
+                    "positive",
+                    self.shear_modulus > 0.0,
+                ),
+                (
+                    "Poisson's ratio",
+                    self.poisson,
+                    "above -1 and at most 0.5",
+                    poisson,
+                ),
+                ("friction", self.friction, AT_LEAST_0, self.friction >= 0.0),
+                (
+                    "damping",
+                    self.damping,
+                    BELOW_1,
+                    (0.0..1.0).contains(&self.damping),
+                ),
+            ],
+        )?;
+        self.rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
     }
 
     fn memory(&self) -> &'static [&'static str] {

@@ -2,11 +2,11 @@
 
 use std::fmt::Debug;
 
-use serde_json::Value as Json;
+use sph_core::Registry;
+use toml::Table;
 
-use crate::Entry;
 use crate::grains::{GrainError, Vector};
-use crate::registry::{built, entries};
+use crate::require;
 
 /// Largest number of values in the memory of a contact.
 pub const MEMORY: usize = 8;
@@ -126,7 +126,7 @@ pub trait ContactLaw: Debug + Send + Sync {
     /// Checks the parameters.
     ///
     /// # Errors
-    /// [`GrainError::BadLaw`] with the parameter and its value.
+    /// The parameter and its value: [`require`](crate::require).
     fn check(&self) -> Result<(), GrainError>;
 
     /// Names of the numbers that are remembered per contact, at most [`MEMORY`].
@@ -146,51 +146,52 @@ pub trait ContactLaw: Debug + Send + Sync {
     }
 }
 
-inventory::collect!(Entry<dyn ContactLaw>);
+sph_core::contract!(
+    /// A contact law by its name.
+    pub ContactLawEntry,
+    "contact-law",
+    Elsewhere,
+    "forces of grains that touch, in [grains.contact.LAW], [box.contact.LAW], [wall.NAME.contact.LAW]",
+    ContactLaw,
+    .in_space()
+);
 
-/// Every contact law registered in this binary, sorted by name.
-pub fn contact_laws() -> Vec<&'static Entry<dyn ContactLaw>> {
-    entries()
-}
-
-/// The contact law of that name with these parameters (a JSON object, SI units).
+/// The contact law of that name with these parameters.
 ///
 /// # Errors
 /// No law or two of that name; an unknown or missing parameter; a value out of range.
 ///
 /// ```
 /// use dem_pfv::grains::contact_law;
-/// use serde_json::json;
 ///
-/// let table = json!({ "modulus": 15e6, "stiffness_ratio": 0.5, "friction": 0.577 });
+/// let table = "modulus = '15 MPa'\nstiffness_ratio = 0.5\nfriction = 0.577".parse().expect("TOML");
 /// let law = contact_law("linear-elastic", &table)?;
 /// assert_eq!(law.stiffness([0.1, 0.1], 0.0).normal, 1.5e6);
 /// # Ok::<(), dem_pfv::grains::GrainError>(())
 /// ```
-pub fn contact_law(name: &str, parameters: &Json) -> Result<Box<dyn ContactLaw>, GrainError> {
-    let law = built::<dyn ContactLaw>("contact law", name, parameters)?;
+pub fn contact_law(name: &str, parameters: &Table) -> Result<Box<dyn ContactLaw>, GrainError> {
+    let registry = Registry::<ContactLawEntry>::discovered()?;
+    let law = (registry.find(name)?.build)(parameters)?;
     law.check()?;
     Ok(law)
 }
 
-/// Checks a parameter of a law.
-///
-/// # Errors
-/// [`GrainError::BadLaw`] unless `fine`.
-pub fn require(
-    law: &'static str,
-    what: &'static str,
-    value: f64,
-    valid: &'static str,
-    fine: bool,
+/// Valid values of parameters.
+pub(crate) const AT_LEAST_0: &str = "at least 0";
+pub(crate) const BELOW_1: &str = "at least 0 and below 1";
+
+/// Checks parameters of a law: name, value, valid values, and whether it is one of them.
+pub(crate) fn check<const N: usize>(
+    law: &str,
+    parameters: [(&str, f64, &'static str, bool); N],
 ) -> Result<(), GrainError> {
-    if fine && value.is_finite() {
-        return Ok(());
+    for (what, value, valid, fine) in parameters {
+        require(
+            format!("the contact law {law} has the {what}"),
+            value,
+            valid,
+            fine,
+        )?;
     }
-    Err(GrainError::BadLaw {
-        law,
-        what,
-        value,
-        valid,
-    })
+    Ok(())
 }

@@ -1,11 +1,12 @@
 //! The linear elastic–frictional law.
 
 use serde::Serialize;
-use sph_derive::parameters;
+use sph_core::plugin;
 
-use crate::grains::law::require;
-use crate::grains::{Contact, ContactLaw, GrainError, RollingResistance, Stiffness};
-use crate::register_law;
+use crate::grains::law::{AT_LEAST_0, BELOW_1, check, reduced};
+use crate::grains::{
+    Contact, ContactLaw, ContactLawEntry, GrainError, RollingResistance, Stiffness,
+};
 
 /// F_n = k_n δ − c_n v_n and ΔF_s = −k_t Δu_s, |F_s| ≤ µ F_n.
 ///
@@ -14,7 +15,12 @@ use crate::register_law;
 /// (m), c = 2 ζ √(m* k) (N s/m) with the reduced mass m*. A pair rebounds at e = exp(−π ζ / √(1 − ζ²)) times
 /// its speed; to hold this exactly the dashpot may pull just before the contact opens. Source: Catalano
 /// 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2).
-#[parameters(crate: crate::reexport)]
+#[plugin(
+    ContactLawEntry,
+    "linear-elastic",
+    "springs in the normal and the tangential direction with Coulomb friction",
+    source: "Catalano 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2)"
+)]
 #[derive(Copy, PartialEq, Serialize)]
 pub struct LinearElastic {
     /// Micro modulus E.
@@ -33,13 +39,6 @@ pub struct LinearElastic {
     #[parameter(default)]
     pub rolling: Option<RollingResistance>,
 }
-
-register_law!(
-    LinearElastic as ContactLaw,
-    "linear-elastic",
-    "springs in the normal and the tangential direction with Coulomb friction",
-    "Catalano 2012, Eqs. (2.8), (2.9), (2.12), (4.1), (4.2)"
-);
 
 const NAME: &str = "linear-elastic";
 
@@ -67,20 +66,26 @@ impl LinearElastic {
 
 impl ContactLaw for LinearElastic {
     fn check(&self) -> Result<(), GrainError> {
-        let &Self {
-            modulus,
-            stiffness_ratio,
-            friction,
-            damping,
-            rolling,
-        } = self;
-        require(NAME, "modulus", modulus, "positive", modulus > 0.0)?;
-        let fine = stiffness_ratio >= 0.0;
-        require(NAME, "stiffness ratio", stiffness_ratio, "at least 0", fine)?;
-        require(NAME, "friction", friction, "at least 0", friction >= 0.0)?;
-        let fine = (0.0..1.0).contains(&damping);
-        require(NAME, "damping", damping, "at least 0 and below 1", fine)?;
-        rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
+        check(
+            NAME,
+            [
+                ("modulus", self.modulus, "positive", self.modulus > 0.0),
+                (
+                    "stiffness ratio",
+                    self.stiffness_ratio,
+                    AT_LEAST_0,
+                    self.stiffness_ratio >= 0.0,
+                ),
+                ("friction", self.friction, AT_LEAST_0, self.friction >= 0.0),
+                (
+                    "damping",
+                    self.damping,
+                    BELOW_1,
+                    (0.0..1.0).contains(&self.damping),
+                ),
+            ],
+        )?;
+        self.rolling.map_or(Ok(()), |rolling| rolling.check(NAME))
     }
 
     fn memory(&self) -> &'static [&'static str] {
@@ -122,7 +127,7 @@ impl ContactLaw for LinearElastic {
     fn stiffness(&self, radius: [f64; 2], _overlap: f64) -> Stiffness {
         let normal = self.normal_stiffness(radius);
         let tangential = self.stiffness_ratio * normal;
-        let radius = crate::grains::law::reduced(radius);
+        let radius = reduced(radius);
         let rolling = self.rolling.map(|r| r.stiffness(tangential, radius));
         Stiffness {
             normal,

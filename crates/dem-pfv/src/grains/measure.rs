@@ -3,23 +3,7 @@
 use nalgebra::Matrix3;
 
 use crate::grains::table::Slot;
-use crate::grains::{GrainError, GrainSystem, Vector};
-
-/// The second body of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Partner {
-    /// A grain.
-    Grain(usize),
-    /// A wall.
-    Wall(usize),
-    /// A triangle of a mesh.
-    Triangle {
-        /// The mesh.
-        mesh: usize,
-        /// The triangle.
-        triangle: usize,
-    },
-}
+use crate::grains::{GrainError, GrainSystem, Partner, Vector};
 
 /// A contact as it was at the last evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,18 +37,27 @@ impl GrainSystem {
         })
     }
 
+    /// The second body of a contact in a part of the table.
+    pub(crate) fn partner(&self, part: usize, slot: &Slot) -> Partner {
+        let (second, walls) = (slot.second as usize, self.walls.len());
+        match part {
+            0 => Partner::Grain(second),
+            part if part <= walls => Partner::Wall(part - 1),
+            part => Partner::Triangle {
+                mesh: part - 1 - walls,
+                triangle: second,
+            },
+        }
+    }
+
     fn touch(&self, part: usize, slot: &Slot) -> Touch {
         let grain = slot.first as usize;
-        let second = slot.second as usize;
-        let walls = self.walls.len();
         let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
-        let (partner, law) = if part == 0 {
-            (Partner::Grain(second), 0)
-        } else if part <= walls {
-            (Partner::Wall(part - 1), self.walls[part - 1].law)
-        } else {
-            let (mesh, triangle) = (part - 1 - walls, second);
-            (Partner::Triangle { mesh, triangle }, self.meshes[mesh].law)
+        let partner = self.partner(part, slot);
+        let law = match partner {
+            Partner::Grain(_) => 0,
+            Partner::Wall(wall) => self.walls[wall].law,
+            Partner::Triangle { mesh, .. } => self.meshes[mesh].law,
         };
         let normal = slot.force.dot(&slot.normal);
         let tangential = (slot.force - slot.normal * normal).norm();
@@ -167,7 +160,7 @@ impl GrainSystem {
     /// If the box is not closed.
     pub fn section(&self, axis: usize) -> Result<f64, GrainError> {
         let lengths = self.box_lengths();
-        let lengths = lengths.ok_or(GrainError::NoArea { wall: 2 * axis })?;
+        let lengths = lengths.ok_or(GrainError::NoArea(2 * axis))?;
         Ok(lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3])
     }
 
@@ -203,6 +196,12 @@ impl GrainSystem {
         Ok(force / self.section(axis)?)
     }
 
+    /// The highest point of a grain, m.
+    pub fn highest(&self) -> f64 {
+        let tops = self.grains.position.iter().zip(&self.grains.radius);
+        tops.map(|(x, r)| x.z + r).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Volume of the box, m³, if it is closed.
     pub fn box_volume(&self) -> Option<f64> {
         Some(self.box_lengths()?.iter().product())
@@ -216,7 +215,7 @@ impl GrainSystem {
     pub(crate) fn height(&self, wall: usize) -> Result<f64, GrainError> {
         let axis = self.walls[wall].axis().map(|(axis, _)| axis);
         let length = axis.and_then(|axis| self.length(axis));
-        length.ok_or(GrainError::NoArea { wall })
+        length.ok_or(GrainError::NoArea(wall))
     }
 
     /// Area of a wall, m²: the given one, or that between the box's other walls.
@@ -224,7 +223,7 @@ impl GrainSystem {
     /// # Errors
     /// If it is not given and the box is not closed along the other two axes.
     pub fn wall_area(&self, wall: usize) -> Result<f64, GrainError> {
-        let none = GrainError::NoArea { wall };
+        let none = GrainError::NoArea(wall);
         let Some(w) = self.walls.get(wall) else {
             return Err(none);
         };
@@ -252,7 +251,7 @@ impl GrainSystem {
     /// # Errors
     /// If the box is not closed.
     pub fn mean_stress(&self) -> Result<f64, GrainError> {
-        let volume = self.box_volume().ok_or(GrainError::NoArea { wall: 0 })?;
+        let volume = self.box_volume().ok_or(GrainError::NoArea(0))?;
         if self.period.iter().any(Option::is_some) {
             return Ok(self.stress(volume).trace() / 3.0);
         }

@@ -59,13 +59,7 @@ impl Mesh {
     }
 
     pub(crate) fn check(&self, mesh: usize) -> Result<(), GrainError> {
-        let problem = |triangle: usize, problem: String| {
-            Err(GrainError::BadMesh {
-                mesh,
-                triangle,
-                problem,
-            })
-        };
+        let problem = |triangle, problem| Err(GrainError::BadMesh(mesh, triangle, problem));
         let motion = [self.velocity, self.spin, self.centre];
         if motion.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
             return problem(0, "moves at a velocity that is not finite".into());

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use crate::grains::columns::INERTIA;
 use crate::grains::wall::sign;
-use crate::grains::{Control, GrainError, GrainSystem, Vector, Wall, space};
+use crate::grains::{Control, GrainError, GrainSystem, State, Vector, Wall, space};
+use crate::require;
 
 /// Grains per task at least.
 const TASK: usize = 512;
@@ -12,7 +13,7 @@ const TASK: usize = 512;
 impl GrainSystem {
     /// Every grain sums its contacts in the order of their numbers.
     pub(crate) fn gather(&mut self) {
-        let Self { grains, table, .. } = self;
+        let State { grains, table, .. } = &mut self.state;
         let table = &*table;
         let sums = (&mut grains.contact_force, &mut grains.contact_torque);
         sums.into_par_iter()
@@ -36,13 +37,13 @@ impl GrainSystem {
     /// v += F/m Δt, x += v Δt, and the same for the rotation, with the damping of Catalano 2012, Eq. (2.15),
     /// whose sign is taken from the velocity in the middle, v + ½ F/m Δt.
     pub(crate) fn advance_grains(&mut self, step: f64) {
-        let Self {
+        let State {
             grains: g,
             gravity,
             damping,
             period,
             ..
-        } = self;
+        } = &mut self.state;
         let damped = |load: Vector, velocity: Vector, inertia: f64| {
             load.zip_map(&velocity, |load, velocity| {
                 let middle = velocity + 0.5 * step * load / inertia;
@@ -87,7 +88,8 @@ impl GrainSystem {
                 Control::StrainRate { .. } => height = self.height(number)?,
                 Control::Stress { .. } | Control::Piston { .. } => area = self.wall_area(number)?,
             }
-            self.walls[number].steer(step, area, height, self.damping);
+            let damping = self.damping;
+            self.walls[number].steer(step, area, height, damping);
         }
         self.keep_volume()
     }
@@ -119,11 +121,11 @@ impl GrainSystem {
     /// # Errors
     /// A time that is not positive and finite.
     pub fn drift(&mut self, step: f64) -> Result<(), GrainError> {
-        crate::grains::system::number("step", step, "positive", step > 0.0)?;
-        let g = &mut self.grains;
-        for (x, v) in g.position.iter_mut().zip(&g.velocity) {
+        require("the step is", step, "positive", step > 0.0)?;
+        let State { grains, period, .. } = &mut self.state;
+        for (x, v) in grains.position.iter_mut().zip(&grains.velocity) {
             *x += v * step;
-            space::wrap(x, &self.period);
+            space::wrap(x, period);
         }
         self.last_step += step;
         Ok(())

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::grains::table::Slot;
-use crate::grains::{GrainError, GrainSystem};
+use crate::grains::{GrainError, GrainSystem, Partner};
 
 /// Share of the smaller radius that an overlap may have at the start.
 const AT_START: f64 = 0.1;
@@ -34,16 +34,11 @@ impl GrainSystem {
         let Some((part, slot)) = self.deeper(Self::DEEPEST) else {
             return Ok(());
         };
-        let (grain, second, walls) = (slot.first as usize, slot.second as usize, self.walls.len());
+        let grain = slot.first as usize;
         Err(GrainError::TooDeep {
             grain,
             at: self.grains.position[grain].into(),
-            body: match part {
-                0 => format!("grain {second}"),
-                wall if wall <= walls => format!("wall {}", wall - 1),
-                mesh => format!("triangle {second} of mesh {}", mesh - 1 - walls),
-            },
-            wall: (part > 0 && part <= walls).then(|| part - 1),
+            body: self.partner(part, slot),
             overlap: slot.overlap,
             share: slot.overlap / self.grains.radius[grain],
             most: Self::DEEPEST,
@@ -56,27 +51,20 @@ impl GrainSystem {
             return Ok(());
         };
         let (grain, overlap) = (slot.first as usize, slot.overlap);
-        Err(if part == 0 {
-            GrainError::Overlap {
-                first: grain,
-                second: slot.second as usize,
-                overlap,
-            }
-        } else if part <= self.walls.len() {
-            let wall = part - 1;
-            GrainError::InWall {
+        Err(match self.partner(part, slot) {
+            Partner::Grain(second) => GrainError::Overlap(grain, second, overlap),
+            Partner::Wall(wall) => GrainError::InWall {
                 grain,
                 wall,
                 overlap,
                 distance: self.walls[wall].distance(&self.grains.position[grain]),
-            }
-        } else {
-            GrainError::InMesh {
+            },
+            Partner::Triangle { mesh, triangle } => GrainError::InMesh {
                 grain,
-                mesh: part - 1 - self.walls.len(),
-                triangle: slot.second as usize,
+                mesh,
+                triangle,
                 overlap,
-            }
+            },
         })
     }
 }

@@ -1,8 +1,7 @@
 //! Rest of grains: in balance, carried, slow.
 
-use crate::grains::unrest::Unrest;
 use crate::grains::wall::Control;
-use crate::grains::{GrainError, GrainSystem, Vector};
+use crate::grains::{GrainError, GrainSystem, Unrest, Vector};
 
 /// Resultant force of a carried grain at the most, over its weight and the contact forces on it.
 const CARRIED: f64 = 0.1;

@@ -1,9 +1,9 @@
 //! Resistance to rolling, a part of the contact laws.
 
 use serde::Serialize;
-use sph_derive::parameters;
+use sph_core::parameters;
 
-use crate::grains::law::require;
+use crate::grains::law::{AT_LEAST_0, check};
 use crate::grains::{Contact, GrainError};
 
 /// An elastic moment against rolling that yields: ΔM = −k_r Δθ_t with k_r = β k_t R*², |M| ≤ η R* F_n.
@@ -11,7 +11,7 @@ use crate::grains::{Contact, GrainError};
 /// Δθ_t is the tangential part of the relative rotation, R* the reduced radius, F_n the normal force. A
 /// sphere stays on a slope up to tan θ = η. The moment turns with the contact; spin about the normal is free.
 /// Source: Iwashita & Oda 1998; Ai, Chen, Rotter & Ooi 2011, model C.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[derive(PartialEq, Serialize)]
 pub struct RollingResistance {
     /// η, the tangent of the angle of rolling resistance.
@@ -25,8 +25,11 @@ pub struct RollingResistance {
 impl RollingResistance {
     pub(crate) fn check(&self, law: &'static str) -> Result<(), GrainError> {
         let (eta, beta) = (self.coefficient, self.stiffness);
-        require(law, "rolling coefficient", eta, "at least 0", eta >= 0.0)?;
-        require(law, "rolling stiffness", beta, "positive", beta > 0.0)
+        let of_eta = ("rolling coefficient", eta, AT_LEAST_0, eta >= 0.0);
+        check(
+            law,
+            [of_eta, ("rolling stiffness", beta, "positive", beta > 0.0)],
+        )
     }
 
     /// k_r, N m.

@@ -51,9 +51,7 @@ impl Grain {
     /// Names the first value that is impossible for a grain.
     pub(crate) fn check(&self, grain: usize) -> Result<(), GrainError> {
         for (what, value) in [("radius", self.radius), ("density", self.density)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(GrainError::NotPositive { grain, what, value });
-            }
+            positive(grain, what, value)?;
         }
         for (what, value) in [
             ("position", self.position),
@@ -70,11 +68,14 @@ pub(crate) fn finite(grain: usize, what: &'static str, v: &Vector) -> Result<(),
     if v.iter().all(|x| x.is_finite()) {
         return Ok(());
     }
-    Err(GrainError::NotFinite {
-        grain,
-        what,
-        value: (*v).into(),
-    })
+    Err(GrainError::NotFinite(grain, what, (*v).into()))
+}
+
+pub(crate) fn positive(grain: usize, what: &'static str, value: f64) -> Result<(), GrainError> {
+    match value > 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(GrainError::NotPositive(grain, what, value)),
+    }
 }
 
 /// Lower and upper end (m) of each axis along which the box repeats itself.

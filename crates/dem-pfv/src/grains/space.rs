@@ -41,11 +41,7 @@ pub(crate) fn check(period: &Period, reach: f64) -> Result<(), GrainError> {
             let length = to - from;
             let least = 2.0 * reach;
             if !(length.is_finite() && length > least) {
-                return Err(GrainError::ShortPeriod {
-                    axis,
-                    length,
-                    least,
-                });
+                return Err(GrainError::ShortPeriod(axis, length, least));
             }
         }
     }

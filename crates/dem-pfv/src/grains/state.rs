@@ -1,117 +1,45 @@
-//! Saving and resuming.
+//! The state of a system of grains.
 
 use serde::{Deserialize, Serialize};
 
 use crate::grains::setup::Period;
-use crate::grains::stability::Limit;
 use crate::grains::table::Table;
-use crate::grains::{ContactLaw, GrainError, GrainSystem, Grains, Mesh, Vector, Wall};
+use crate::grains::{Grains, Mesh, Vector, Wall};
+
+/// A step and the grain that sets it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct Limit {
+    pub step: f64,
+    pub grain: usize,
+}
 
 /// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
 /// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct State {
-    grains: Grains,
-    walls: Vec<Wall>,
-    meshes: Vec<Mesh>,
-    period: Period,
-    gravity: Vector,
-    damping: f64,
-    skin: f64,
-    time: f64,
-    steps: u64,
-    last_step: f64,
-    limit: Option<Limit>,
-    limit_due: u64,
-    contacts: Table,
-    renewals: u64,
-}
-
-impl GrainSystem {
-    /// State to resume.
-    pub fn save(&self) -> State {
-        State {
-            grains: self.grains.clone(),
-            walls: self.walls.clone(),
-            meshes: self.meshes.clone(),
-            period: self.period,
-            gravity: self.gravity,
-            damping: self.damping,
-            skin: self.skin,
-            time: self.time,
-            steps: self.steps,
-            last_step: self.last_step,
-            limit: self.limit,
-            limit_due: self.limit_due,
-            contacts: self.table.touching(),
-            renewals: self.renewals,
-        }
-    }
-
-    /// Goes on from a saved state with the same laws. The lists of neighbours are made anew, which changes no
-    /// bit of what follows: contacts are summed in the order of the grains' numbers, whatever else is in the lists.
-    ///
-    /// # Errors
-    /// A state whose parts do not fit together, and laws out of range.
-    pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, GrainError> {
-        let bad = |problem: &str| GrainError::BadState {
-            problem: problem.to_string(),
-        };
-        let (table, n) = (&state.contacts, state.grains.len());
-        if !state.grains.fits() {
-            return Err(bad("columns of the grains differ in length"));
-        }
-        let parts = 1 + state.walls.len() + state.meshes.len();
-        let ordered = table.ends.is_sorted() && table.ends.last() == Some(&table.slots.len());
-        if table.ends.len() != parts || !ordered {
-            return Err(bad("contacts do not fit the walls and meshes"));
-        }
-        for part in 0..parts {
-            let most = match part.checked_sub(1 + state.walls.len()) {
-                Some(mesh) => state.meshes[mesh].triangles.len(),
-                None => n,
-            };
-            let known = |k: usize| {
-                let slot = &table.slots[k];
-                (slot.first as usize) < n && (slot.second as usize) < most
-            };
-            if !table.part(part).all(known) {
-                return Err(bad("a contact names a body that is not there"));
-            }
-        }
-        for i in 0..n {
-            for (what, value) in [
-                ("radius", state.grains.radius[i]),
-                ("mass", state.grains.mass[i]),
-            ] {
-                if !(value > 0.0 && value.is_finite()) {
-                    return Err(GrainError::NotPositive {
-                        grain: i,
-                        what,
-                        value,
-                    });
-                }
-            }
-        }
-        let mut system = Self {
-            grains: state.grains,
-            laws,
-            walls: state.walls,
-            meshes: state.meshes,
-            period: state.period,
-            gravity: state.gravity,
-            damping: state.damping,
-            skin: state.skin,
-            time: state.time,
-            steps: state.steps,
-            last_step: state.last_step,
-            limit: state.limit,
-            limit_due: state.limit_due,
-            table: state.contacts,
-            renewals: state.renewals,
-        };
-        system.check()?;
-        system.renew();
-        Ok(system)
-    }
+    /// The grains; the next evaluation finds the contacts of those that were moved.
+    pub grains: Grains,
+    /// The walls.
+    pub walls: Vec<Wall>,
+    /// The meshes.
+    pub meshes: Vec<Mesh>,
+    /// Axes along which the box repeats itself.
+    pub period: Period,
+    /// Gravity, m/s².
+    pub gravity: Vector,
+    pub(crate) damping: f64,
+    pub(crate) skin: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Motion since the last evaluation, s.
+    pub(crate) last_step: f64,
+    pub(crate) limit: Option<Limit>,
+    /// Step at which the limit is found anew.
+    pub(crate) limit_due: u64,
+    #[serde(rename = "contacts")]
+    pub(crate) table: Table,
+    /// Number of times that the lists of neighbours were made.
+    pub renewals: u64,
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::grains::{GrainSystem, stability};
+use crate::grains::GrainSystem;
 
 impl GrainSystem {
     /// Largest step (s) for which the leap-frog is proven stable while nothing slides.
@@ -19,14 +19,7 @@ impl GrainSystem {
     /// his Δt_cr is shorter for normal contact, but without the coupling of shift and spin. Dashpots multiply
     /// it by √(1 + ζ²) − ζ. Every grain counts as if it touched another of its size at least.
     pub fn critical_step(&self) -> f64 {
-        stability::critical(
-            &self.grains,
-            &self.table,
-            &self.walls,
-            &self.meshes,
-            &self.laws,
-        )
-        .step
+        self.critical().step
     }
 
     /// Step (s) in which no grain goes further than a share of its radius, under the forces of the last evaluation:

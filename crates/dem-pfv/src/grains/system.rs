@@ -1,43 +1,41 @@
 //! The system: made, evaluated, integrated.
 
-use crate::grains::setup::{Period, finite};
-use crate::grains::stability::{CHECKED_EVERY, Limit, critical};
+use std::ops::{Deref, DerefMut};
+
+use crate::grains::law::BELOW_1;
+use crate::grains::setup::finite;
+use crate::grains::state::Limit;
 use crate::grains::table::{Bodies, Table};
 use crate::grains::touch::View;
-use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Mesh, Setup, Vector, Wall, space};
+use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector, space};
+use crate::require;
 
-/// Grains with their walls, meshes and contacts.
+/// Steps between two computations of the critical one.
+const CHECKED_EVERY: u64 = 100;
+
+/// Grains with their walls, meshes and contacts: a [`State`] that moves by contact laws.
 ///
 /// A step is [`GrainSystem::evaluate`] (contacts and their forces where the grains are) and
 /// [`GrainSystem::integrate`] (velocities, then positions). Results are the same bit for bit on any number of
 /// threads: a contact is computed once, and each grain sums its own contacts in the order of their numbers.
 #[derive(Debug)]
 pub struct GrainSystem {
-    /// The grains; the next evaluation finds the contacts of those that were moved.
-    pub grains: Grains,
+    pub(crate) state: State,
     pub(crate) laws: Vec<Box<dyn ContactLaw>>,
-    /// The walls.
-    pub walls: Vec<Wall>,
-    /// The meshes.
-    pub meshes: Vec<Mesh>,
-    /// Axes along which the box repeats itself.
-    pub period: Period,
-    /// Gravity, m/s².
-    pub gravity: Vector,
-    pub(crate) damping: f64,
-    pub(crate) skin: f64,
-    /// Time, s.
-    pub time: f64,
-    /// Steps made.
-    pub steps: u64,
-    /// Motion since the last evaluation, s.
-    pub(crate) last_step: f64,
-    pub(crate) limit: Option<Limit>,
-    /// Step at which the limit is found anew.
-    pub(crate) limit_due: u64,
-    pub(crate) table: Table,
-    /// Number of times that the lists of neighbours were made.
-    pub renewals: u64,
+}
+
+impl Deref for GrainSystem {
+    type Target = State;
+
+    fn deref(&self) -> &State {
+        &self.state
+    }
+}
+
+impl DerefMut for GrainSystem {
+    fn deref_mut(&mut self) -> &mut State {
+        &mut self.state
+    }
 }
 
 impl GrainSystem {
@@ -54,9 +52,8 @@ impl GrainSystem {
         }
         let grains = Grains::new(&setup.grains);
         let mean = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
-        let mut system = Self {
+        let state = State {
             grains,
-            laws: setup.laws,
             walls: setup.walls,
             meshes: setup.meshes,
             period: setup.period,
@@ -70,6 +67,10 @@ impl GrainSystem {
             limit_due: 0,
             table: Table::default(),
             renewals: 0,
+        };
+        let mut system = Self {
+            state,
+            laws: setup.laws,
         };
         system.check()?;
         system.renew();
@@ -85,13 +86,11 @@ impl GrainSystem {
             return Err(GrainError::NoGrains);
         }
         if grains > most {
-            return Err(GrainError::TooMany { grains, most });
+            return Err(GrainError::TooMany(grains, most));
         }
-        number("skin", self.skin, "positive", self.skin > 0.0)?;
-        let fine = (0.0..1.0).contains(&self.damping);
-        number("damping", self.damping, "at least 0 and below 1", fine)?;
-        let gravity = self.gravity.norm();
-        number("gravity", gravity, "finite", true)?;
+        require("the skin is", self.skin, "positive", self.skin > 0.0)?;
+        check_damping(self.damping)?;
+        require("the gravity is", self.gravity.norm(), "finite", true)?;
         self.check_laws()?;
         let largest = self.grains.radius.iter().copied().fold(0.0, f64::max);
         space::check(&self.period, 2.0 * largest + self.skin)?;
@@ -100,7 +99,7 @@ impl GrainSystem {
             for (axis, ends) in self.period.iter().enumerate() {
                 if ends.is_some() && wall.normal[axis] != 0.0 {
                     let problem = format!("is turned towards axis {axis}, which is periodic");
-                    return Err(GrainError::BadWall { wall: w, problem });
+                    return Err(GrainError::BadWall(w, problem));
                 }
             }
         }
@@ -109,17 +108,11 @@ impl GrainSystem {
         }
         for (grain, position) in self.grains.position.iter().enumerate() {
             for (axis, ends) in self.period.iter().enumerate() {
-                let value = position[axis];
+                let x = position[axis];
                 if let Some([from, to]) = *ends
-                    && !(from..=to).contains(&value)
+                    && !(from..=to).contains(&x)
                 {
-                    return Err(GrainError::OutsidePeriod {
-                        grain,
-                        axis,
-                        value,
-                        from,
-                        to,
-                    });
+                    return Err(GrainError::OutsidePeriod(grain, axis, x, [from, to]));
                 }
             }
         }
@@ -132,11 +125,7 @@ impl GrainSystem {
             law.check()?;
             let wanted = law.memory().len();
             if wanted > MEMORY {
-                return Err(GrainError::Memory {
-                    law: number,
-                    wanted,
-                    room: MEMORY,
-                });
+                return Err(GrainError::Memory(number, wanted, MEMORY));
             }
         }
         let walls = self.walls.iter().map(|w| w.law).enumerate();
@@ -145,12 +134,7 @@ impl GrainSystem {
         let named = named.chain(walls.map(|w| ("wall", w)));
         for (what, (number, law)) in named.chain(meshes.map(|m| ("mesh", m))) {
             if law >= laws {
-                return Err(GrainError::NoLaw {
-                    what,
-                    number,
-                    law,
-                    laws,
-                });
+                return Err(GrainError::NoLaw(what, number, law, laws));
             }
         }
         Ok(())
@@ -185,18 +169,18 @@ impl GrainSystem {
         if self.table.expired(self.bodies(), self.skin) {
             self.renew();
         }
-        let Self {
+        let Self { state, laws } = self;
+        let State {
             grains,
-            laws,
             walls,
             meshes,
             table,
             ..
-        } = self;
+        } = state;
         let view = View {
             grains,
-            period: &self.period,
-            step: self.last_step,
+            period: &state.period,
+            step: state.last_step,
         };
         let (pairs, mut rest) = table.slots.split_at_mut(table.ends[0]);
         view.pairs(pairs, &*laws[0]);
@@ -253,7 +237,7 @@ impl GrainSystem {
     /// [`GrainError::StepTooLarge`] above [`GrainSystem::critical_step`], which is computed anew every hundred
     /// steps; nothing is moved then. A step that is not positive and finite. A pressed wall of unknown area.
     pub fn integrate(&mut self, step: f64) -> Result<(), GrainError> {
-        number("step", step, "positive", step > 0.0)?;
+        require("the step is", step, "positive", step > 0.0)?;
         let limit = self.fresh_limit();
         if step > limit.step {
             return Err(GrainError::StepTooLarge {
@@ -272,7 +256,7 @@ impl GrainSystem {
     /// then.
     pub fn integrate_unchecked(&mut self, step: f64) -> Result<(), GrainError> {
         let moves = self.time + step > self.time;
-        number("step", step, "long enough to move the clock", moves)?;
+        require("the step is", step, "long enough to move the clock", moves)?;
         self.check_depths()?;
         self.steer_walls(step)?;
         self.advance_grains(step);
@@ -298,13 +282,7 @@ impl GrainSystem {
             Some(limit) if self.steps < self.limit_due => limit,
             _ => {
                 self.limit_due = self.steps + CHECKED_EVERY;
-                critical(
-                    &self.grains,
-                    &self.table,
-                    &self.walls,
-                    &self.meshes,
-                    &self.laws,
-                )
+                self.critical()
             }
         };
         self.limit = Some(limit);
@@ -312,14 +290,7 @@ impl GrainSystem {
     }
 }
 
-pub(crate) fn number(
-    what: &'static str,
-    value: f64,
-    valid: &'static str,
-    fine: bool,
-) -> Result<(), GrainError> {
-    if fine && value.is_finite() {
-        return Ok(());
-    }
-    Err(GrainError::BadNumber { what, value, valid })
+pub(crate) fn check_damping(damping: f64) -> Result<(), GrainError> {
+    let fine = (0.0..1.0).contains(&damping);
+    Ok(require("the damping is", damping, BELOW_1, fine)?)
 }

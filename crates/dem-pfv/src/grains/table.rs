@@ -49,7 +49,7 @@ impl Slot {
 }
 
 /// All slots: pairs first, then wall by wall, then mesh by mesh, each part in the order of the grains' numbers.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Debug, Default, Deserialize, Serialize)]
 pub(crate) struct Table {
     pub slots: Vec<Slot>,
     /// Ends of the parts.
@@ -65,7 +65,20 @@ pub(crate) struct Table {
     then: PreviousState,
 }
 
-#[derive(Clone, Debug, Default)]
+/// The pairs in contact alone: enough to go on from.
+impl Clone for Table {
+    fn clone(&self) -> Self {
+        let mut kept = Self::default();
+        for part in 0..self.ends.len() {
+            let slots = &self.slots[self.part(part)];
+            kept.slots.extend(slots.iter().filter(|s| s.active));
+            kept.ends.push(kept.slots.len());
+        }
+        kept
+    }
+}
+
+#[derive(Debug, Default)]
 struct PreviousState {
     positions: Vec<Vector>,
     radii: Vec<f64>,
@@ -102,17 +115,6 @@ impl Table {
             let slot = &self.slots[(entry >> 1) as usize];
             (slot, (entry & 1) as usize)
         })
-    }
-
-    /// The pairs in contact alone; enough to go on from.
-    pub fn touching(&self) -> Self {
-        let mut kept = Self::default();
-        for part in 0..self.ends.len() {
-            let slots = &self.slots[self.part(part)];
-            kept.slots.extend(slots.iter().filter(|s| s.active));
-            kept.ends.push(kept.slots.len());
-        }
-        kept
     }
 
     /// True if something may have come near that is not in the table.

@@ -127,7 +127,7 @@ impl Wall {
     }
 
     pub(crate) fn check(&self, wall: usize) -> Result<(), GrainError> {
-        let problem = |problem: String| Err(GrainError::BadWall { wall, problem });
+        let problem = |problem| Err(GrainError::BadWall(wall, problem));
         let vectors = [self.point, self.normal, self.velocity, self.external_force];
         if vectors.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
             return problem(

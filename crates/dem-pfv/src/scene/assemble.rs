@@ -1,7 +1,7 @@
 //! From a scene to the system at the start of its preparation, and from there to the start of the run.
 
 use crate::coupled::{
-    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Remeshing, WallBoundary, Wave,
+    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Remeshing, WallBoundary,
 };
 use crate::grains::{GrainError, GrainSystem};
 use crate::scene::error::DemError;
@@ -110,14 +110,7 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 
 /// The fluid and its conditions.
 fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
-    let mut given = crate::coupled::Fluid::new(fluid.viscosity, fluid.density);
-    given.bulk_modulus = fluid.bulk_modulus;
-    given.shear = fluid.shear;
-    given.lubrication = fluid.lubrication.map(|l| crate::coupled::Lubrication {
-        roughness: l.roughness,
-        range: l.range,
-    });
-    let mut setup = FlowSetup::new(given).remeshing(Remeshing {
+    let mut setup = FlowSetup::new(fluid.given).remeshing(Remeshing {
         strain: Some(fluid.remesh_strain),
         most_steps: fluid.remesh_steps,
     });
@@ -130,18 +123,10 @@ fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
 }
 
 fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<WallBoundary, DemError> {
-    let wave = |w: &tables::WaveLoad| Wave {
-        axis: w.axis.number(),
-        crest: w.crest,
-        half_length: w.half_length,
-        amplitude: w.amplitude,
-        ramp: w.ramp,
-        period: w.period,
-    };
     let condition = match (table.pressure, table.inflow, &table.wave) {
         (Some(pressure), ..) => FlowCondition::Pressure(pressure),
         (_, Some(speed), _) => FlowCondition::Inflow(speed),
-        (.., Some(load)) => FlowCondition::Wave(wave(load)),
+        (.., Some(load)) => FlowCondition::Wave(*load),
         _ => match &table.recorded {
             Some(load) => FlowCondition::Recorded(recorded::read(&loaded.source, name, load)?),
             None => FlowCondition::Closed,

@@ -4,22 +4,16 @@ mod measurements;
 mod start;
 mod walls;
 
-use std::collections::BTreeMap;
-
-use scene_text::{Problems, SceneProblem, Source, suggestion};
+use scene_text::{Problems, SceneProblem, Source, named_files, suggestion};
+use toml::Table;
 
 use crate::scene::error::DemError;
 use crate::scene::laws::{Laws, throats};
 use crate::scene::names::BOX;
-use crate::scene::tables::{Probe, Reference, Scene};
+use crate::scene::tables::Scene;
 
 /// Everything that is wrong.
-pub fn scene(
-    scene: &Scene,
-    probes: &BTreeMap<String, Probe>,
-    references: &BTreeMap<String, Reference>,
-    source: &Source,
-) -> Vec<SceneProblem> {
+pub fn scene(scene: &Scene, table: &Table, source: &Source) -> Vec<SceneProblem> {
     let mut found = Problems::default();
     for problems in [Laws::from_scene(scene).err(), throats(scene).err()]
         .into_iter()
@@ -36,13 +30,17 @@ pub fn scene(
     }
     fluid(scene, &mut found);
     oedometer(scene, &mut found);
-    for (name, probe) in probes {
+    for (name, probe) in &scene.probe {
         measurements::probe(scene, name, probe, &mut found);
     }
-    for (name, reference) in references {
-        measurements::reference(scene, probes, name, reference, &mut found);
+    for (name, reference) in &scene.reference {
+        measurements::reference(scene, name, reference, &mut found);
     }
-    files(scene, source, &mut found);
+    for (key, file) in named_files(table) {
+        if let Err(problem) = source.resolve(&key, &file) {
+            found.add(key, problem.to_string());
+        }
+    }
     output(scene, &mut found);
     found.0
 }
@@ -77,7 +75,7 @@ fn fluid(scene: &Scene, found: &mut Problems) {
         .wall
         .values()
         .any(|w| w.pressure.is_some() || w.wave.is_some() || w.recorded.is_some());
-    if !pressed && fluid.bulk_modulus.is_none() {
+    if !pressed && fluid.given.bulk_modulus.is_none() {
         let message = "no wall has a `pressure`, a `wave` or what was `recorded`: pressures would be known but for a constant; give one, \
                        or a `bulk_modulus`";
         found.add("fluid", message);
@@ -110,14 +108,6 @@ fn oedometer(scene: &Scene, found: &mut Problems) {
             "start",
             "an oedometer test starts from rest: give `settle` below 1",
         );
-    }
-}
-
-fn files(scene: &Scene, source: &Source, found: &mut Problems) {
-    for (key, file) in scene.files() {
-        if let Err(problem) = source.resolve(&key, &file) {
-            found.add(key, problem.to_string());
-        }
     }
 }
 

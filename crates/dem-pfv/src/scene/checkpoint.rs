@@ -1,9 +1,10 @@
 //! Everything a run needs to go on bit for bit.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use sph_run::{SavedState, save_state};
+use sph_run::{RunCounters, SavedState, save_state};
 
 use crate::scene::error::DemError;
 use crate::scene::model::Saved;
@@ -12,31 +13,13 @@ use crate::scene::origin::Origin;
 /// Progress of a run.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Progress {
-    /// Rows of the series written.
-    pub rows: u64,
-    /// Time of the last row, s.
-    pub last_row: Option<f64>,
-    /// Time of the last output of fields, s.
-    pub last_output: Option<f64>,
-    /// Bytes of the series.
-    pub series: u64,
-    /// Outputs of fields made.
-    pub outputs: u64,
-    /// Frames in the list for ParaView.
-    pub frames: usize,
-    /// Checkpoints made.
-    pub checkpoints: u64,
-    /// Ranges of the colours of pictures.
-    #[serde(default)]
-    pub colours: sph_io::ColourRanges,
+    /// Counts of the driver. Their wall-clock time is kept beside the state, which has the same bits in equal runs.
+    pub books: RunCounters,
     /// The last step, s.
     pub dt: f64,
     /// Steps by their limits.
-    pub limited: std::collections::BTreeMap<String, u64>,
-    /// Wall-clock time so far, s. Kept beside the state, which has the same bits in equal runs.
-    #[serde(skip)]
-    pub wall_seconds: f64,
-    /// That of the preparation, s.
+    pub limited: BTreeMap<String, u64>,
+    /// Wall-clock time of the preparation, s; kept beside the state as well.
     #[serde(skip)]
     pub preparation_seconds: f64,
 }
@@ -56,14 +39,14 @@ pub struct CheckpointState {
 ///
 /// # Errors
 /// If it cannot be written.
-pub fn save(kept: &CheckpointState, scene: &str, path: &Path) -> Result<(), DemError> {
+pub fn save(mut kept: CheckpointState, scene: &str, path: &Path) -> Result<(), DemError> {
     let meta = serde_json::json!({
         "method": "grains",
         "scene": scene,
-        "wall_seconds": kept.progress.wall_seconds,
+        "wall_seconds": std::mem::take(&mut kept.progress.books.wall_seconds),
         "preparation_seconds": kept.progress.preparation_seconds,
     });
-    Ok(save_state(path, meta, kept)?)
+    Ok(save_state(path, meta, &kept)?)
 }
 
 /// Reads a checkpoint; with `changed` also one of another scene.
@@ -83,7 +66,7 @@ pub fn load(scene: &str, changed: bool, path: &Path) -> Result<CheckpointState, 
     }
     let mut kept: CheckpointState = saved.state().map_err(|e| refused(&e))?;
     let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
-    kept.progress.wall_seconds = seconds("wall_seconds");
+    kept.progress.books.wall_seconds = seconds("wall_seconds");
     kept.progress.preparation_seconds = seconds("preparation_seconds");
     Ok(kept)
 }

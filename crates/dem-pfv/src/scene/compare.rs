@@ -11,7 +11,7 @@ use crate::scene::error::DemError;
 use crate::scene::measure;
 use crate::scene::origin::Origin;
 use crate::scene::read::Loaded;
-use crate::scene::scaling;
+use crate::scene::scaling::{self, Scaling};
 use crate::scene::tables::{Probe, Reference, Statistic};
 
 /// An error against a reference.
@@ -31,6 +31,32 @@ pub struct Compared {
     pub wanted: Option<f64>,
 }
 
+impl Compared {
+    fn new(error: Option<f64>, norm: &str, against: String, samples: usize) -> Self {
+        Self {
+            value: error.filter(|e| e.is_finite()),
+            norm: norm.into(),
+            against,
+            samples,
+            found: None,
+            wanted: None,
+        }
+    }
+
+    /// Of one number: |x / value − 1|, or |x| where the value is zero.
+    fn number(found: Option<f64>, wanted: f64, against: String, samples: usize) -> Self {
+        let (norm, error): (_, &dyn Fn(f64) -> f64) = match wanted == 0.0 {
+            true => ("absolute", &f64::abs),
+            false => ("relative", &|x| (x / wanted - 1.0).abs()),
+        };
+        Self {
+            found,
+            wanted: Some(wanted),
+            ..Self::new(found.map(error), norm, against, samples)
+        }
+    }
+}
+
 /// The errors against all references.
 ///
 /// # Errors
@@ -40,212 +66,175 @@ pub fn errors(
     origin: &Origin,
     series: &Path,
 ) -> Result<BTreeMap<String, Compared>, DemError> {
-    let mut all = BTreeMap::new();
-    if loaded.references.is_empty() {
-        return Ok(all);
+    let references = &loaded.scene.reference;
+    if references.is_empty() {
+        return Ok(BTreeMap::new());
     }
-    let table = read_table(series)?;
-    for (name, reference) in &loaded.references {
-        let compared = one(loaded, origin, &table, name, reference)?;
-        all.insert(name.clone(), compared);
+    let run = RunSeries {
+        loaded,
+        origin,
+        table: read_table(series)?,
+    };
+    let one = |(name, reference): (&String, _)| Ok((name.clone(), run.compared(name, reference)?));
+    references.iter().map(one).collect()
+}
+
+const ALL: [Option<f64>; 2] = [None; 2];
+
+/// The rows of a run, and what they are measured from.
+struct RunSeries<'a> {
+    loaded: &'a Loaded,
+    origin: &'a Origin,
+    table: Table,
+}
+
+impl RunSeries<'_> {
+    fn probe(&self, name: &str) -> Option<&Probe> {
+        self.loaded.scene.probe.get(name)
     }
-    Ok(all)
-}
 
-/// Times (s) and values of a probe, without rows in which there was nothing to measure.
-fn rows(table: &Table, probe: &str, [from, to]: [f64; 2]) -> Vec<(f64, f64)> {
-    let column = |name: &str| table.column(name).unwrap_or(&[]);
-    let pairs = column("time").iter().zip(column(probe));
-    let pairs = pairs.map(|(t, x)| (*t, *x));
-    pairs
-        .filter(|(t, x)| x.is_finite() && (from..=to).contains(t))
-        .collect()
-}
+    /// Times (s) and values of a probe in a window (s), without rows in which there was nothing to measure.
+    fn rows(&self, probe: &str, [from, to]: [Option<f64>; 2]) -> Vec<(f64, f64)> {
+        let window = from.unwrap_or(f64::NEG_INFINITY)..=to.unwrap_or(f64::INFINITY);
+        let column = |name: &str| self.table.column(name).unwrap_or(&[]);
+        let pairs = column("time").iter().zip(column(probe));
+        let pairs = pairs.map(|(t, x)| (*t, *x));
+        pairs
+            .filter(|(t, x)| x.is_finite() && window.contains(t))
+            .collect()
+    }
 
-fn window(from: Option<f64>, to: Option<f64>) -> [f64; 2] {
-    [
-        from.unwrap_or(f64::NEG_INFINITY),
-        to.unwrap_or(f64::INFINITY),
-    ]
-}
-
-const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
-fn one(
-    loaded: &Loaded,
-    origin: &Origin,
-    table: &Table,
-    name: &str,
-    reference: &Reference,
-) -> Result<Compared, DemError> {
-    match reference {
-        Reference::Terzaghi {
-            probe,
-            shorter_by,
-            from,
-            to,
-        } => Ok(terzaghi(
-            loaded,
-            origin,
-            table,
-            probe,
-            *shorter_by,
-            [*from, *to],
-        )),
-        Reference::Value {
-            probe,
-            value,
-            of,
-            from,
-            to,
-        } => {
-            let rows = rows(table, probe, window(*from, *to));
-            let found = statistic(&rows, *of);
-            let unit = loaded.probes.get(probe).map_or("", measure::unit);
-            let against = format!("{probe} = {value} {unit}");
-            Ok(relative(
-                found,
-                *value,
-                against.trim_end().to_string(),
-                rows.len(),
-            ))
-        }
-        Reference::Scaling {
-            probe,
-            file,
-            geometry,
-            quantity,
-        } => {
-            let probe = probe.as_str();
-            scaled(
-                loaded,
-                origin,
-                table,
-                name,
-                [probe, file, geometry, quantity],
-            )
-        }
-        Reference::Line {
-            along,
-            probe,
-            from,
-            to,
-        } => {
-            let window = window(*from, *to);
-            Ok(line(
-                &rows(table, along, window),
-                &rows(table, probe, window),
+    fn compared(&self, name: &str, reference: &Reference) -> Result<Compared, DemError> {
+        let key = format!("reference.{name}.file");
+        match reference {
+            Reference::Terzaghi {
                 probe,
-            ))
+                shorter_by,
+                from,
+                to,
+            } => Ok(self.terzaghi(probe, *shorter_by, [*from, *to])),
+            Reference::Value {
+                probe,
+                value,
+                of,
+                from,
+                to,
+            } => {
+                let rows = self.rows(probe, [*from, *to]);
+                let unit = self.probe(probe).map_or("", measure::unit);
+                let against = format!("{probe} = {value} {unit}").trim_end().to_string();
+                let found = statistic(&rows, *of);
+                Ok(Compared::number(found, *value, against, rows.len()))
+            }
+            Reference::Scaling {
+                probe,
+                file,
+                geometry,
+                quantity,
+            } => {
+                let law = scaling::read(&self.loaded.resolve(&key, file)?, geometry, quantity);
+                let law = law.map_err(|why| DemError::at(&key, why))?;
+                Ok(self.scaled(probe, &law, [geometry, quantity]))
+            }
+            Reference::Line {
+                along,
+                probe,
+                from,
+                to,
+            } => {
+                let [along, values] = [along, probe].map(|name| self.rows(name, [*from, *to]));
+                let beside = |(t, x): &(f64, f64)| {
+                    let (_, y) = values.iter().find(|(u, _)| u == t)?;
+                    Some((*x, *y))
+                };
+                let pairs: Vec<_> = along.iter().filter_map(beside).collect();
+                let error = determination(&pairs).map(|r2| 1.0 - r2);
+                let against = format!("{probe} in a straight line");
+                Ok(Compared::new(error, "1 − R²", against, pairs.len()))
+            }
+            Reference::Curve {
+                probe,
+                file,
+                column,
+            } => {
+                let table = read_table(self.loaded.resolve(&key, file)?)?;
+                let wanted = table.column(column).ok_or_else(|| {
+                    let why = format!("there is no column `{column}`");
+                    DemError::at(format!("reference.{name}.column"), why)
+                })?;
+                let times = self.times(&table).ok_or_else(|| {
+                    let why = "needs a column `time[s]`, or `time_factor` with an [oedometer]";
+                    DemError::at(key, why)
+                })?;
+                Ok(self.beside(probe, &times, wanted, format!("`{column}` of {file}")))
+            }
         }
-        Reference::Curve {
-            probe,
-            file,
-            column,
-        } => curve(loaded, origin, table, name, [probe, file, column]),
     }
-}
 
-/// A run-out beside the scaling law of a file.
-fn scaled(
-    loaded: &Loaded,
-    origin: &Origin,
-    table: &Table,
-    name: &str,
-    [probe, file, geometry, quantity]: [&str; 4],
-) -> Result<Compared, DemError> {
-    let key = format!("reference.{name}.file");
-    let path = loaded.source.resolve(&key, file);
-    let path = path.map_err(|e| DemError::at(&key, e))?;
-    let law = scaling::read(&path, geometry, quantity);
-    let law = law.map_err(|why| DemError::at(&key, why))?;
-    let length = match loaded.probes.get(probe) {
-        Some(Probe::RunOut { length, .. }) => *length,
-        _ => f64::NAN,
-    };
-    let aspect = origin.top / length;
-    let wanted = law.at(aspect).unwrap_or(f64::NAN);
-    let rows = rows(table, probe, ALL);
-    let found = statistic(&rows, Statistic::Last);
-    let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
-    Ok(relative(found, wanted, against, rows.len().min(1)))
-}
-
-/// Fit of a straight line to values of one probe over those of another.
-fn line(along: &[(f64, f64)], values: &[(f64, f64)], probe: &str) -> Compared {
-    let pairs: Vec<_> = along
-        .iter()
-        .filter_map(|(t, x)| values.iter().find(|(u, _)| u == t).map(|(_, y)| (*x, *y)))
-        .collect();
-    Compared {
-        value: determination(&pairs).map(|r2| 1.0 - r2),
-        norm: "1 − R²".into(),
-        against: format!("{probe} in a straight line"),
-        samples: pairs.len(),
-        found: None,
-        wanted: None,
-    }
-}
-
-/// Root mean square of the difference between a probe and Terzaghi, between two time factors.
-fn terzaghi(
-    loaded: &Loaded,
-    origin: &Origin,
-    table: &Table,
-    probe: &str,
-    shorter_by: f64,
-    factors: [f64; 2],
-) -> Compared {
-    let settles = matches!(loaded.probes.get(probe), Some(Probe::Consolidation {}));
-    let half = origin.lengths.map_or(f64::NAN, |l| 0.5 * l[2]);
-    let coefficient = origin.consolidation().unwrap_or(f64::NAN);
-    let plain = Terzaghi {
-        coefficient,
-        drainage: half,
-    };
-    let theory = Terzaghi {
-        drainage: half - shorter_by * origin.diameter,
-        ..plain
-    };
-    let times = factors.map(|t| plain.time(t));
-    let rows = rows(table, probe, times);
-    let squares = rows.iter().map(|(t, x)| {
-        let wanted = match settles {
-            true => theory.consolidation(*t),
-            false => theory.pressure(theory.drainage, *t),
+    /// A run-out beside a scaling law.
+    fn scaled(&self, probe: &str, law: &Scaling, [geometry, quantity]: [&str; 2]) -> Compared {
+        let length = match self.probe(probe) {
+            Some(Probe::RunOut { length, .. }) => *length,
+            _ => f64::NAN,
         };
-        (x - wanted).powi(2)
-    });
-    let mean = squares.sum::<f64>() / rows.len() as f64;
-    let what = if settles { "U" } else { "p in the middle" };
-    Compared {
-        value: mean.is_finite().then(|| mean.sqrt()),
-        norm: "rms".into(),
-        against: format!("{what}, Terzaghi, C_v = {coefficient:.4} m²/s, L less {shorter_by} d₅₀"),
-        samples: rows.len(),
-        found: None,
-        wanted: None,
+        let aspect = self.origin.top / length;
+        let wanted = law.at(aspect).unwrap_or(f64::NAN);
+        let rows = self.rows(probe, ALL);
+        let found = statistic(&rows, Statistic::Last);
+        let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
+        Compared::number(found, wanted, against, rows.len().min(1))
+    }
+
+    /// A probe beside wanted values at times (s): root mean square over their range.
+    fn beside(&self, probe: &str, times: &[f64], wanted: &[f64], against: String) -> Compared {
+        let rows = self.rows(probe, ALL);
+        let pairs = times.iter().zip(wanted);
+        let pairs = pairs.filter_map(|(t, x)| Some((at(&rows, *t)?, *x)));
+        let pairs: Vec<_> = pairs.collect();
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = (wanted.iter()).fold(ends, |(l, h), x| (l.min(*x), h.max(*x)));
+        let error = mean_square(&pairs).sqrt() / (high - low);
+        Compared::new(Some(error), "rms over range", against, pairs.len())
+    }
+
+    /// Root mean square of the difference between a probe and Terzaghi, between two time factors.
+    fn terzaghi(&self, probe: &str, shorter_by: f64, factors: [f64; 2]) -> Compared {
+        let settles = matches!(self.probe(probe), Some(Probe::Consolidation {}));
+        let plain = self.origin.terzaghi();
+        let theory = Terzaghi {
+            drainage: plain.drainage - shorter_by * self.origin.diameter,
+            ..plain
+        };
+        let wanted = |t: f64| match settles {
+            true => theory.consolidation(t),
+            false => theory.pressure(theory.drainage, t),
+        };
+        let rows = self.rows(probe, factors.map(|factor| Some(plain.time(factor))));
+        let pairs: Vec<_> = rows.iter().map(|(t, x)| (*x, wanted(*t))).collect();
+        let what = if settles { "U" } else { "p in the middle" };
+        let against = format!(
+            "{what}, Terzaghi, C_v = {:.4} m²/s, L less {shorter_by} d₅₀",
+            plain.coefficient
+        );
+        let error = mean_square(&pairs).sqrt();
+        Compared::new(Some(error), "rms", against, rows.len())
+    }
+
+    /// Times of the rows of a table, s.
+    fn times(&self, table: &Table) -> Option<Vec<f64>> {
+        if let Some(times) = table.column("time") {
+            return Some(times.to_vec());
+        }
+        self.origin.consolidation()?;
+        let theory = self.origin.terzaghi();
+        let factors = table.column("time_factor")?.iter();
+        Some(factors.map(|t| theory.time(*t)).collect())
     }
 }
 
-fn relative(found: Option<f64>, wanted: f64, against: String, samples: usize) -> Compared {
-    let error = |x: f64| match wanted == 0.0 {
-        true => x.abs(),
-        false => (x / wanted - 1.0).abs(),
-    };
-    Compared {
-        value: found.map(error).filter(|e| e.is_finite()),
-        norm: if wanted == 0.0 {
-            "absolute"
-        } else {
-            "relative"
-        }
-        .into(),
-        against,
-        samples,
-        found,
-        wanted: Some(wanted),
-    }
+/// Mean of (a − b)².
+fn mean_square(pairs: &[(f64, f64)]) -> f64 {
+    pairs.iter().map(|(a, b)| (a - b).powi(2)).sum::<f64>() / pairs.len() as f64
 }
 
 fn statistic(rows: &[(f64, f64)], of: Statistic) -> Option<f64> {
@@ -281,68 +270,6 @@ fn determination(pairs: &[(f64, f64)]) -> Option<f64> {
         moment(&|a, b| a * b),
     );
     (pairs.len() > 2 && xx > 0.0 && yy > 0.0).then(|| xy * xy / (xx * yy))
-}
-
-fn curve(
-    loaded: &Loaded,
-    origin: &Origin,
-    table: &Table,
-    name: &str,
-    [probe, file, column]: [&String; 3],
-) -> Result<Compared, DemError> {
-    let key = format!("reference.{name}.file");
-    let path = loaded.source.resolve(&key, file);
-    let path = path.map_err(|e| DemError::at(&key, e))?;
-    let given = read_table(&path)?;
-    let wanted = given.column(column);
-    let wanted = wanted.ok_or_else(|| {
-        DemError::at(
-            format!("reference.{name}.column"),
-            format!("there is no column `{column}`"),
-        )
-    })?;
-    let times: Vec<f64> = match (
-        given.column("time"),
-        given.column("time_factor"),
-        origin.consolidation(),
-    ) {
-        (Some(times), ..) => times.to_vec(),
-        (_, Some(factors), Some(coefficient)) => {
-            let drainage = origin.lengths.map_or(f64::NAN, |l| 0.5 * l[2]);
-            let theory = Terzaghi {
-                coefficient,
-                drainage,
-            };
-            factors.iter().map(|t| theory.time(*t)).collect()
-        }
-        _ => {
-            return Err(DemError::at(
-                key,
-                "needs a column `time[s]`, or `time_factor` with an [oedometer]",
-            ));
-        }
-    };
-    let rows = rows(table, probe, ALL);
-    let pairs = times
-        .iter()
-        .zip(wanted)
-        .filter_map(|(t, x)| Some((at(&rows, *t)?, *x)));
-    let pairs: Vec<(f64, f64)> = pairs.collect();
-    let (low, high) = wanted
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(*x), h.max(*x))
-        });
-    let mean = pairs.iter().map(|(a, b)| (a - b).powi(2)).sum::<f64>() / pairs.len() as f64;
-    let value = mean.sqrt() / (high - low);
-    Ok(Compared {
-        value: value.is_finite().then_some(value),
-        norm: "rms over range".into(),
-        against: format!("`{column}` of {file}"),
-        samples: pairs.len(),
-        found: None,
-        wanted: None,
-    })
 }
 
 /// A probe at a time (s), linear between rows.

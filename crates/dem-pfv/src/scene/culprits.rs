@@ -1,6 +1,6 @@
 //! Names in the scene of the grains and walls that a refusal numbers.
 
-use crate::grains::GrainError;
+use crate::grains::{GrainError, Partner};
 use crate::scene::error::DemError;
 use crate::scene::names::planes;
 use crate::scene::read::Loaded;
@@ -16,16 +16,17 @@ pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
 pub fn named(loaded: &Loaded, error: &GrainError) -> String {
     let mut names = Vec::new();
     if let GrainError::InWall { wall, .. }
-    | GrainError::BadWall { wall, .. }
+    | GrainError::BadWall(wall, _)
     | GrainError::TooDeep {
-        wall: Some(wall), ..
+        body: Partner::Wall(wall),
+        ..
     } = error
         && let Some(name) = planes(&loaded.scene).get(*wall)
     {
         names.push(format!("wall {wall} is `{name}`"));
     }
     if let Some(file) = &loaded.scene.start.file {
-        for grain in grains(error) {
+        for grain in error.grains() {
             if let Some(line) = line(loaded, file, grain) {
                 names.push(format!("grain {grain} is line {line} of `{file}`"));
             }
@@ -34,20 +35,6 @@ pub fn named(loaded: &Loaded, error: &GrainError) -> String {
     match names.is_empty() {
         true => String::new(),
         false => format!(" ({})", names.join(", ")),
-    }
-}
-
-/// The grains that an error names.
-fn grains(error: &GrainError) -> Vec<usize> {
-    match *error {
-        GrainError::Overlap { first, second, .. } => vec![first, second],
-        GrainError::InWall { grain, .. }
-        | GrainError::InMesh { grain, .. }
-        | GrainError::TooDeep { grain, .. }
-        | GrainError::NotPositive { grain, .. }
-        | GrainError::NotFinite { grain, .. }
-        | GrainError::OutsidePeriod { grain, .. } => vec![grain],
-        _ => Vec::new(),
     }
 }
 

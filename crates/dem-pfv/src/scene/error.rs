@@ -5,8 +5,6 @@ use sph_io::IoError;
 use thiserror::Error;
 
 use crate::coupled::CoupledError;
-use crate::flow::FlowError;
-use crate::grains::GrainError;
 
 /// Errors that keep a scene from its end.
 #[derive(Debug, Error)]
@@ -21,14 +19,9 @@ pub enum DemError {
     /// A checkpoint that does not fit.
     #[error("cannot resume: {0}")]
     Resume(String),
-    /// The threads could not be started.
-    #[error("cannot start {threads} threads: {reason}")]
-    Threads {
-        /// Asked for.
-        threads: usize,
-        /// The reason of the system.
-        reason: String,
-    },
+    /// Threads that could not be started, and the reason of the system.
+    #[error("cannot start {0} threads: {1}")]
+    Threads(usize, String),
     /// The run failed.
     #[error(transparent)]
     Failed(#[from] Box<Failure>),
@@ -44,7 +37,7 @@ impl DemError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Scene(_) | Self::Resume(_) => 2,
-            Self::Io(_) | Self::Threads { .. } | Self::Failed(_) => 1,
+            Self::Io(_) | Self::Threads(..) | Self::Failed(_) => 1,
         }
     }
 }
@@ -66,24 +59,4 @@ pub struct Failure {
     pub grain: Option<usize>,
     /// Place of that grain, m.
     pub position: Option<[f64; 3]>,
-}
-
-/// The grain that an error names.
-pub(crate) fn grain_of(error: &CoupledError) -> Option<usize> {
-    match error {
-        CoupledError::Grains(
-            GrainError::NotFinite { grain, .. }
-            | GrainError::InWall { grain, .. }
-            | GrainError::InMesh { grain, .. }
-            | GrainError::TooDeep { grain, .. }
-            | GrainError::NotPositive { grain, .. }
-            | GrainError::StepTooLarge { grain, .. }
-            | GrainError::Overlap { first: grain, .. },
-        )
-        | CoupledError::StepTooLarge { grain, .. }
-        | CoupledError::Flow(
-            FlowError::Overlap { first: grain, .. } | FlowError::InWall { sphere: grain, .. },
-        ) => Some(*grain),
-        _ => None,
-    }
 }

@@ -5,11 +5,10 @@ use serde::Serialize;
 use crate::scene::columns::headings;
 use crate::scene::error::DemError;
 use crate::scene::forecast::{Cost, foreseen};
-use crate::scene::laws::listing;
 use crate::scene::names::{planes, surfaces};
 use crate::scene::read::Loaded;
 use crate::scene::summary::PluginInForce;
-use crate::scene::tables::{Fluid, Scene};
+use crate::scene::tables::{Fluid, Plugins, Scene};
 
 /// Data of a scene before it runs.
 #[derive(Clone, Debug, Serialize)]
@@ -33,13 +32,13 @@ pub struct Examination {
     /// Columns of the series with their units.
     pub columns: Vec<(String, String)>,
     /// Data per grain, with the bytes of each.
-    pub memory: Vec<(String, f64)>,
+    pub memory: Vec<(&'static str, f64)>,
     /// Works of a step, in order.
-    pub stages: Vec<String>,
+    pub stages: Vec<&'static str>,
     /// Limiters of the step.
-    pub limits: Vec<String>,
+    pub limits: [&'static str; 2],
     /// Quantities that follow from the numbers of the scene: name, value, unit.
-    pub derived: Vec<(String, f64, String)>,
+    pub derived: Vec<(&'static str, f64, &'static str)>,
     /// Lower bound of steps and run time.
     pub estimate: Cost,
     /// Remarks.
@@ -54,7 +53,6 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
     loaded.check_files()?;
     let scene = &loaded.scene;
     let coupled = scene.fluid.is_some();
-    let columns = headings(loaded).into_iter();
     let (estimate, warnings) = foreseen(loaded, count(scene))?;
     Ok(Examination {
         scene: scene.title.clone(),
@@ -65,9 +63,7 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
         surfaces: surfaces(scene),
         coupled,
         plugins: plugins(scene),
-        columns: columns
-            .map(|(name, unit)| (name, unit.to_string()))
-            .collect(),
+        columns: headings(scene),
         memory: memory(count(scene), coupled),
         stages: stages(scene.fluid.as_ref()),
         limits: limits(coupled),
@@ -105,56 +101,44 @@ fn start(scene: &Scene) -> &'static str {
 
 /// Every contact law and conductance in force.
 pub fn plugins(scene: &Scene) -> Vec<PluginInForce> {
-    let mut all = Vec::new();
-    let mut add = |kind: &str, of: &str, given: Option<(String, serde_json::Value)>| {
-        if let Some((name, parameters)) = given {
-            all.push(PluginInForce {
-                kind: kind.into(),
-                of: of.into(),
-                name,
-                parameters,
-            });
-        }
+    let law = |of: &str, plugins| ("contact-law", of.to_string(), plugins);
+    let start = &scene.start;
+    let mut tables = vec![
+        law("grains", &scene.grains.contact),
+        law("preparation", &start.contact),
+        law("walls in the preparation", &start.wall_contact),
+    ];
+    tables.extend(scene.r#box.iter().map(|b| law("box", &b.contact)));
+    let walls = scene.wall.iter();
+    tables.extend(walls.map(|(name, wall)| law(&format!("wall {name}"), &wall.contact)));
+    let none = Plugins::from([("hydraulic-radius".to_string(), toml::Table::new())]);
+    tables.extend(scene.fluid.iter().map(|fluid| {
+        let given = Some(&fluid.conductance).filter(|plugins| !plugins.is_empty());
+        ("conductance", "throats".to_string(), given.unwrap_or(&none))
+    }));
+    let in_force = |(kind, of, plugins): (&str, String, &Plugins)| {
+        let (name, table) = plugins.first_key_value()?;
+        Some(PluginInForce {
+            kind: kind.to_string(),
+            of,
+            name: name.clone(),
+            parameters: serde_json::to_value(table).unwrap_or_default(),
+        })
     };
-    add("contact-law", "grains", listing(&scene.grains.contact));
-    add("contact-law", "preparation", listing(&scene.start.contact));
-    let walls = listing(&scene.start.wall_contact);
-    add("contact-law", "walls in the preparation", walls);
-    if let Some(given) = &scene.r#box {
-        add("contact-law", "box", listing(&given.contact));
-    }
-    for (name, wall) in &scene.wall {
-        add(
-            "contact-law",
-            &format!("wall {name}"),
-            listing(&wall.contact),
-        );
-    }
-    if let Some(fluid) = &scene.fluid {
-        let default = || Some(("hydraulic-radius".to_string(), serde_json::json!({})));
-        add(
-            "conductance",
-            "throats",
-            listing(&fluid.conductance).or_else(default),
-        );
-    }
-    all
+    tables.into_iter().filter_map(in_force).collect()
 }
 
 /// Bytes per grain. Columns and contacts follow from their types; what belongs to cells was measured with packings of 1000
 /// and 5000 grains: 5.7 cells a grain, and a factor that grows with the third root of the number of grains.
-fn memory(grains: Option<usize>, coupled: bool) -> Vec<(String, f64)> {
+fn memory(grains: Option<usize>, coupled: bool) -> Vec<(&'static str, f64)> {
     let mut all = vec![
-        ("columns of grains".to_string(), COLUMNS),
-        ("contacts and neighbours".to_string(), CONTACTS),
+        ("columns of grains", COLUMNS),
+        ("contacts and neighbours", CONTACTS),
     ];
     if coupled {
         let thousands = grains.unwrap_or(1000) as f64 / 1000.0;
-        all.push(("pores and throats".to_string(), PORES));
-        all.push((
-            "factor of the matrix".to_string(),
-            FACTOR * thousands.cbrt(),
-        ));
+        all.push(("pores and throats", PORES));
+        all.push(("factor of the matrix", FACTOR * thousands.cbrt()));
     }
     all
 }
@@ -168,30 +152,27 @@ const PORES: f64 = 5.7 * 320.0 + 11.4 * 330.0;
 /// 450 numbers with their rows in a packing of 1000.
 const FACTOR: f64 = 450.0 * 12.0;
 
-fn stages(fluid: Option<&Fluid>) -> Vec<String> {
+fn stages(fluid: Option<&Fluid>) -> Vec<&'static str> {
     let mut all = vec![
-        "neighbours: a grid and a skin, made anew when a grain moved by half of it".to_string(),
-        "contacts: overlaps, forces by law, what is remembered of each".to_string(),
-        "sums: each grain adds its own contacts in the order of their numbers".to_string(),
+        "neighbours: a grid and a skin, made anew when a grain moved by half of it",
+        "contacts: overlaps, forces by law, what is remembered of each",
+        "sums: each grain adds its own contacts in the order of their numbers",
     ];
-    let edges = fluid.is_some_and(|f| f.shear || f.lubrication.is_some());
     if fluid.is_some() {
-        all.push("pores: one pressure each, from the rates of their volumes; factor kept while the mesh lasts".into());
-        all.push("fluid: forces of pressures and viscosity on grains and walls".into());
+        all.push("pores: one pressure each, from the rates of their volumes; factor kept while the mesh lasts");
+        all.push("fluid: forces of pressures and viscosity on grains and walls");
     }
-    if edges {
-        all.push(
-            "neighbours: shear across the faces between them, lubrication of their gaps".into(),
-        );
+    if fluid.is_some_and(|f| f.given.shear || f.given.lubrication.is_some()) {
+        all.push("neighbours: shear across the faces between them, lubrication of their gaps");
     }
-    all.push("motion: walls by their control, then velocities and positions by a leap-frog".into());
+    all.push("motion: walls by their control, then velocities and positions by a leap-frog");
     if fluid.is_some() {
-        all.push("volumes of pores; the mesh anew when the largest strain adds up".into());
+        all.push("volumes of pores; the mesh anew when the largest strain adds up");
     }
     all
 }
 
-fn limits(coupled: bool) -> Vec<String> {
+fn limits(coupled: bool) -> [&'static str; 2] {
     let stable = match coupled {
         false => "contacts: Δt < 2/ω, ω a bound from the stiffness of all contacts of a grain",
         true => {
@@ -199,10 +180,10 @@ fn limits(coupled: bool) -> Vec<String> {
         }
     };
     let motion = "motion: no grain goes further than a tenth of its radius in a step";
-    [stable, motion].map(String::from).to_vec()
+    [stable, motion]
 }
 
-fn derived(scene: &Scene) -> Vec<(String, f64, String)> {
+fn derived(scene: &Scene) -> Vec<(&'static str, f64, &'static str)> {
     let mut all = Vec::new();
     let density = scene.grains.density;
     let gravity = scene
@@ -210,22 +191,15 @@ fn derived(scene: &Scene) -> Vec<(String, f64, String)> {
         .gravity
         .map(|g| g.iter().map(|x| x * x).sum::<f64>().sqrt());
     if let (Some(fluid), Some(g)) = (&scene.fluid, gravity) {
-        let weight = (density - fluid.density) * g;
-        all.push((
-            "buoyant weight of a solid volume".to_string(),
-            weight,
-            "N/m³".to_string(),
-        ));
+        let weight = (density - fluid.given.density) * g;
+        all.push(("buoyant weight of a solid volume", weight, "N/m³"));
     }
     if let (Some(fluid), Some([small, _])) = (&scene.fluid, scene.grains.radius) {
         // Catalano 2012, Eq. (4.20): about a third of it is stable for narrow gradings.
-        let step =
-            std::f64::consts::PI * density * (2.0 * small).powi(2) / (1200.0 * fluid.viscosity);
-        all.push((
-            "viscous step by (4.20), three to six times too long".into(),
-            step,
-            "s".into(),
-        ));
+        let step = std::f64::consts::PI * density * (2.0 * small).powi(2)
+            / (1200.0 * fluid.given.viscosity);
+        let name = "viscous step by (4.20), three to six times too long";
+        all.push((name, step, "s"));
     }
     all
 }

@@ -6,54 +6,58 @@ use crate::grains::{GrainSystem, Partner, Touch, Vector, strains};
 use crate::scene::model::Model;
 use crate::scene::origin::Origin;
 
-/// Fields of every system: name and unit.
-const DRY: [(&str, &str); 7] = [
-    ("radius", "m"),
-    ("speed", "m/s"),
-    ("stress", "Pa"),
-    ("displacement", "m"),
-    ("contacts", ""),
-    ("sliding_contacts", ""),
-    ("strain_deviator", ""),
+/// Name and unit of a field, and one number per grain.
+type Field = (&'static str, &'static str, fn(&Model, &Origin) -> Vec<f64>);
+
+/// All fields; those that a fluid adds are the last.
+static FIELDS: [Field; 9] = [
+    ("radius", "m", |m, _| m.grains().grains.radius.to_vec()),
+    ("speed", "m/s", |m, _| {
+        let velocities = m.grains().grains.velocity.iter();
+        velocities.map(|v| v.norm()).collect()
+    }),
+    // A third of the trace: the mean stress in the grain.
+    ("stress", "Pa", |m, _| {
+        let stresses = m.grains().grain_stresses();
+        stresses.iter().map(|s| s.trace() / 3.0).collect()
+    }),
+    ("displacement", "m", |m, origin| {
+        let all = displacements(m.grains(), origin);
+        all.into_iter().map(length).collect()
+    }),
+    ("contacts", "", |m, _| contacts(m.grains(), |_| true)),
+    ("sliding_contacts", "", |m, _| {
+        contacts(m.grains(), |touch| touch.sliding)
+    }),
+    ("strain_deviator", "", |m, origin| {
+        strain_deviators(m.grains(), origin)
+    }),
+    ("pore_pressure", "Pa", |m, _| pore_pressures(m)),
+    ("fluid_force", "N", |m, _| fluid_forces(m)),
 ];
-/// Those that a fluid adds.
-const WET: [(&str, &str); 2] = [("pore_pressure", "Pa"), ("fluid_force", "N")];
+/// Number of those that need no fluid.
+const DRY: usize = 7;
 
 /// Names of the fields of a system.
 pub fn names(wet: bool) -> impl Iterator<Item = &'static str> {
-    let more = if wet { WET.len() } else { 0 };
-    DRY.iter().chain(&WET[..more]).map(|(name, _)| *name)
+    let count = if wet { FIELDS.len() } else { DRY };
+    FIELDS[..count].iter().map(|(name, ..)| *name)
+}
+
+fn field(name: &str) -> Option<&'static Field> {
+    FIELDS.iter().find(|(n, ..)| *n == name)
 }
 
 /// Unit of a field.
 pub fn unit(name: &str) -> &'static str {
-    let found = DRY.iter().chain(&WET).find(|(n, _)| *n == name);
-    found.map_or("", |(_, unit)| unit)
+    field(name).map_or("", |(_, unit, _)| unit)
 }
 
 /// One number per grain; zeros for a name that is none.
 pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
-    let system = model.grains();
-    let grains = &system.grains;
-    match name {
-        "radius" => grains.radius.to_vec(),
-        "speed" => grains.velocity.iter().map(|v| v.norm()).collect(),
-        // A third of the trace: the mean stress in the grain.
-        "stress" => system
-            .grain_stresses()
-            .iter()
-            .map(|s| s.trace() / 3.0)
-            .collect(),
-        "displacement" => displacements(system, origin)
-            .iter()
-            .map(|u| length(*u))
-            .collect(),
-        "contacts" => contacts(system, |_| true),
-        "sliding_contacts" => contacts(system, |touch| touch.sliding),
-        "strain_deviator" => strain_deviators(system, origin),
-        "pore_pressure" => pore_pressures(model),
-        "fluid_force" => fluid_forces(model),
-        _ => vec![0.0; grains.len()],
+    match field(name) {
+        Some((.., values)) => values(model, origin),
+        None => vec![0.0; model.grains().grains.len()],
     }
 }
 

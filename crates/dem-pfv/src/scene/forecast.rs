@@ -104,7 +104,7 @@ fn stable(scene: &Scene, radius: f64) -> Result<f64, DemError> {
     let drag = scene
         .fluid
         .as_ref()
-        .map_or(f64::INFINITY, |f| drag(f.viscosity));
+        .map_or(f64::INFINITY, |f| drag(f.given.viscosity));
     Ok(contacts.min(drag))
 }
 
@@ -116,7 +116,7 @@ fn stable(scene: &Scene, radius: f64) -> Result<f64, DemError> {
 fn carried(loaded: &Loaded, radius: f64) -> Result<(), DemError> {
     let scene = &loaded.scene;
     let setup = setup(loaded, Vec::new(), Laws::from_scene(scene)?)?;
-    let fluid = scene.fluid.as_ref().map_or(0.0, |f| f.density);
+    let fluid = scene.fluid.as_ref().map_or(0.0, |f| f.given.density);
     let mass = (scene.grains.density - fluid) * volume(&[radius]);
     let deepest = GrainSystem::DEEPEST * radius;
     for (wall, name) in setup.walls.iter().zip(planes(scene)) {

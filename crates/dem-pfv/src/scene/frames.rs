@@ -22,26 +22,23 @@ pub fn pieces(model: &Model, origin: &Origin) -> Vec<Piece<'static>> {
 }
 
 fn points(system: &GrainSystem) -> Vec<[f64; 3]> {
-    system
-        .grains
-        .position
-        .iter()
-        .map(|x| [x.x, x.y, x.z])
-        .collect()
+    let all = system.grains.position.iter();
+    all.map(|x| (*x).into()).collect()
+}
+
+fn at_cells(name: &'static str, unit: &'static str, values: Vec<f64>) -> FieldData<'static> {
+    FieldData::scalar(name, unit, values).at_cells()
 }
 
 /// One point per grain; scale glyphs by `radius`.
 fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
     let system = model.grains();
-    let vector = |name: &'static str, unit: &'static str, all: Vec<f64>| {
-        FieldData::tensor(name, unit, 3, all)
-    };
     let velocity = system.grains.velocity.iter().flat_map(|v| [v.x, v.y, v.z]);
     let spin = system.grains.spin.iter().flat_map(|v| [v.x, v.y, v.z]);
     let mut fields = vec![
-        vector("velocity", "m/s", velocity.collect()),
-        vector("spin", "1/s", spin.collect()),
-        vector("shift", "m", displacements(system, origin).concat()),
+        FieldData::tensor("velocity", "m/s", 3, velocity.collect::<Vec<_>>()),
+        FieldData::tensor("spin", "1/s", 3, spin.collect::<Vec<_>>()),
+        FieldData::tensor("shift", "m", 3, displacements(system, origin).concat()),
     ];
     for name in names(model.wet().is_some()) {
         fields.push(FieldData::scalar(
@@ -90,8 +87,8 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
         points: ends.into(),
         cells: Cells::Segments(lines.into()),
         fields: vec![
-            FieldData::scalar("normal_force", "N", normal).at_cells(),
-            FieldData::scalar("shear_force", "N", shear).at_cells(),
+            at_cells("normal_force", "N", normal),
+            at_cells("shear_force", "N", shear),
             FieldData::integer("at_wall", wall).at_cells(),
         ],
     }
@@ -122,17 +119,16 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
         }));
     }
     let rates = system.volume_rates().iter().zip(system.volumes());
-    let rates: Vec<f64> = rates.map(|(rate, volume)| rate / volume).collect();
-    let voids = system.pores().void_volumes.to_vec();
+    let rates = rates.map(|(rate, volume)| rate / volume);
     Some(Piece {
         name: "pores".into(),
         points: places.into(),
         cells: Cells::Tetrahedra(cells.into()),
         fields: vec![
-            FieldData::scalar("pressure", "Pa", system.pressures().to_vec()).at_cells(),
-            FieldData::scalar("volume", "m³", system.volumes().to_vec()).at_cells(),
-            FieldData::scalar("void", "m³", voids).at_cells(),
-            FieldData::scalar("strain_rate", "1/s", rates).at_cells(),
+            at_cells("pressure", "Pa", system.pressures().to_vec()),
+            at_cells("volume", "m³", system.volumes().to_vec()),
+            at_cells("void", "m³", system.pores().void_volumes.to_vec()),
+            at_cells("strain_rate", "1/s", rates.collect()),
         ],
     })
 }
@@ -140,35 +136,24 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
 /// A line between the places of two pores, with the conductance of the throat between them.
 fn throats(model: &Model) -> Option<Piece<'static>> {
     let system = model.wet()?;
-    let places: Vec<[f64; 3]> = system
-        .pore_places()
-        .iter()
-        .map(|x| [x.x, x.y, x.z])
-        .collect();
+    let places = system.pore_places().into_iter().map(<[f64; 3]>::from);
     let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
-    let difference = all.iter().map(|t| {
+    let differences = all.iter().map(|t| {
         let [i, j] = t.cells;
         system.pressures()[i] - system.pressures()[j]
     });
-    let radius = all
-        .iter()
-        .map(|t| t.hydraulic_radius())
-        .map(|r| if r.is_finite() { r } else { 0.0 });
+    let radii = all.iter().map(|t| t.hydraulic_radius());
+    let radii = radii.map(|r| if r.is_finite() { r } else { 0.0 });
+    let areas = all.iter().map(|t| t.fluid_area);
     Some(Piece {
         name: "throats".into(),
-        points: places.into(),
+        points: places.collect::<Vec<_>>().into(),
         cells: Cells::Segments(lines.into()),
         fields: vec![
-            FieldData::scalar("pressure_difference", "Pa", difference.collect::<Vec<_>>())
-                .at_cells(),
-            FieldData::scalar("hydraulic_radius", "m", radius.collect::<Vec<_>>()).at_cells(),
-            FieldData::scalar(
-                "fluid_area",
-                "m²",
-                all.iter().map(|t| t.fluid_area).collect::<Vec<_>>(),
-            )
-            .at_cells(),
+            at_cells("pressure_difference", "Pa", differences.collect()),
+            at_cells("hydraulic_radius", "m", radii.collect()),
+            at_cells("fluid_area", "m²", areas.collect()),
         ],
     })
 }

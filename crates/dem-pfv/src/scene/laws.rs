@@ -1,12 +1,12 @@
 //! Contact laws and conductances by name.
 
-use scene_text::{OnePlugin, SceneProblem, conform, suggestion};
-use serde_json::Value as Json;
-use toml::Value;
+use std::collections::BTreeMap;
 
-use crate::Entry;
-use crate::flow::{Conductance, HydraulicRadius, conductance, conductances};
-use crate::grains::{ContactLaw, contact_law, contact_laws};
+use scene_text::OnePlugin;
+use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of, reexport::inventory};
+
+use crate::flow::{Conductance, ConductanceEntry, HydraulicRadius};
+use crate::grains::{ContactLaw, ContactLawEntry};
 use crate::scene::error::DemError;
 use crate::scene::tables::{Plugins, Scene};
 
@@ -34,53 +34,43 @@ pub struct Laws {
     pub of_others: usize,
     /// Number of the law of the walls of the box.
     pub of_box: usize,
-    /// Numbers of the laws of `[wall.NAME]`, in their order.
-    pub of_walls: Vec<Option<usize>>,
+    /// Numbers of the laws of walls that have one of their own.
+    pub of_walls: BTreeMap<String, usize>,
 }
 
-/// The only plugin of a table, its parameters in SI.
-fn chosen<L: ?Sized>(
-    plugins: &Plugins,
-    path: &str,
-    what: &str,
-    entries: &[&Entry<L>],
-) -> Result<Option<(String, Json, String)>, DemError> {
+/// A plugin with its path.
+type PluginAtPath<E> = (Box<<E as Makes<3>>::Made>, String);
+
+/// The only plugin of a table, built.
+fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<PluginAtPath<E>>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
     };
     if plugins.len() > 1 {
         let names: Vec<_> = plugins.keys().map(|n| format!("`{n}`")).collect();
+        let what = E::KIND.name.replace('-', " ");
         let message = format!("one {what} is needed, there are {}", names.join(", "));
         return Err(DemError::at(path, message));
     }
     let inside = format!("{path}.{name}");
-    let Some(entry) = entries.iter().find(|e| e.name == *name) else {
-        let names = || entries.iter().map(|e| e.name);
-        let near = suggestion(name, names());
-        let known = names().collect::<Vec<_>>().join(", ");
-        let message = format!("there is no {what} called `{name}`{near} (registered: {known})");
-        return Err(DemError::at(inside, message));
+    let choice = PluginChoice {
+        kind: E::KIND.name,
+        name: name.clone(),
+        table: table.clone(),
+        path: inside.clone(),
+        name_path: inside.clone(),
     };
-    let mut value = Value::Table(table.clone());
-    conform(&mut value, &(entry.schema)()).map_err(|problems| {
-        let moved = |p: SceneProblem| {
-            let path = match p.path.as_str() {
-                "" => inside.clone(),
-                key => format!("{inside}.{key}"),
-            };
-            SceneProblem::new(path, p.message)
-        };
-        DemError::Scene(problems.into_iter().map(moved).collect())
-    })?;
-    let json = serde_json::to_value(value).map_err(|e| DemError::at(&inside, e))?;
-    Ok(Some((name.clone(), json, inside)))
+    let refused = |e: RegistryError| DemError::Scene(choice.scene_problems(&e));
+    let registry = Registry::<E>::discovered().map_err(refused)?;
+    let made = registry.find(name).and_then(|entry| entry.make(table));
+    Ok(Some((made.map_err(refused)?, inside)))
 }
 
 fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>, DemError> {
-    let Some((name, json, inside)) = chosen(plugins, path, "contact law", &contact_laws())? else {
+    let Some((law, inside)) = chosen::<ContactLawEntry>(plugins, path)? else {
         return Ok(None);
     };
-    let law = contact_law(&name, &json).map_err(|e| DemError::at(inside, e))?;
+    law.check().map_err(|e| DemError::at(inside, e))?;
     Ok(Some(law))
 }
 
@@ -91,7 +81,10 @@ impl Laws {
     /// No law for the grains; unknown laws and parameters.
     pub fn from_scene(scene: &Scene) -> Result<Self, DemError> {
         let Some(between) = contact(&scene.grains.contact, "grains.contact")? else {
-            let names: Vec<_> = contact_laws().iter().map(|e| e.name).collect();
+            let names: Vec<_> = plugins_of::<ContactLawEntry>()
+                .iter()
+                .map(|p| p.name)
+                .collect();
             let names = names.join(", ");
             let message =
                 format!("a contact law is missing: [grains.contact.LAW] with one of {names}");
@@ -112,13 +105,12 @@ impl Laws {
             of_box = all.len();
             all.push(law);
         }
-        let mut of_walls = Vec::new();
+        let mut of_walls = BTreeMap::new();
         for (name, wall) in &scene.wall {
-            let law = contact(&wall.contact, &format!("wall.{name}.contact"))?;
-            of_walls.push(law.map(|law| {
+            if let Some(law) = contact(&wall.contact, &format!("wall.{name}.contact"))? {
+                of_walls.insert(name.clone(), all.len());
                 all.push(law);
-                all.len() - 1
-            }));
+            }
         }
         let mut prepared = Vec::new();
         prepared.extend(contact(&scene.start.contact, "start.contact")?.map(|law| (0, law)));
@@ -142,17 +134,9 @@ impl Laws {
 pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
     let none = Plugins::new();
     let given = scene.fluid.as_ref().map_or(&none, |f| &f.conductance);
-    match chosen(given, "fluid.conductance", "conductance", &conductances())? {
-        None => Ok(Box::new(HydraulicRadius::default())),
-        Some((name, json, inside)) => {
-            conductance(&name, &json).map_err(|e| DemError::at(inside, e))
-        }
-    }
-}
-
-/// Name and parameters of a plugin that a scene names, for listings.
-pub(crate) fn listing(plugins: &Plugins) -> Option<(String, Json)> {
-    let (name, table) = plugins.first_key_value()?;
-    let json = serde_json::to_value(table).unwrap_or(Json::Null);
-    Some((name.clone(), json))
+    let Some((law, inside)) = chosen::<ConductanceEntry>(given, "fluid.conductance")? else {
+        return Ok(Box::new(HydraulicRadius::default()));
+    };
+    law.check().map_err(|e| DemError::at(inside, e))?;
+    Ok(law)
 }

@@ -7,7 +7,6 @@ use nalgebra::Matrix3;
 
 use crate::grains::{GrainSystem, Vector, Wall};
 use crate::scene::fields::{displacements, strain_deviators};
-use crate::scene::highest_point::highest;
 use crate::scene::level::level;
 use crate::scene::model::Model;
 use crate::scene::names::planes;
@@ -78,7 +77,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
         | Probe::Sliding {}
         | Probe::StrainDeviator {} => packing(probe, grains, origin),
         Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
-        Probe::Top {} => Some(highest(grains)),
+        Probe::Top {} => Some(grains.highest()),
         Probe::Level { axis, from, to } => {
             let room = scene.r#box.as_ref()?;
             level(grains, [room.low, room.high], axis.number(), [*from, *to])

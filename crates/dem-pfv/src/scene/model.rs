@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::coupled::{CoupledError, CoupledSystem};
 use crate::flow::Conductance;
 use crate::grains::{ContactLaw, Control, GrainSystem};
-use crate::scene::error::{Failure, grain_of};
+use crate::scene::error::Failure;
 use crate::scene::tables::Piston;
 
 /// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
@@ -116,47 +116,32 @@ impl Model {
 
     fn try_advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, CoupledError> {
         let left = (end - self.grains().time).max(0.0);
-        // The last step is shortened, but not to nothing.
-        let cut = |step: f64| {
-            if left < step {
-                left.max(1e-3 * step)
-            } else {
-                step
-            }
-        };
-        let motion = |grains: &GrainSystem| grains.motion_limit(MOTION_SHARE);
-        match self {
-            Self::Dry(system) => {
-                let (contacts, motion) = (safety * system.current_limit(), motion(system));
-                let step = cut(contacts.min(motion));
-                system.step(step)?;
-                let limiter = if motion < contacts {
-                    "motion"
-                } else {
-                    "contacts"
-                };
-                Ok(StepOutcome { step, limiter })
-            }
+        let (stable, of) = match self {
+            Self::Dry(system) => (system.current_limit(), "contacts"),
             Self::Wet(system) => {
                 let limit = system.step_limit()?;
-                let (stable, motion) = (safety * limit.step, motion(system.grains()));
-                let step = cut(stable.min(motion));
-                system.step_unchecked(step)?;
-                let limiter = if motion < stable {
-                    "motion"
-                } else if limit.elastic < limit.viscous {
-                    "contacts"
-                } else {
-                    "drag"
-                };
-                Ok(StepOutcome { step, limiter })
+                let elastic = limit.elastic < limit.viscous;
+                (limit.step, if elastic { "contacts" } else { "drag" })
             }
+        };
+        let stable = safety * stable;
+        let motion = self.grains().motion_limit(MOTION_SHARE);
+        let mut step = stable.min(motion);
+        if left < step {
+            // The last step is shortened, but not to nothing.
+            step = left.max(1e-3 * step);
         }
+        match self {
+            Self::Dry(system) => system.step(step)?,
+            Self::Wet(system) => system.step_unchecked(step)?,
+        }
+        let limiter = if motion < stable { "motion" } else { of };
+        Ok(StepOutcome { step, limiter })
     }
 
     fn failure(&self, error: CoupledError) -> Failure {
         let grains = self.grains();
-        let grain = grain_of(&error);
+        let grain = error.grain();
         let position = grain.and_then(|k| grains.grains.position.get(k));
         Failure {
             time: grains.time,
@@ -188,7 +173,7 @@ impl Model {
         Ok(match saved {
             Saved::Dry(state) => Self::Dry(Box::new(GrainSystem::resume(*state, laws)?)),
             Saved::Wet(state) => {
-                let system = CoupledSystem::resume_with_law(*state, laws, throats)?;
+                let system = CoupledSystem::resume(*state, laws, throats)?;
                 Self::Wet(Box::new(system))
             }
         })

@@ -5,11 +5,6 @@ use crate::scene::tables::{Axis, Scene};
 /// The walls of a box, in the order of `dem_pfv::grains::Wall::cuboid`.
 pub const BOX: [&str; 6] = ["left", "right", "front", "back", "bottom", "top"];
 
-/// The axis across a wall of the box.
-pub fn axis_of(wall: usize) -> usize {
-    wall / 2
-}
-
 /// True if the box repeats itself along an axis.
 pub fn periodic(scene: &Scene, axis: usize) -> bool {
     let given = scene.r#box.iter().flat_map(|b| &b.periodic);
@@ -19,9 +14,10 @@ pub fn periodic(scene: &Scene, axis: usize) -> bool {
 /// Names of the planes in the order in which the system has them: those of the box, then further ones.
 pub fn planes(scene: &Scene) -> Vec<String> {
     let boxed = BOX.iter().enumerate().filter(|(k, name)| {
-        scene.r#box.as_ref().is_some_and(|b| {
-            !periodic(scene, axis_of(*k)) && !b.open.iter().any(|open| open == *name)
-        })
+        scene
+            .r#box
+            .as_ref()
+            .is_some_and(|b| !periodic(scene, *k / 2) && !b.open.iter().any(|open| open == *name))
     });
     let boxed = boxed.map(|(_, name)| (*name).to_string());
     let more = scene

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
+use crate::coupled::Terzaghi;
 use crate::grains::GrainSystem;
-use crate::scene::highest_point::highest;
 use crate::scene::tables::Scene;
 use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 
@@ -40,7 +40,7 @@ impl Origin {
         Self {
             lengths: grains.box_lengths(),
             positions: all.position.iter().map(|x| [x.x, x.y, x.z]).collect(),
-            top: highest(grains),
+            top: grains.highest(),
             diameter: 2.0 * all.radius.iter().sum::<f64>() / all.len() as f64,
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
             dry_strain: None,
@@ -74,5 +74,13 @@ impl Origin {
     /// C_v = K Δσ / ε, m²/s.
     pub fn consolidation(&self) -> Option<f64> {
         Some(self.mobility? * self.load? / self.dry_strain?)
+    }
+
+    /// Consolidation from this state, drained at top and bottom; not a number without an oedometer.
+    pub fn terzaghi(&self) -> Terzaghi {
+        Terzaghi {
+            coefficient: self.consolidation().unwrap_or(f64::NAN),
+            drainage: self.lengths.map_or(f64::NAN, |l| 0.5 * l[2]),
+        }
     }
 }

@@ -7,7 +7,6 @@ use crate::grains::{
 };
 use crate::scene::culprits::{at_start, named, rows};
 use crate::scene::error::DemError;
-use crate::scene::highest_point::highest;
 use crate::scene::laws::Laws;
 use crate::scene::names::planes;
 use crate::scene::read::Loaded;
@@ -68,7 +67,7 @@ pub fn grains(
     }
     settled(loaded, &mut system, tell)?;
     for (number, law) in run_laws {
-        system.replace_law(number, law).map_err(told)?;
+        system.set_law(number, law).map_err(told)?;
     }
     lower_the_top(scene, &mut system, top)?;
     Ok(system)
@@ -109,7 +108,7 @@ fn settled(
         }
     }
     let gravity = system.gravity;
-    let lift = |fluid: &Fluid| fluid.density / scene.grains.density;
+    let lift = |fluid: &Fluid| fluid.given.density / scene.grains.density;
     let buoyant = 1.0 - scene.fluid.as_ref().map_or(0.0, lift);
     let shares: &[f64] = match scene.start.weight {
         Weight::Buoyant => &[buoyant],
@@ -136,7 +135,7 @@ fn lower_the_top(
     let (Some(top), Some(given)) = (top, &scene.r#box) else {
         return Ok(());
     };
-    let highest = highest(system);
+    let highest = system.highest();
     let at = match scene.start.headroom {
         Some(room) => highest + room,
         None if scene.start.rained.is_some() => given.high[2],
@@ -251,8 +250,7 @@ fn lattice_of(
 
 pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
     let key = "start.file";
-    let path = loaded.source.resolve(key, file);
-    let path = path.map_err(|e| DemError::at(key, e))?;
+    let path = loaded.resolve(key, file)?;
     let told = |why: String| DemError::at(key, format!("`{}`: {why}", path.display()));
     let text = scene_text::read_text(&path).map_err(told)?;
     let unit = loaded.scene.start.unit.as_deref();

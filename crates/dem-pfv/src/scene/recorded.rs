@@ -28,7 +28,7 @@ pub fn read(source: &Source, wall: &str, load: &RecordedLoad) -> Result<Recorded
     let rows = 0..times.len();
     let pressures = rows.flat_map(|row| columns.iter().map(move |c| c[row] - load.less));
     let recorded = Recorded {
-        axis: load.axis.number(),
+        axis: load.axis,
         places: load.places.clone(),
         times: times.iter().map(|t| t - load.start).collect(),
         pressures: pressures.collect(),

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use sph_run::{
     BAD_STATE, BAD_STATE_PICTURE, Frames, Identity, ModelTime, Outlay, RunCounters, RunOptions,
-    SERIES, Schedule, Start, Status, Watch, next_multiple,
+    SERIES, Schedule, Start, Status, Watch,
 };
 
 use crate::coupled::CoupledError;
@@ -43,14 +43,10 @@ pub fn run(
     observer: &mut Watch<'_>,
 ) -> Result<Summary, DemError> {
     loaded.check_files()?;
-    let mut pool = rayon::ThreadPoolBuilder::new();
-    if let Some(threads) = options.threads {
-        pool = pool.num_threads(threads);
-    }
-    let pool = pool.build().map_err(|e| DemError::Threads {
-        threads: options.threads.unwrap_or(0),
-        reason: e.to_string(),
-    })?;
+    // Of zero threads as many as there are cores.
+    let threads = options.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|e| DemError::Threads(threads, e.to_string()))?;
     let (run, output) = (&loaded.scene.run, &loaded.scene.output);
     let schedule = Schedule {
         rows: output.series_interval(run.end),
@@ -65,12 +61,7 @@ pub fn run(
         pictures: output.picture.clone(),
         digits: 6,
         animation: Some(output.animation.unwrap_or(10.0)).filter(|speed| *speed > 0.0),
-        folders: output
-            .picture
-            .first()
-            .map(|_| "pictures")
-            .into_iter()
-            .collect(),
+        folders: output.picture.iter().take(1).map(|_| "pictures").collect(),
     };
     pool.install(|| {
         let mut running = Running::new(loaded, options, observer)?;
@@ -105,8 +96,9 @@ impl<'a> Running<'a> {
         if options.start == Start::Afresh {
             let begun = Instant::now();
             running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
-            running.progress.preparation_seconds = begun.elapsed().as_secs_f64();
-            running.progress.wall_seconds = running.progress.preparation_seconds;
+            let seconds = begun.elapsed().as_secs_f64();
+            running.progress.preparation_seconds = seconds;
+            running.progress.books.wall_seconds = seconds;
         }
         Ok(running)
     }
@@ -161,27 +153,13 @@ impl sph_run::Model for Running<'_> {
                 return Err(DemError::Resume(why.into()));
             }
         }
-        let mut probes = self.loaded.probes.values();
+        let mut probes = self.loaded.scene.probe.values();
         if let Some(parts) = &mut self.parts
             && probes.any(|p| matches!(p, Probe::Flux { .. }))
         {
             parts.model.measure_inflow();
         }
-        let progress = &self.progress;
-        let end = self.loaded.scene.run.end;
-        let interval = self.loaded.scene.output.interval(end);
-        Ok(RunCounters {
-            time: self.parts()?.model.grains().time,
-            rows: progress.rows,
-            last_row: progress.last_row,
-            series: progress.series,
-            outputs: progress.frames,
-            next_output: next_multiple(interval, end, progress.last_output.unwrap_or(-1.0)),
-            checkpoints: progress.checkpoints.saturating_sub(1),
-            colours: progress.colours.clone(),
-            wall_seconds: progress.wall_seconds,
-            output_seconds: 0.0,
-        })
+        Ok(self.progress.books.clone())
     }
 
     fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, DemError> {
@@ -198,18 +176,13 @@ impl sph_run::Model for Running<'_> {
     }
 
     fn columns(&self) -> Vec<(String, String)> {
-        let columns = headings(self.loaded).into_iter();
-        columns.map(|(name, unit)| (name, unit.into())).collect()
+        headings(&self.loaded.scene)
     }
 
     fn row(&mut self, _: &mut Watch<'_>) -> Result<Vec<f64>, DemError> {
-        let parts = self.parts()?;
-        Ok(row(
-            self.loaded,
-            &parts.model,
-            &parts.origin,
-            self.progress.dt,
-        ))
+        let Assembled { model, origin, .. } = self.parts()?;
+        let dt = self.progress.dt;
+        Ok(row(&self.loaded.scene, model, origin, dt))
     }
 
     fn show(
@@ -240,34 +213,18 @@ impl sph_run::Model for Running<'_> {
                 frames::picture(model, origin, field, range, &scene.title, None, &path)?;
             }
         }
-        self.progress.last_output = Some(time);
         Ok(())
     }
 
     fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), DemError> {
-        let scene = &self.loaded.scene;
-        let (end, last) = (scene.run.end, self.progress.last_output);
-        let progress = &mut self.progress;
-        progress.rows = books.rows;
-        progress.last_row = books.last_row;
-        progress.series = books.series;
-        let begun = |time: f64| (time / scene.output.interval(end)).floor() as u64 + 1;
-        progress.outputs = last.map_or(0, begun);
-        progress.frames = books.outputs;
-        // The last state is no checkpoint of those that are due.
-        if books.time < end && books.checkpoints > 0 {
-            progress.checkpoints = books.checkpoints + 1;
-        }
-        progress.colours.clone_from(&books.colours);
-        progress.wall_seconds = books.wall_seconds;
-        let progress = progress.clone();
+        self.progress.books = books.clone();
         let parts = self.parts()?;
         let kept = CheckpointState {
             model: parts.model.save(),
             origin: parts.origin.clone(),
-            progress,
+            progress: self.progress.clone(),
         };
-        checkpoint::save(&kept, &self.options.identity.scene, own)
+        checkpoint::save(kept, &self.options.identity.scene, own)
     }
 
     fn conclude(

@@ -1,89 +1,33 @@
 //! The JSON schema of scenes of grains.
 
-use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
+use sph_core::{editors, kind_of, schema_of};
 
-use crate::Entry;
-use crate::flow::conductances;
-use crate::grains::contact_laws;
-use crate::scene::tables::{Probe, Reference, Scene};
+use crate::scene::tables::Scene;
 
-/// The schema of the scene's own keys; tables of plugins, probes and references are open in it.
+/// The schema of the scene's own keys; tables of plugins are open in it.
 pub(crate) fn of_scene() -> Json {
-    schemars::schema_for!(Scene).to_value()
+    schema_of::<Scene>()
 }
+
+/// Tables with one plugin at most, and the kind of it.
+const PLUGINS: [(&str, &str); 6] = [
+    ("/$defs/Grains/properties/contact", "contact-law"),
+    ("/$defs/Start/properties/contact", "contact-law"),
+    ("/$defs/Start/properties/wall_contact", "contact-law"),
+    ("/$defs/Box/properties/contact", "contact-law"),
+    ("/$defs/Wall/properties/contact", "contact-law"),
+    ("/$defs/Fluid/properties/conductance", "conductance"),
+];
 
 /// The schema for editors, with the plugins of this binary. Numbers may also be strings with a unit.
 pub fn editor_schema() -> Json {
-    let mut root = of_scene();
-    let mut shared = Map::new();
-    let (laws, throats) = (described(contact_laws()), described(conductances()));
-    for owner in ["Grains", "Start", "Box", "Wall"] {
-        let place = format!("/$defs/{owner}/properties/contact");
-        plugins(root.pointer_mut(&place), &laws, &mut shared);
+    let (mut root, mut shared) = (of_scene(), Map::new());
+    for (place, kind) in PLUGINS {
+        if let (Some(place), Some(kind)) = (root.pointer_mut(place), kind_of(kind)) {
+            place["maxProperties"] = json!(1);
+            editors::name_plugins(place, kind, &mut shared);
+        }
     }
-    plugins(
-        root.pointer_mut("/$defs/Fluid/properties/conductance"),
-        &throats,
-        &mut shared,
-    );
-    tagged(
-        &mut root,
-        "probe",
-        schemars::schema_for!(Probe).to_value(),
-        &mut shared,
-    );
-    tagged(
-        &mut root,
-        "reference",
-        schemars::schema_for!(Reference).to_value(),
-        &mut shared,
-    );
-    if let Some(defs) = root.get_mut("$defs").and_then(Json::as_object_mut) {
-        defs.extend(shared);
-    }
-    root["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
-    root["title"] = json!("Scene of grains");
-    for_editors(&mut root);
-    root
-}
-
-/// Names, descriptions and schemas of laws.
-fn described<L: ?Sized>(entries: Vec<&Entry<L>>) -> Vec<(&'static str, String, Json)> {
-    let told = |e: &Entry<L>| (e.name, format!("{}. {}", e.summary, e.source), (e.schema)());
-    entries.into_iter().map(told).collect()
-}
-
-/// Plugins as the keys of a table.
-fn plugins(place: Option<&mut Json>, all: &[(&str, String, Json)], shared: &mut Map<String, Json>) {
-    let Some(place) = place else { return };
-    let mut properties = Map::new();
-    for (name, text, schema) in all {
-        let mut schema = schema.clone();
-        lift(&mut schema, shared);
-        schema["description"] = json!(text);
-        properties.insert((*name).to_string(), schema);
-    }
-    place["properties"] = Json::Object(properties);
-    place["additionalProperties"] = json!(false);
-    place["maxProperties"] = json!(1);
-}
-
-/// Alternatives that the key `kind` distinguishes.
-fn tagged(root: &mut Json, key: &str, mut all: Json, shared: &mut Map<String, Json>) {
-    lift(&mut all, shared);
-    if let Some(place) = root.pointer_mut(&format!("/properties/{key}")) {
-        place["additionalProperties"] = json!({ "oneOf": all["oneOf"] });
-    }
-}
-
-/// Moves definitions to those of the whole.
-fn lift(schema: &mut Json, shared: &mut Map<String, Json>) {
-    let Some(object) = schema.as_object_mut() else {
-        return;
-    };
-    object.remove("$schema");
-    if let Some(Json::Object(own)) = object.remove("$defs") {
-        shared.extend(own);
-    }
+    editors::finished(root, "Scene of grains", shared)
 }

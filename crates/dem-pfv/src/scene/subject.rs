@@ -40,7 +40,7 @@ impl Subject for Scene {
     }
 
     fn references(&self) -> Vec<String> {
-        self.0.references.keys().cloned().collect()
+        self.0.scene.reference.keys().cloned().collect()
     }
 
     fn resolved(&self) -> Table {
@@ -56,7 +56,7 @@ impl Subject for Scene {
             let content = content.map_err(|e| told(e.to_string()))?;
             Ok((key, content.to_string()))
         };
-        self.0.scene.files().into_iter().map(mark).collect()
+        self.0.files().into_iter().map(mark).collect()
     }
 
     fn end(&self) -> f64 {

@@ -1,6 +1,5 @@
 //! A scene of grains as plain data: one file per group of tables.
 
-mod axis;
 mod fluid;
 mod grains;
 mod output;
@@ -9,14 +8,15 @@ mod reference;
 mod scene;
 mod wall;
 
-pub use axis::Axis;
-pub use fluid::{Fluid, Lubrication};
+pub use crate::Axis;
+pub use crate::coupled::Wave;
+pub use fluid::Fluid;
 pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start, Weight};
 pub use output::Output;
 pub use probe::Probe;
 pub use reference::{Reference, Statistic};
 pub use scene::{Oedometer, Run, Scene};
-pub use wall::{Box, Piston, RecordedLoad, Servo, Wall, WaveLoad};
+pub use wall::{Box, Piston, RecordedLoad, Servo, Wall};
 
 use std::collections::BTreeMap;
 

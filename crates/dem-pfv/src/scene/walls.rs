@@ -19,11 +19,7 @@ pub(crate) fn setup(
     laws: Laws,
 ) -> Result<Setup, DemError> {
     let scene = &loaded.scene;
-    let numbers: Vec<_> = scene.wall.keys().zip(&laws.of_walls).collect();
-    let law_of = |name: &str, otherwise: usize| {
-        let own = numbers.iter().find(|(n, _)| n.as_str() == name);
-        own.and_then(|(_, number)| **number).unwrap_or(otherwise)
-    };
+    let law_of = |name: &str, otherwise| *laws.of_walls.get(name).unwrap_or(&otherwise);
     let mut setup = Setup {
         grains,
         laws: laws.all,
@@ -38,10 +34,7 @@ pub(crate) fn setup(
         let wall = match (boxed, scene.wall.get(&name)) {
             (Some((number, cuboid)), _) => cuboid[number].with_law(law_of(&name, laws.of_box)),
             (None, Some(table)) => {
-                let (point, normal) = (
-                    table.point.unwrap_or_default(),
-                    table.normal.unwrap_or_default(),
-                );
+                let [point, normal] = [table.point, table.normal].map(Option::unwrap_or_default);
                 Wall::new(point, normal).with_law(law_of(&name, laws.of_others))
             }
             (None, None) => continue,
@@ -72,11 +65,8 @@ fn surface(
     table: &tables::Wall,
 ) -> Result<Mesh, DemError> {
     let key = format!("wall.{name}.file");
-    let path = loaded.source.resolve(&key, file);
-    let path = path.map_err(|e| DemError::at(&key, e))?;
-    let corners = scene_text::surface::read(&path)
-        .map_err(|e| DemError::at(&key, e))?
-        .triangles;
+    let read = scene_text::surface::read(&loaded.resolve(&key, file)?);
+    let corners = read.map_err(|e| DemError::at(&key, e))?.triangles;
     let unit = table.unit.as_deref().and_then(|u| unit_factor(u, "m").ok());
     let factor = table.scale.or(unit).unwrap_or(1.0);
     let shift = table.translate.unwrap_or_default();

@@ -66,7 +66,7 @@ fn is_corner(
         }
     }
     match meets {
-        Some(walls) => Err(TriangulationError::FourWallsMeet { walls }),
+        Some(walls) => Err(TriangulationError::FourWallsMeet(walls)),
         None => Ok(true),
     }
 }
@@ -81,21 +81,13 @@ fn closed(corners: &[[usize; 3]], walls: usize) -> Result<(), TriangulationError
         }
     }
     if let Some(((first, second), corners)) = ends.iter().find(|(_, n)| **n != 2) {
-        return Err(TriangulationError::Open {
-            first: *first,
-            second: *second,
-            corners: *corners,
-        });
+        return Err(TriangulationError::Open(*first, *second, *corners));
     }
     if corners.is_empty() {
-        return Err(TriangulationError::Open {
-            first: 0,
-            second: 1.min(walls - 1),
-            corners: 0,
-        });
+        return Err(TriangulationError::Open(0, 1.min(walls - 1), 0));
     }
     match (0..walls).find(|w| corners.iter().all(|c| !c.contains(w))) {
-        Some(wall) => Err(TriangulationError::IdleWall { wall }),
+        Some(wall) => Err(TriangulationError::IdleWall(wall)),
         None => Ok(()),
     }
 }

@@ -79,7 +79,7 @@ impl<'a> Builder<'a> {
     pub fn insert(&mut self, e: u32) -> Result<(), TriangulationError> {
         let start = walk(self.predicates, &self.cells, &self.neighbours, self.last, e);
         if !self.conflict(start, e) {
-            return Err(TriangulationError::Hidden { sphere: e as usize });
+            return Err(TriangulationError::Hidden(e as usize));
         }
         self.carve(start, e);
         self.fill(e);

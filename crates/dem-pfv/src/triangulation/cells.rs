@@ -146,7 +146,7 @@ impl Triangulation {
             .collect();
         let (first, incident) = incidence(&cells, spheres.len(), walls.len());
         if let Some(sphere) = (0..spheres.len()).find(|k| first[*k] == first[k + 1]) {
-            return Err(TriangulationError::Hidden { sphere });
+            return Err(TriangulationError::Hidden(sphere));
         }
         Ok(Self {
             spheres: spheres.to_vec(),
@@ -254,37 +254,26 @@ fn incidence(cells: &[Cell], spheres: usize, walls: usize) -> (Vec<usize>, Vec<u
 /// Refuses spheres without a triangulation, before it is tried.
 fn checked(spheres: &[Sphere], walls: &[Wall], needed: usize) -> Result<(), TriangulationError> {
     if spheres.len() < needed {
-        return Err(TriangulationError::TooFew {
-            spheres: spheres.len(),
-            needed,
-        });
+        return Err(TriangulationError::TooFew(spheres.len(), needed));
     }
     for (wall, w) in walls.iter().enumerate() {
         let unit = (w.normal.norm() - 1.0).abs() < 1e-9;
         if !unit || !w.offset.is_finite() {
-            return Err(TriangulationError::BadWall {
-                wall,
-                normal: w.normal.into(),
-                offset: w.offset,
-            });
+            return Err(TriangulationError::BadWall(wall, w.normal.into(), w.offset));
         }
     }
     for (sphere, s) in spheres.iter().enumerate() {
         let finite = s.centre.iter().all(|x| x.is_finite()) && s.radius.is_finite();
         if !finite || s.radius < 0.0 {
-            return Err(TriangulationError::BadSphere {
+            return Err(TriangulationError::BadSphere(
                 sphere,
-                centre: s.centre.into(),
-                radius: s.radius,
-            });
+                s.centre.into(),
+                s.radius,
+            ));
         }
         let distances = walls.iter().map(|w| w.distance(s.centre)).enumerate();
         if let Some((wall, distance)) = distances.into_iter().find(|(_, d)| *d <= 0.0) {
-            return Err(TriangulationError::Outside {
-                sphere,
-                wall,
-                distance,
-            });
+            return Err(TriangulationError::Outside(sphere, wall, distance));
         }
     }
     distinct(spheres)
@@ -297,11 +286,10 @@ fn distinct(spheres: &[Sphere]) -> Result<(), TriangulationError> {
     let mut order: Vec<_> = (0..spheres.len()).collect();
     order.sort_unstable_by_key(|k| (key(k), *k));
     match order.windows(2).find(|pair| key(&pair[0]) == key(&pair[1])) {
-        Some(pair) => Err(TriangulationError::Duplicate {
-            first: pair[0],
-            second: pair[1],
-            centre: spheres[pair[0]].centre.into(),
-        }),
+        Some(pair) => {
+            let centre = spheres[pair[0]].centre.into();
+            Err(TriangulationError::Duplicate(pair[0], pair[1], centre))
+        }
         None => Ok(()),
     }
 }

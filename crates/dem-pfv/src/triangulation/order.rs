@@ -4,6 +4,8 @@
 //! so that walks are short and memory is near. Sources: Amenta, Choi & Rote 2003 (biased randomised
 //! insertion order); Skilling 2004 (Hilbert curve).
 
+use sph_core::SplitMix;
+
 use crate::triangulation::Sphere;
 
 /// Spheres in the order of insertion.
@@ -28,12 +30,9 @@ pub fn insertion_order(spheres: &[Sphere]) -> Vec<u32> {
     keys.into_iter().map(|(_, _, i)| i).collect()
 }
 
-/// A number's bits in disorder (SplitMix64).
+/// A number's bits in disorder.
 fn mixed(i: u64) -> u64 {
-    let z = i.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    SplitMix(i.wrapping_mul(0x9e37_79b9_7f4a_7c15)).next()
 }
 
 /// Bits of a coordinate on the curve.

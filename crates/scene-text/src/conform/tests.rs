@@ -73,3 +73,43 @@ fn every_problem_is_named_with_its_path() {
     assert!(problems("density = 1\ngravity = [1]")[0].contains("at least 2"));
     assert!(problems("density = 1\nmode = 'noslip'")[0].contains("did you mean `no-slip`?"));
 }
+
+#[test]
+fn a_key_distinguishes_the_kinds_of_a_table() {
+    let kind = |name: &str, key: &str| {
+        json!({
+            "type": "object", "additionalProperties": false, "required": ["kind", key],
+            "properties": {"kind": {"const": name}, key: {"type": "number", "unit": "m"}},
+        })
+    };
+    let schema = json!({
+        "type": "object",
+        "properties": {"probe": {"additionalProperties": {"oneOf": [kind("level", "from"), kind("at", "x")]}, "type": "object"}},
+    });
+    let told = |text: &str| {
+        let mut value: Value = Value::Table(toml::from_str(text).unwrap());
+        let told = conform(&mut value, &schema).map_err(|all| all[0].to_string());
+        told.map(|_| value)
+    };
+    let right = told("probe.p = { kind = 'at', x = '2 cm' }").unwrap();
+    assert_eq!(right["probe"]["p"]["x"].as_float(), Some(0.02));
+    for (wrong, message) in [
+        (
+            "kind = 'levl', from = 1",
+            "probe.p.kind: there is no probe of the kind `levl`, did you mean `level`? (there are: at, level)",
+        ),
+        (
+            "from = 1",
+            "probe.p: the key `kind` is missing: one of at, level",
+        ),
+        ("kind = 'level', x = 1", "probe.p.x: `x` is not a known key"),
+        ("kind = 'at'", "probe.p: the key `x` is missing"),
+    ] {
+        let error = told(&format!("probe.p = {{ {wrong} }}")).unwrap_err();
+        assert!(error.starts_with(message), "{error}");
+    }
+    assert_eq!(
+        told("probe.p = 3").unwrap_err(),
+        "probe.p: expected a table, found 3"
+    );
+}

@@ -87,7 +87,7 @@ impl Facets {
     }
 }
 
-fn bounds<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+pub(crate) fn bounds<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
     let mut found = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for x in points {
         found[0] = std::array::from_fn(|k| found[0][k].min(x[k]));

@@ -1,11 +1,11 @@
 //! STL files, ascii and binary.
 
-use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::Cursor;
 use std::path::Path;
 
 use stl_io::{Triangle, create_stl_reader};
 
+use crate::read_bytes;
 use crate::surface::vector::{cross, dot, minus};
 
 /// Most triangles of a file.
@@ -31,27 +31,7 @@ pub struct StlFile {
 /// # Errors
 /// A file that cannot be read, with the name of the file and the number of the facet.
 pub fn read(path: &Path) -> Result<StlFile, String> {
-    parse(bytes(path)?, &path.display().to_string())
-}
-
-/// The bytes of a file that is neither empty nor too long.
-fn bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let name = path.display();
-    let refused = |e: std::io::Error| format!("cannot read `{name}`: {e}");
-    // Asked before it is opened: opening a pipe would wait for its writer.
-    let known = std::fs::metadata(path).map_err(refused)?;
-    if !known.is_file() {
-        return Err(format!("`{name}` is not a file"));
-    }
-    let length = match known.len() {
-        0 => return Err(format!("`{name}` is empty")),
-        n if n > BYTES => return Err(format!("`{name}` is longer than {} MiB", BYTES >> 20)),
-        n => n,
-    };
-    let mut bytes = Vec::with_capacity(length as usize);
-    let file = File::open(path).map_err(refused)?;
-    file.take(BYTES).read_to_end(&mut bytes).map_err(refused)?;
-    Ok(bytes)
+    parse(read_bytes(path, BYTES)?, &path.display().to_string())
 }
 
 /// The same from the bytes of a file called `name`.

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::surface::facets::bounds;
 use crate::surface::vector::{dot, minus};
 use crate::surface::weld::Facets;
 
@@ -147,11 +148,7 @@ impl Facets {
             let ends: Vec<[f64; 3]> = ends.map(|p| self.points[*p as usize]).collect();
             let count = ends.len() as f64;
             let centre = std::array::from_fn(|k| ends.iter().map(|p| p[k]).sum::<f64>() / count);
-            let [low, high] = Facets {
-                points: ends,
-                triangles: Vec::new(),
-            }
-            .bounds();
+            let [low, high] = bounds(&ends);
             let across = minus(&high, &low);
             openings.push(Opening {
                 edges: edges.len(),

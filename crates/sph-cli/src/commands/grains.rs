@@ -3,4 +3,3 @@
 pub mod check;
 pub mod explain;
 pub mod outcome;
-mod plugins;

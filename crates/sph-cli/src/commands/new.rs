@@ -95,7 +95,7 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
     let loaded = match scene_file::read(Source::new(text, &name, &[])) {
         Ok(AnyScene::Particles(loaded)) => loaded,
         Ok(AnyScene::Grains(loaded)) => {
-            let files = loaded.scene.files();
+            let files = loaded.files();
             let placed = files.iter().filter_map(|(key, file)| {
                 let path = loaded.source.resolve(key, file).ok()?;
                 Some((file.clone(), path))

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use sph_core::SplitMix;
+
 /// The spectrum of a growing sea over frequency, S(f) in m² s:
 ///
 ///   S(f) = β f⁻⁵ exp(−5/4 (f_p/f)⁴) γ^exp(−(f − f_p)²/(2σ²f_p²)), σ = 0.07 for f ≤ f_p, 0.09 above,
@@ -45,18 +47,9 @@ impl Jonswap {
 }
 
 /// Phases between 0 and 2π, the same for the same seed on every machine.
-///
-/// Source: Steele, Lea & Flood 2014 (SplitMix64).
 pub(crate) fn phases(seed: u64) -> impl Iterator<Item = f64> {
-    let mut state = seed;
-    std::iter::from_fn(move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        Some((z >> 11) as f64 / (1_u64 << 53) as f64 * TAU)
-    })
+    let mut random = SplitMix(seed);
+    std::iter::repeat_with(move || TAU * random.unit())
 }
 
 #[cfg(test)]

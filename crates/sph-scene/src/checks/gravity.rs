@@ -14,14 +14,7 @@ pub(crate) fn over_time(given: &GravityOverTime, of: Dimension, found: &mut Prob
         ("table", given.table.is_some()),
         ("file", given.file.is_some()),
     ]);
-    match courses.as_slice() {
-        [] => found.add(path, "a course is missing: `sine`, `table` or `file`"),
-        [_] => {}
-        [first, .., last] => {
-            let message = format!("only one course can stand here, found {first} and {last}");
-            found.add(format!("{path}.{last}"), message);
-        }
-    }
+    found.one_of(&courses, path, "course", ["`sine`, `table` or `file`", ""]);
     if let Some(sine) = &given.sine {
         of.vector(&sine.amplitude, &format!("{path}.sine.amplitude"), found);
     }

@@ -230,12 +230,10 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
             "a value is compared by `norm = \"mean\"` only",
         ),
     }
-    if reference.norm() == Norm::Period && reference.period.is_none() {
-        let message = "the norm `period` needs the `period` of the reference";
-        found.add(format!("{path}.norm"), message);
-    }
-    if reference.norm() == Norm::Lag && reference.period.is_none() {
-        let message = "the norm `lag` needs the `period` of the reference";
+    let norm = reference.norm();
+    if matches!(norm, Norm::Period | Norm::Lag) && reference.period.is_none() {
+        let name = norm.name();
+        let message = format!("the norm `{name}` needs the `period` of the reference");
         found.add(format!("{path}.norm"), message);
     }
     if reference.norm() == Norm::DecayRate && reference.solution.is_none() {

@@ -1,10 +1,8 @@
 //! Text files of two columns of numbers.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
-use scene_text::line_and_column;
+use scene_text::{line_and_column, read_bytes};
 
 use crate::Line;
 use crate::drawings::heading::{ColumnChoice, Form, joined};
@@ -24,29 +22,9 @@ pub(crate) struct Row {
     pub values: [f64; 2],
 }
 
-/// The bytes of a plain file that is neither empty nor longer than `most` bytes.
-pub(crate) fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
-    let name = path.display();
-    let refused = |e: std::io::Error| format!("cannot read `{name}`: {e}");
-    // Asked before it is opened: opening a pipe would wait for its writer.
-    let known = std::fs::metadata(path).map_err(refused)?;
-    if !known.is_file() {
-        return Err(format!("`{name}` is not a file"));
-    }
-    let length = match known.len() {
-        0 => return Err(format!("`{name}` is empty")),
-        n if n > most => return Err(format!("`{name}` is longer than {} MiB", most >> 20)),
-        n => n,
-    };
-    let mut bytes = Vec::with_capacity(length as usize);
-    let file = File::open(path).map_err(refused)?;
-    file.take(most).read_to_end(&mut bytes).map_err(refused)?;
-    Ok(bytes)
-}
-
 /// The text of a file of UTF-8 that is neither empty nor too long.
 pub(crate) fn text(path: &Path) -> Result<String, String> {
-    String::from_utf8(bytes(path, BYTES)?).map_err(|e| {
+    String::from_utf8(read_bytes(path, BYTES)?).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&e.as_bytes()[..at]);
         let (line, column) = line_and_column(&before, at);

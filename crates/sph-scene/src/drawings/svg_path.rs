@@ -12,7 +12,7 @@ pub(crate) fn parse(data: &str, tolerance: f64, limit: f64) -> Result<BezPath, S
         path: BezPath::new(),
         at: Point::ZERO,
         start: Point::ZERO,
-        handle: Handle::None,
+        handles: [Point::ZERO; 2],
         down: false,
     };
     for segment in PathParser::from(data) {
@@ -22,37 +22,12 @@ pub(crate) fn parse(data: &str, tolerance: f64, limit: f64) -> Result<BezPath, S
     Ok(pen.path)
 }
 
-/// The last control point, which a smooth curve mirrors.
-#[derive(Clone, Copy)]
-enum Handle {
-    None,
-    Quadratic(Point),
-    Cubic(Point),
-}
-
-impl Handle {
-    /// The first handle of a cubic curve that goes on smoothly from here.
-    fn cubic_mirrored(&self, from: Point) -> Point {
-        match *self {
-            Handle::Cubic(p) => from + (from - p),
-            _ => from,
-        }
-    }
-
-    /// The handle of a quadratic one.
-    fn quadratic_mirrored(&self, from: Point) -> Point {
-        match *self {
-            Handle::Quadratic(p) => from + (from - p),
-            _ => from,
-        }
-    }
-}
-
 struct Pen {
     path: BezPath,
     at: Point,
     start: Point,
-    handle: Handle,
+    /// Last control points of a cubic and of a quadratic curve, which smooth ones mirror; the pen's place after others.
+    handles: [Point; 2],
     /// True if a line has been begun.
     down: bool,
 }
@@ -65,7 +40,8 @@ impl Pen {
             true => Ok(Point::new(base.x + x, base.y + y)),
             false => Err(format!("d: ({x}, {y}) is out of range for this spacing")),
         };
-        let mut handle = Handle::None;
+        let [cubic, quadratic] = self.handles.map(|last| from + (from - last));
+        let mut handles = [None; 2];
         if !matches!(segment, PathSegment::MoveTo { .. }) && !self.down {
             self.begin(from);
         }
@@ -90,19 +66,17 @@ impl Pen {
                 y,
                 ..
             } => {
-                let corners = [place(x1, y1)?, place(x2, y2)?, place(x, y)?];
-                self.cubic(corners, &mut handle)
+                let first = place(x1, y1)?;
+                self.cubic([first, place(x2, y2)?, place(x, y)?], &mut handles)
             }
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
-                let first = self.handle.cubic_mirrored(from);
-                self.cubic([first, place(x2, y2)?, place(x, y)?], &mut handle)
+                self.cubic([cubic, place(x2, y2)?, place(x, y)?], &mut handles)
             }
             PathSegment::Quadratic { x1, y1, x, y, .. } => {
-                self.quadratic([place(x1, y1)?, place(x, y)?], &mut handle)
+                self.quadratic([place(x1, y1)?, place(x, y)?], &mut handles)
             }
             PathSegment::SmoothQuadratic { x, y, .. } => {
-                let control = self.handle.quadratic_mirrored(from);
-                self.quadratic([control, place(x, y)?], &mut handle)
+                self.quadratic([quadratic, place(x, y)?], &mut handles)
             }
             PathSegment::EllipticalArc {
                 rx,
@@ -133,7 +107,7 @@ impl Pen {
                 self.start
             }
         };
-        self.handle = handle;
+        self.handles = handles.map(|handle| handle.unwrap_or(self.at));
         Ok(())
     }
 
@@ -145,15 +119,19 @@ impl Pen {
     }
 
     /// A curve by two handles; a smooth continuation mirrors the second.
-    fn cubic(&mut self, [first, second, to]: [Point; 3], handle: &mut Handle) -> Point {
-        *handle = Handle::Cubic(second);
+    fn cubic(
+        &mut self,
+        [first, second, to]: [Point; 3],
+        handles: &mut [Option<Point>; 2],
+    ) -> Point {
+        handles[0] = Some(second);
         self.path.curve_to(first, second, to);
         to
     }
 
     /// The same by one handle.
-    fn quadratic(&mut self, [control, to]: [Point; 2], handle: &mut Handle) -> Point {
-        *handle = Handle::Quadratic(control);
+    fn quadratic(&mut self, [control, to]: [Point; 2], handles: &mut [Option<Point>; 2]) -> Point {
+        handles[1] = Some(control);
         self.path.quad_to(control, to);
         to
     }

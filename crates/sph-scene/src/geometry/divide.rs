@@ -16,6 +16,11 @@ pub(crate) fn sides(radius: f64) -> usize {
     near.max(fine).min(most).clamp(6.0, 1e5) as usize
 }
 
+/// The same where the scene leaves the number of sides open; `radius` and `spacing` in m.
+pub(crate) fn sides_of(given: Option<usize>, radius: f64, spacing: f64) -> usize {
+    given.unwrap_or_else(|| sides(radius / spacing))
+}
+
 /// Parts of every edge of the icosahedron around a sphere of `radius` spacings, by the same rule.
 ///
 /// Of n parts the shortest edge is 0.894/n radii long, the longest 1.323/n and the mean 1.107/n;

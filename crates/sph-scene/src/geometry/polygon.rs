@@ -29,13 +29,10 @@ impl Polygon {
 
     /// Area, m², positive if the corners go round anticlockwise.
     pub fn area(&self) -> f64 {
-        let Some(o) = self.points.first() else {
+        let Some(&o) = self.points.first() else {
             return 0.0;
         };
-        let cross = |(a, b): ([f64; 2], [f64; 2])| {
-            (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
-        };
-        0.5 * self.edges().map(cross).sum::<f64>()
+        0.5 * self.edges().map(|(a, b)| cross(o, a, b)).sum::<f64>()
     }
 
     /// True if a point is inside, by the parity of crossings.
@@ -121,7 +118,7 @@ fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<SegmentCros
     (None, pairs)
 }
 
-fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(crate) fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 }
 

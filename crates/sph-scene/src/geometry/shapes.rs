@@ -153,10 +153,9 @@ impl<const D: usize> Shape<D> {
                 (lo, [f64::INFINITY; D])
             }
             Shape::Polygon(polygon) => {
-                let axis = |k: usize| polygon.points().iter().map(move |p| p[k.min(1)]);
-                let lo = |k: usize| axis(k).fold(f64::INFINITY, f64::min);
-                let hi = |k: usize| axis(k).fold(f64::NEG_INFINITY, f64::max);
-                (std::array::from_fn(lo), std::array::from_fn(hi))
+                let corners = sph_core::bounds(polygon.points().iter().copied());
+                let [lo, hi] = corners.map(|x| std::array::from_fn(|k| x[k.min(1)]));
+                (lo, hi)
             }
             Shape::Cylinder { from, to, radius } => {
                 let reach = rim(from, to, *radius);

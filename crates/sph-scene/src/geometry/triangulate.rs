@@ -1,5 +1,7 @@
 //! Plane polygons as triangles.
 
+use crate::geometry::polygon::cross;
+
 /// Triangles of a simple polygon whose corners go round anticlockwise, by ear clipping.
 ///
 /// Every corner is used and no triangle is degenerate, so that the neighbours of its edges fit.
@@ -39,10 +41,6 @@ fn is_ear(points: &[[f64; 2]], ring: &[usize], [a, b, c]: [usize; 3]) -> bool {
             && cross(pc, pa, x) >= 0.0
     };
     !ring.iter().any(|k| blocks(*k))
-}
-
-fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use sph_core::{Axis, SceneProblem, bounds, unit_factor};
 use crate::drawings::heading::Form;
 use crate::drawings::rows;
 use crate::drawings::svg;
-use crate::geometry::divide;
+use crate::geometry::divide::{self, sides_of};
 use crate::geometry::outlines::{Line, SideError, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
@@ -130,9 +130,7 @@ impl Wall {
     /// file, which has its own error.
     pub fn declared(&self, spacing: f64) -> usize {
         let spacing = spacing / self.factor();
-        let sides = |given: Option<usize>, radius: f64| {
-            given.unwrap_or_else(|| divide::sides(radius / spacing))
-        };
+        let sides = |given, radius| sides_of(given, radius, spacing);
         let disc = self.disc.iter().map(|d| sides(d.sides, d.shape.radius));
         let ball = self.sphere.iter().map(|b| {
             let parts = b.subdivisions;
@@ -166,9 +164,7 @@ impl Wall {
             return Ok(vec![Line::closed(corners(points))]);
         }
         if let Some(disc) = &self.disc {
-            let sides = disc
-                .sides
-                .unwrap_or_else(|| divide::sides(disc.shape.radius / spacing));
+            let sides = sides_of(disc.sides, disc.shape.radius, spacing);
             let centre: [f64; 2] = array(&disc.shape.centre);
             let ring = solid::ring(disc.shape.radius, sides, disc.turn);
             let points = ring.iter().map(|p| [centre[0] + p[0], centre[1] + p[1]]);
@@ -195,9 +191,7 @@ impl Wall {
 
     /// The surface of a shape, facing outwards.
     fn solid(&self, spacing: f64) -> Option<Facets> {
-        let sides = |given: Option<usize>, radius: f64| {
-            given.unwrap_or_else(|| divide::sides(radius / spacing))
-        };
+        let sides = |given, radius| sides_of(given, radius, spacing);
         if let Some([lo, hi]) = &self.bounds {
             return Some(solid::cuboid(array(lo), array(hi), &self.open));
         }

@@ -1,5 +1,6 @@
 //! Hints at the place where a table was probably meant to stand.
 
+use scene_text::is_within;
 use sph_core::{Place, PluginKind, SceneProblem, kind_of, kinds, nearest};
 use toml::{Table, Value};
 
@@ -26,11 +27,6 @@ pub(crate) fn added(problems: Vec<SceneProblem>, scene: &Table) -> Vec<SceneProb
         told.push(problem);
     }
     told
-}
-
-fn is_within(path: &str, table: &str) -> bool {
-    let rest = path.strip_prefix(table);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
 /// The table that a mistake of place explains, and the message.

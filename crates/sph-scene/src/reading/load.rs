@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use scene_text::{Diagnostic, Override, Source, read_text};
 use sph_core::{SceneProblem, conform, kinds};
@@ -68,14 +68,9 @@ impl std::error::Error for Refused {}
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// The file cannot be read.
-    #[error("cannot read `{file}`: {reason}")]
-    Unreadable {
-        /// Name of the file.
-        file: String,
-        /// The reason of the system.
-        reason: String,
-    },
+    /// A file that cannot be read, and the reason of the system.
+    #[error("cannot read `{0}`: {1}")]
+    Unreadable(String, String),
     /// The scene has mistakes.
     #[error(transparent)]
     Refused(Box<Refused>),
@@ -86,24 +81,9 @@ pub enum LoadError {
 /// # Errors
 /// If the file cannot be read, or with the mistakes in it: all of its form and its plugins, or else all of its content.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Loaded, LoadError> {
-    load_allowing(path, overrides, &[])
-}
-
-/// Reads a scene file that may name files in further folders than its own.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_allowing(
-    path: &Path,
-    overrides: &[Override],
-    folders: &[PathBuf],
-) -> Result<Loaded, LoadError> {
     let file = path.display().to_string();
-    let text = read_text(path).map_err(|reason| LoadError::Unreadable {
-        file: file.clone(),
-        reason,
-    })?;
-    let source = Source::new(&text, &file, overrides).allowing(folders);
+    let text = read_text(path).map_err(|why| LoadError::Unreadable(file.clone(), why))?;
+    let source = Source::new(&text, &file, overrides);
     read(source).map_err(|refused| LoadError::Refused(Box::new(refused)))
 }
 

@@ -126,7 +126,8 @@ pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
     all.into_iter().flatten().filter_map(choice).collect()
 }
 
-/// The only entry of a table of plugins, as a choice.
+/// The only plugin of a kind in its table under a parent, as a choice.
 pub(crate) fn single(kind: &'static str, plugins: &Plugins, parent: &str) -> Option<PluginChoice> {
-    in_table(kind, plugins, parent).into_iter().next()
+    let all = in_table(kind, plugins, &format!("{parent}.{kind}"));
+    all.into_iter().next()
 }

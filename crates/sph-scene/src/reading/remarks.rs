@@ -1,7 +1,6 @@
 //! Remarks on plugins before they are built: on numbers beyond those of nature, and mistakes.
 
-use scene_text::suggestion;
-use sph_core::{PluginChoice, PluginInfo, RegistryError, SceneProblem, conform, kind_of, kinds};
+use sph_core::{PluginChoice, RegistryError, SceneProblem, conform, kind_of, kinds};
 use toml::{Table, Value};
 
 use crate::reading::plugins::{holders, in_table, probes, solutions};
@@ -27,7 +26,9 @@ fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> 
         return Ok(Vec::new());
     }
     let Some(plugin) = plugins.iter().find(|p| p.name == choice.name) else {
-        return Err(choice.scene_problems(&unknown(choice, &plugins)));
+        let known = plugins.iter().map(|p| p.name);
+        let error = RegistryError::unknown(choice.kind, &choice.name, known);
+        return Err(choice.scene_problems(&error));
     };
     let mut table = Value::Table(choice.table.clone());
     let inside =
@@ -35,16 +36,6 @@ fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> 
     conform(&mut table, &(plugin.schema)())
         .map(inside)
         .map_err(inside)
-}
-
-fn unknown(choice: &PluginChoice, plugins: &[PluginInfo]) -> RegistryError {
-    let names = || plugins.iter().map(|p| p.name);
-    RegistryError::Unknown {
-        kind: choice.kind,
-        name: choice.name.clone(),
-        hint: suggestion(&choice.name, names()),
-        known: names().collect::<Vec<_>>().join(", "),
-    }
 }
 
 /// Every plugin that a scene names, in any form of the rest of the scene.

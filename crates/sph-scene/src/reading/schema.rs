@@ -1,8 +1,7 @@
 //! The JSON schema of a whole scene, with every plugin of the binary, for editors.
 
-use scene_text::for_editors;
 use serde_json::{Map, Value as Json, json};
-use sph_core::{Place, PluginKind, kinds, schema_of};
+use sph_core::{Place, PluginKind, editors, kinds, schema_of};
 
 use crate::Scene;
 use crate::reading::plugins::AnyPlugins;
@@ -17,13 +16,7 @@ pub fn schema() -> Json {
     for kind in kinds() {
         insert(&mut root, kind, &mut shared);
     }
-    if let Some(defs) = root.get_mut("$defs").and_then(Json::as_object_mut) {
-        defs.extend(shared);
-    }
-    root["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
-    root["title"] = json!("SPH scene");
-    for_editors(&mut root);
-    root
+    editors::finished(root, "SPH scene", shared)
 }
 
 /// The schema of the scene's own tables, and of those that name plugins, whose keys are open.
@@ -84,23 +77,15 @@ fn insert(root: &mut Json, kind: &PluginKind, shared: &mut Map<String, Json>) {
         }
         Place::Elsewhere => return,
     };
-    named(root.pointer_mut(&owner), kind, shared);
-}
-
-fn named(place: Option<&mut Json>, kind: &PluginKind, shared: &mut Map<String, Json>) {
-    let Some(place) = place else { return };
-    let plugins = (kind.plugins)().into_iter();
-    let properties: Map<String, Json> = plugins
-        .map(|p| (p.name.to_string(), plugin(kind.name, &p, shared)))
-        .collect();
-    place["properties"] = Json::Object(properties);
-    place["additionalProperties"] = json!(false);
+    if let Some(place) = root.pointer_mut(&owner) {
+        editors::name_plugins(place, kind, shared);
+    }
 }
 
 /// Plugins as alternatives that the key `kind` distinguishes.
 fn tagged(kind: &PluginKind, shared: &mut Map<String, Json>) -> Vec<Json> {
     let alternative = |p: sph_core::PluginInfo| {
-        let mut schema = plugin(kind.name, &p, shared);
+        let mut schema = editors::plugin(kind.name, &p, shared);
         schema["properties"]["kind"] = json!({ "const": p.name, "description": p.summary });
         let mut required = schema["required"].as_array().cloned().unwrap_or_default();
         required.push(json!("kind"));
@@ -123,53 +108,9 @@ fn solutions(root: &mut Json, kind: &PluginKind, shared: &mut Map<String, Json>)
         .map(|p| {
             json!({
                 "if": { "required": ["solution"], "properties": { "solution": { "const": p.name } } },
-                "then": { "properties": { "parameters": plugin(kind.name, p, shared) } },
+                "then": { "properties": { "parameters": editors::plugin(kind.name, p, shared) } },
             })
         })
         .collect();
     place["allOf"] = Json::Array(rules);
-}
-
-/// The schema of a plugin's parameters, its shared definitions moved to the scene's.
-fn plugin(kind: &str, info: &sph_core::PluginInfo, shared: &mut Map<String, Json>) -> Json {
-    let mut schema = (info.schema)();
-    if !schema.is_object() {
-        schema = json!({ "type": "object" });
-    }
-    let prefix = format!("{kind}.{}.", info.name);
-    renamed(&mut schema, &prefix);
-    if let Some(Json::Object(own)) = schema.as_object_mut().and_then(|s| s.remove("$defs")) {
-        shared.extend(
-            own.into_iter()
-                .map(|(name, def)| (format!("{prefix}{name}"), def)),
-        );
-    }
-    if let Some(object) = schema.as_object_mut() {
-        object.remove("$schema");
-        object.insert("title".into(), json!(info.name));
-        object.insert(
-            "description".into(),
-            json!(format!("{}. {}", info.summary, info.source)),
-        );
-    }
-    schema
-}
-
-fn renamed(schema: &mut Json, prefix: &str) {
-    match schema {
-        Json::Object(object) => {
-            for (key, value) in object.iter_mut() {
-                match value {
-                    Json::String(target) if key == "$ref" => {
-                        if let Some(name) = target.strip_prefix("#/$defs/") {
-                            *target = format!("#/$defs/{prefix}{name}");
-                        }
-                    }
-                    other => renamed(other, prefix),
-                }
-            }
-        }
-        Json::Array(items) => items.iter_mut().for_each(|item| renamed(item, prefix)),
-        _ => {}
-    }
 }

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use serde::{Deserialize, Deserializer};
 use sph_core::parameters;
+
+use crate::reading::one_or_many::{OneOrMany, one_or_many};
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
@@ -25,7 +26,7 @@ pub struct Motion {
     /// Translation, or a list of translations that are added up.
     #[serde(deserialize_with = "one_or_many")]
     #[parameter(default)]
-    #[schemars(with = "OneOrMany")]
+    #[schemars(with = "OneOrMany<Translate>")]
     pub translate: Vec<Translate>,
     /// Rotation.
     pub rotate: Option<Rotation>,
@@ -188,20 +189,4 @@ impl Motion {
             _ => format!("{place}.translate[{k}]"),
         }
     }
-}
-
-#[parameters]
-#[serde(untagged)]
-enum OneOrMany {
-    /// One translation.
-    One(Box<Translate>),
-    /// Several translations.
-    Many(Vec<Translate>),
-}
-
-fn one_or_many<'de, T: Deserializer<'de>>(from: T) -> Result<Vec<Translate>, T::Error> {
-    OneOrMany::deserialize(from).map(|given| match given {
-        OneOrMany::One(one) => vec![*one],
-        OneOrMany::Many(many) => many,
-    })
 }

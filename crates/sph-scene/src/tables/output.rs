@@ -1,8 +1,9 @@
 //! The table `[output]`: files of a run, and the times of writing.
 
 use scene_text::PictureRange;
-use serde::{Deserialize, Deserializer};
 use sph_core::parameters;
+
+use crate::reading::one_or_many::{OneOrMany, one_or_many};
 
 /// Files of a run, and the times of writing.
 #[parameters]
@@ -21,7 +22,7 @@ pub struct Output {
     pub fields: Vec<String>,
     /// Name of a field, or a list of names, of which pictures are drawn.
     #[serde(deserialize_with = "one_or_many")]
-    #[schemars(with = "OneOrMany")]
+    #[schemars(with = "OneOrMany<String>")]
     #[parameter(default)]
     pub picture: Vec<String>,
     /// Values at the ends of the pictures' colours, SI: `[low, high]` for all pictures, or a table of fields with such
@@ -65,20 +66,4 @@ impl Output {
         let k = (time / every * (1.0 + 1e-12)).floor() + 1.0;
         Some((k * every).min(end))
     }
-}
-
-#[parameters]
-#[serde(untagged)]
-enum OneOrMany {
-    /// One field.
-    One(String),
-    /// Several fields.
-    Many(Vec<String>),
-}
-
-fn one_or_many<'de, T: Deserializer<'de>>(from: T) -> Result<Vec<String>, T::Error> {
-    OneOrMany::deserialize(from).map(|given| match given {
-        OneOrMany::One(name) => vec![name],
-        OneOrMany::Many(names) => names,
-    })
 }

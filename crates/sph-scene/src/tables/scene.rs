@@ -151,36 +151,32 @@ impl Scene {
 
     /// The equation of state of a phase, if the scene chooses one.
     pub fn equation_of_state(&self, phase: &str) -> Option<PluginChoice> {
-        let path = format!("phase.{phase}.equation-of-state");
-        single(
-            "equation-of-state",
-            &self.phase.get(phase)?.equation_of_state,
-            &path,
-        )
+        let plugins = &self.phase.get(phase)?.equation_of_state;
+        single("equation-of-state", plugins, &format!("phase.{phase}"))
     }
 
     /// The rheology of a phase.
     pub fn rheology(&self, phase: &str) -> Option<PluginChoice> {
-        let path = format!("phase.{phase}.rheology");
-        single("rheology", &self.phase.get(phase)?.rheology, &path)
+        let plugins = &self.phase.get(phase)?.rheology;
+        single("rheology", plugins, &format!("phase.{phase}"))
     }
 
     /// Mover of a wall, if the scene chooses one.
     pub fn mover(&self, wall: &str) -> Option<PluginChoice> {
-        let path = format!("wall.{wall}.mover");
-        single("mover", &self.wall.get(wall)?.mover, &path)
+        let plugins = &self.wall.get(wall)?.mover;
+        single("mover", plugins, &format!("wall.{wall}"))
     }
 
     /// Open boundary at a wall, if the scene chooses one.
     pub fn open_boundary(&self, wall: &str) -> Option<PluginChoice> {
-        let path = format!("wall.{wall}.open-boundary");
-        single("open-boundary", &self.wall.get(wall)?.open_boundary, &path)
+        let plugins = &self.wall.get(wall)?.open_boundary;
+        single("open-boundary", plugins, &format!("wall.{wall}"))
     }
 
     /// The plugin that gives a body its velocity at the start, if the scene chooses one.
     pub fn initial(&self, body: &str) -> Option<PluginChoice> {
-        let path = format!("body.{body}.initial");
-        single("initial", &self.body.get(body)?.initial, &path)
+        let plugins = &self.body.get(body)?.initial;
+        single("initial", plugins, &format!("body.{body}"))
     }
 
     /// The reference solution of a comparison, if it has one.

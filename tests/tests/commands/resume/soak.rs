@@ -8,8 +8,8 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 
+use sph_core::SplitMix;
 use sph_io::Checkpoint;
-use sph_scene::SplitMix;
 use sph_tests::{Bench, Results, SOAK, files_with_extension};
 
 use crate::resume::PROGRAM;

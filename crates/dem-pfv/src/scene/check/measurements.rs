@@ -1,7 +1,5 @@
 //! Mistakes of probes, and of the references that they are compared with.
 
-use std::collections::BTreeMap;
-
 use scene_text::{Problems, suggestion};
 
 use crate::scene::names::planes;
@@ -70,13 +68,8 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Problems) {
 }
 
 /// Mistakes of a reference.
-pub fn reference(
-    scene: &Scene,
-    probes: &BTreeMap<String, Probe>,
-    name: &str,
-    reference: &Reference,
-    found: &mut Problems,
-) {
+pub fn reference(scene: &Scene, name: &str, reference: &Reference, found: &mut Problems) {
+    let probes = &scene.probe;
     let at = |key: &str| format!("reference.{name}.{key}");
     let mut known = |key: &str, probe: &str| {
         if !probes.contains_key(probe) {

@@ -23,20 +23,13 @@ fn ways(scene: &Scene, found: &mut Problems) {
         ("lattice", s.lattice.is_some()),
         ("file", s.file.is_some()),
     ]);
-    match given.as_slice() {
-        [] => found.add(
+    if given.is_empty() {
+        found.add(
             "start",
             "one of `cloud`, `grown`, `rained`, `lattice`, `file` is missing",
-        ),
-        [_] => {}
-        [.., last] => {
-            let told = given.join("`, `");
-            found.add(
-                format!("start.{last}"),
-                format!("only one of `{told}` can be given"),
-            );
-        }
+        );
     }
+    found.at_most_one(&given, "start");
 }
 
 /// Number and sizes of the grains, unless the start has them.

@@ -88,13 +88,7 @@ fn motions(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
         ("removed", wall.removed),
         ("keeps_volume", wall.keeps_volume),
     ]);
-    if let [_, second, ..] = given.as_slice() {
-        let told = given.join("`, `");
-        found.add(
-            format!("wall.{name}.{second}"),
-            format!("only one of `{told}` can be given"),
-        );
-    }
+    found.at_most_one(&given, &format!("wall.{name}"));
     if wall.file.is_some() && given.iter().any(|g| *g != "velocity") {
         found.add(
             format!("wall.{name}"),
@@ -119,20 +113,14 @@ fn motions(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
 }
 
 fn conditions(scene: &Scene, name: &str, wall: &Wall, found: &mut Problems) {
-    let sides = [
-        wall.pressure.is_some(),
-        wall.inflow.is_some(),
-        wall.wave.is_some(),
-        wall.recorded.is_some(),
-    ];
-    let several = sides.iter().filter(|given| **given).count() > 1;
-    if several {
-        found.add(
-            format!("wall.{name}"),
-            "only one of `pressure`, `inflow`, `wave`, `recorded` can be given",
-        );
-    }
-    if scene.fluid.is_none() && (sides.contains(&true) || wall.sticks) {
+    let sides = given([
+        ("pressure", wall.pressure.is_some()),
+        ("inflow", wall.inflow.is_some()),
+        ("wave", wall.wave.is_some()),
+        ("recorded", wall.recorded.is_some()),
+    ]);
+    found.at_most_one(&sides, &format!("wall.{name}"));
+    if scene.fluid.is_none() && (!sides.is_empty() || wall.sticks) {
         found.add(
             format!("wall.{name}"),
             "conditions of the fluid need a `[fluid]`",

@@ -1,11 +1,11 @@
 //! The tables `[grains]` and `[start]`: which grains, and where they come from.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 use super::{AnyPlugins, Plugins, Triple};
 
 /// The grains and the law of their contacts.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Grains {
     /// Number of grains; not with a file, a lattice or a filled box.
     #[parameter(min: 1, max: 10_000_000)]
@@ -34,7 +34,7 @@ pub struct Grains {
 
 /// Positions of the grains at the start, and their preparation: exactly one of `cloud`, `grown`, `rained`, `lattice`
 /// and `file`. The clock of the run starts when they are ready.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Start {
     /// At random without touching.
     pub cloud: Option<Cloud>,
@@ -83,7 +83,7 @@ pub struct Start {
 }
 
 /// Weight of grains that come to rest before the run.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[derive(Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum Weight {
@@ -95,7 +95,7 @@ pub enum Weight {
 }
 
 /// At random without touching, in the box or in a part of it.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Cloud {
     /// Lower corner, m; that of the box if left out.
     #[parameter(unit: "m")]
@@ -107,7 +107,7 @@ pub struct Cloud {
 
 /// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter
 /// of the box.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Grown {
     /// Mean stress of the walls, Pa.
     #[parameter(unit: "Pa", above: 0.0)]
@@ -127,7 +127,7 @@ pub struct Grown {
 }
 
 /// Dry pluviation.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Rained {
     /// Porosity of the cloud before it falls.
     #[parameter(default: 0.68, unit: "1", above: 0.0, below: 1.0)]
@@ -138,7 +138,7 @@ pub struct Rained {
 }
 
 /// Rows and layers that fill the box, each grain a little off its place.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Lattice {
     /// Grains along x, y and z.
     #[schemars(inner(range(min = 1, max = 1000)))]

@@ -1,11 +1,11 @@
 //! The table `[probe.NAME]`.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 use super::{Axis, Triple};
 
 /// A measurement of the `kind`.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[serde(tag = "kind")]
 pub enum Probe {
     /// Total normal stress on a wall, Pa: that of the grains and that of the fluid.

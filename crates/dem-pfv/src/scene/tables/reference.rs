@@ -1,9 +1,9 @@
 //! The table `[reference.NAME]`.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
 /// A comparison of the `kind`.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[serde(tag = "kind")]
 pub enum Reference {
     /// Consolidation in one dimension after Terzaghi, drained at top and bottom, with the C_v of `[oedometer]`: root mean
@@ -73,7 +73,7 @@ pub enum Reference {
 }
 
 /// Statistic of the rows of a probe.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 #[serde(rename_all = "lowercase")]
 pub enum Statistic {
     /// Their mean, by time.

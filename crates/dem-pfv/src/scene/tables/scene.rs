@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
-use super::{AnyPlugins, Box, Fluid, Grains, Output, Plugins, Start, Wall};
+use super::{Box, Fluid, Grains, Output, Probe, Reference, Start, Wall};
 
 /// Grains, walls, fluid, times and output of a scene.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Scene {
     /// The scene in one line, with its publication.
     pub title: String,
@@ -30,39 +30,17 @@ pub struct Scene {
     pub oedometer: Option<Oedometer>,
     /// Measurements by name, `[probe.NAME]`; `kind` chooses it, the other keys are its parameters.
     #[parameter(default)]
-    #[schemars(with = "AnyPlugins")]
-    pub probe: Plugins,
+    pub probe: BTreeMap<String, Probe>,
     /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
     #[parameter(default)]
-    #[schemars(with = "AnyPlugins")]
-    pub reference: Plugins,
+    pub reference: BTreeMap<String, Reference>,
     /// Files of a run, and the times of writing.
     #[parameter(default)]
     pub output: Output,
 }
 
-impl Scene {
-    /// Every file that the scene names, as it names it, with the key that does.
-    pub fn files(&self) -> Vec<(String, String)> {
-        let mut found = Vec::new();
-        let start = self.start.file.iter();
-        found.extend(start.map(|f| ("start.file".to_string(), f.clone())));
-        for (name, wall) in &self.wall {
-            let file = wall.file.iter();
-            found.extend(file.map(|f| (format!("wall.{name}.file"), f.clone())));
-            let recorded = wall.recorded.iter();
-            found.extend(recorded.map(|r| (format!("wall.{name}.recorded.file"), r.file.clone())));
-        }
-        found.extend(self.reference.iter().filter_map(|(name, table)| {
-            let file = table.get("file")?.as_str()?.to_string();
-            Some((format!("reference.{name}.file"), file))
-        }));
-        found
-    }
-}
-
 /// Duration and accuracy of the run.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Run {
     /// Simulated time at which the run ends, s, counted from the end of the preparation.
     #[parameter(unit: "s", above: 0.0)]
@@ -83,7 +61,7 @@ pub struct Run {
 
 /// A sudden load on a piston, and the measures of its answer: the strain under the same load when it comes slowly and
 /// dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Oedometer {
     /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.
     pub wall: String,

@@ -1,11 +1,11 @@
 //! The tables `[box]` and `[wall.NAME]`.
 
-use sph_derive::parameters;
+use sph_core::parameters;
 
-use super::{AnyPlugins, Axis, Plugins, Triple};
+use super::{AnyPlugins, Axis, Plugins, Triple, Wave};
 
 /// A box of six walls, `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z).
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Box {
     /// Lower corner, m.
     #[parameter(unit: "m")]
@@ -27,44 +27,39 @@ pub struct Box {
 
 /// Further properties of a wall of the box; or a plane with `point` and `normal`; or a surface of triangles from a
 /// `file`.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Wall {
     /// A point of the plane, m.
-    #[parameter(default, unit: "m")]
+    #[parameter(unit: "m")]
     pub point: Option<Triple>,
     /// Its normal, towards the grains, of any length.
-    #[parameter(default)]
     pub normal: Option<Triple>,
     /// An STL file.
-    #[parameter(default)]
     pub file: Option<String>,
     /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
-    #[parameter(default)]
     pub unit: Option<String>,
     /// Factor on the coordinates of the `file`, instead of a unit.
-    #[parameter(default, unit: "1", above: 0.0)]
+    #[parameter(unit: "1", above: 0.0)]
     pub scale: Option<f64>,
     /// Shift of the surface of the `file`, after scaling, m.
-    #[parameter(default, unit: "m")]
+    #[parameter(unit: "m")]
     pub translate: Option<Triple>,
     /// Velocity, m/s.
-    #[parameter(default, unit: "m/s")]
+    #[parameter(unit: "m/s")]
     pub velocity: Option<Triple>,
     /// Angular velocity of a surface of triangles about `point`, rad/s.
-    #[parameter(default, unit: "1/s")]
+    #[parameter(unit: "1/s")]
     pub spin: Option<Triple>,
     /// The law of contacts with it, `[wall.NAME.contact.LAW]`.
     #[schemars(with = "AnyPlugins")]
     #[parameter(default)]
     pub contact: Plugins,
     /// Lets it move freely along its normal under a load.
-    #[parameter(default)]
     pub piston: Option<Piston>,
     /// Holds a stress.
-    #[parameter(default)]
     pub servo: Option<Servo>,
     /// Rate of strain between this wall and the one that faces it, 1/s, positive when they approach; give it to both.
-    #[parameter(default, unit: "1/s")]
+    #[parameter(unit: "1/s")]
     pub strain_rate: Option<f64>,
     /// True for a wall that gives way as much as others press in, so that the volume of the box stays: an undrained test
     /// without a fluid.
@@ -74,16 +69,14 @@ pub struct Wall {
     #[parameter(default)]
     pub removed: bool,
     /// Pressure of the fluid there, Pa.
-    #[parameter(default, unit: "Pa")]
+    #[parameter(unit: "Pa")]
     pub pressure: Option<f64>,
     /// Even inflow of fluid, m/s; negative lets it out.
-    #[parameter(default, unit: "m/s")]
+    #[parameter(unit: "m/s")]
     pub inflow: Option<f64>,
     /// Pressure of waves.
-    #[parameter(default)]
-    pub wave: Option<WaveLoad>,
+    pub wave: Option<Wave>,
     /// Pressure from a table, such as the series of a scene with a free surface.
-    #[parameter(default)]
     pub recorded: Option<RecordedLoad>,
     /// True if fluid sticks to it.
     #[parameter(default)]
@@ -91,7 +84,7 @@ pub struct Wall {
 }
 
 /// A wall that is a body: M dv/dt = σ A − F. σ = stress + ramp · t + amplitude · sin(2π t / period).
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Piston {
     /// Stress σ from outside, Pa, positive in compression.
     #[parameter(unit: "Pa")]
@@ -114,7 +107,7 @@ pub struct Piston {
 }
 
 /// A wall that is moved so that it bears a stress.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct Servo {
     /// Stress, Pa, positive in compression.
     #[parameter(unit: "Pa")]
@@ -124,33 +117,9 @@ pub struct Servo {
     pub speed: f64,
 }
 
-/// p = (amplitude + ramp · t) cos(π (x − crest) / half_length), times sin(2π t / period) if there is one. Catalano 2012,
-/// §6.3.2 and §6.4.
-#[parameters(crate: crate::reexport)]
-pub struct WaveLoad {
-    /// Axis along which it runs.
-    #[parameter(default)]
-    pub axis: Axis,
-    /// Place of the crest, m.
-    #[parameter(default, unit: "m")]
-    pub crest: f64,
-    /// Half the length of the wave, m.
-    #[parameter(unit: "m", above: 0.0)]
-    pub half_length: f64,
-    /// Amplitude of the pressure at the start, Pa.
-    #[parameter(default, unit: "Pa")]
-    pub amplitude: f64,
-    /// Growth of the amplitude, Pa/s.
-    #[parameter(default, unit: "Pa/s")]
-    pub ramp: f64,
-    /// Period, s; the load stands still if left out.
-    #[parameter(unit: "s", above: 0.0)]
-    pub period: Option<f64>,
-}
-
 /// p(x, t) less `less`, linear between places and rows, constant before the first and after the last. The pressure is
 /// piezometric: take off that of still water.
-#[parameters(crate: crate::reexport)]
+#[parameters]
 pub struct RecordedLoad {
     /// A table with a column `time` (s) and one of pressures (Pa) for each place: `series.csv` of `sph run`, for example.
     pub file: String,

@@ -1,6 +1,8 @@
 //! The same bits on any number of threads, and after a resumption.
 
+use dem_pfv::Axis;
 use dem_pfv::coupled::{CoupledSystem, FlowCondition, FlowSetup, Fluid, State, WallBoundary, Wave};
+use dem_pfv::flow::HydraulicRadius;
 use dem_pfv::grains::{Control, GrainSystem};
 
 use crate::coupled::{BOX1000, MODULUS, box_of_laws, boxed, packing};
@@ -14,7 +16,7 @@ fn system() -> CoupledSystem {
         mass: 100.0,
     };
     let wave = Wave {
-        axis: 0,
+        axis: Axis::X,
         crest: 0.0,
         half_length: 1.0,
         amplitude: 2e3,
@@ -27,6 +29,10 @@ fn system() -> CoupledSystem {
     };
     let setup = FlowSetup::new(Fluid::new(50.0, 1000.0).compressible(1e9)).sticking();
     CoupledSystem::new(grains, setup.side(5, top)).expect("a system")
+}
+
+fn hydraulic() -> Box<HydraulicRadius> {
+    Box::new(HydraulicRadius::default())
 }
 
 fn run(system: &mut CoupledSystem, steps: usize) {
@@ -82,7 +88,8 @@ fn a_resumed_run_goes_on_to_the_same_bits() {
     let text = serde_json::to_string(&first.save()).expect("saved");
     drop(first);
     let state: State = serde_json::from_str(&text).expect("read");
-    let mut second = CoupledSystem::resume(state, box_of_laws(MODULUS)).expect("resumed");
+    let mut second =
+        CoupledSystem::resume(state, box_of_laws(MODULUS), hydraulic()).expect("resumed");
     let before = second.meshes();
     run(&mut second, 23);
     assert!(
@@ -110,7 +117,8 @@ fn a_resumed_run_with_conjugate_gradients_goes_on_to_the_same_bits() {
     run(&mut whole, 60);
     let mut first = start();
     run(&mut first, 31);
-    let mut second = CoupledSystem::resume(first.save(), box_of_laws(MODULUS)).expect("resumed");
+    let mut second =
+        CoupledSystem::resume(first.save(), box_of_laws(MODULUS), hydraulic()).expect("resumed");
     run(&mut second, 29);
     assert_eq!(bits(&second), bits(&whole));
 }

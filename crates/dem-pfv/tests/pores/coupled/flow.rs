@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use dem_pfv::Axis;
 use dem_pfv::coupled::{
-    CoupledSystem, FlowCondition, FlowSetup, Fluid, Remeshing, WallBoundary, Wave,
+    CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, Remeshing, WallBoundary, Wave,
 };
 use dem_pfv::flow::Forces;
 use dem_pfv::grains::{Control, GrainSystem, step_to_rest};
@@ -48,7 +49,7 @@ fn unit_forces_are_the_forces_of_the_flow() {
 fn a_cosine_load_seeps_as_darcy_has_it() {
     let error = |text: &str, up: usize| {
         let wave = Wave {
-            axis: 0,
+            axis: Axis::X,
             crest: 0.0,
             half_length: 1.0,
             amplitude: 0.5,
@@ -94,13 +95,14 @@ fn a_cosine_load_seeps_as_darcy_has_it() {
 /// A profile of pressures is linear between its places and constant beyond; a wave swings with its period.
 #[test]
 fn profiles_and_waves_press_as_they_say() {
-    let profile = FlowCondition::Profile {
-        axis: 0,
+    let profile = Recorded {
+        axis: Axis::X,
         places: vec![0.25, 0.75],
+        times: vec![0.0],
         pressures: vec![10.0, 20.0],
     };
     let side = WallBoundary {
-        condition: profile,
+        condition: FlowCondition::Recorded(profile),
         sticks: false,
     };
     let setup = FlowSetup::new(Fluid::new(1.0, 0.0)).side(5, side);
@@ -114,7 +116,7 @@ fn profiles_and_waves_press_as_they_say() {
         assert!((p - expected).abs() < 1e-12, "{p} Pa at {x} m");
     }
     let wave = Wave {
-        axis: 0,
+        axis: Axis::X,
         crest: 0.5,
         half_length: 2.0,
         amplitude: 3.0,

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
+use dem_pfv::coupled::{
+    CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, StepLimit, WallBoundary,
+};
 use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
 use crate::coupled::{BOX200, BOX1000, DENSITY, MODULUS, boxed, packing};
@@ -125,7 +127,10 @@ fn one_grain_has_the_limit_of_its_own_drag() {
     );
     let error = system.step(1.01 * limit.step).expect_err("too long");
     assert!(
-        matches!(error, CoupledError::StepTooLarge { grain: 0, .. }),
+        matches!(
+            error,
+            CoupledError::StepTooLarge(_, StepLimit { grain: 0, .. })
+        ),
         "{error}"
     );
 }

@@ -111,8 +111,8 @@ impl Sample {
             .map(|(a, b)| a - b)
             .collect();
         let law = HydraulicRadius::default();
-        let mut system =
-            FlowSystem::new(&pores, &boundary, &law, viscosity, Solver::Direct).expect("a system");
+        let mut system = FlowSystem::new(&pores, &boundary, &law, viscosity, None, Solver::Direct)
+            .expect("a system");
         let pressures = system.solve(&boundary, &rates).expect("pressures");
         let forces = Forces::new(&pores, &pressures);
         // So weak that the packing answers as it did to the load.

@@ -1,8 +1,16 @@
 //! Fluid that gives way.
 
-use dem_pfv::flow::{Boundary, FlowSystem, SlipCondition, SolidAngles, Solver, Storage};
+use dem_pfv::flow::{Boundary, SlipCondition, SolidAngles, Storage};
 
-use crate::flow::{BOX200, drop_along_y, geometry, hydraulic, spheres};
+use crate::flow::{BOX200, direct, drop_along_y, geometry, spheres};
+
+/// 1 kPa over a step, s.
+fn soft(step: f64) -> Storage {
+    Storage {
+        bulk_modulus: 1e3,
+        step,
+    }
+}
 
 /// A closed box takes what is pumped in by its pressure alone: K Q Δt / V_void on the mean, without a given pressure.
 #[test]
@@ -10,19 +18,7 @@ fn a_closed_box_stores_what_is_pumped_in() {
     let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let mut boundary = Boundary::closed(&geometry);
     boundary.source(17, 1e-3);
-    let storage = Storage {
-        bulk_modulus: 1e3,
-        step: 0.5,
-    };
-    let mut system = FlowSystem::compressible(
-        &geometry,
-        &boundary,
-        &hydraulic(),
-        1.0,
-        storage,
-        Solver::Direct,
-    )
-    .expect("a system");
+    let mut system = direct(&geometry, &boundary, Some(soft(0.5)));
     let mut pressures = vec![5.0; geometry.volumes.len()];
     for _ in 0..3 {
         pressures = system.step(&boundary, &[], &pressures).expect("pressures");
@@ -44,23 +40,10 @@ fn a_closed_box_stores_what_is_pumped_in() {
 fn pressures_diffuse_to_the_steady_ones() {
     let geometry = geometry(&spheres(BOX200), SlipCondition::NoSlip, SolidAngles::Signed);
     let boundary = drop_along_y(&geometry);
-    let mut steady =
-        FlowSystem::new(&geometry, &boundary, &hydraulic(), 1.0, Solver::Direct).expect("a system");
+    let mut steady = direct(&geometry, &boundary, None);
     let steady = steady.solve(&boundary, &[]).expect("pressures");
     // Diffusivity κ K/(µ n) is about 0.08 m²/s: 1 s goes a third of the way through the box.
-    let storage = Storage {
-        bulk_modulus: 1e3,
-        step: 1.0,
-    };
-    let mut system = FlowSystem::compressible(
-        &geometry,
-        &boundary,
-        &hydraulic(),
-        1.0,
-        storage,
-        Solver::Direct,
-    )
-    .expect("a system");
+    let mut system = direct(&geometry, &boundary, Some(soft(1.0)));
     let mut pressures = vec![0.0; steady.len()];
     let mut distance = vec![];
     for _ in 0..200 {
@@ -86,12 +69,7 @@ fn pressures_diffuse_to_the_steady_ones() {
         distance[0],
         distance[199]
     );
-    system
-        .set_storage(Storage {
-            bulk_modulus: 1e3,
-            step: 1e12,
-        })
-        .expect("numbers");
+    system.set_storage(soft(1e12)).expect("numbers");
     let once = system
         .step(&boundary, &[], &vec![0.0; steady.len()])
         .expect("pressures");

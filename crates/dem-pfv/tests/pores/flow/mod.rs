@@ -10,7 +10,7 @@ mod systems;
 
 use dem_pfv::flow::{
     Boundary, Conductance, FlowSystem, Forces, HydraulicRadius, PoreGeometry, SlipCondition,
-    SolidAngles, Solver,
+    SolidAngles, Solver, Storage,
 };
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
@@ -50,6 +50,12 @@ fn drop_along_y(geometry: &PoreGeometry) -> Boundary {
     boundary
 }
 
+/// The factorised system of a fluid of 1 Pa s, by hydraulic radii.
+fn direct(geometry: &PoreGeometry, boundary: &Boundary, storage: Option<Storage>) -> FlowSystem {
+    let law = hydraulic();
+    FlowSystem::new(geometry, boundary, &law, 1.0, storage, Solver::Direct).expect("a system")
+}
+
 /// What a permeameter shows of a unit cube with µ = 1 Pa s.
 struct Permeameter {
     /// Permeability κ = µ Q l / (Δp S), m².
@@ -63,7 +69,7 @@ struct Permeameter {
 fn permeameter(geometry: &PoreGeometry, law: &dyn Conductance) -> Permeameter {
     let boundary = drop_along_y(geometry);
     let mut system =
-        FlowSystem::new(geometry, &boundary, law, 1.0, Solver::Direct).expect("a system");
+        FlowSystem::new(geometry, &boundary, law, 1.0, None, Solver::Direct).expect("a system");
     let pressures = system.solve(&boundary, &[]).expect("pressures");
     let [low, high] = [2, 3].map(|w| system.inflow(geometry, w, &pressures));
     Permeameter {

@@ -7,7 +7,7 @@ use nalgebra::{Rotation3, Vector3};
 use crate::flow::{BOX25, BOX200, drop_along_y, geometry, hydraulic, permeameter, spheres};
 
 fn system(geometry: &PoreGeometry, boundary: &Boundary, solver: Solver) -> FlowSystem {
-    FlowSystem::new(geometry, boundary, &hydraulic(), 1.0, solver).expect("a system")
+    FlowSystem::new(geometry, boundary, &hydraulic(), 1.0, None, solver).expect("a system")
 }
 
 #[test]
@@ -172,6 +172,7 @@ fn viscosity_scales_fluxes_alone() {
             &boundary,
             &hydraulic(),
             viscosity,
+            None,
             Solver::Direct,
         )
         .expect("a system");

@@ -1,29 +1,30 @@
 //! Contact laws from outside.
 
 use dem_pfv::grains::{
-    Contact, ContactLaw, GrainError, GrainSystem, Setup, Stiffness, contact_law, contact_laws,
-    require,
+    Contact, ContactLaw, ContactLawEntry, GrainError, GrainSystem, Setup, Stiffness, contact_law,
 };
-use dem_pfv::register_law;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use serde_json::json;
+use dem_pfv::require;
+use sph_core::{plugin, plugins_of};
 
 use crate::grains::{RADIUS, close, grain, position};
 
 /// Repels with k δ and remembers its largest overlap: unloading is half as stiff.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[plugin(ContactLawEntry, "bruised", "half as stiff when unloading", source: "nobody")]
 struct Bruised {
     /// k.
-    #[schemars(extend("unit" = "N/m"))]
+    #[parameter(unit: "N/m")]
     stiffness: f64,
 }
 
 impl ContactLaw for Bruised {
     fn check(&self) -> Result<(), GrainError> {
         let k = self.stiffness;
-        require("bruised", "stiffness", k, "positive", k > 0.0)
+        Ok(require(
+            "the contact law bruised has the stiffness",
+            k,
+            "positive",
+            k > 0.0,
+        )?)
     }
     fn memory(&self) -> &'static [&'static str] {
         &["largest overlap"]
@@ -44,18 +45,12 @@ impl ContactLaw for Bruised {
     }
 }
 
-register_law!(
-    Bruised as ContactLaw,
-    "bruised",
-    "half as stiff when unloading",
-    "nobody"
-);
-
 #[test]
 fn a_law_of_another_crate_is_found_and_remembers() {
-    let names: Vec<_> = contact_laws().iter().map(|entry| entry.name).collect();
+    let laws = plugins_of::<ContactLawEntry>();
+    let names: Vec<_> = laws.iter().map(|law| law.name).collect();
     assert_eq!(names, ["bruised", "hertz-mindlin", "linear-elastic"]);
-    let law = contact_law("bruised", &json!({ "stiffness": 1e4 })).expect("the law");
+    let law = contact_law("bruised", &table("stiffness = 1e4")).expect("the law");
     let grains = vec![
         grain(-RADIUS, 0.0, 0.0).moving([0.1, 0.0, 0.0]),
         grain(RADIUS, 0.0, 0.0).moving([-0.1, 0.0, 0.0]),
@@ -74,25 +69,30 @@ fn a_law_of_another_crate_is_found_and_remembers() {
     close(back * back, 0.5, 1e-3);
 }
 
+fn table(parameters: &str) -> toml::Table {
+    parameters.parse().expect("TOML")
+}
+
 #[test]
 fn schemas_carry_units() {
-    let laws = contact_laws();
-    let linear = laws
-        .iter()
-        .find(|l| l.name == "linear-elastic")
-        .expect("it");
+    let laws = plugins_of::<ContactLawEntry>();
+    let linear = laws.iter().find(|l| l.name == "linear-elastic");
+    let linear = linear.expect("it");
     assert_eq!((linear.schema)()["properties"]["modulus"]["unit"], "Pa");
     assert!(linear.source.contains("Catalano 2012"));
 }
 
 #[test]
 fn wrong_names_and_parameters_are_refused() {
-    let unknown = contact_law("linear", &json!({})).expect_err("unknown");
+    let unknown = contact_law("linear", &table("")).expect_err("unknown");
     assert!(unknown.to_string().contains("linear-elastic"), "{unknown}");
-    let table = json!({ "modulus": 1e6, "stiffness_ratio": 0.5, "friction": 0.5, "colour": 1 });
-    let extra = contact_law("linear-elastic", &table).expect_err("extra");
-    assert!(extra.to_string().contains("colour"), "{extra}");
-    let table = json!({ "modulus": -1e6, "stiffness_ratio": 0.5, "friction": 0.5 });
-    let negative = contact_law("linear-elastic", &table).expect_err("negative");
-    assert!(negative.to_string().contains("-1000000"), "{negative}");
+    for (wrong, told) in [
+        ("modulus = 1e6\ncolour = 1", "colour"),
+        ("modulus = -1e6", "-1000000"),
+    ] {
+        let rest = "stiffness_ratio = 0.5\nfriction = 0.5";
+        let parameters = table(&format!("{wrong}\n{rest}"));
+        let error = contact_law("linear-elastic", &parameters).expect_err(told);
+        assert!(error.to_string().contains(told), "{error}");
+    }
 }

@@ -22,14 +22,7 @@ fn bad_numbers_name_their_grain() {
         let bad_radius = Grain::new([1.0, 0.0, 0.0], value, 2600.0);
         let error = refused(vec![grain(0.0, 0.0, 0.0), bad_radius]);
         assert!(
-            matches!(
-                error,
-                Error::NotPositive {
-                    grain: 1,
-                    what: "radius",
-                    ..
-                }
-            ),
+            matches!(error, Error::NotPositive(1, "radius", _)),
             "{error}"
         );
         let bad_density = Grain::new([1.0, 0.0, 0.0], RADIUS, value);
@@ -42,25 +35,12 @@ fn bad_numbers_name_their_grain() {
     }
     let error = refused(vec![grain(0.0, f64::NAN, 0.0)]);
     assert!(
-        matches!(
-            error,
-            Error::NotFinite {
-                grain: 0,
-                what: "position",
-                ..
-            }
-        ),
+        matches!(error, Error::NotFinite(0, "position", _)),
         "{error}"
     );
     let error = refused(vec![grain(0.0, 0.0, 0.0).moving([f64::INFINITY, 0.0, 0.0])]);
     assert!(
-        matches!(
-            error,
-            Error::NotFinite {
-                what: "velocity",
-                ..
-            }
-        ),
+        matches!(error, Error::NotFinite(_, "velocity", _)),
         "{error}"
     );
 }
@@ -84,17 +64,7 @@ fn bad_laws_name_their_parameter() {
 fn overlaps_of_more_than_a_tenth_are_refused() {
     let small = Grain::new([RADIUS + 0.05 - 0.006, 0.0, 0.0], 0.05, kilogram());
     let error = refused(vec![grain(5.0, 0.0, 0.0), grain(0.0, 0.0, 0.0), small]);
-    assert!(
-        matches!(
-            error,
-            Error::Overlap {
-                first: 1,
-                second: 2,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::Overlap(1, 2, _)), "{error}");
     assert!(error.to_string().contains("6.000e-3 m"), "{error}");
     // A tenth itself is not more.
     let fine = Grain::new([RADIUS + 0.05 - 0.0049, 0.0, 0.0], 0.05, kilogram());
@@ -176,10 +146,8 @@ fn steps_and_runaways_are_refused() {
     let mut system = GrainSystem::new(one()).expect("one");
     let limit = system.critical_step();
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(
-            system.step(step),
-            Err(Error::BadNumber { what: "step", .. })
-        ));
+        let error = system.step(step).expect_err("no step").to_string();
+        assert!(error.starts_with("the step is"), "{error}");
     }
     let error = system
         .step(1.01 * limit)
@@ -193,31 +161,25 @@ fn steps_and_runaways_are_refused() {
     system.grains.external_force[0] = Vector::repeat(f64::NAN);
     system.step(0.5 * limit).expect("it flies away");
     let error = system.step(0.5 * limit).expect_err("gone");
-    assert!(
-        matches!(error, Error::NotFinite { grain: 0, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, Error::NotFinite(0, ..)), "{error}");
 
     let pressed = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).with_control(Control::Piston {
         stress: 1.0,
         mass: 1.0,
     });
     let mut open = GrainSystem::new(one().walls([pressed])).expect("open");
-    assert!(matches!(
-        open.step(0.5 * limit),
-        Err(Error::NoArea { wall: 0 })
-    ));
+    assert!(matches!(open.step(0.5 * limit), Err(Error::NoArea(0))));
 }
 
 #[test]
 fn a_full_cloud_names_who_found_no_room() {
     let cloud = Cloud::new([0.0; 3], [1.0; 3]);
     let error = cloud.place(&[0.6], 1).expect_err("too large");
-    assert!(matches!(error, Error::NoRoom { grain: 0, .. }), "{error}");
+    assert!(matches!(error, Error::NoRoom(0, ..)), "{error}");
     let error = cloud.place(&[0.1; 200], 1).expect_err("too many");
-    assert!(matches!(error, Error::NoRoom { .. }), "{error}");
+    assert!(matches!(error, Error::NoRoom(..)), "{error}");
     assert!(matches!(
         cloud.place(&[0.1, -0.1], 1),
-        Err(Error::NotPositive { grain: 1, .. })
+        Err(Error::NotPositive(1, ..))
     ));
 }

@@ -34,7 +34,7 @@ fn sample(degrees: f64) -> GrainSystem {
         ..Growth::new(Target::Stress(STRESS), MODULUS)
     };
     growth.run(&mut system).expect("grown");
-    system.set_law(0, law(30.0)).expect("friction");
+    system.set_law(0, Box::new(law(30.0))).expect("friction");
     system
 }
 

@@ -52,7 +52,7 @@ fn text(e: &Examination, file: &str) -> String {
         .iter()
         .map(|(name, value, unit)| row(name, format!("{} {unit}", number::plain(*value))));
     let derived: Vec<_> = derived.collect();
-    let limits: Vec<_> = e.limits.iter().map(|l| vec![l.clone()]).collect();
+    let limits: Vec<_> = e.limits.iter().map(|l| vec![l.to_string()]).collect();
     let cost = &e.estimate;
     let estimate = vec![
         row("steps", format!("at least {}", number::count(cost.steps))),

@@ -32,7 +32,7 @@ fn text(e: &Examination) -> String {
     let rows: Vec<_> = e
         .memory
         .iter()
-        .map(|(name, bytes)| vec![name.clone(), format!("about {}", number::bytes(*bytes))])
+        .map(|(name, bytes)| vec![name.to_string(), format!("about {}", number::bytes(*bytes))])
         .collect();
     text.push_str(&columns(2, &rows));
     text.push_str("\nstages of a step, in order\n");

@@ -1,9 +1,11 @@
 //! Axes by name.
 
-use sph_derive::parameters;
+use serde::Serialize;
+use sph_core::parameters;
 
 /// An axis.
-#[parameters(crate: crate::reexport)]
+#[parameters]
+#[derive(PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// From left to right.
