@@ -11,7 +11,7 @@ use sph_scene::{Override, Source, read_text, within};
 use sph_study::SceneText;
 
 use crate::arguments::SceneArguments;
-use crate::shipped::{self, Content};
+use crate::shipped::{self, Content, Data};
 use crate::terminal::diagnostics;
 use crate::terminal::trouble::Trouble;
 
@@ -94,7 +94,9 @@ pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
 pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
-    let found = located(Path::new(&arguments.scene), &arguments.scene).map_err(Trouble::Usage)?;
+    let set: Vec<&str> = arguments.set.iter().map(String::as_str).collect();
+    let found = located(Path::new(&arguments.scene), &arguments.scene, Some(&set));
+    let found = found.map_err(Trouble::Usage)?;
     Ok(OpenScene {
         scene: read(Source::new(&found.text, &found.file, &overrides).allowing(allowed))?,
         stem: found.name,
@@ -123,10 +125,10 @@ pub struct SceneSource {
 }
 
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
-/// allowed one, or by the name of a shipped one.
+/// allowed one, or by the name of a shipped one, beside which all shipped data lie then.
 pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<SceneSource, String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
-    let found = located(&path, scene)?;
+    let found = located(&path, scene, None)?;
     Ok(SceneSource {
         scene: SceneText {
             method: method(&found.text, &found.shown),
@@ -150,8 +152,9 @@ struct Located {
     unpacked: Option<Scratch>,
 }
 
-/// The scene at a path, else the shipped one of a name.
-fn located(path: &Path, scene: &str) -> Result<Located, String> {
+/// The scene at a path, else the shipped one of a name, with the data that it or the texts `beside` it mention, or with
+/// all.
+fn located(path: &Path, scene: &str, beside: Option<&[&str]>) -> Result<Located, String> {
     // A pipe is as good as a file.
     let (name, content) = match path.exists() && !path.is_dir() {
         true => (stem(path).to_string(), Content::File(path.to_path_buf())),
@@ -167,7 +170,11 @@ fn located(path: &Path, scene: &str) -> Result<Located, String> {
             (shown.clone(), shown, text, None)
         }
         Content::CompiledIn(text) => {
-            let (file, unpacked) = unpacked(&name, text)?;
+            let data: Vec<Data> = match beside {
+                Some(beside) => shipped::data_of(&[&[text], beside].concat()).collect(),
+                None => shipped::data().collect(),
+            };
+            let (file, unpacked) = unpacked(&name, data)?;
             (name.clone(), file, text.to_string(), unpacked)
         }
     };
@@ -195,8 +202,8 @@ fn stem(path: &Path) -> &str {
 }
 
 /// The file name by which a compiled-in scene names its data, put into a folder if it has any.
-fn unpacked(name: &str, text: &str) -> Result<(String, Option<Scratch>), String> {
-    if shipped::data_of(text).next().is_none() {
+fn unpacked(name: &str, data: Vec<Data>) -> Result<(String, Option<Scratch>), String> {
+    if data.is_empty() {
         return Ok((format!("{name}.toml"), None));
     }
     // A name that cannot be guessed, created here, for this user alone.
@@ -207,7 +214,7 @@ fn unpacked(name: &str, text: &str) -> Result<(String, Option<Scratch>), String>
         .join(format!("{name}.toml"))
         .display()
         .to_string();
-    shipped::unpack_data(text, folder.path())?;
+    shipped::unpack(data.into_iter(), folder.path())?;
     Ok((file, Some(folder)))
 }
 

@@ -92,19 +92,27 @@ pub fn studies() -> impl Iterator<Item = &'static str> {
         .map(|(file, _)| file.trim_end_matches(".toml"))
 }
 
-/// Compiled-in data files that a text mentions, with the path it mentions them by.
-pub fn data_of(text: &str) -> impl Iterator<Item = (&'static str, &'static [u8])> + '_ {
-    let mentioned = |(path, _): &&(&str, &[u8])| text.contains(&format!("\"{path}\""));
+/// A compiled-in data file, with the path by which scenes name it.
+pub type Data = (&'static str, &'static [u8]);
+
+/// Compiled-in data files that one of some texts mentions.
+pub fn data_of<'a>(texts: &'a [&str]) -> impl Iterator<Item = Data> + 'a {
+    let mentioned = |(path, _): &&Data| texts.iter().any(|text| text.contains(path));
     DATA.iter().filter(mentioned).copied()
 }
 
-/// Writes a compiled-in scene's data below a folder; returns the written files.
+/// All of them.
+pub fn data() -> impl Iterator<Item = Data> {
+    DATA.iter().copied()
+}
+
+/// Writes compiled-in data below a folder; returns the written files.
 ///
 /// # Errors
 /// The reason of the system, with the file.
-pub fn unpack_data(text: &str, folder: &Path) -> Result<Vec<PathBuf>, String> {
+pub fn unpack(data: impl Iterator<Item = Data>, folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut written = Vec::new();
-    for (path, content) in data_of(text) {
+    for (path, content) in data {
         let target = folder.join(path);
         let told = |e: std::io::Error| format!("cannot write {}: {e}", target.display());
         if let Some(parent) = target.parent() {

@@ -89,7 +89,7 @@ fn write(path: &Path, text: &str) -> Result<(), Trouble> {
 /// Brings the data files along that the new scene is compared with.
 fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>, Trouble> {
     let Some(origin) = origin else {
-        return shipped::unpack_data(text, folder).map_err(Trouble::Usage);
+        return shipped::unpack(shipped::data_of(&[text]), folder).map_err(Trouble::Usage);
     };
     let name = origin.join("scene.toml").display().to_string();
     let loaded = match scene_file::read(Source::new(text, &name, &[])) {

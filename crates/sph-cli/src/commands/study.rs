@@ -1,6 +1,7 @@
 //! `sph study`.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -53,7 +54,7 @@ pub struct Studied {
 pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
-    let scenes: RefCell<Vec<SceneSource>> = RefCell::default();
+    let scenes: RefCell<BTreeMap<String, SceneSource>> = RefCell::default();
     let study = read(arguments, name, &scenes)?;
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
@@ -120,14 +121,18 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
 fn read(
     arguments: &StudyArguments,
     name: &str,
-    scenes: &RefCell<Vec<SceneSource>>,
+    scenes: &RefCell<BTreeMap<String, SceneSource>>,
 ) -> Result<Study, Trouble> {
     let set = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
     let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
+        let known = scenes.borrow().get(name).map(|s| s.scene.clone());
+        if let Some(scene) = known {
+            return Ok(scene);
+        }
         let found = find(folder, name, allowed)?;
         let scene = found.scene.clone();
-        scenes.borrow_mut().push(found);
+        scenes.borrow_mut().insert(name.to_string(), found);
         Ok(scene)
     };
     let path = Path::new(name);

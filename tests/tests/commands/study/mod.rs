@@ -104,3 +104,20 @@ fn shipped_studies_are_good() {
         }
     }
 }
+
+/// Its data are compiled in, and so are those that it names beside those of its scene.
+#[test]
+fn a_shipped_study_of_two_models_runs_in_any_folder() {
+    let bench = Bench::new(PROGRAM);
+    let outcome = bench.call("study dilatancy-judge --only loose-roux* --set run.end=0.02");
+    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    assert!(
+        outcome.out.contains("loose, roux-radjai"),
+        "{}",
+        outcome.out
+    );
+    let run = "run undrained-shear --set run.end=0.02 --set \
+               reference.pull={probe='excess',file='data/grains_undrained_dense.csv',columns=['shear','share']}";
+    let outcome = bench.call(run);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+}

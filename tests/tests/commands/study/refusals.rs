@@ -26,6 +26,18 @@ fn a_misspelt_key_of_the_study_is_refused() {
 }
 
 #[test]
+fn an_unknown_scene_of_an_entry_is_shown_there() {
+    refused(
+        &with(
+            "name = \"krimi\"",
+            "name = \"krimi\", scene = \"taylor-gren-2d\"",
+        ),
+        "taylor-gren-2d",
+        &["vary[0].entries[1].scene", "did you mean `taylor-green-2d`"],
+    );
+}
+
+#[test]
 fn a_misspelt_scene_key_is_shown_in_the_study() {
     refused(
         &with("numerics.spacing", "numerics.spcing"),
