@@ -8,14 +8,29 @@ use crate::stress::LawInputs;
 
 /// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_FRACTION`](fields::SOLID_FRACTION) and
 /// [`YIELD_FACTOR`](fields::YIELD_FACTOR) from the remembered stress; 1 in phases without an elastic part.
-pub struct Yielded(pub LawInputs);
+pub struct Yielded {
+    law_inputs: LawInputs,
+    /// Kept for its memory.
+    yielding: Vec<Yielding>,
+}
+
+impl Yielded {
+    /// That of some laws.
+    pub fn new(law_inputs: LawInputs) -> Self {
+        let yielding = Vec::new();
+        Yielded {
+            law_inputs,
+            yielding,
+        }
+    }
+}
 
 impl Declares for Yielded {
     fn name(&self) -> String {
         "yielding".into()
     }
     fn access(&self) -> Access {
-        self.0
+        self.law_inputs
             .access()
             .here(fields::ELASTIC_STRESS)
             .writes(fields::FRICTION_SHARE)
@@ -26,9 +41,14 @@ impl Declares for Yielded {
 
 impl<const D: usize> Stage<World<D>> for Yielded {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut yielding = vec![Yielding::NONE; world.free.len()];
+        let Yielded {
+            law_inputs,
+            yielding,
+        } = self;
+        yielding.clear();
+        yielding.resize(world.free.len(), Yielding::NONE);
         let stress = world.free.get(fields::ELASTIC_STRESS)?;
-        self.0.each(world, &mut yielding, |law, inputs, run, out| {
+        law_inputs.each(world, yielding, |law, inputs, run, out| {
             if let Some(elastic) = law.elastic() {
                 elastic.yielding(inputs, &stress[run], out);
             }
@@ -41,7 +61,7 @@ impl<const D: usize> Stage<World<D>> for Yielded {
         ];
         for (field, share) in columns {
             let column = world.free.get_mut(field)?;
-            let all = column.iter_mut().zip(&yielding);
+            let all = column.iter_mut().zip(&*yielding);
             all.for_each(|(value, yielding)| *value = share(yielding));
         }
         Ok(())
