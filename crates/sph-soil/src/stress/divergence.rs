@@ -36,10 +36,10 @@ pub struct Divergence {
     #[parameter(default, source: "ours, after Tuckerman et al. 1992, J. Chem. Phys. 97, 1990")]
     pub sub_steps: bool,
     /// Strength α of the damping of motions that the velocity gradient does not see: a viscosity α h √(𝒢ρ) of what
-    /// neighbours move beyond it, times the solid fraction. Without it soils beside walls rattle. Not with `implicit`,
-    /// which damps them, nor with `sub_steps`, which leave the gradient behind.
-    #[parameter(default: 0.2, unit: "1", min: 0.0, max: 1.0, source: "ours, after Ganzenmüller 2015")]
-    pub hourglass: f64,
+    /// neighbours move beyond it, times the solid fraction; 0.2 in soils, 0 in materials that do not yield, if left out.
+    /// Without it solids beside walls rattle. Not with `implicit`, which damps them, nor with `sub_steps`.
+    #[parameter(unit: "1", min: 0.0, max: 1.0, source: "ours, after Ganzenmüller 2015")]
+    pub hourglass: Option<f64>,
 }
 
 impl<const D: usize> ElasticForce<D> for Divergence {
@@ -55,11 +55,11 @@ impl<const D: usize> ElasticForce<D> for Divergence {
     fn sub_steps(&self) -> bool {
         self.sub_steps
     }
-    fn hourglass(&self) -> f64 {
-        match self.implicit || self.sub_steps {
-            true => 0.0,
-            false => self.hourglass,
+    fn hourglass(&self, yields: bool) -> f64 {
+        if self.implicit || self.sub_steps {
+            return 0.0;
         }
+        self.hourglass.unwrap_or(if yields { 0.2 } else { 0.0 })
     }
 }
 

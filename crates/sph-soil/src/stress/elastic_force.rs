@@ -21,8 +21,9 @@ pub trait ElasticForce<const D: usize>: Send {
     fn sub_steps(&self) -> bool {
         false
     }
-    /// Strength α of the [damping](crate::stress::HourglassDamping) of motions that the stress does not resist.
-    fn hourglass(&self) -> f64 {
+    /// Strength α of the [damping](crate::stress::HourglassDamping) of motions that the stress does not resist, in a
+    /// material that yields or does not.
+    fn hourglass(&self, _yields: bool) -> f64 {
         0.0
     }
     /// True if it is made of [displacements](sph_core::fields::ELASTIC_DISPLACEMENT), which are then remembered, and

@@ -40,11 +40,14 @@ impl<const D: usize> Elasticity<D> {
     }
 
     /// α√(𝒢ρ) by phase, Pa s/m.
-    fn hourglass(&self, strength: f64, setting: &Setting<'_, D>) -> Vec<f64> {
+    fn hourglass(&self, force: &dyn ElasticForce<D>, setting: &Setting<'_, D>) -> Vec<f64> {
         let both = setting.laws.iter().zip(self.0.laws.iter());
         let strength = both.map(|(law, rheology)| {
-            let shear = rheology.elastic().map_or(0.0, |e| e.shear_modulus());
-            strength * (shear * law.reference().density).sqrt()
+            let Some(elastic) = rheology.elastic() else {
+                return 0.0;
+            };
+            let impedance = (elastic.shear_modulus() * law.reference().density).sqrt();
+            force.hourglass(elastic.blends()) * impedance
         });
         strength.collect()
     }
@@ -77,8 +80,8 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             let wave = self.wave(setting).filter(|_| !force.implicit());
             wave.into_iter().for_each(|wave| offer.limiter(wave));
         }
-        if force.hourglass() > 0.0 {
-            let strength = self.hourglass(force.hourglass(), setting);
+        let strength = self.hourglass(&**force, setting);
+        if strength.iter().any(|s| *s > 0.0) {
             offer.terms.push(HourglassDamping::boxed(strength));
         }
         offer.stored.push(Box::new(self.0.law_inputs()));
