@@ -92,7 +92,7 @@ pub enum RegistryError {
 }
 
 impl RegistryError {
-    /// Of a name that none of the known plugins of a kind has.
+    /// A plugin name that its kind does not have.
     pub fn unknown<'n>(
         kind: &'static str,
         name: &str,

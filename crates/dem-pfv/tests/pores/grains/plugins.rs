@@ -9,7 +9,7 @@ use sph_core::{plugin, plugins_of};
 use crate::grains::{RADIUS, close, grain, position};
 
 /// Repels with k δ and remembers its largest overlap: unloading is half as stiff.
-#[plugin(ContactLawEntry, "bruised", "half as stiff when unloading", source: "nobody")]
+#[plugin(ContactLawEntry, "bruised", "half as stiff when unloading", source: "a test")]
 struct Bruised {
     /// k.
     #[parameter(unit: "N/m")]
