@@ -252,8 +252,7 @@ impl<const D: usize> BoundTerm<D> for BoundDamping<'_, D> {
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
-            let volume = self.walls.elements.volume[contact.element as usize];
-            sum -= contact.gradient * (against(volume) / volume);
+            sum -= contact.gradient * (against(contact.volume) / contact.volume);
         }
         rates.acceleration -= sum * (1.0 / self.mass[i] * at.inverse_renormalisation);
     }

@@ -169,10 +169,9 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for BoundVelocityDivergen
             sum -= self.walls.points.share[v] * weight * apart * pair.factor;
         }
         for contact in at.contacts {
-            let s = contact.element as usize;
-            let there = self.walls.elements.volume[s];
-            let weight = self.weight.at_element(volume, density, there);
-            sum += weight * (velocity - self.walls.elements.velocity[s]).dot(&contact.gradient);
+            let weight = self.weight.at_element(volume, density, contact.volume);
+            let wall = self.walls.elements.velocity_at(&contact);
+            sum += weight * (velocity - wall).dot(&contact.gradient);
         }
         rates.scalar += sum * at.inverse_renormalisation;
     }

@@ -177,10 +177,9 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for BoundPressureGradient<'_,
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
-            let s = contact.element as usize;
             let there = PairState {
-                pressure: self.walls.elements.pressure[s],
-                volume: self.walls.elements.volume[s],
+                pressure: contact.pressure,
+                volume: contact.volume,
                 density: own.density,
             };
             sum -= contact.gradient * (self.weight.pair(own, there) / there.volume);

@@ -220,8 +220,7 @@ impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
             sum += pair.separation * (c.wall_share[v] * c.wall_volume[v] * pressure * pair.factor);
         }
         for contact in at.contacts {
-            let there = c.elements.pressure[contact.element as usize];
-            sum -= contact.gradient * ((own + there) * inverse);
+            sum -= contact.gradient * ((own + contact.pressure) * inverse);
         }
         rates.acceleration -= sum * (c.volume[i] / c.mass[i] * at.inverse_renormalisation);
     }
@@ -252,7 +251,7 @@ impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
             sum -= c.wall_share[v] * c.wall_volume[v] * apart * pair.factor;
         }
         for contact in at.contacts {
-            let wall = c.elements.velocity[contact.element as usize];
+            let wall = c.elements.velocity_at(&contact);
             sum += (velocity - wall).dot(&contact.gradient);
         }
         rates.scalar += sum * (1.0 / c.kernel_sum[i]) * at.inverse_renormalisation;

@@ -211,7 +211,7 @@ impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
         for contact in at.contacts {
             let s = contact.element as usize;
             let normal = self.elements.normal[s];
-            let leaving = (velocity - self.elements.velocity[s]).dot(&normal);
+            let leaving = (velocity - self.elements.velocity_at(&contact)).dot(&normal);
             let density = own.wall_density / (own.density + own.wall_density);
             let distance = contact.distance.max(0.5 * self.length);
             let rate = self.signal(&own, leaving) * contact.gradient.norm() / distance;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
 use sph_core::Vect;
 
 /// A wall element within the support of a particle.
@@ -13,6 +14,13 @@ pub struct Contact<const D: usize> {
     pub gradient: Vect<D>,
     /// Distance of the particle from the element's plane, m; negative behind it.
     pub distance: f64,
+    /// Weights of the element's corners at the place of the contact, ∫ x w dS/∫ w dS over what the particle sees of a
+    /// face; none at the element's centre.
+    pub corners: Option<[f64; D]>,
+    /// Pressure there, Pa.
+    pub pressure: f64,
+    /// Volume of a whole particle there, m^d.
+    pub volume: f64,
 }
 
 /// Elements of one plane that a particle sees.
@@ -31,14 +39,28 @@ pub struct ContactBlock<const D: usize> {
     elements: Vec<u32>,
     /// |∇γ_as|, 1/m.
     weights: Vec<f64>,
+    /// Weights of corners, 0 at the centre of an element; none in the plane.
+    corners: Vec<[f64; D]>,
+    /// Pressure, Pa, and volume of a whole particle, m^d.
+    states: Vec<[f64; 2]>,
 }
 
 impl<const D: usize> ContactBlock<D> {
     /// Clears all.
     pub fn clear(&mut self) {
         self.runs.clear();
-        self.elements.clear();
-        self.weights.clear();
+        self.resize(0);
+    }
+
+    /// Room for a number of contacts.
+    #[inline(always)]
+    fn resize(&mut self, contacts: usize) {
+        self.elements.resize(contacts, 0);
+        self.weights.resize(contacts, 0.0);
+        self.states.resize(contacts, [0.0; 2]);
+        if D == 3 {
+            self.corners.resize(contacts, [0.0; D]);
+        }
     }
 
     /// Planes so far: those of one particle are a range.
@@ -50,8 +72,26 @@ impl<const D: usize> ContactBlock<D> {
     pub fn truncate(&mut self, planes: u32) {
         self.runs.truncate(planes as usize);
         let end = self.runs.last().map_or(0, |run| run.to as usize);
-        self.elements.truncate(end);
-        self.weights.truncate(end);
+        self.resize(end);
+    }
+
+    /// Adds one contact for all that the particle sees of a face: the inward unit normal, the distance of the particle from
+    /// the plane, m, |∇γ_as| of the face, 1/m, the element at the mean place, and the weights of its corners there.
+    #[inline(always)]
+    pub fn push_face(
+        &mut self,
+        normal: Vect<D>,
+        distance: f64,
+        weight: f64,
+        (element, corners): (u32, [f64; D]),
+    ) {
+        if weight == 0.0 {
+            return;
+        }
+        self.push(normal, distance, std::iter::once((element, weight)));
+        if let Some(last) = self.corners.last_mut() {
+            *last = corners;
+        }
     }
 
     /// Adds those elements of a plane whose share of ∇γ is not 0: the inward unit normal, the distance of the particle from
@@ -65,8 +105,7 @@ impl<const D: usize> ContactBlock<D> {
     ) {
         let from = self.elements.len();
         let most = from + shares.len();
-        self.elements.resize(most, 0);
-        self.weights.resize(most, 0.0);
+        self.resize(most);
         // Without a branch for those that are left out.
         let (elements, weights) = (&mut self.elements[..], &mut self.weights[..]);
         let mut to = from;
@@ -75,8 +114,7 @@ impl<const D: usize> ContactBlock<D> {
             weights[to] = weight;
             to += usize::from(weight != 0.0);
         }
-        self.elements.truncate(to);
-        self.weights.truncate(to);
+        self.resize(to);
         if from < to {
             self.runs.push(Run {
                 normal,
@@ -92,45 +130,61 @@ impl<const D: usize> ContactBlock<D> {
     pub fn row(&self, planes: Range<u32>) -> ContactRow<'_, D> {
         ContactRow {
             runs: &self.runs[planes.start as usize..planes.end as usize],
-            elements: &self.elements,
-            weights: &self.weights,
+            of: Some(self),
         }
     }
 
     /// Adds those of a row whose elements count.
     pub fn push_row(&mut self, row: ContactRow<'_, D>, counts: impl Fn(u32) -> bool) {
+        let Some(of) = row.of else { return };
         for run in row.runs {
-            let range = run.from as usize..run.to as usize;
-            let all = row.elements[range.clone()].iter().zip(&row.weights[range]);
-            let share = |(&element, &weight): (&u32, &f64)| match counts(element) {
-                true => (element, weight),
-                false => (element, 0.0),
-            };
-            self.push(run.normal, run.distance, all.map(share));
+            let all = run.from as usize..run.to as usize;
+            for k in all.filter(|k| counts(of.elements[*k])) {
+                let corners = of.corners.get(k).copied().unwrap_or([0.0; D]);
+                let at = (of.elements[k], corners);
+                self.push_face(run.normal, run.distance, of.weights[k], at);
+                if let Some(last) = self.states.last_mut() {
+                    *last = of.states[k];
+                }
+            }
+        }
+    }
+
+    /// Sets pressures and volumes from those of elements and of the weights of their corners.
+    fn set_states(&mut self, state: &impl Fn(u32, Option<[f64; D]>) -> [f64; 2]) {
+        for (k, (own, element)) in self.states.iter_mut().zip(&self.elements).enumerate() {
+            *own = state(*element, weighted(self.corners.get(k)));
         }
     }
 
     /// Bytes that its contacts need; buffers may hold more.
     pub fn bytes(&self) -> usize {
-        let one = size_of::<u32>() * self.elements.len();
-        one + size_of::<f64>() * self.weights.len() + size_of::<Run<D>>() * self.runs.len()
+        let one = size_of::<u32>() + size_of::<f64>() + size_of::<[f64; 2]>();
+        one * self.elements.len()
+            + size_of::<[f64; D]>() * self.corners.len()
+            + size_of::<Run<D>>() * self.runs.len()
     }
+}
+
+/// The weights of corners, if there are any.
+#[inline(always)]
+fn weighted<const D: usize>(corners: Option<&[f64; D]>) -> Option<[f64; D]> {
+    corners.copied().filter(|of| *of != [0.0; D])
 }
 
 /// The contacts of one particle.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactRow<'a, const D: usize> {
     runs: &'a [Run<D>],
-    elements: &'a [u32],
-    weights: &'a [f64],
+    /// None without any run.
+    of: Option<&'a ContactBlock<D>>,
 }
 
 impl<'a, const D: usize> ContactRow<'a, D> {
     /// Of a particle that sees no wall.
     pub const NONE: Self = ContactRow {
         runs: &[],
-        elements: &[],
-        weights: &[],
+        of: None,
     };
 
     /// Their number.
@@ -150,8 +204,8 @@ impl<'a, const D: usize> ContactRow<'a, D> {
     /// Their elements: those of one particle follow each other.
     pub fn elements(&self) -> &'a [u32] {
         let ends = self.runs.first().zip(self.runs.last());
-        ends.map_or(&[], |(first, last)| {
-            &self.elements[first.from as usize..last.to as usize]
+        ends.zip(self.of).map_or(&[], |((first, last), of)| {
+            &of.elements[first.from as usize..last.to as usize]
         })
     }
 
@@ -205,12 +259,16 @@ impl<const D: usize> Iterator for ContactIter<'_, D> {
             (self.normal, self.distance) = (run.normal, run.distance);
             (self.next, self.end) = (run.from as usize, run.to as usize);
         }
-        let k = self.next;
+        let (k, of) = (self.next, self.row.of?);
         self.next += 1;
+        let [pressure, volume] = of.states.get(k).copied().unwrap_or_default();
         Some(Contact {
-            element: self.row.elements[k],
-            gradient: self.normal * self.row.weights[k],
+            element: of.elements[k],
+            gradient: self.normal * of.weights[k],
             distance: self.distance,
+            corners: weighted(of.corners.get(k)),
+            pressure,
+            volume,
         })
     }
 }
@@ -258,6 +316,15 @@ impl<const D: usize> Contacts<D> {
     /// True if no particle has any.
     pub fn is_empty(&self) -> bool {
         self.particles.is_empty()
+    }
+
+    /// Sets pressures and volumes from those of elements and of the weights of their corners.
+    pub(crate) fn set_states(
+        &mut self,
+        state: impl Fn(u32, Option<[f64; D]>) -> [f64; 2] + Send + Sync,
+    ) {
+        let blocks = self.blocks.par_iter_mut().with_min_len(16);
+        blocks.for_each(|block| block.set_states(&state));
     }
 
     /// Bytes that all contacts need; buffers may hold more.
@@ -333,7 +400,30 @@ mod tests {
             .map(|c| (c.gradient[1], c.distance))
             .collect();
         assert_eq!(sizes, [(1.0, 0.0), (2.0, 0.0), (3.0, 2.0), (4.0, 0.0)]);
+        contacts.set_states(|element, _| [f64::from(element), 2.0]);
+        let pressures: Vec<_> = contacts.all().map(|c| c.pressure).collect();
+        assert_eq!(pressures, [7.0, 8.0, 4.0, 9.0]);
+        let mut one = ContactBlock::default();
+        one.push_row(contacts.of_particle(0), |element| element != 8);
+        let kept: Vec<_> = one.row(0..2).iter().map(|c| (c.element, c.pressure)).collect();
+        assert_eq!(kept, [(7, 7.0), (4, 4.0)]);
         contacts.take_blocks(4);
         assert!(contacts.is_empty() && contacts.of_particle(3).is_empty());
+    }
+
+    #[test]
+    fn a_face_is_one_contact_with_the_state_at_its_place() {
+        let mut block = ContactBlock::<3>::default();
+        let up = Vect::<3>::z();
+        block.push(up, 0.5, [(4, 1.0), (5, 2.0)].into_iter());
+        block.push_face(up, 0.5, 3.0, (6, [0.5, 0.3, 0.2]));
+        block.push_face(up, 0.5, 0.0, (7, [1.0, 0.0, 0.0]));
+        let state = |element: u32, corners: Option<[f64; 3]>| {
+            let at = corners.map_or(0.0, |c| c[0] + 10.0 * c[1] + 100.0 * c[2]);
+            [f64::from(element) + at, 1.0]
+        };
+        block.set_states(&state);
+        let all: Vec<_> = block.row(0..2).iter().map(|c| (c.gradient[2], c.pressure)).collect();
+        assert_eq!(all, [(1.0, 4.0), (2.0, 5.0), (3.0, 29.5)]);
     }
 }

@@ -82,8 +82,17 @@ pub struct OwnedElements<'a, const D: usize> {
 impl<const D: usize> OwnedElements<'_, D> {
     /// True if an element counts; where there are copies, none without a particle within a support.
     pub fn has(&self, element: usize) -> bool {
-        let centre = &self.world.walls.elements.centre[element];
-        self.has_around(centre, || self.world.lists.of_elements.candidates(element))
+        let (walls, lists) = (&self.world.walls, &self.world.lists);
+        match walls.at_corners {
+            true => {
+                let corner = walls.elements.corners[element][0] as usize;
+                let list = lists.of_corners(&walls.points);
+                self.has_around(&walls.points.position[corner], || list.candidates(corner))
+            }
+            false => self.has_around(&walls.elements.centre[element], || {
+                lists.of_elements.candidates(element)
+            }),
+        }
     }
 
     /// The same of a place on a wall, with all particles that may be within a support of it.

@@ -5,7 +5,7 @@
 use sph_core::Vect;
 use sph_core::bed::Bed;
 
-use crate::{Contacts, Domain, FreeBody, Slopes, WallForce};
+use crate::{Contact, Contacts, Domain, FreeBody, Slopes, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -60,6 +60,8 @@ pub struct Elements<const D: usize> {
     pub normal: Vec<Vect<D>>,
     /// Velocities of the wall at the centres, m/s.
     pub velocity: Vec<Vect<D>>,
+    /// Velocities of the corners less those of the centres, m/s; empty in the plane and where no wall ever moves.
+    pub turning: Vec<[Vect<D>; D]>,
     /// Length or area, m^(d−1).
     pub measure: Vec<f64>,
     /// Reference volume of a whole particle at the centre, m^d.
@@ -94,6 +96,20 @@ pub struct Coulomb {
 }
 
 impl<const D: usize> Elements<D> {
+    /// Velocity of the wall at a contact, m/s.
+    #[inline(always)]
+    pub fn velocity_at(&self, contact: &Contact<D>) -> Vect<D> {
+        let s = contact.element as usize;
+        let centre = self.velocity[s];
+        match contact.corners.zip(self.turning.get(s)) {
+            Some((weights, turning)) => {
+                let each = weights.iter().zip(turning);
+                each.fold(centre, |sum, (weight, more)| sum + more * *weight)
+            }
+            None => centre,
+        }
+    }
+
     /// The centre of an element for given positions of the wall points, m; the corners may be
     /// on two sides of a period.
     pub fn centre_from(&self, element: usize, points: &[Vect<D>], domain: &Domain<D>) -> Vect<D> {
@@ -175,6 +191,8 @@ pub struct WallSet<const D: usize> {
     pub elements: Elements<D>,
     /// Contacts of particles with elements.
     pub contacts: Contacts<D>,
+    /// True if the state of the fluid is found at the corners of elements and interpolated; else at their centres.
+    pub at_corners: bool,
     /// True if the walls scale the kernel.
     pub scales: bool,
     /// ∇ ln s of every particle by wall, where walls scale the kernel.
@@ -200,6 +218,34 @@ impl<const D: usize> WallSet<D> {
         self.points.position.is_empty() && self.elements.centre.is_empty()
     }
 
+    /// Gives elements the means of the states at their corners.
+    pub fn average_corners(&mut self) {
+        let (points, elements) = (&self.points, &mut self.elements);
+        let share = 1.0 / D as f64;
+        for (s, corners) in elements.corners.iter().enumerate() {
+            let mean = |of: &[f64]| corners.iter().map(|c| of[*c as usize]).sum::<f64>() * share;
+            elements.pressure[s] = mean(&points.pressure);
+            elements.volume[s] = mean(&points.volume);
+        }
+    }
+
+    /// Gives every contact pressure and volume: those of its element, or the interpolated ones of the element's corners.
+    pub fn settle(&mut self) {
+        let (points, elements) = (&self.points, &self.elements);
+        self.contacts.set_states(|element, weights| {
+            let s = element as usize;
+            let Some(weights) = weights else {
+                return [elements.pressure[s], elements.volume[s]];
+            };
+            let mut state = [0.0; 2];
+            for (weight, corner) in weights.iter().zip(elements.corners[s]) {
+                state[0] += weight * points.pressure[corner as usize];
+                state[1] += weight * points.volume[corner as usize];
+            }
+            state
+        });
+    }
+
     /// Whole periods by which a wall is farther than its points and elements, m.
     pub fn round(&self, wall: u32) -> Vect<D> {
         let frame = self.frames.get(wall as usize);
@@ -220,6 +266,7 @@ impl<const D: usize> WallSet<D> {
             elements.centre.clone_from(&there.centre);
             elements.normal.clone_from(&there.normal);
             elements.velocity.clone_from(&there.velocity);
+            elements.turning.clone_from(&there.turning);
             elements.measure.clone_from(&there.measure);
             elements.acceleration.clone_from(&there.acceleration);
         }

@@ -8,7 +8,7 @@ use sph_kernels::Sampler;
 
 use crate::pools::Pools;
 use crate::{
-    CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallSet,
+    CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints, WallSet,
 };
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.
@@ -25,7 +25,8 @@ pub struct Lists<const D: usize> {
     pub wall: NeighbourList,
     /// Free particles around the wall points that are in sums.
     pub of_points: Clusters,
-    /// Free particles around element centres.
+    /// Free particles around element centres; around the corners of elements where walls find the state there and these
+    /// are in no sum.
     pub of_elements: Clusters,
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
@@ -44,6 +45,14 @@ impl<const D: usize> Lists<D> {
     /// The shortest lists of free particles that hold at the present positions.
     pub fn nearest(&self) -> &Clusters {
         self.pruned.as_ref().unwrap_or(&self.free)
+    }
+
+    /// Free particles around the corners of elements, where walls find the state there.
+    pub fn of_corners(&self, points: &WallPoints<D>) -> &Clusters {
+        match points.corners {
+            0 => &self.of_points,
+            _ => &self.of_elements,
+        }
     }
 
     /// Positions of the wall points at the last build, m.
@@ -290,21 +299,21 @@ impl<const D: usize> World<D> {
                 .build_around(summed, positions, &grid, reach, domain, &pools.clusters);
         }
         let elements = &self.walls.elements;
-        if !elements.centre.is_empty() {
-            // An element stands where its corners stood.
-            let mut centres = pools.centres.acquire();
-            let all = 0..elements.centre.len();
-            centres.clear();
-            centres.extend(all.map(|s| elements.centre_from(s, points, domain)));
-            lists.of_elements.build_around(
-                &centres,
-                positions,
-                &grid,
-                reach,
-                domain,
-                &pools.clusters,
-            );
+        if elements.centre.is_empty() || (self.walls.at_corners && self.walls.points.corners == 0) {
+            return;
         }
+        let mut places = pools.centres.acquire();
+        places.clear();
+        match self.walls.at_corners {
+            true => places.extend_from_slice(&points[..self.walls.points.corners]),
+            // An element stands where its corners stood.
+            false => {
+                let all = 0..elements.centre.len();
+                places.extend(all.map(|s| elements.centre_from(s, points, domain)));
+            }
+        }
+        let list = &mut lists.of_elements;
+        list.build_around(&places, positions, &grid, reach, domain, &pools.clusters);
     }
 
     /// Drops the lists that hold at the positions of before.

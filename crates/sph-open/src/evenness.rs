@@ -121,7 +121,7 @@ fn unevenness<const D: usize>(world: &World<D>, volume: &[f64], around: &Around<
         sum += rows.wall.separation[k] * weight;
     }
     for contact in rows.contacts {
-        let other = world.walls.elements.volume[contact.element as usize];
+        let other = contact.volume;
         sum -= contact.gradient * ((own * own + other * other) / other);
     }
     let [none, full] = SURFACE;

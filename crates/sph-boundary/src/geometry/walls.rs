@@ -2,6 +2,7 @@
 
 pub(crate) mod beds;
 pub(crate) mod cover;
+mod face_map;
 mod face_sums;
 mod faces;
 mod lattice_layers;
@@ -27,9 +28,6 @@ pub struct Walls<const D: usize> {
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
-    /// True if a face in space is one contact, of the element that is nearest, instead of one for each element: that is
-    /// cheaper.
-    pub(crate) whole_faces: bool,
 }
 
 /// Walls of the plane.
@@ -51,7 +49,6 @@ impl<const D: usize> Walls<D> {
             planes: Planes::default(),
             mesh,
             reach,
-            whole_faces: false,
         }
     }
 

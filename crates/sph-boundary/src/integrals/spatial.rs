@@ -3,6 +3,7 @@
 mod edge;
 mod facet;
 mod knot;
+mod outer_moment;
 mod plane;
 mod renormalisation;
 mod weight;

@@ -113,6 +113,11 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             if let Some(acceleration) = elements.acceleration.get_mut(s) {
                 *acceleration = movement.acceleration;
             }
+            if let Some(turning) = elements.turning.get_mut(s) {
+                let corners = outline.mesh.walls().mesh.corners(s).map(Vect::from);
+                let at = |corner| outline.movement(element.wall, &corner).velocity;
+                *turning = corners.map(|corner| at(corner) - movement.velocity);
+            }
         }
     }
 
@@ -207,6 +212,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             names: outline.mesh.names().to_vec(),
             points: outline.points(),
             elements: outline.elements(),
+            at_corners: D == 3,
             ..WallSet::default()
         };
         if !vertices {
@@ -281,30 +287,37 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         Ok(())
     }
 
-    /// Pressures and volumes at points and elements.
+    /// Pressures and volumes at points, elements and contacts.
     pub fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let [at_points, at_elements] = &mut self.means;
         let whole = self.outline.spacing.powi(D as i32);
         let (points, elements) = (&world.walls.points, &world.walls.elements);
-        let lists = &world.lists;
-        if points.in_density() {
+        let (lists, at_corners) = (&world.lists, world.walls.at_corners);
+        let nodes = self.outline.mesh.nodes().len();
+        if points.in_density() || at_corners {
+            let list = match at_corners {
+                true => lists.of_corners(points),
+                false => &lists.of_points,
+            };
             wall_means(
                 world,
-                &points.position,
+                &points.position[..nodes],
                 &points.acceleration,
-                (&lists.of_points, &lists.hidden.at_points),
+                (list, &lists.hidden.at_points),
                 whole,
                 at_points,
             )?;
         }
-        wall_means(
-            world,
-            &elements.centre,
-            &elements.acceleration,
-            (&lists.of_elements, &lists.hidden.at_elements),
-            whole,
-            at_elements,
-        )?;
+        if !at_corners {
+            wall_means(
+                world,
+                &elements.centre,
+                &elements.acceleration,
+                (&lists.of_elements, &lists.hidden.at_elements),
+                whole,
+                at_elements,
+            )?;
+        }
         let walls = &mut world.walls;
         for (v, mean) in at_points.iter().enumerate() {
             walls.points.pressure[v] = mean.pressure;
@@ -314,9 +327,12 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             walls.elements.pressure[s] = mean.pressure;
             walls.elements.volume[s] = mean.volume;
         }
-        if walls.points.corners > 0 {
-            pressure_at_corners(walls, &mut self.around);
+        match at_corners {
+            true => walls.average_corners(),
+            false if walls.points.corners > 0 => pressure_at_corners(walls, &mut self.around),
+            false => {}
         }
+        walls.settle();
         Ok(())
     }
 }

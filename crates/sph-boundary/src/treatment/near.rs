@@ -194,6 +194,10 @@ impl<const D: usize> NearLists<D> {
             counts.clear();
             elements.clear();
             mesh.near_all(places, radius, counts, elements);
+            // Elements at free ends are looked at one by one.
+            if !mesh.shells().any() {
+                mesh.merge(counts, elements);
+            }
         });
         let more = found.iter().map(|found| found.elements.len()).sum();
         self.make_room(more);

@@ -267,6 +267,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             elements.corners.push(element.nodes.map(|n| n as u32));
             if moves {
                 elements.acceleration.push(Vect::zeros());
+                if D == 3 {
+                    elements.turning.push([Vect::zeros(); D]);
+                }
             }
             if slips {
                 elements.slip.push(condition.slip_length());

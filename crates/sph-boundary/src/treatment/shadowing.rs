@@ -33,10 +33,13 @@ impl<const D: usize> NearLists<D> {
             for near in own {
                 let element = near.index();
                 at_elements.push([element as u32, particle]);
-                if world.walls.points.in_density() {
+                let in_density = world.walls.points.in_density();
+                if in_density || world.walls.at_corners {
                     for corner in world.walls.elements.corners[element] {
-                        points.push([particle, corner]);
                         at_points.push([corner, particle]);
+                        if in_density {
+                            points.push([particle, corner]);
+                        }
                     }
                 }
             }

@@ -126,13 +126,12 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             return Err(BoundaryError::unfit(spec.drawing.name(), why));
         }
         let size = element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing);
-        let (mut set_up, mut walls) = SetUp::<D, M>::build(setup, false, size)?;
+        let (set_up, mut walls) = SetUp::<D, M>::build(setup, false, size)?;
         self.scales = Some(Scales {
             walls: WallScales::new(setup, &set_up.outline.groups)?,
             found: Vec::new(),
             slopes: Vec::new(),
         });
-        set_up.outline.mesh.walls_mut().whole_faces = true;
         self.set_up = Some(set_up);
         walls.scales = true;
         Ok(walls)

@@ -103,12 +103,15 @@ pub struct DeltaTerm {
 impl DeltaTerm {
     /// β of every phase at given pressures: entry k n + i for phase k and place i of n.
     fn compressions(&self, pressure: &[f64]) -> Vec<f64> {
-        let of = |law: &dyn sph_rheology::state::BoundState, p: &f64| {
-            law.density(*p) / law.reference().density
-        };
-        let each = self.laws.iter();
-        each.flat_map(|law| pressure.iter().map(move |p| of(&**law, p)))
+        let each = 0..self.laws.len();
+        each.flat_map(|phase| pressure.iter().map(move |p| self.compression(phase, *p)))
             .collect()
+    }
+
+    /// β of a phase at a pressure.
+    fn compression(&self, phase: usize, pressure: f64) -> f64 {
+        let law = &self.laws[phase];
+        law.density(pressure) / law.reference().density
     }
 }
 
@@ -132,7 +135,6 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDelta<'a, D>, StepError> {
         let points = &world.walls.points;
-        let elements = &world.walls.elements;
         let beside_walls = |pressure: &[f64]| match self.smoother.walls {
             true => self.compressions(pressure),
             false => Vec::new(),
@@ -144,8 +146,7 @@ impl<const D: usize> PairTerm<D> for DeltaTerm {
             phase: self.density.column(world)?,
             wall_share: &points.share,
             at_points: beside_walls(&points.pressure),
-            at_elements: beside_walls(&elements.pressure),
-            normals: &elements.normal,
+            normals: &world.walls.elements.normal,
             gravity: match self.smoother.balance {
                 Balance::Hydrostatic => world.gravity,
                 Balance::Literal => Vect::zeros(),
@@ -169,7 +170,6 @@ pub struct BoundDelta<'a, const D: usize> {
     wall_share: &'a [f64],
     /// β of every phase at the points' pressures; empty where walls do not count.
     at_points: Vec<f64>,
-    at_elements: Vec<f64>,
     normals: &'a [Vect<D>],
     gravity: Vect<D>,
     acceleration: Option<&'a [Vect<D>]>,
@@ -241,13 +241,12 @@ impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
                 sum += weight * (own.compression - there - at_rest) * pair.factor;
             }
         }
-        if !self.at_elements.is_empty() {
+        if self.term.smoother.walls {
             for contact in at.contacts {
-                let s = contact.element as usize;
-                let there = self.at_elements[phase as usize * self.normals.len() + s];
+                let there = self.term.compression(phase as usize, contact.pressure);
                 let apart = contact.distance.max(self.nearest);
                 let slope = (own.compression - there) / apart;
-                let at_rest = own_at_rest.dot(&self.normals[s]) * own.compressibility;
+                let at_rest = own_at_rest.dot(&self.normals[contact.element as usize]) * own.compressibility;
                 sum -= (slope - at_rest) * contact.gradient.norm();
             }
         }

@@ -136,7 +136,7 @@ impl<const D: usize> BoundTerm<D> for BoundShiftTransport<'_, D> {
         for contact in at.contacts {
             let s = contact.element as usize;
             let along = shift.dot(&contact.gradient);
-            taken_up -= (self.walls.elements.velocity[s] - velocity)
+            taken_up -= (self.walls.elements.velocity_at(&contact) - velocity)
                 * (self.walls.elements.friction_factor[s] * along);
             if self.which.summed {
                 rate += density * along;

@@ -168,8 +168,7 @@ impl<const D: usize> BoundTerm<D> for BoundSurfacePressure<'_, D> {
             sum += own.apply(&pair.separation) * (self.walls.points.share[v] * pair.factor);
         }
         for contact in at.contacts {
-            let volume = self.walls.elements.volume[contact.element as usize];
-            sum -= own.apply(&contact.gradient) / volume;
+            sum -= own.apply(&contact.gradient) / contact.volume;
         }
         rates.acceleration -= sum / self.mass[at.particle];
     }
@@ -253,7 +252,7 @@ impl SurfaceStrain {
                 strain += walls.points.share[v] * along * pair.factor;
             }
             for contact in rows.contacts {
-                let apart = velocity[i] - walls.elements.velocity[contact.element as usize];
+                let apart = velocity[i] - walls.elements.velocity_at(&contact);
                 let along = apart.dot(&excess[i].apply(&contact.gradient));
                 strain -= along / volume[i];
             }

@@ -296,7 +296,7 @@ impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for BoundFriction<'_, D, F
             for contact in at.contacts {
                 let s = contact.element as usize;
                 let normal = &self.elements.normal[s];
-                let relative = here.velocity - self.elements.velocity[s];
+                let relative = here.velocity - self.elements.velocity_at(&contact);
                 let tangential = relative - normal * relative.dot(normal);
                 sum.flux += tangential * self.weight(&here, &contact);
                 if !self.is_open(contact.element) {

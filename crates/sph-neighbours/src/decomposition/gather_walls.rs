@@ -34,7 +34,14 @@ impl<const D: usize> Parts<D> {
         for (k, at) in points.position.iter().enumerate().skip(first) {
             of_points[k] = points.in_density() && knows(&lists.of_points, k - first, at);
         }
+        let at_corners = world.walls.at_corners;
+        for (k, at) in points.position[..first].iter().enumerate() {
+            of_points[k] = at_corners && knows(&lists.of_elements, k, at);
+        }
         for (k, at) in elements.centre.iter().enumerate() {
+            if at_corners {
+                continue;
+            }
             of_elements[k] = knows(&lists.of_elements, k, at);
             if of_elements[k] && first > 0 {
                 // All around such a corner are within the reach of this rank.
@@ -65,6 +72,13 @@ impl<const D: usize> Parts<D> {
             match number.checked_sub(behind) {
                 None => points.pressure[number] = pressure,
                 Some(element) => elements.pressure[element] = pressure,
+            }
+        }
+        if at_corners {
+            whole.walls.average_corners();
+            let here = &world.walls.elements;
+            for s in (0..here.open.len()).filter(|s| here.open[*s]) {
+                whole.walls.elements.pressure[s] = here.pressure[s];
             }
         }
         Ok(())

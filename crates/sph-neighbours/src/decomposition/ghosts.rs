@@ -55,7 +55,7 @@ pub struct Needs<'a, const D: usize> {
     domain: &'a Domain<D>,
     /// That of the lists, as often as sums of sums are taken, m.
     reach: f64,
-    /// Centres of elements, and points that are in sums.
+    /// Centres of elements, and points that are in sums or have a state.
     walls: Vec<Vect<D>>,
     grid: Option<CellGrid<D>>,
     /// Largest distance of a particle from the centre of an element that it touches, m.
@@ -68,8 +68,12 @@ impl<'a, const D: usize> Needs<'a, D> {
         let (reach, domain) = (rings as f64 * world.reach(), &world.domain);
         let (elements, points) = (&world.walls.elements, &world.walls.points);
         let mut walls = elements.centre.clone();
-        if points.in_sums() {
-            walls.extend_from_slice(&points.position[points.corners..]);
+        match world.walls.at_corners {
+            true => walls.extend_from_slice(&points.position),
+            false if points.in_sums() => {
+                walls.extend_from_slice(&points.position[points.corners..])
+            }
+            false => {}
         }
         let half = elements.corners.iter().zip(&elements.centre);
         let half = half.flat_map(|(corners, centre)| {

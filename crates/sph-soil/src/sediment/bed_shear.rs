@@ -37,7 +37,7 @@ pub(super) fn shear<const D: usize>(
             if !own(s) {
                 continue;
             }
-            let slip = velocity[i] - elements.velocity[s];
+            let slip = velocity[i] - elements.velocity_at(&contact);
             let normal = &elements.normal[s];
             let along = slip - normal * slip.dot(normal);
             let weight = volume[i] * contact.gradient.norm();

@@ -284,7 +284,7 @@ impl<const D: usize> Soil<'_, D> {
             let gradient = contact.gradient.norm();
             let weight = self.volume[i] * gradient;
             pull.gradient += gradient;
-            along += self.sliding(i, s) * gradient;
+            along += self.sliding(i, &contact) * gradient;
             let normal = match coulomb.literal {
                 true => {
                     let gamma = self.gamma.map_or(1.0, |g| g[i]);
@@ -303,9 +303,10 @@ impl<const D: usize> Soil<'_, D> {
     }
 
     /// Velocity along an element, relative to it.
-    fn sliding(&self, i: usize, s: usize) -> Vect<D> {
+    fn sliding(&self, i: usize, contact: &Contact<D>) -> Vect<D> {
         let elements = &self.world.walls.elements;
-        let (relative, normal) = (self.velocity[i] - elements.velocity[s], &elements.normal[s]);
+        let relative = self.velocity[i] - elements.velocity_at(contact);
+        let normal = &elements.normal[contact.element as usize];
         relative - normal * relative.dot(normal)
     }
 }

@@ -195,7 +195,7 @@ impl<const D: usize> BoundTerm<D> for BoundStressDivergence<'_, D> {
         }
         for contact in at.contacts {
             let s = contact.element as usize;
-            let there = self.walls.elements.volume[s];
+            let there = contact.volume;
             let squares = volume * volume + there * there;
             let force = stress.apply(&contact.gradient) * (squares / there);
             let friction_factor = self.walls.elements.friction_factor[s];

@@ -95,7 +95,7 @@ impl<const D: usize> Gathered<D> {
         let s = contact.element as usize;
         let weight = -contact.gradient.transpose();
         let foot = elements.normal[s] * contact.distance;
-        let velocity = (elements.velocity[s] - own) * weight;
+        let velocity = (elements.velocity_at(contact) - own) * weight;
         let friction_factor = elements.friction_factor[s];
         let kind = match elements.open.get(s) {
             Some(true) => OPEN,

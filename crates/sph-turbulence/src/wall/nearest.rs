@@ -34,7 +34,7 @@ pub(crate) fn nearest<const D: usize>(
     }
     let contact = found?.1;
     let s = contact.element as usize;
-    let slip = velocity - elements.velocity[s];
+    let slip = velocity - elements.velocity_at(&contact);
     let normal = &elements.normal[s];
     Some(NearestWall {
         distance: contact.distance.max(LEAST_DISTANCE * spacing),

@@ -36,6 +36,37 @@ impl Walls<3> {
         from + Vect::from(self.mesh.domain.shift([shift(0), shift(1), shift(2)]))
     }
 
+    /// A point as the image of a wall sees it, m.
+    fn unshifted(&self, point: &Vect<3>, image: [i8; 3]) -> [f64; 3] {
+        match image {
+            [0, 0, 0] => (*point).into(),
+            _ => (point - Vect::from(self.mesh.domain.shift(image.map(i32::from)))).into(),
+        }
+    }
+
+    /// A row with all triangles within a distance of a point, m, of the faces of which it has one.
+    pub(crate) fn expanded(
+        &self,
+        point: &Vect<3>,
+        row: &[NearElement<3>],
+        distance: f64,
+    ) -> Vec<NearElement<3>> {
+        let (mut all, mut found) = (Vec::new(), Vec::new());
+        for part in self.faces(row) {
+            let face = self.planes.faces[part[0].index()] as usize;
+            let Some(map) = self.planes.maps[face].as_ref() else {
+                all.extend_from_slice(part);
+                continue;
+            };
+            let image = part[0].image;
+            found.clear();
+            let foot = self.planes.planes[face].foot(self.unshifted(point, image));
+            map.within(foot, distance, &mut found);
+            all.extend(found.iter().map(|&element| NearElement { element, image }));
+        }
+        all
+    }
+
     /// Adds the integrals of the faces of a row to γ of a point, and pushes their contacts but for those of `hidden`
     /// shells.
     pub(crate) fn see(
@@ -57,17 +88,20 @@ impl Walls<3> {
             if height.abs() >= radius {
                 continue;
             }
-            let unshifted = match image {
-                [0, 0, 0] => *point,
-                _ => point - Vect::from(self.mesh.domain.shift(image.map(i32::from))),
-            };
             let foot = Foot {
-                place: self.planes.planes[first.face].foot(unshifted.into()),
+                place: self.planes.planes[first.face].foot(self.unshifted(point, image)),
                 height,
                 reach: (radius * radius - height * height).sqrt(),
             };
-            let triangles = part.iter().map(|near| near.element);
-            if !weights.find(triangles, &self.planes.circles, &foot) {
+            let map = self.planes.maps[first.face].as_ref();
+            let seen = match map {
+                Some(map) => map.is_within(foot.place, foot.reach),
+                None => {
+                    let triangles = part.iter().map(|near| near.element);
+                    weights.find(triangles, &self.planes.circles, &foot)
+                }
+            };
+            if !seen {
                 continue;
             }
             let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
@@ -81,9 +115,12 @@ impl Walls<3> {
             if whole.kernel == 0.0 || hidden.contains(&shell) {
                 continue;
             }
-            if self.whole_faces {
-                let nearest = weights.nearest(&self.planes.circles, &foot);
-                contacts.push(normal, height, std::iter::once((nearest, whole.kernel)));
+            if let Some(map) = map {
+                let at = self.planes.planes[first.face].part(whole.moment);
+                // Where next to nothing of the face is seen, rounding may lead out of reach.
+                let scale = 1.0 / whole.kernel.max(at[0].hypot(at[1]) / foot.reach);
+                let place = [0, 1].map(|k| foot.place[k] + at[k] * scale);
+                contacts.push_face(normal, height, whole.kernel, map.find(place));
                 continue;
             }
             weights.weigh(integrals, &self.planes.patches, &foot);

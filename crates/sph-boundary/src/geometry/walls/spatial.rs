@@ -45,8 +45,11 @@ impl WallMesh<3> for Walls<3> {
         mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
         mesh.beds = laid(&mesh, walls, domain)?;
         mesh.part_faces();
+        let open: Vec<bool> = walls.iter().map(|wall| wall.open).collect();
         let mut walls = Walls::new(mesh, walls, reach);
-        walls.planes = Planes::new(&walls.mesh);
+        let motions = &walls.mesh.motions;
+        let cut = |wall: usize| open[wall] || motions[wall].bends();
+        walls.planes = Planes::new(&walls.mesh, cut);
         Ok(walls)
     }
 
@@ -65,7 +68,7 @@ impl WallMesh<3> for Walls<3> {
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
         self.mesh.move_walls(poses)?;
         self.forget_places();
-        self.planes = Planes::new(&self.mesh);
+        self.planes.follow(&self.mesh);
         Ok(())
     }
 
@@ -83,8 +86,30 @@ impl WallMesh<3> for Walls<3> {
             .rows(&points, radius.min(self.reach), counts, rows);
     }
 
-    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the face's
-    /// triangles by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
+    /// One triangle of each face that is one contact: the rest of it is found from there.
+    fn merge(&self, counts: &mut [u32], rows: &mut Vec<NearElement<3>>) {
+        let (mut from, mut kept) = (0, 0);
+        for count in counts {
+            let end = from + *count as usize;
+            let before = kept;
+            while from < end {
+                let part = self.faces(&rows[from..end]).next().map_or(0, <[_]>::len);
+                let face = self.planes.faces[rows[from].index()];
+                let left = match &self.planes.maps[face as usize] {
+                    Some(_) => 1,
+                    None => part,
+                };
+                rows.copy_within(from..from + left, kept);
+                kept += left;
+                from += part;
+            }
+            *count = (kept - before) as u32;
+        }
+        rows.truncate(kept);
+    }
+
+    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the triangles of a cut face
+    /// by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
     /// whatever else stands in the row.
     fn clearance(&self, point: &Vect<3>, near: &[NearElement<3>]) -> f64 {
         let heights = self.faces(near).map(|part| {
@@ -134,6 +159,7 @@ impl WallMesh<3> for Walls<3> {
         hindrances: &mut Vec<Hindrance<3>>,
     ) {
         let x: [f64; 3] = (*point).into();
+        let row = &self.expanded(point, row, reach)[..];
         let all: Vec<_> = row
             .iter()
             .map(|near| {

@@ -77,6 +77,10 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         rows: &mut Vec<NearElement<D>>,
     );
 
+    /// Leaves of the rows of [`near_all`](Self::near_all) as much as γ, contacts and hindrances need: all, if it says nothing
+    /// else.
+    fn merge(&self, _counts: &mut [u32], _rows: &mut Vec<NearElement<D>>) {}
+
     /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely.
     /// Those that are within it become contacts, but for those hidden behind such a shell; further ones change nothing.
     fn gammas<'a>(

@@ -14,6 +14,8 @@ pub(super) struct Edge {
     pub to: End,
     /// D: signed distance of the foot from the line, > 0 on the facet's side.
     pub offset: f64,
+    /// Unit vector in the plane across the line, into the facet.
+    pub inward: Point,
     /// A²: squared distance of the point from the line.
     pub a2: f64,
     /// a of the point over the plane, as this edge and the normal have it.
@@ -48,6 +50,7 @@ impl Edge {
         } else {
             along(r2_, -y[1], t)
         };
+        let inward = cross(n, t);
         let a2 = dot(perpendicular, perpendicular);
         let (nearest, distance2) = if y[0] >= 0.0 {
             (r1, r2[0])
@@ -65,7 +68,8 @@ impl Edge {
                 y: y[1],
                 q: r2[1].sqrt(),
             },
-            offset: -dot(perpendicular, cross(n, t)),
+            offset: -dot(perpendicular, inward),
+            inward,
             a2,
             height: -dot(nearest, n),
             distance2,

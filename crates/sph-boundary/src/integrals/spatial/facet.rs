@@ -22,6 +22,8 @@ pub struct FacetIntegral {
     pub kernel: f64,
     /// Γ_as, to be subtracted from θ; positive for a point on the fluid's side.
     pub gamma: f64,
+    /// ∫_s ρ w dS, ρ the vector from the foot of the point, within 10⁻⁴ of h ∫_s w dS.
+    pub moment: [f64; 3],
 }
 
 impl Renormalisation3d {
@@ -92,6 +94,7 @@ struct Facet<'a> {
     kernel: f64,
     solid: f64,
     smooth: f64,
+    moment: Point,
     /// φ of the edges outside the support.
     far: Winding,
     /// Squared distance of the nearest edge.
@@ -111,6 +114,7 @@ impl<'a> Facet<'a> {
             kernel: 0.0,
             solid: 0.0,
             smooth: 0.0,
+            moment: [0.0; 3],
             far: Winding::NONE,
             nearest: f64::INFINITY,
             side: height,
@@ -148,6 +152,16 @@ impl<'a> Facet<'a> {
     fn add_near(&mut self, edge: Edge) {
         if edge.distance2 < self.nearest {
             (self.nearest, self.side) = (edge.distance2, edge.height);
+        }
+        let support = self.of.support;
+        let ends = match edge.clip(support, support * support) {
+            Clip::Outside => None,
+            Clip::Inside => Some([edge.from.y, edge.to.y]),
+            Clip::Between(from, to) => Some([from.y, to.y]),
+        };
+        if let Some([from, to]) = ends {
+            let outer = self.of.outer.along(edge.a2, from, to);
+            self.moment = along(self.moment, outer, edge.inward);
         }
         // Angle and logarithm of the whole edge serve every knot that does not clip it.
         let (mut whole, mut angle) = (None, None);
@@ -203,6 +217,7 @@ impl<'a> Facet<'a> {
         FacetIntegral {
             kernel: self.kernel * self.of.per_h,
             gamma: (solid + self.height * self.smooth) / (4.0 * PI),
+            moment: self.moment,
         }
     }
 }

@@ -44,13 +44,6 @@ impl Patch {
 }
 
 impl Circle {
-    /// Squared distance of its centre from the foot, m².
-    #[inline(always)]
-    pub fn square(&self, foot: &Foot) -> f64 {
-        let [x, y] = foot.to(self.centre);
-        x * x + y * y
-    }
-
     /// True if it meets the disc of the plane within the support.
     #[inline(always)]
     pub fn meets(&self, foot: &Foot) -> bool {

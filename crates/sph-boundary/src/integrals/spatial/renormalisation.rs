@@ -5,6 +5,7 @@ use std::sync::Arc;
 use sph_kernels::{PiecewisePolynomial, Sampler, polynomial_sampler};
 
 use super::knot::{self, Knot};
+use super::outer_moment::OuterMoment;
 use crate::error::BoundaryError;
 use crate::integrals::normalisation::normalisation;
 
@@ -66,6 +67,7 @@ pub struct Renormalisation3d {
     pub(super) support: f64,
     /// From the outermost inwards.
     pub(super) knots: Vec<Knot>,
+    pub(super) outer: OuterMoment,
     /// w itself, for quadrature.
     pub(super) kernel: Arc<dyn Sampler>,
 }
@@ -83,6 +85,7 @@ impl Renormalisation3d {
             per_h: 1.0 / smoothing_length,
             support: shape.support(),
             knots: knot::tables(shape, sigma),
+            outer: OuterMoment::new(shape, sigma),
             kernel: polynomial_sampler(shape, 3, smoothing_length).into(),
         })
     }

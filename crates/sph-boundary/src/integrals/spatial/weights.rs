@@ -39,16 +39,6 @@ impl Weights {
         n > 0
     }
 
-    /// The triangle that was found whose middle is nearest to the foot.
-    pub(crate) fn nearest(&self, circles: &[Circle], foot: &Foot) -> u32 {
-        let square = |t: &u32| circles[*t as usize].square(foot);
-        let nearest = self
-            .near
-            .iter()
-            .min_by(|a, b| square(a).total_cmp(&square(b)));
-        nearest.copied().unwrap_or_default()
-    }
-
     /// ∫ w dS over the triangles that were found, 1/m: by quadrature where that is accurate, else exactly.
     ///
     /// For many triangles with legs of h/2 to 3h/4 of which only shares are needed, the sum being
@@ -230,7 +220,7 @@ mod tests {
             along([0.1, 0.2, 0.3], 1.0, v),
         ];
         let normal = cross(u, v).map(|x| x / (leg * leg));
-        let plane = Plane::new(corners[0], normal);
+        let plane = Plane::along(u, corners[0], normal);
         let (patch, circle) = Patch::new(&plane, corners, 0.5 * leg * leg);
         let mut weights = Weights::default();
         let centre = along(corners[0], 1.0 / 3.0, along(u, 1.0, v));

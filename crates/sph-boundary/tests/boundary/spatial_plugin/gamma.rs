@@ -143,7 +143,7 @@ fn in_the_corner_of_a_box_gamma_and_its_gradient_are_the_integrals_to_1e_8() {
 }
 
 #[test]
-fn contacts_of_one_face_sum_to_the_integral_over_that_face() {
+fn the_contact_of_a_face_is_the_integral_over_it() {
     let place = Vect::from([0.4, 1.3, 0.7]);
     let walls = [WallSpec::at_rest(wall(tank([0.0; 3], [8.0; 3])))];
     let bench = Bench::new("usaw", &walls, SPACING, wide(), vec![place]);
@@ -154,7 +154,7 @@ fn contacts_of_one_face_sum_to_the_integral_over_that_face() {
         let of_face = of_face.filter(|c| elements.normal[c.element as usize][k] > 0.5);
         let contacts: Vec<_> = of_face.collect();
         let sum: Vect<3> = contacts.iter().map(|c| c.gradient).sum();
-        assert!(contacts.len() > 20, "{} triangles", contacts.len());
+        assert_eq!(contacts.len(), 1, "contacts of a face");
         assert!((sum[k] - expected[k]).abs() < 1e-8);
         assert_eq!(sum[(k + 1) % 3], 0.0);
         assert!(

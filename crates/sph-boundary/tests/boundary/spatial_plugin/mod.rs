@@ -8,5 +8,6 @@ mod dummy;
 mod gamma;
 mod joined;
 mod motion;
+mod pressure;
 mod shapes;
 mod shares;

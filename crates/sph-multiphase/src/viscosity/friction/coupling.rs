@@ -133,7 +133,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, 
         for contact in rows.contacts {
             let s = contact.element as usize;
             let normal = &self.elements.normal[s];
-            let moving = &self.elements.velocity[s];
+            let moving = self.elements.velocity_at(&contact);
             let friction = correction * self.weight(&here, &contact);
             let leaving = (here.velocity - moving).dot(normal);
             wall += friction;
@@ -163,7 +163,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, 
             let along = Block::identity() - normal * normal.transpose();
             let friction = along * (correction * self.weight(&here, &contact));
             wall += friction;
-            source += friction * self.elements.velocity[s];
+            source += friction * self.elements.velocity_at(&contact);
         }
         CouplingRow {
             wall: wall * scale,

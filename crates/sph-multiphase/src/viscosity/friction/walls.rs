@@ -47,7 +47,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     #[inline(always)]
     pub(super) fn slip_direction(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
         let s = nearest.element as usize;
-        let slip = self.velocity[i] - self.elements.velocity[s];
+        let slip = self.velocity[i] - self.elements.velocity_at(nearest);
         let normal = &self.elements.normal[s];
         let slip = slip - normal * slip.dot(normal);
         slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
@@ -66,9 +66,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         // κ holds whatever the pair formula makes of volumes and strength.
         let factor = match here.nearest {
             Some(_) => 1.0,
-            None => self
-                .friction
-                .at_element(here.volume, self.elements.volume[s]),
+            None => self.friction.at_element(here.volume, contact.volume),
         };
         let friction_factor = self.elements.friction_factor[s];
         2.0 * factor * friction_factor * here.viscosity.eta * contact.gradient.norm() / distance
