@@ -405,7 +405,11 @@ mod tests {
         assert_eq!(pressures, [7.0, 8.0, 4.0, 9.0]);
         let mut one = ContactBlock::default();
         one.push_row(contacts.of_particle(0), |element| element != 8);
-        let kept: Vec<_> = one.row(0..2).iter().map(|c| (c.element, c.pressure)).collect();
+        let kept: Vec<_> = one
+            .row(0..2)
+            .iter()
+            .map(|c| (c.element, c.pressure))
+            .collect();
         assert_eq!(kept, [(7, 7.0), (4, 4.0)]);
         contacts.take_blocks(4);
         assert!(contacts.is_empty() && contacts.of_particle(3).is_empty());
@@ -423,7 +427,11 @@ mod tests {
             [f64::from(element) + at, 1.0]
         };
         block.set_states(&state);
-        let all: Vec<_> = block.row(0..2).iter().map(|c| (c.gradient[2], c.pressure)).collect();
+        let all: Vec<_> = block
+            .row(0..2)
+            .iter()
+            .map(|c| (c.gradient[2], c.pressure))
+            .collect();
         assert_eq!(all, [(1.0, 4.0), (2.0, 5.0), (3.0, 29.5)]);
     }
 }

@@ -8,7 +8,8 @@ use sph_kernels::Sampler;
 
 use crate::pools::Pools;
 use crate::{
-    CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints, WallSet,
+    CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints,
+    WallSet,
 };
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.

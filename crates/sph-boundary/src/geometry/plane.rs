@@ -10,7 +10,16 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The plane through a place, m, across a unit normal, with the first axis along a direction in it.
+    /// The plane through a place, m, across a unit normal.
+    pub fn new(origin: Point, normal: Point) -> Self {
+        // The coordinate axis that is farthest from the normal.
+        let mut axis = [0.0; 3];
+        let flattest = (0..3).min_by(|i, j| normal[*i].abs().total_cmp(&normal[*j].abs()));
+        axis[flattest.unwrap_or(0)] = 1.0;
+        Self::along(along(axis, -dot(axis, normal), normal), origin, normal)
+    }
+
+    /// The same with the first axis along a direction in it.
     pub fn along(direction: Point, origin: Point, normal: Point) -> Self {
         let first = unit(direction);
         let axes = [first, cross(normal, first)];

@@ -212,7 +212,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             names: outline.mesh.names().to_vec(),
             points: outline.points(),
             elements: outline.elements(),
-            at_corners: D == 3,
+            at_corners: D == 3 && !setup.walls.iter().any(|wall| wall.open),
             ..WallSet::default()
         };
         if !vertices {
@@ -264,6 +264,8 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
                 start = end;
             }
         }
+        // Until the state is found anew, contacts have the last one.
+        world.walls.settle();
         world.free.put(fields::RENORMALISATION, renormalisation)?;
         let (near, positions) = (&self.near, world.free.get(fields::POSITION)?);
         let mesh = &self.outline.mesh;

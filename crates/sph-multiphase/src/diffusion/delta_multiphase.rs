@@ -246,7 +246,8 @@ impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
                 let there = self.term.compression(phase as usize, contact.pressure);
                 let apart = contact.distance.max(self.nearest);
                 let slope = (own.compression - there) / apart;
-                let at_rest = own_at_rest.dot(&self.normals[contact.element as usize]) * own.compressibility;
+                let at_rest =
+                    own_at_rest.dot(&self.normals[contact.element as usize]) * own.compressibility;
                 sum -= (slope - at_rest) * contact.gradient.norm();
             }
         }

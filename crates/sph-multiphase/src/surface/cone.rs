@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
-use sph_neighbours::{Around, Values, World, walk_into};
+use sph_neighbours::{Around, CHUNK, Values, World, walk_into};
 
 /// Kind of a particle by its place: [`Place`] as a number.
 pub const FREE_SURFACE: Field<Scalar> = Field::new(
@@ -119,20 +119,30 @@ fn find<const D: usize>(
     let lists = world.lists.nearest();
     let position = world.free.get(fields::POSITION)?;
     let reach2 = world.kernel.support_radius().powi(2);
-    let at = |i: usize| places[i] == Place::At;
-    let near = |i: usize| {
-        let mut others = lists.candidates(i).iter().map(|j| *j as usize);
-        let hidden = &world.lists.hidden.particles;
-        let sees = |j: usize| !hidden.has(i, j as u32);
-        others.any(|j| at(j) && sees(j) && apart2(world, &position[i], &position[j]) < reach2)
+    let at = |j: u32| places[j as usize] == Place::At;
+    let hidden = &world.lists.hidden.particles;
+    let near = |i: usize, candidates: &[u32]| {
+        let all = candidates.iter().filter(|j| at(**j));
+        let mut apart = all.map(|&j| (j, apart2(world, &position[i], &position[j as usize])));
+        apart.any(|(j, apart)| apart < reach2 && !hidden.has(i, j))
     };
-    let all = surface.par_iter_mut().enumerate().with_min_len(1024);
-    all.for_each(|(i, out)| {
-        let place = match places[i] {
-            Place::Inside if near(i) => Place::Near,
-            other => other,
-        };
-        *out = place.number();
+    let blocks = surface.par_chunks_mut(CHUNK).enumerate();
+    blocks.for_each(|(block, surface)| {
+        // Particles of a cluster have the same candidates.
+        let mut known: Option<(&[u32], bool)> = None;
+        for (i, out) in (block * CHUNK..).zip(surface) {
+            let candidates = lists.candidates(i);
+            let any = match known {
+                Some((of, any)) if std::ptr::eq(of, candidates) => any,
+                _ => candidates.iter().any(|j| at(*j)),
+            };
+            known = Some((candidates, any));
+            let place = match places[i] {
+                Place::Inside if any && near(i, candidates) => Place::Near,
+                other => other,
+            };
+            *out = place.number();
+        }
     });
     Ok(())
 }

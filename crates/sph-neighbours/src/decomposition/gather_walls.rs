@@ -76,10 +76,6 @@ impl<const D: usize> Parts<D> {
         }
         if at_corners {
             whole.walls.average_corners();
-            let here = &world.walls.elements;
-            for s in (0..here.open.len()).filter(|s| here.open[*s]) {
-                whole.walls.elements.pressure[s] = here.pressure[s];
-            }
         }
         Ok(())
     }

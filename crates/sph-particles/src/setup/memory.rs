@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sph_core::{FieldError, Role};
-use sph_neighbours::{Clusters, Contact, NeighbourList, World};
+use sph_neighbours::{Clusters, NeighbourList, World};
 use sph_scene::Scene;
 use sph_solver::Flow;
 
@@ -13,6 +13,8 @@ const GROWN: f64 = 1.5;
 /// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with
 /// the counts of an allocator in two and three dimensions.
 const TABLES_PER_ELEMENT: f64 = 550.0;
+/// Bytes of the list of elements near a particle per contact: with the skin they are some three times as many.
+const NEAR_A_CONTACT: f64 = 32.0;
 /// Pixels of a picture, a little more than those of a plot, 1200 · 800.
 const PIXELS: f64 = 1200.0 * 850.0;
 /// Bytes of a pixel for a surface in space: depth and value, twice while they are made smooth, within the frame, which has
@@ -131,8 +133,6 @@ fn walls<const D: usize>(world: &World<D>) -> f64 {
     // wall and its corners.
     let point = (3 * 8 * D + 4 * 8 + 4) as f64;
     let element = (3 * 8 * D + 4 * 8 + 4 + 4 * D) as f64 + TABLES_PER_ELEMENT;
-    // Elements near a particle are listed as well, with the skin: some three times as many.
-    let contact = size_of::<Contact<D>>() as f64;
     // Where the elements of a particle are listed: place, motion and range, twice so that they can follow a sorted particle,
     // and whose they are.
     let listed = 2.0 * (8 * D + 16) as f64 + 4.0;
@@ -142,7 +142,7 @@ fn walls<const D: usize>(world: &World<D>) -> f64 {
     };
     walls.points.position.len() as f64 * point
         + walls.elements.centre.len() as f64 * element
-        + contacts * contact
+        + contacts * NEAR_A_CONTACT
         + GROWN * walls.contacts.bytes() as f64
         + places
 }

@@ -35,6 +35,26 @@ pub(super) struct Filling {
     pub triangles: Vec<[Corner; 3]>,
 }
 
+impl Filling {
+    /// The same with its nodes in the order of the triangles, so that those that are near each other mostly follow each
+    /// other.
+    fn numbered(mut self) -> Self {
+        let mut numbers = vec![None; self.inside.len()];
+        let mut inside = Vec::with_capacity(self.inside.len());
+        for corner in self.triangles.iter_mut().flatten() {
+            if let Corner::Inside(k) = corner {
+                let old = *k as usize;
+                *k = *numbers[old].get_or_insert_with(|| {
+                    inside.push(self.inside[old]);
+                    inside.len() as u32 - 1
+                });
+            }
+        }
+        self.inside = inside;
+        self
+    }
+}
+
 /// Cuts a planar piece into triangles of about the spacing.
 ///
 /// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each
@@ -71,7 +91,7 @@ pub(super) fn fill(
     let plane = Plane::along(direction, origin, patch.normal);
     let flat = |site: Site| plane.foot(at(site));
     if let Some(filling) = rectangle(sides, longest, &flat, &plane, spacing) {
-        return Ok(filling);
+        return Ok(filling.numbered());
     }
 
     let mut number: HashMap<Site, usize> = HashMap::new();
@@ -102,10 +122,11 @@ pub(super) fn fill(
         None => Corner::Inside((v - sites.len()) as u32),
     };
     let new = points[sites.len()..].iter();
-    Ok(Filling {
+    let filling = Filling {
         inside: new.map(|x| plane.place(*x)).collect(),
         triangles: triangles.iter().map(|t| t.map(corner)).collect(),
-    })
+    };
+    Ok(filling.numbered())
 }
 
 /// The lattice along the longest edge, which goes from the origin along the first axis.

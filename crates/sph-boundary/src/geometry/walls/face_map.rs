@@ -132,8 +132,9 @@ impl FaceMap {
         let mut found: Option<(f64, u32, [f64; 3])> = None;
         let mut last = rings;
         for ring in 0..=rings {
-            let [columns, rows] = [(i, 0), (j, 1)]
-                .map(|(c, k): (usize, usize)| c.saturating_sub(ring)..=(c + ring).min(self.count[k] - 1));
+            let [columns, rows] = [(i, 0), (j, 1)].map(|(c, k): (usize, usize)| {
+                c.saturating_sub(ring)..=(c + ring).min(self.count[k] - 1)
+            });
             for row in rows {
                 for column in columns.clone() {
                     if row.abs_diff(j).max(column.abs_diff(i)) != ring {

@@ -76,7 +76,13 @@ impl Planes {
         let firsts = std::iter::once(0).chain(self.ends.iter().copied());
         let firsts = firsts.take(self.ends.len());
         self.planes.clear();
-        self.planes.extend(firsts.map(|first| plane_of(mesh, first as usize)));
+        for (first, map) in firsts.zip(&self.maps) {
+            let first = first as usize;
+            self.planes.push(match map {
+                Some(_) => plane_of(mesh, first),
+                None => Plane::new(mesh.corners(first)[0], mesh.elements[first].normal),
+            });
+        }
         self.patches.clear();
         self.circles.clear();
         if self.maps.iter().all(Option::is_some) {

@@ -45,10 +45,11 @@ impl WallMesh<3> for Walls<3> {
         mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
         mesh.beds = laid(&mesh, walls, domain)?;
         mesh.part_faces();
-        let open: Vec<bool> = walls.iter().map(|wall| wall.open).collect();
+        // Ports of open faces are of elements.
+        let open = walls.iter().any(|wall| wall.open);
         let mut walls = Walls::new(mesh, walls, reach);
         let motions = &walls.mesh.motions;
-        let cut = |wall: usize| open[wall] || motions[wall].bends();
+        let cut = |wall: usize| open || motions[wall].bends();
         walls.planes = Planes::new(&walls.mesh, cut);
         Ok(walls)
     }

@@ -220,7 +220,7 @@ mod tests {
             along([0.1, 0.2, 0.3], 1.0, v),
         ];
         let normal = cross(u, v).map(|x| x / (leg * leg));
-        let plane = Plane::along(u, corners[0], normal);
+        let plane = Plane::new(corners[0], normal);
         let (patch, circle) = Patch::new(&plane, corners, 0.5 * leg * leg);
         let mut weights = Weights::default();
         let centre = along(corners[0], 1.0 / 3.0, along(u, 1.0, v));

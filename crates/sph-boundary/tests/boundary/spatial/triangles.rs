@@ -112,7 +112,8 @@ fn moments_are_those_of_many_small_triangles() {
                 let upper = [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 let both = [(lower, true), (upper, i + j + 1 < PARTS)];
                 for (small, _) in both.into_iter().filter(|(_, there)| *there) {
-                    let centre = plus(plus(small[0], 1.0, small[1]), 1.0, small[2]).map(|x| x / 3.0);
+                    let centre =
+                        plus(plus(small[0], 1.0, small[1]), 1.0, small[2]).map(|x| x / 3.0);
                     sum = plus(sum, of.triangle(small, n).kernel, minus(centre, foot));
                 }
             }
@@ -122,7 +123,11 @@ fn moments_are_those_of_many_small_triangles() {
             largest = largest.max(whole.kernel);
         }
         // The sum itself is good to (1/40)² of a triangle.
-        assert!(worst < 4e-4 * largest, "{}: {worst:e} of {largest}", kernel.name());
+        assert!(
+            worst < 4e-4 * largest,
+            "{}: {worst:e} of {largest}",
+            kernel.name()
+        );
     }
 }
 

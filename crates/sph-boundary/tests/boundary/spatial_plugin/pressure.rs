@@ -81,9 +81,8 @@ fn a_linear_pressure_along_a_wall_is_exact_at_contacts() {
                 true => [3.0 * SPACING, 6.0 * SPACING],
                 false => [0.0, SIZE],
             };
-            let within = |place: &Vect<3>| {
-                (0..3).all(|k| k == axis || (low..high).contains(&place[k]))
-            };
+            let within =
+                |place: &Vect<3>| (0..3).all(|k| k == axis || (low..high).contains(&place[k]));
             let [pressure, whole] = by_squares(x, axis, plane, within);
             if whole < 1e-3 / SPACING {
                 continue;
