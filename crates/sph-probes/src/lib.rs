@@ -19,7 +19,6 @@ mod contract;
 mod derived;
 mod flow;
 mod measure;
-mod nearest;
 pub mod norm;
 mod phases;
 mod sampling;
@@ -41,31 +40,27 @@ pub use derived::{
 };
 pub use flow::angular_momentum::AngularMomentum;
 pub use flow::displacement::DisplacementProbe;
-pub use flow::energy::KineticEnergy;
 pub use flow::energy_budget::{
     BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyBudget, EnergyWork, work_of_stranger,
 };
-pub use flow::front::Front;
 pub use flow::level::Level;
 pub use flow::mean_profile::MeanProfile;
 pub use flow::mooring::MooringProbe;
 pub use flow::passed::PassedProbe;
 pub use flow::point::{PressureProbe, VelocityProbe};
 pub use flow::profile::{Component, Profile};
-pub use flow::range::FieldRange;
 pub use flow::spectrum::EnergySpectrum;
 pub use flow::stream_function::StreamFunction;
 pub use flow::wall_force::WallForceProbe;
 pub use flow::wall_motion::WallMotionProbe;
-pub use measure::{Reduction, Statistic, Weight, quantile, reduced};
-pub use phases::extent::Extent;
+pub use measure::presets::{
+    Direction, Extent, FieldRange, Front, KineticEnergy, PhaseEnergy, PhaseVolume, Yielded,
+};
+pub use measure::{Reduce, Reduction, Statistic, Weight, WeightedValues};
 pub use phases::interface::Interface;
 pub use phases::line::{Line, LineOf};
-pub use phases::phase_energy::PhaseEnergy;
-pub use phases::phase_volume::PhaseVolume;
 pub use phases::slope::SurfaceSlope;
-pub use phases::yielded::Yielded;
-pub use sampling::interpolate::{Interpolated, interpolate};
+pub use sampling::{Interpolated, interpolate};
 pub use solutions::bagnold::Bagnold;
 pub use solutions::bifluid_poiseuille::BifluidPoiseuille;
 pub use solutions::bingham_poiseuille::BinghamPoiseuille;

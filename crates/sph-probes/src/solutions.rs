@@ -1,5 +1,7 @@
 //! Exact solutions, as references and as initial states.
 
+use sph_core::Vect;
+
 pub(crate) mod bagnold;
 pub(crate) mod bifluid_poiseuille;
 pub(crate) mod bingham_poiseuille;
@@ -16,3 +18,10 @@ pub(crate) mod rotating_square;
 pub(crate) mod taylor_green;
 pub(crate) mod taylor_green_3d;
 pub(crate) mod terzaghi;
+
+/// A velocity along an axis, m/s.
+fn along<const D: usize>(axis: usize, speed: f64) -> Option<Vect<D>> {
+    let mut velocity = Vect::zeros();
+    velocity[axis] = speed;
+    Some(velocity)
+}

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u = U η/H + Σ_n 2U/(nπ) (−1)ⁿ sin(nπη/H) exp(−n²π²νt/H²): the upper wall starts at t = 0.
 ///
@@ -40,8 +40,6 @@ impl<const D: usize> Solution<D> for Couette {
             let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
             u += 2.0 * self.wall_velocity / (k * PI) * sign * (k * PI * eta).sin() * decay;
         }
-        let mut velocity = Vect::zeros();
-        velocity[0] = u;
-        Some(velocity)
+        along(0, u)
     }
 }

@@ -3,7 +3,7 @@
 use sph_core::{Axis, Vect, plugin, rectangular_duct};
 
 use crate::flow::point::point;
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// Developed laminar flow along a rectangular duct, driven by the body acceleration a or a fall of the pressure ρ a per
 /// length: u = a φ(y, z)/ν with φ a series of cosines.
@@ -47,10 +47,8 @@ impl Solution<3> for DuctPoiseuille {
         let from = position - point::<3>(&self.centre);
         let mut across = (0..3).filter(|k| *k != axis).map(|k| from[k]);
         let across = [across.next()?, across.next()?];
-        let mut velocity = Vect::zeros();
         let phi = rectangular_duct(across, self.sides.map(|side| 0.5 * side));
-        velocity[axis] = self.acceleration * phi / self.kinematic_viscosity;
-        Some(velocity)
+        along(axis, self.acceleration * phi / self.kinematic_viscosity)
     }
 }
 

@@ -3,7 +3,7 @@
 use sph_core::{Axis, Vect, plugin};
 
 use crate::flow::point::point;
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u = a (R² − r²)/(4ν) along the axis of a pipe, driven by the body acceleration a.
 ///
@@ -51,9 +51,10 @@ impl<const D: usize> Solution<D> for HagenPoiseuille {
         across[axis] = 0.0;
         let share = if D == 2 { 2.0 } else { 4.0 };
         let parabola = self.radius * self.radius - across.norm_squared();
-        let mut velocity = Vect::zeros();
-        velocity[axis] = self.acceleration * parabola / (share * self.kinematic_viscosity);
-        Some(velocity)
+        along(
+            axis,
+            self.acceleration * parabola / (share * self.kinematic_viscosity),
+        )
     }
 }
 

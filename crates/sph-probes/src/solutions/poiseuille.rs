@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u = a/(2ν) η(H−η) − Σ_n 4aH²/(νπ³(2n+1)³) sin(πη(2n+1)/H) exp(−(2n+1)²π²νt/H²), with η the
 /// distance from the lower wall.
@@ -41,9 +41,7 @@ impl<const D: usize> Solution<D> for Poiseuille {
             let amplitude = 4.0 * a * height * height / (nu * PI.powi(3) * k.powi(3));
             u -= amplitude * (PI * eta * k / height).sin() * decay;
         }
-        let mut velocity = Vect::zeros();
-        velocity[0] = u;
-        Some(velocity)
+        along(0, u)
     }
 }
 

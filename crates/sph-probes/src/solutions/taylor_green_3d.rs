@@ -57,8 +57,8 @@ mod tests {
         };
         let n = 16;
         let place = |i: usize| {
-            let at = |k: usize| TAU * (i / n_pow(n, k) % n) as f64 / n as f64;
-            Vect::from([at(0), at(1), at(2)])
+            let at = [i % n, i / n % n, i / (n * n)];
+            Vect::from(at.map(|k| TAU * k as f64 / n as f64))
         };
         let all = (0..n * n * n).map(|i| flow.velocity(&place(i), 0.0).expect("a velocity"));
         let energy: f64 = all.map(|u| 0.5 * u.norm_squared()).sum::<f64>() / (n * n * n) as f64;
@@ -80,9 +80,5 @@ mod tests {
         let laplacian: f64 = (0..3).map(second).sum();
         assert!((laplacian / (-3.0 * source) - 1.0).abs() < 1e-4);
         assert!(flow.velocity(&x, 0.1).is_none());
-    }
-
-    fn n_pow(n: usize, k: usize) -> usize {
-        n.pow(k as u32)
     }
 }
