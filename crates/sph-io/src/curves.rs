@@ -11,7 +11,6 @@
 //!
 //! Values between particles are those of a linear fit, exact for linear fields: [`Cloud`].
 
-mod cells;
 mod cloud;
 mod error;
 mod frames;

@@ -1,13 +1,12 @@
 //! `sph measure`: a field of the frames of a run, over particles that fulfil conditions, reduced to numbers.
 
 use std::fmt::Write as _;
-use std::io::Write;
 use std::path::Path;
 
 use serde_json::{Value as Json, json};
 use sph_core::parse_quantity;
 use sph_io::curves::{Column, Snapshot};
-use sph_io::{Durability, write_atomic};
+use sph_io::write_whole;
 use sph_probes::{Reduce, Reduction, Weight, WeightedValues};
 
 use crate::commands::draw::{frames, trouble};
@@ -55,8 +54,7 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     match &arguments.out {
         None => told.print(arguments.json),
         Some(file) => {
-            let write = |out: &mut dyn Write| out.write_all(told.text.as_bytes());
-            write_atomic(file, Durability::Process, write)?;
+            write_whole(file, &told.text)?;
             let count = rows.len();
             let file = file.display();
             CommandOutput {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{Checkpoint, Column, ColumnData, Header, MAGIC, PREFIX, SUFFIX, Shape, VERSION};
 use crate::error::{IoError, Result};
-use crate::files::atomic::{AtomicFile, Durability};
+use crate::files::atomic::{Durability, write_atomic};
 
 /// Bytes converted at a time.
 const CHUNK: usize = 1 << 16;
@@ -26,13 +26,12 @@ impl Checkpoint {
             source,
         })?;
         let total = PREFIX + header.len() as u64 + data + SUFFIX;
-        let mut file = AtomicFile::create(path)?;
-        self.fill(&mut file, &header, total)
-            .map_err(|e| IoError::write(path, e))?;
-        file.commit(Durability::Power)
+        write_atomic(path, Durability::Power, |file| {
+            self.fill(file, &header, total)
+        })
     }
 
-    fn fill(&self, file: &mut AtomicFile, header: &[u8], total: u64) -> io::Result<()> {
+    fn fill(&self, file: &mut dyn Write, header: &[u8], total: u64) -> io::Result<()> {
         let mut out = ChecksumWriter {
             out: file,
             sum: crc32fast::Hasher::new(),
@@ -87,7 +86,7 @@ impl Column {
 
 /// Passes bytes on and keeps their checksum.
 struct ChecksumWriter<'a> {
-    out: &'a mut AtomicFile,
+    out: &'a mut dyn Write,
     sum: crc32fast::Hasher,
 }
 

@@ -7,19 +7,15 @@ use crate::drawing::text;
 
 /// A list of names, one below the other, to the right of the frame.
 pub(crate) struct ClassBar<'a> {
-    names: &'a [String],
-    size: f64,
+    pub(crate) names: &'a [String],
+    pub(crate) size: f64,
 }
 
-impl<'a> ClassBar<'a> {
-    pub(crate) fn new(names: &'a [String], size: f64) -> Self {
-        Self { names, size }
-    }
-
+impl ClassBar<'_> {
     /// Pixels that the list takes to the right of the frame.
     pub(crate) fn room(&self) -> f64 {
-        let widths = self.names.iter().map(|name| text::width(name, self.size));
-        widths.fold(0.0, f64::max) + 3.2 * self.size
+        let names = self.names.iter().map(String::as_str);
+        text::widest(names, self.size) + 3.2 * self.size
     }
 
     pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {

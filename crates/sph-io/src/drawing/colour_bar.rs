@@ -9,31 +9,15 @@ use crate::drawing::ticks::{Ticks, linear};
 
 /// A vertical colour scale with ticks and a label.
 pub(crate) struct ColourBar<'a> {
-    range: [f64; 2],
-    colours: ColourMap,
-    label: &'a str,
+    pub(crate) range: [f64; 2],
+    pub(crate) colours: ColourMap,
+    pub(crate) label: &'a str,
     /// True for values below, and above, the range: pointed ends.
-    beyond: [bool; 2],
-    size: f64,
+    pub(crate) beyond: [bool; 2],
+    pub(crate) size: f64,
 }
 
-impl<'a> ColourBar<'a> {
-    pub(crate) fn new(
-        range: [f64; 2],
-        colours: ColourMap,
-        label: &'a str,
-        beyond: [bool; 2],
-        size: f64,
-    ) -> Self {
-        Self {
-            range,
-            colours,
-            label,
-            beyond,
-            size,
-        }
-    }
-
+impl ColourBar<'_> {
     /// Pixels that the bar takes to the right of the frame.
     pub(crate) fn room(&self) -> f64 {
         // With the most ticks it can have; fewer are never wider.
@@ -115,15 +99,12 @@ impl<'a> ColourBar<'a> {
 
     fn ticks(&self, height: f64) -> Ticks {
         let [lo, hi] = self.range;
-        linear(
-            lo,
-            hi,
-            (height / (3.2 * self.size)).clamp(2.0, 7.0) as usize,
-        )
+        let wanted = (height / (3.2 * self.size)).clamp(2.0, 7.0);
+        linear(lo, hi, wanted as usize)
     }
 
     fn labels_width(&self, ticks: &Ticks) -> f64 {
-        let widths = ticks.major.iter().map(|(_, l)| text::width(l, self.size));
-        widths.fold(0.0, f64::max)
+        let labels = ticks.major.iter().map(|(_, label)| label.as_str());
+        text::widest(labels, self.size)
     }
 }

@@ -5,6 +5,8 @@
 
 use std::path::Path;
 
+use sph_core::bounds;
+
 use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
@@ -76,16 +78,12 @@ impl Plot {
     }
 
     pub(crate) fn check(&self, path: &Path) -> Result<()> {
-        for Series {
-            name,
-            points,
-            style,
-        } in &self.series
-        {
-            if let Style::Band(upper) = style
-                && upper.len() != points.len()
+        for series in &self.series {
+            let points = series.points.len();
+            if let Style::Band(upper) = &series.style
+                && upper.len() != points
             {
-                let (points, upper) = (points.len(), upper.len());
+                let (name, upper) = (&series.name, upper.len());
                 let said = format!("band `{name}` has {upper} upper ordinates at {points} points");
                 return Err(IoError::input(path, said));
             }
@@ -115,11 +113,7 @@ impl Plot {
         let x = self.axis(0, self.log_x, &self.x_label);
         let y = self.axis(1, self.log_y, &self.y_label);
         let top = if self.title.is_empty() { 1.2 } else { 2.6 } * LETTERS;
-        let room = if y.ticks(8).factor.is_some() {
-            0.9
-        } else {
-            0.0
-        };
+        let room = y.ticks(8).factor.map_or(0.0, |_| 0.9);
         let top = place.top + top + room * LETTERS;
         let bottom = place.bottom - 3.6 * LETTERS;
         Axes {
@@ -141,16 +135,8 @@ impl Plot {
         let logs = [self.log_x, self.log_y];
         let shown = |p: &[f64; 2]| (0..2).all(|i| shown(p[i], logs[i]));
         let values = self.series.iter().flat_map(Series::spots).filter(shown);
-        let values = values.map(|p| {
-            if log {
-                p[direction].log10()
-            } else {
-                p[direction]
-            }
-        });
-        let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
-            (lo.min(v), hi.max(v))
-        });
+        let scaled = |v: f64| if log { v.log10() } else { v };
+        let [[lo], [hi]] = bounds(values.map(|p| [scaled(p[direction])]));
         let [lo, hi] = if lo > hi { [0.0, 1.0] } else { widened(lo, hi) };
         let margin = 0.04 * (hi - lo);
         let [lo, hi] = [lo - margin, hi + margin];
@@ -164,7 +150,6 @@ impl Plot {
     }
 }
 
-/// The place of a plot that stands alone.
 /// Draws into a file of so many pixels: vectors if its name ends in `.svg`, else a PNG.
 pub(crate) fn save(
     path: &Path,
@@ -182,6 +167,7 @@ pub(crate) fn save(
     canvas.save(path)
 }
 
+/// The place of a plot that stands alone.
 fn whole() -> Rect {
     Rect {
         left: 0.0,

@@ -5,10 +5,10 @@ use std::io::Read;
 use std::path::Path;
 
 use flate2::read::ZlibDecoder;
+use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
-use crate::paraview::xml::{attributes, unescape};
 
 /// Largest array that is read, bytes.
 const MOST: usize = 1 << 36;
@@ -42,14 +42,15 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
     const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
     let end = file.windows(MARK.len()).position(|w| w == MARK);
     let end = end.ok_or("its arrays are not appended")?;
-    let xml = std::str::from_utf8(&file[..end]).map_err(|_| "its head is no text")?;
+    let head = std::str::from_utf8(&file[..end]).map_err(|_| "its head is no text")?;
+    let head = format!("{head}</VTKFile>");
+    let head = Document::parse(&head).map_err(|_| "a tag cannot be read")?;
     let appended = &file[end + MARK.len()..];
     let section = |tag: &str| -> std::result::Result<Vec<Array>, &'static str> {
-        let within = xml.split_once(&format!("<{tag}>"));
-        let within = within.and_then(|(_, rest)| rest.split_once(&format!("</{tag}>")));
-        let (within, _) = within.ok_or("a section is missing")?;
-        let tags = within.split("<DataArray ").skip(1);
-        tags.map(|tag| array(tag, appended)).collect()
+        let section = head.descendants().find(|n| n.has_tag_name(tag));
+        let arrays = section.ok_or("a section is missing")?.children();
+        let arrays = arrays.filter(|n| n.has_tag_name("DataArray"));
+        arrays.map(|node| array(node, appended)).collect()
     };
     let time = section("FieldData")?.pop().ok_or("it has no time")?;
     let time = *reals(&time.bytes).first().ok_or("it has no time")?;
@@ -74,23 +75,18 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
     Ok((piece, time))
 }
 
-fn array(tag: &str, appended: &[u8]) -> std::result::Result<Array, &'static str> {
-    let (head, rest) = tag.split_once('>').ok_or("a tag does not end")?;
-    let found = attributes(head).ok_or("a tag cannot be read")?;
-    let get = |name| found.iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+fn array(node: Node<'_, '_>, appended: &[u8]) -> std::result::Result<Array, &'static str> {
+    let get = |name| node.attribute(name);
     let offset = get("offset").and_then(|o| o.parse::<usize>().ok());
     let data = offset.and_then(|o| appended.get(o..));
-    let unit = match head.trim_end().ends_with('/') {
-        true => None,
-        false => rest.split_once("\"vtkDataArray\">"),
-    };
-    let unit = unit.and_then(|(_, u)| u.split_once('<'));
+    let mut keys = node.children();
+    let unit = keys.find(|n| n.has_tag_name("InformationKey"));
     Ok(Array {
-        name: get("Name").ok_or("an array has no name")?.clone(),
-        kind: get("type").ok_or("an array has no type")?.clone(),
+        name: get("Name").ok_or("an array has no name")?.into(),
+        kind: get("type").ok_or("an array has no type")?.into(),
         components: get("NumberOfComponents")
             .map_or(Ok(1), |n| n.parse().map_err(|_| "a number"))?,
-        unit: unit.map_or(String::new(), |(u, _)| unescape(u)),
+        unit: unit.and_then(|n| n.text()).unwrap_or_default().into(),
         bytes: expanded(data.ok_or("an array lies outside of the file")?)?,
     })
 }

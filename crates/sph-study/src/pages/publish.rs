@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sph_io::{Durability, IoError, Plot, write_atomic};
+use sph_io::{IoError, Plot, write_whole};
 
 use crate::pages::{matrix_plots, plots, report, table};
 use crate::reading::combine::safe;
@@ -21,10 +21,7 @@ pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
     if results.frontiers.is_empty() {
         compared(results, folder)?;
     }
-    let page = report::html(results)?;
-    write_atomic(folder.join("report.html"), Durability::Process, |file| {
-        file.write_all(page.as_bytes())
-    })
+    write_whole(folder.join("report.html"), report::html(results)?)
 }
 
 /// The plots of variants of one scene.
