@@ -1,6 +1,5 @@
 //! Results as tables, plots and a page.
 
-pub mod grid;
 pub mod matrix_plots;
 pub mod plots;
 pub mod publish;

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use sph_core::number;
 use sph_io::{IoError, escape};
 
-use crate::pages::grid::grid;
 use crate::pages::plots;
 use crate::pages::table;
 use crate::results::Results;
@@ -92,6 +91,30 @@ fn compared(results: &Results) -> Result<String, IoError> {
     Ok(page)
 }
 
+/// A table with its heads, if there are any; every row has a class.
+pub(crate) fn grid(
+    heads: &[String],
+    rows: &[Vec<String>],
+    class: impl Fn(usize) -> String,
+) -> String {
+    let mut text = String::from("<div class=\"wide\"><table>\n");
+    let cells = |row: &[String], tag: &str| -> String {
+        let cell = |c: &String| format!("<{tag}>{}</{tag}>", escape(c));
+        row.iter().map(cell).collect()
+    };
+    if !heads.is_empty() {
+        let _ = writeln!(text, "<tr>{}</tr>", cells(heads, "th"));
+    }
+    for (k, row) in rows.iter().enumerate() {
+        let _ = match class(k).as_str() {
+            "" => writeln!(text, "<tr>{}</tr>", cells(row, "td")),
+            class => writeln!(text, "<tr class=\"{class}\">{}</tr>", cells(row, "td")),
+        };
+    }
+    text.push_str("</table></div>\n");
+    text
+}
+
 /// A text without its line breaks.
 fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
@@ -119,13 +142,8 @@ fn lines(text: &str) -> String {
 }
 
 fn facts(results: &Results) -> String {
-    let count = |status: Status| {
-        results
-            .variants
-            .iter()
-            .filter(|v| v.status == status)
-            .count()
-    };
+    let all = || results.variants.iter().map(|v| v.status);
+    let count = |status: Status| all().filter(|s| *s == status).count();
     let states = [
         Status::Done,
         Status::Failed,
@@ -138,14 +156,6 @@ fn facts(results: &Results) -> String {
     let states: Vec<String> = states
         .map(|s| format!("{} {}", count(*s), s.name()))
         .collect();
-    let mut threads: Vec<usize> = results.variants.iter().map(|v| v.threads).collect();
-    threads.sort_unstable();
-    threads.dedup();
-    let threads: Vec<String> = threads
-        .iter()
-        .filter(|t| **t > 0)
-        .map(|t| t.to_string())
-        .collect();
     let manner = match results.serial {
         true => "one variant at a time",
         false => "variants side by side",
@@ -157,21 +167,19 @@ fn facts(results: &Results) -> String {
         row("judged by", results.errors.join(", ")),
         row("variants", states.join(", ")),
         row("machine", origin.machine.to_string()),
-        row("threads", format!("{}; {manner}", threads.join(", "))),
+        row("threads", format!("{}; {manner}", results.threads())),
         row("version", format!("sph {}", origin.version)),
         row("commit", origin.commit.clone().unwrap_or("unknown".into())),
         row("built with", origin.built_with.clone()),
     ];
     rows.retain(|row| !row[1].is_empty());
-    for (name, of) in [
-        (
-            "variants ran at",
-            (|o| o.commit.clone()) as fn(&Origin) -> _,
-        ),
+    let unlike: [(&str, fn(&Origin) -> Option<String>); 3] = [
+        ("variants ran at", |o| o.commit.clone()),
         ("variants ran on", |o| Some(o.machine.to_string())),
         ("variants ran with", |o| Some(o.built_with.clone())),
-    ] {
-        let all = unlike(results, of);
+    ];
+    for (name, of) in unlike {
+        let all = differing(results, of);
         if all.len() > 1 {
             rows.push(row(name, all.join("; ")));
         }
@@ -183,7 +191,7 @@ fn facts(results: &Results) -> String {
 }
 
 /// Keys in which the variants that have run differ.
-fn unlike(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
+fn differing(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
     let ran = results.variants.iter().filter(|v| v.steps > 0);
     let mut all: Vec<String> = ran.filter_map(|v| of(&v.origin)).collect();
     all.sort();

@@ -8,9 +8,7 @@ use crate::reading::combine::{MOST, combinations, safe};
 use crate::reading::file::{self, Bounds, Combine, StudyFile};
 use crate::reading::mistake::Refused;
 use crate::reading::reader::Reader;
-use crate::reading::rung::{Ladder, Rung};
-use crate::reading::scene_text::SceneText;
-use crate::reading::variant::Variant;
+use crate::reading::variant::{Ladder, Rung, SceneText, Variant};
 use crate::running::verdict::QUANTITIES;
 
 /// Names of the axes to which the labels of such a study's variants belong.
@@ -116,11 +114,8 @@ fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     if !file.error.paths("error").is_empty() {
         problem("error".into(), "every `axis` names its own errors");
     }
-    let names: Vec<String> = file
-        .axis
-        .iter()
-        .map(|a| safe(&a.name).to_lowercase())
-        .collect();
+    let names = file.axis.iter().map(|a| safe(&a.name).to_lowercase());
+    let names: Vec<String> = names.collect();
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
             problem(
@@ -157,10 +152,8 @@ fn one(
         let place = labels.iter().position(|l| *l == must);
         place.ok_or_else(|| {
             let known = labels.join(", ");
-            problem(
-                ".must",
-                format!("the axis has no `{must}` (it has: {known})"),
-            )
+            let why = format!("the axis has no `{must}` (it has: {known})");
+            problem(".must", why)
         })
     });
     let must = must.transpose()?;
@@ -175,19 +168,13 @@ fn one(
         false => (&given.judge, format!("{at}.judge")),
     };
     check(judge, &errors, &path)?;
-    let itself = Choice {
-        label: given.name.clone(),
-        slug: given.name.clone(),
-        scene: None,
-        sets: Vec::new(),
-    };
     let axis = |k: usize, choices| StudyAxis {
         name: COLUMNS[k].to_string(),
         choices,
     };
     Ok(LadderSource {
         axes: [
-            axis(0, vec![itself]),
+            axis(0, vec![Choice::named(&given.name)]),
             axis(1, plugins(file, given)?),
             axis(2, values.choices),
         ],
@@ -227,21 +214,14 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
     let fitting = all.filter(|(_, c)| c.axes.is_empty() || c.axes.contains(&given.name));
     let choice = |(k, c): (usize, &file::Combination)| {
         Ok(Choice {
-            label: c.name.clone(),
-            slug: c.name.clone(),
-            scene: None,
             sets: axis::sets(&c.set, &format!("combination[{k}].set"))?,
+            ..Choice::named(&c.name)
         })
     };
     let choices: Result<Vec<Choice>, SceneProblem> = fitting.map(choice).collect();
     let mut choices = choices.map_err(|p| vec![p])?;
     if choices.is_empty() {
-        choices.push(Choice {
-            label: String::new(),
-            slug: String::new(),
-            scene: None,
-            sets: Vec::new(),
-        });
+        choices.push(Choice::default());
     }
     Ok(choices)
 }

@@ -64,10 +64,11 @@ impl OverrideSources<'_> {
     /// The mistakes of a scene: in the study file if it made them.
     pub fn place(&self, scene: &Source, found: &[Diagnostic]) -> Vec<Mistake> {
         let place = |d: &Diagnostic| {
-            let Origin::Override(k) = d.origin else {
-                return Refused::from_diagnostics(scene, vec![d.clone()]).mistakes;
+            let given = match d.origin {
+                Origin::Override(k) => self.given_by.get(k).cloned().flatten(),
+                _ => None,
             };
-            let Some(path) = self.given_by.get(k).cloned().flatten() else {
+            let Some(path) = given else {
                 return Refused::from_diagnostics(scene, vec![d.clone()]).mistakes;
             };
             let message = match d.path.as_str() {

@@ -12,9 +12,7 @@ use crate::reading::file::StudyFile;
 use crate::reading::ladder;
 use crate::reading::mistake::{OverrideSources, Refused};
 use crate::reading::reader::{Reader, refinement};
-use crate::reading::rung::Ladder;
-use crate::reading::scene_text::{FindScene, SceneText};
-use crate::reading::variant::Variant;
+use crate::reading::variant::{FindScene, Ladder, SceneText, Variant};
 
 /// A study whose variants are known to be good.
 #[derive(Clone, Debug)]

@@ -12,9 +12,7 @@ use crate::reading::axis::{Set, StudyAxis};
 use crate::reading::combine::{Combination, fits};
 use crate::reading::file::StudyFile;
 use crate::reading::mistake::{Mistake, OverrideSources, Refused};
-use crate::reading::scene_text::SceneText;
-use crate::reading::variant::Variant;
-use crate::running::fingerprint::fingerprint;
+use crate::reading::variant::{SceneText, Variant, fingerprint};
 
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";

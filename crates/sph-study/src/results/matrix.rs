@@ -6,8 +6,8 @@ use sph_core::number;
 use sph_io::{IoError, escape};
 use sph_run::Trouble;
 
-use crate::pages::grid::grid;
 use crate::pages::matrix_plots;
+use crate::pages::report::grid;
 use crate::results::Results;
 use crate::results::frontier::Frontier;
 use crate::results::variant_result::VariantResult;
@@ -93,25 +93,8 @@ fn frontiers(results: &Results) -> String {
     text
 }
 
-/// Heads of the table of runs.
-pub const HEADS: [&str; 13] = [
-    "axis",
-    "combination",
-    "value",
-    "colour",
-    "why",
-    "first trouble",
-    "error",
-    "energy",
-    "density",
-    "Mach",
-    "limited by",
-    "steps",
-    "wall time",
-];
-
-/// A run as a row under [`HEADS`].
-pub fn row(frontier: &Frontier, v: &VariantResult) -> Vec<String> {
+/// A run as a row, each cell with its head.
+fn row(frontier: &Frontier, v: &VariantResult) -> [(&'static str, String); 12] {
     let none = || "–".to_string();
     let value = |name: &str| v.values.get(name).cloned().unwrap_or_default();
     let errors: Vec<String> = frontier
@@ -127,36 +110,32 @@ pub fn row(frontier: &Frontier, v: &VariantResult) -> Vec<String> {
             v.reason.clone().unwrap_or_default(),
         ),
     };
-    let begun = v.steps > 0;
     let seconds = v
         .wall_seconds
         .min
         .or((v.wall_seconds.spent > 0.0).then_some(v.wall_seconds.spent));
-    vec![
-        value("axis"),
-        value("combination"),
-        value("value"),
-        colour,
-        why,
-        health.first_trouble.as_ref().map_or_else(none, trouble),
-        match errors.is_empty() {
-            true => none(),
-            false => errors.join(", "),
-        },
-        health
-            .energy_drift
-            .map_or_else(none, |e| format!("{e:+.1e}")),
-        health
-            .density_range
-            .map_or_else(none, |[low, high]| format!("{low:.3}…{high:.3}")),
-        health.mach.map_or_else(none, number::plain),
-        v.dt_limiter.clone().unwrap_or_else(none),
-        if begun {
-            number::count(v.steps as f64)
-        } else {
-            none()
-        },
-        seconds.map_or_else(none, |s| format!("{s:.1} s")),
+    let trouble = health.first_trouble.as_ref().map(trouble);
+    let energy = health.energy_drift.map(|e| format!("{e:+.1e}"));
+    let density = health.density_range;
+    let density = density.map(|[low, high]| format!("{low:.3}…{high:.3}"));
+    let steps = (v.steps > 0).then(|| number::count(v.steps as f64));
+    let errors = (!errors.is_empty()).then(|| errors.join(", "));
+    [
+        ("combination", value("combination")),
+        ("value", value("value")),
+        ("colour", colour),
+        ("why", why),
+        ("first trouble", trouble.unwrap_or_else(none)),
+        ("error", errors.unwrap_or_else(none)),
+        ("energy", energy.unwrap_or_else(none)),
+        ("density", density.unwrap_or_else(none)),
+        ("Mach", health.mach.map_or_else(none, number::plain)),
+        ("limited by", v.dt_limiter.clone().unwrap_or_else(none)),
+        ("steps", steps.unwrap_or_else(none)),
+        (
+            "wall time",
+            seconds.map_or_else(none, |s| format!("{s:.1} s")),
+        ),
     ]
 }
 
@@ -180,14 +159,15 @@ pub fn trouble(first: &Trouble) -> String {
 }
 
 fn runs(results: &Results, lines: &[&Frontier]) -> String {
-    let mut rows = Vec::new();
-    let mut classes = Vec::new();
+    let (mut heads, mut rows, mut classes) = (Vec::new(), Vec::new(), Vec::new());
     for frontier in lines {
         for name in &frontier.variants {
             let Some(variant) = results.variant(name) else {
                 continue;
             };
-            rows.push(row(frontier, variant)[1..].to_vec());
+            let row = row(frontier, variant);
+            heads = row.each_ref().map(|(head, _)| head.to_string()).to_vec();
+            rows.push(row.map(|(_, cell)| cell).to_vec());
             classes.push(match (&variant.verdict, variant.status) {
                 (Some(v), _) if v.colour == crate::Colour::Red => "failed".to_string(),
                 (None, Status::Pending | Status::Skipped) => "pending".to_string(),
@@ -195,7 +175,6 @@ fn runs(results: &Results, lines: &[&Frontier]) -> String {
             });
         }
     }
-    let heads: Vec<String> = HEADS[1..].iter().map(|h| (*h).to_string()).collect();
     grid(&heads, &rows, |k| classes[k].clone())
 }
 

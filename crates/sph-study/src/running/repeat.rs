@@ -11,8 +11,8 @@ use sph_run::{
 use crate::reading::options::Options;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
+use crate::running::execute::Watcher;
 use crate::running::record::{Record, Status};
-use crate::running::watcher::Watcher;
 
 /// A variant to be run.
 pub(crate) struct Job<'a> {
