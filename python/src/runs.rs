@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
-use sph_cli::library::{self, Begin, Request, StudyOptions};
+use sph_cli::library::{self, Request, Start, StudyOptions};
 
 use crate::scene::opened;
 use crate::watch::{Shared, Watching, watched};
@@ -70,13 +70,13 @@ pub fn run(
     let py = scene.py();
     let request = request(arguments.set, arguments.allow_path);
     let opened = opened(scene, &request)?;
-    let begin = match (arguments.start, arguments.resume, arguments.changed) {
-        (Some(other), ..) => Begin::From(other),
-        (None, true, true) => Begin::ResumeChanged,
-        (None, true, false) => Begin::Resume,
-        _ => Begin::Afresh,
+    let start = match (arguments.start, arguments.resume, arguments.changed) {
+        (Some(other), ..) => Start::From(other),
+        (None, true, true) => Start::Changed,
+        (None, true, false) => Start::Resumed,
+        _ => Start::Afresh,
     };
-    let how = (arguments.out, arguments.threads, begin);
+    let how = (arguments.out, arguments.threads, start);
     let shared = Shared::default();
     let ran = watched(py, &shared, progress, message, || {
         library::run(&opened, &request, how, &mut Watching(&shared))

@@ -27,6 +27,7 @@ pub use crate::commands::study::Studied;
 pub use crate::scene_file::{AnyScene, OpenScene};
 pub use crate::terminal::output::{CommandOutput, Ended};
 pub use crate::terminal::trouble::Trouble;
+pub use sph_run::Start;
 /// A scene of particles.
 pub use sph_scene::Scene as ParticleScene;
 
@@ -49,20 +50,6 @@ impl Request {
     }
 }
 
-/// Begin of a run.
-#[derive(Clone, Debug, Default)]
-pub enum Begin {
-    /// With the bodies of the scene.
-    #[default]
-    Afresh,
-    /// At the checkpoint in its folder.
-    Resume,
-    /// At the checkpoint in its folder, although the scene has changed.
-    ResumeChanged,
-    /// With the particles of another run: its folder or its checkpoint.
-    From(PathBuf),
-}
-
 /// Reads a scene, by its path or by the name of a shipped one.
 ///
 /// # Errors
@@ -79,14 +66,15 @@ pub fn open_text(text: &str, file: &str, request: &Request) -> Result<OpenScene,
     scene_file::open_text(text, file, &request.scene_arguments(file))
 }
 
-/// Runs a scene into a folder; `None` is `results/NAME`. The folder is returned as well.
+/// Runs a scene into a folder; `None` is `results/NAME`. The folder is returned as well. It may start from the folder of
+/// another run or from its checkpoint.
 ///
 /// # Errors
 /// A folder that cannot be used, a scene that cannot be assembled, a run that failed.
 pub fn run(
     opened: &OpenScene,
     request: &Request,
-    (out, threads, begin): (Option<PathBuf>, Option<u16>, Begin),
+    (out, threads, start): (Option<PathBuf>, Option<u16>, Start),
     observer: &mut Watch<'_>,
 ) -> Result<(Ended, PathBuf), Trouble> {
     let file = match &opened.scene {
@@ -98,10 +86,10 @@ pub fn run(
         out,
         threads,
         ranks: None,
-        resume: matches!(begin, Begin::Resume | Begin::ResumeChanged),
-        changed: matches!(begin, Begin::ResumeChanged),
-        from: match begin {
-            Begin::From(other) => Some(other),
+        resume: start.goes_on(),
+        changed: start == Start::Changed,
+        from: match start {
+            Start::From(other) => Some(other),
             _ => None,
         },
         json: false,

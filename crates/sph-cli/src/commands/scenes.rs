@@ -90,10 +90,7 @@ fn text(gallery: &Gallery, all: &[Shipped]) -> String {
     if text.is_empty() {
         return "there is no scene in ./scenes, and none was compiled in\n".into();
     }
-    let start = gallery
-        .start
-        .iter()
-        .map(|[name, why]| vec![name.clone(), why.clone()]);
+    let start = gallery.start.iter().map(|start| start.to_vec());
     let start = columns(2, &start.collect::<Vec<_>>());
     format!(
         "{text}Start here\n{start}\nsph run NAME runs one of them. {}\n",

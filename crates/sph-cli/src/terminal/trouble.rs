@@ -5,11 +5,10 @@ use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
 use sph_particles::RunError;
-use sph_scene::{LoadError, Source};
+use sph_scene::Source;
 use sph_solver::SolverError;
 use sph_study::{ReadError, Refused};
 
-use crate::commands::interrupted::remedy;
 use crate::number;
 use crate::terminal::console;
 use crate::terminal::diagnostics::{self, Located};
@@ -37,17 +36,6 @@ pub enum Trouble {
     Interrupted,
     /// Two compared results differ; all messages are written.
     Different,
-}
-
-impl From<LoadError> for Trouble {
-    fn from(error: LoadError) -> Self {
-        match error {
-            LoadError::Refused(refused) => {
-                Trouble::Scene(diagnostics::located(&refused.source, &refused.diagnostics))
-            }
-            unreadable => Trouble::Usage(unreadable.to_string()),
-        }
-    }
 }
 
 impl From<ReadError> for Trouble {
@@ -229,4 +217,13 @@ impl Trouble {
 fn is_unreadable_checkpoint(error: &IoError) -> bool {
     let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
     read && error.path().extension().is_some_and(|e| e == "sph")
+}
+
+/// First remedy where a file could not be written.
+fn remedy(error: &IoError) -> Option<&'static str> {
+    match error {
+        IoError::DiskFull { .. } => Some("make room"),
+        IoError::Write { .. } | IoError::NotWritable { .. } => Some("make the folder writable"),
+        _ => None,
+    }
 }
