@@ -3,8 +3,7 @@
 use crate::drawing::axes::Axes;
 use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
-use crate::drawing::drawn_series::Style;
-use crate::drawing::mark::Mark;
+use crate::drawing::mark::{Mark, Style};
 use crate::drawing::text;
 
 /// Names and samples of the series that have a name.

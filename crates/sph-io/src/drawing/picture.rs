@@ -12,12 +12,11 @@ use sph_core::bounds;
 
 use crate::drawing::axes::{Axes, PlotAxis, left_room};
 use crate::drawing::canvas::{Canvas, SIDES};
-use crate::drawing::class_bar::ClassBar;
 use crate::drawing::colour::{Colour, ColourMap};
-use crate::drawing::colour_bar::ColourBar;
+use crate::drawing::colour_bar::{ClassBar, ColourBar};
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::extent;
-use crate::drawing::relief;
+use crate::drawing::particles::{draw_compass, project};
 use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
 use crate::error::{IoError, Result};
@@ -150,7 +149,7 @@ impl<'a> Picture<'a> {
         self.draw_strokes(&mut canvas, &axes);
         let frame = &axes.frame;
         match self.view {
-            View::Above => relief::draw_compass(&mut canvas, &axes),
+            View::Above => draw_compass(&mut canvas, &axes),
             _ => axes.draw(&mut canvas),
         }
         match self.classes {
@@ -355,7 +354,7 @@ impl<'a> Picture<'a> {
         match self.view {
             View::Plane => [x, y],
             View::Front => [x, z],
-            View::Above => relief::project([x, y, z]).0,
+            View::Above => project([x, y, z]).0,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Lines, markers and bands over two axes, as PNG or SVG.
+//! Lines, markers and bands over two axes, alone or side by side, as PNG or SVG.
 //!
 //! Meant for probes against reference data and for work–precision plots, not
 //! for publication: everything is automatic.
@@ -10,9 +10,8 @@ use sph_core::bounds;
 use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
-use crate::drawing::drawn_series::{Series, Style};
 use crate::drawing::legend::Legend;
-use crate::drawing::mark::Mark;
+use crate::drawing::mark::{Mark, Series, Style};
 use crate::drawing::svg::Svg;
 use crate::drawing::ticks::widened;
 use crate::error::{IoError, Result};
@@ -77,7 +76,7 @@ impl Plot {
         Ok(svg.finish())
     }
 
-    pub(crate) fn check(&self, path: &Path) -> Result<()> {
+    fn check(&self, path: &Path) -> Result<()> {
         for series in &self.series {
             let points = series.points.len();
             if let Style::Band(upper) = &series.style
@@ -92,7 +91,7 @@ impl Plot {
     }
 
     /// Draws the plot into a part of a surface.
-    pub(crate) fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
+    fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
         let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
         axes.draw_grid(on);
@@ -151,11 +150,7 @@ impl Plot {
 }
 
 /// Draws into a file of so many pixels: vectors if its name ends in `.svg`, else a PNG.
-pub(crate) fn save(
-    path: &Path,
-    [width, height]: [u32; 2],
-    draw: impl Fn(&mut dyn DrawTarget),
-) -> Result<()> {
+fn save(path: &Path, [width, height]: [u32; 2], draw: impl Fn(&mut dyn DrawTarget)) -> Result<()> {
     if path.extension().is_some_and(|e| e == "svg") {
         let mut svg = Svg::new(width, height);
         draw(&mut svg);
@@ -174,5 +169,89 @@ fn whole() -> Rect {
         top: 0.0,
         right: f64::from(SIZE[0]),
         bottom: f64::from(SIZE[1]),
+    }
+}
+
+/// Pixels of one panel.
+const PANEL: [u32; 2] = [900, 720];
+/// Panels that fit into the largest picture.
+const MOST: usize = 9;
+
+/// Plots side by side, from left to right: for related curves with other axes.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// use sph_io::{Panels, Plot, Series};
+/// let law = |y_label: &str, points| Plot {
+///     x_label: "strain rate [1/s]".into(),
+///     y_label: y_label.into(),
+///     series: vec![Series::line("water", points)],
+///     ..Plot::default()
+/// };
+/// let panels = Panels(vec![
+///     law("shear stress [Pa]", vec![[0.0, 0.0], [10.0, 0.01]]),
+///     law("viscosity [Pa s]", vec![[0.0, 1e-3], [10.0, 1e-3]]),
+/// ]);
+/// panels.save(folder.path().join("water.svg"))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panels(pub Vec<Plot>);
+
+impl Panels {
+    /// Writes the picture as vectors if the name ends in `.svg`, else as PNG.
+    ///
+    /// # Errors
+    /// If there are no panels or too many, the series of one do not fit together, or the file
+    /// cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        if self.0.is_empty() || self.0.len() > MOST {
+            let said = format!("{} panels where 1 to {MOST} fit", self.0.len());
+            return Err(IoError::input(path, said));
+        }
+        self.0.iter().try_for_each(|plot| plot.check(path))?;
+        let [width, height] = PANEL;
+        save(path, [width * self.0.len() as u32, height], |on| {
+            for (left, plot) in (0..).step_by(width as usize).zip(&self.0) {
+                let place = Rect {
+                    left: f64::from(left),
+                    top: 0.0,
+                    right: f64::from(left + width),
+                    bottom: f64::from(height),
+                };
+                plot.draw(on, &place);
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_stand_side_by_side_and_none_or_too_many_are_refused() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plot = Plot {
+            title: "a law".into(),
+            series: vec![Series::line("line", vec![[0.0, 0.0], [1.0, 2.0]])],
+            ..Plot::default()
+        };
+        let path = folder.path().join("two.svg");
+        Panels(vec![plot.clone(), plot.clone()])
+            .save(&path)
+            .expect("saved");
+        let text = std::fs::read_to_string(&path).expect("text");
+        assert!(text.contains("viewBox=\"0 0 1800 720\""), "{text}");
+        assert_eq!(text.matches(">a law<").count(), 2);
+        let png = folder.path().join("two.png");
+        Panels(vec![plot.clone()]).save(&png).expect("saved");
+        assert!(png.exists());
+        let refused = folder.path().join("none.png");
+        for count in [0, 10] {
+            let panels = Panels(vec![plot.clone(); count]);
+            assert!(panels.save(&refused).is_err() && !refused.exists());
+        }
     }
 }

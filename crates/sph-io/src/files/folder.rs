@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::Path;
 
+use flate2::CrcReader;
+
 use crate::error::{IoError, Result, is_full};
 
 /// Size of the test file in bytes: one block, so that a full disk shows.
@@ -47,22 +49,9 @@ pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
     let path = path.as_ref();
     readable(path, most)?;
     let read = || -> io::Result<Checksum> {
-        let mut file = File::open(path)?.take(most + 1);
-        let mut hasher = crc32fast::Hasher::new();
-        let mut piece = vec![0; 1 << 16];
-        let mut bytes = 0;
-        loop {
-            match file.read(&mut piece) {
-                Ok(0) => break,
-                Ok(n) => {
-                    hasher.update(&piece[..n]);
-                    bytes += n as u64;
-                }
-                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
-                Err(e) => return Err(e),
-            }
-        }
-        let crc = hasher.finalize();
+        let mut file = CrcReader::new(File::open(path)?.take(most + 1));
+        let bytes = io::copy(&mut file, &mut io::sink())?;
+        let crc = file.crc().sum();
         Ok(Checksum { bytes, crc })
     };
     read().map_err(|e| IoError::read(path, e))

@@ -53,9 +53,11 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
         arrays.map(|node| array(node, appended)).collect()
     };
     let time = section("FieldData")?.pop().ok_or("it has no time")?;
-    let time = *reals(&time.bytes).first().ok_or("it has no time")?;
+    let time = *numbers(&time.bytes, f64::from_le_bytes)
+        .first()
+        .ok_or("it has no time")?;
     let points = section("Points")?.pop().ok_or("it has no points")?;
-    let points = reals(&points.bytes);
+    let points = numbers(&points.bytes, f64::from_le_bytes);
     let (points, _) = points.as_chunks::<3>();
     let mut fields = Vec::new();
     for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
@@ -128,13 +130,9 @@ fn field(
     location: Location,
 ) -> std::result::Result<FieldData<'static>, &'static str> {
     let data = match array.kind.as_str() {
-        "Float64" => FieldValues::F64(reals(&array.bytes).into()),
-        "UInt32" => {
-            let (words, _) = array.bytes.as_chunks::<4>();
-            let words: Vec<u32> = words.iter().map(|w| u32::from_le_bytes(*w)).collect();
-            FieldValues::U32(words.into())
-        }
-        "Int64" => FieldValues::I64(integers(&array.bytes).into()),
+        "Float64" => FieldValues::F64(numbers(&array.bytes, f64::from_le_bytes).into()),
+        "UInt32" => FieldValues::U32(numbers(&array.bytes, u32::from_le_bytes).into()),
+        "Int64" => FieldValues::I64(numbers(&array.bytes, i64::from_le_bytes).into()),
         _ => return Err("an array has a type of other programs"),
     };
     Ok(FieldData {
@@ -146,14 +144,9 @@ fn field(
     })
 }
 
-fn reals(bytes: &[u8]) -> Vec<f64> {
-    let (words, _) = bytes.as_chunks::<8>();
-    words.iter().map(|w| f64::from_le_bytes(*w)).collect()
-}
-
-fn integers(bytes: &[u8]) -> Vec<i64> {
-    let (words, _) = bytes.as_chunks::<8>();
-    words.iter().map(|w| i64::from_le_bytes(*w)).collect()
+fn numbers<T, const N: usize>(bytes: &[u8], number: fn([u8; N]) -> T) -> Vec<T> {
+    let (images, _) = bytes.as_chunks::<N>();
+    images.iter().map(|image| number(*image)).collect()
 }
 
 fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> {
@@ -161,7 +154,7 @@ fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> 
     let (Some(joined), Some(types)) = (get("connectivity"), get("types")) else {
         return Err("it has no cells");
     };
-    let joined: Vec<u32> = integers(&joined.bytes).iter().map(|i| *i as u32).collect();
+    let joined = numbers(&joined.bytes, |image| i64::from_le_bytes(image) as u32);
     Ok(match types.bytes.first() {
         None | Some(1) => Cells::Vertices,
         Some(3) => Cells::Segments(joined.as_chunks::<2>().0.to_vec().into()),
