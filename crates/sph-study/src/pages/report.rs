@@ -13,16 +13,7 @@ use crate::running::machine::Origin;
 use crate::running::record::Status;
 
 /// Style of the page, on paper too.
-const STYLE: &str = "\
-body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem;color:#222}
-h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}
-th,td{text-align:left;padding:.2rem .9rem .2rem 0;border-bottom:1px solid #ddd;vertical-align:top}
-tr.pareto td:first-child::before{content:\"★ \"}tr.failed,tr.over-limit{color:#a33}
-tr.pending,tr.interrupted{color:#888}
-svg{width:100%;height:auto;max-width:60rem;display:block}
-pre{background:#f5f5f5;padding:.8rem;overflow-x:auto;font-size:.85rem}
-.wide{overflow-x:auto}";
+const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The page.
 ///
@@ -35,8 +26,7 @@ pub fn html(results: &Results) -> Result<String, IoError> {
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}\n{}\n</style>\n</head>\n<body>\n<h1>{title}</h1>",
-        matrix::STYLE
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
     );
     if let Some(description) = &results.description {
         let _ = writeln!(page, "<p>{}</p>", marked(&words(description)));
@@ -58,37 +48,35 @@ pub fn html(results: &Results) -> Result<String, IoError> {
 fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     if !results.errors.is_empty() {
-        let _ = writeln!(page, "<h2>Error against run time</h2>");
-        page.push_str(&plots::work_precision(results).to_svg()?);
+        let plot = plots::work_precision(results);
+        page.push_str(&headed("Error against run time", &plot.to_svg()?));
     }
     if let Some(plot) = plots::means(results) {
-        let _ = writeln!(page, "<h2>Means</h2>");
-        page.push_str(&plot.to_svg()?);
+        page.push_str(&headed("Means", &plot.to_svg()?));
     }
     if let Some(plot) = plots::convergence(results) {
-        let _ = writeln!(page, "<h2>Convergence</h2>");
-        page.push_str(&plot.to_svg()?);
+        page.push_str(&headed("Convergence", &plot.to_svg()?));
         page.push_str(&orders(results));
     }
     if let Some(scale) = &results.scale {
-        let _ = writeln!(page, "<h2>Cost against size</h2>");
-        page.push_str(&scale.plot(&results.title).to_svg()?);
+        let plot = scale.plot(&results.title);
+        page.push_str(&headed("Cost against size", &plot.to_svg()?));
         for line in scale.lines() {
             let _ = writeln!(page, "<p>{}</p>", escape(&line));
         }
     }
     if !results.errors.is_empty() {
-        let _ = writeln!(
-            page,
-            "<h2>Pareto line: not beaten in both error and time</h2>"
-        );
-        page.push_str(&best(results));
+        let title = "Pareto line: not beaten in both error and time";
+        page.push_str(&headed(title, &best(results)));
     }
-    let _ = writeln!(page, "<h2>Variants</h2>");
-    page.push_str(&variants(results));
+    page.push_str(&headed("Variants", &variants(results)));
     page.push_str(&failures(results));
     page.push_str(&stages(results));
     Ok(page)
+}
+
+fn headed(title: &str, body: &str) -> String {
+    format!("<h2>{title}</h2>\n{body}")
 }
 
 /// A table with its heads, if there are any; every row has a class.
@@ -113,6 +101,11 @@ pub(crate) fn grid(
     }
     text.push_str("</table></div>\n");
     text
+}
+
+/// A table whose rows are alike.
+fn plain_grid(heads: &[String], rows: &[Vec<String>]) -> String {
+    grid(heads, rows, |_| String::new())
 }
 
 /// A text without its line breaks.
@@ -187,7 +180,7 @@ fn facts(results: &Results) -> String {
     if !results.set.is_empty() {
         rows.push(row("set for all", results.set.join(", ")));
     }
-    grid(&[], &rows, |_| String::new())
+    plain_grid(&[], &rows)
 }
 
 /// Keys in which the variants that have run differ.
@@ -220,14 +213,14 @@ fn orders(results: &Results) -> String {
     }
     match rows.is_empty() {
         true => String::new(),
-        false => grid(&heads, &rows, |_| String::new()),
+        false => plain_grid(&heads, &rows),
     }
 }
 
 fn best(results: &Results) -> String {
     let heads = ["variant", results.judged(), "wall seconds"].map(String::from);
     let best = plots::pareto_lines(results).into_iter().map(|l| l.to_vec());
-    grid(&heads, &best.collect::<Vec<_>>(), |_| String::new())
+    plain_grid(&heads, &best.collect::<Vec<_>>())
 }
 
 fn variants(results: &Results) -> String {
@@ -252,10 +245,7 @@ fn failures(results: &Results) -> String {
     let heads = ["variant", "status", "reason"].map(String::from);
     match bad.is_empty() {
         true => String::new(),
-        false => format!(
-            "<h2>What did not end well</h2>\n{}",
-            grid(&heads, &bad, |_| String::new())
-        ),
+        false => headed("What did not end well", &plain_grid(&heads, &bad)),
     }
 }
 
@@ -279,10 +269,7 @@ fn stages(results: &Results) -> String {
     }
     match rows.is_empty() {
         true => String::new(),
-        false => format!(
-            "<h2>Where the time goes</h2>\n{}",
-            grid(&heads, &rows, |_| String::new())
-        ),
+        false => headed("Where the time goes", &plain_grid(&heads, &rows)),
     }
 }
 

@@ -1,10 +1,9 @@
 //! Results as rows of text, for terminals, pages and spreadsheets.
 
-use std::io::Write;
 use std::path::Path;
 
 use sph_core::number;
-use sph_io::{Durability, IoError, clean, write_atomic};
+use sph_io::{IoError, clean, write_whole};
 
 use crate::results::Results;
 use crate::results::matrix;
@@ -97,17 +96,11 @@ fn seconds(v: &VariantResult) -> Option<String> {
 /// # Errors
 /// If the file cannot be written.
 pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
-    write_atomic(path, Durability::Process, |file| csv(results, file))
-}
-
-fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
     let errors = errors(results);
-    let rows = results.variants.iter().map(|v| plain(results, &errors, v));
-    for row in with_heads(rows) {
-        let cells: Vec<String> = row.iter().map(|c| quoted(c)).collect();
-        writeln!(file, "{}", cells.join(","))?;
-    }
-    Ok(())
+    let rows = with_heads(results.variants.iter().map(|v| plain(results, &errors, v)));
+    let cells = |row: &Vec<String>| row.iter().map(|c| quoted(c)).collect::<Vec<_>>();
+    let lines = rows.iter().map(|row| cells(row).join(",") + "\n");
+    write_whole(path, lines.collect::<String>())
 }
 
 /// Plain numbers of a variant, with the heads of their columns.

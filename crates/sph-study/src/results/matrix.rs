@@ -13,12 +13,6 @@ use crate::results::frontier::Frontier;
 use crate::results::variant_result::VariantResult;
 use crate::running::record::Status;
 
-/// Style of the table of colours.
-pub const STYLE: &str = "\
-td.green{background:#c9e8c5}td.yellow{background:#fbe9a6}td.red{background:#f3b3ab}\
-td.none{color:#aaa}table.frontier td{padding:.2rem .5rem;border:1px solid #fff}\
-table.frontier td.must{border-right:3px solid #222}";
-
 /// All between the head of the page and the study file.
 ///
 /// # Errors
