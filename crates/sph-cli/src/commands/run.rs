@@ -30,8 +30,7 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
         AnyScene::Grains(_) => "grain",
     };
     let quiet = arguments.quiet || !ranks::is_first();
-    let watcher = Watcher::new(quiet, start, interrupt::flag());
-    let mut watcher = watcher.counting(noun);
+    let mut watcher = Watcher::new(quiet, start, noun, interrupt::flag());
     let ended = execute(arguments, &opened, &mut watcher);
     watcher.finish();
     let ended = ended?;
@@ -41,13 +40,16 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     }
 }
 
-/// The folder of the results.
+/// The folder of the results: `results/NAME` if none is given.
 pub fn folder(arguments: &RunArguments, opened: &OpenScene) -> PathBuf {
     let out = arguments.out.clone();
     out.unwrap_or_else(|| Path::new("results").join(&opened.stem))
 }
 
 /// Runs an opened scene, of particles or of grains, without output of its own.
+///
+/// # Errors
+/// A folder that cannot be used, a scene that cannot be assembled, a run that failed.
 pub fn execute(
     arguments: &RunArguments,
     opened: &OpenScene,

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use sph_scene::{Source, read_text};
 
 use crate::arguments::ScenesArguments;
-use crate::gallery::Gallery;
+use crate::gallery::{GALLERY, Gallery};
 use crate::scene_file::{self, AnyScene};
 use crate::shipped::{self, Content, Shipped};
 use crate::terminal::layout::columns;
@@ -15,7 +15,7 @@ use crate::terminal::{console, diagnostics};
 
 /// Lists the shipped scenes.
 pub fn command(arguments: &ScenesArguments) -> Result<(), Trouble> {
-    let gallery = Gallery::own();
+    let gallery = &*GALLERY;
     if arguments.markdown {
         console::out(&page::markdown(gallery));
         return Ok(());

@@ -11,7 +11,7 @@ use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, exe
 
 use crate::arguments::StudyArguments;
 use crate::interrupt;
-use crate::scene_file::{SceneSource, allowed, find, overrides};
+use crate::scene_file::{allowed, find, overrides};
 use crate::shipped::{self, Content};
 use crate::terminal::console;
 use crate::terminal::layout::columns;
@@ -19,6 +19,9 @@ use crate::terminal::output::CommandOutput;
 use crate::terminal::shell;
 use crate::terminal::study_progress::Watcher;
 use crate::terminal::trouble::Trouble;
+
+/// A scene, and the folder that its data were unpacked to.
+type FoundScene = (SceneText, Option<sph_io::Scratch>);
 
 /// Most series whose orders are printed; the report has all.
 const MOST: usize = 12;
@@ -49,11 +52,14 @@ pub struct Studied {
     pub going_on: Option<String>,
 }
 
-/// Runs a study until it is done or the flag is raised.
+/// Runs a study until it is done or the flag is raised. Unless it is quiet, it reports its progress on stderr.
+///
+/// # Errors
+/// Mistakes of the study or its scenes with their places, files that cannot be written.
 pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
-    let scenes: RefCell<BTreeMap<String, SceneSource>> = RefCell::default();
+    let scenes: RefCell<BTreeMap<String, FoundScene>> = RefCell::default();
     let study = read(arguments, name, &scenes)?;
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
@@ -113,17 +119,17 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
 fn read(
     arguments: &StudyArguments,
     name: &str,
-    scenes: &RefCell<BTreeMap<String, SceneSource>>,
+    scenes: &RefCell<BTreeMap<String, FoundScene>>,
 ) -> Result<Study, Trouble> {
     let set = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
     let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
-        let known = scenes.borrow().get(name).map(|s| s.scene.clone());
+        let known = scenes.borrow().get(name).map(|(scene, _)| scene.clone());
         if let Some(scene) = known {
             return Ok(scene);
         }
         let found = find(folder, name, allowed)?;
-        let scene = found.scene.clone();
+        let scene = found.0.clone();
         scenes.borrow_mut().insert(name.to_string(), found);
         Ok(scene)
     };
