@@ -235,6 +235,7 @@ pub struct SceneArguments {
 /// Arguments of `sph run`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RunArguments {
+    /// The scene
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Folder of the results [default: results/NAME of the scene file]

@@ -1,6 +1,6 @@
 //! Results as tables, plots and a page.
 
-pub mod matrix_plots;
+pub mod matrix;
 pub mod plots;
 pub mod publish;
 pub mod report;

@@ -2,7 +2,6 @@
 
 pub mod compare;
 pub mod frontier;
-pub mod matrix;
 pub mod order;
 pub mod pareto;
 pub mod scaling;

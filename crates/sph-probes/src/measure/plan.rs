@@ -98,6 +98,7 @@ impl PlannedColumn {
 }
 
 /// A measurement: the particles that count, their weights, and the quantity that is reduced.
+#[derive(Default)]
 pub(crate) struct Plan<'a> {
     pub phase: Option<&'a str>,
     pub conditions: Vec<QuantityBounds>,
@@ -114,11 +115,8 @@ impl<'a> Plan<'a> {
     pub fn of_phase(phase: Option<&'a str>, columns: Vec<PlannedColumn>) -> Self {
         Plan {
             phase,
-            conditions: Vec::new(),
-            weight: None,
             columns,
-            slices: None,
-            fitted: None,
+            ..Plan::default()
         }
     }
 }

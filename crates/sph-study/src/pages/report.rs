@@ -5,10 +5,8 @@ use std::fmt::Write as _;
 use sph_core::number;
 use sph_io::{IoError, escape};
 
-use crate::pages::plots;
-use crate::pages::table;
+use crate::pages::{matrix, plots, table};
 use crate::results::Results;
-use crate::results::matrix;
 use crate::running::machine::Origin;
 use crate::running::record::Status;
 
@@ -219,8 +217,18 @@ fn orders(results: &Results) -> String {
 
 fn best(results: &Results) -> String {
     let heads = ["variant", results.judged(), "wall seconds"].map(String::from);
-    let best = plots::pareto_lines(results).into_iter().map(|l| l.to_vec());
-    plain_grid(&heads, &best.collect::<Vec<_>>())
+    let row = |name: &String| {
+        let variant = results.variant(name)?;
+        let error = variant.error(results.judged())?;
+        let seconds = variant.wall_seconds.min?;
+        Some(vec![
+            name.clone(),
+            number::plain(error),
+            number::plain(seconds),
+        ])
+    };
+    let rows: Vec<_> = results.pareto.iter().filter_map(row).collect();
+    plain_grid(&heads, &rows)
 }
 
 fn variants(results: &Results) -> String {

@@ -5,8 +5,8 @@ use std::path::Path;
 use sph_core::number;
 use sph_io::{IoError, clean, write_whole};
 
+use crate::pages::matrix;
 use crate::results::Results;
-use crate::results::matrix;
 use crate::results::variant_result::VariantResult;
 use crate::running::cost::Cost;
 use crate::running::record::Status;

@@ -1,13 +1,13 @@
 //! Axes that are gone along from harmless to absurd, each with its own scene.
 
 use sph_core::{SceneProblem, suggestion};
-use sph_scene::{Override, Source};
+use sph_scene::Source;
 
 use crate::reading::axis::{self, Choice, StudyAxis, label};
 use crate::reading::combine::{MOST, combinations, safe};
 use crate::reading::file::{self, Bounds, Combine, StudyFile};
 use crate::reading::mistake::Refused;
-use crate::reading::reader::Reader;
+use crate::reading::reader::{Inputs, Reader};
 use crate::reading::variant::{Ladder, Rung, SceneText, Variant};
 use crate::running::verdict::QUANTITIES;
 
@@ -30,14 +30,12 @@ pub fn columns() -> Vec<StudyAxis> {
 pub fn read(
     file: &StudyFile,
     source: &Source,
-    find: &dyn Fn(&str) -> Result<SceneText, String>,
-    set: &[Override],
-    only: &[String],
+    inputs: &Inputs<'_>,
 ) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
     let mut problems = study_problems(file);
     let mut ladders = Vec::new();
     for (k, given) in file.axis.iter().enumerate() {
-        match one(file, given, &format!("axis[{k}]"), find) {
+        match one(file, given, &format!("axis[{k}]"), inputs.find) {
             Ok(ladder) => ladders.push(ladder),
             Err(found) => problems.extend(found),
         }
@@ -64,15 +62,14 @@ pub fn read(
         let reader = Reader {
             file,
             source,
-            find,
+            inputs,
             scene: &found.scene,
             axes: &found.axes,
             common,
-            set,
             refinement: None,
             errors: errors.paths(&format!("axis[{k}].error")),
         };
-        match reader.all(&all, only) {
+        match reader.all(&all) {
             Err(refused) => mistakes.extend(refused.mistakes),
             Ok(read) => {
                 let placed = read.into_iter().zip(&all).map(|(mut variant, c)| {
