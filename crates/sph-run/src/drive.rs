@@ -68,10 +68,7 @@ impl Opened {
                 "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
                 folder.display()
             ));
-            std::fs::remove_file(&checkpoint).map_err(|source| IoError::Write {
-                path: checkpoint,
-                source,
-            })?;
+            std::fs::remove_file(&checkpoint).map_err(|e| IoError::Write(checkpoint, e))?;
         }
         let files = match outlay {
             None => None,

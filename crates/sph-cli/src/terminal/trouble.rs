@@ -207,15 +207,17 @@ impl Trouble {
 
 /// True if a checkpoint could not be read; one that could not be *written* leaves the one before.
 fn is_unreadable_checkpoint(error: &IoError) -> bool {
-    let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
-    read && error.path().extension().is_some_and(|e| e == "sph")
+    let (IoError::Read(path, _) | IoError::Checkpoint(path, _)) = error else {
+        return false;
+    };
+    path.extension().is_some_and(|e| e == "sph")
 }
 
 /// First remedy where a file could not be written.
 fn remedy(error: &IoError) -> Option<&'static str> {
     match error {
-        IoError::DiskFull { .. } => Some("make room"),
-        IoError::Write { .. } | IoError::NotWritable { .. } => Some("make the folder writable"),
+        IoError::DiskFull(..) => Some("make room"),
+        IoError::Write(..) | IoError::NotWritable(..) => Some("make the folder writable"),
         _ => None,
     }
 }

@@ -32,10 +32,7 @@ impl Checkpoint {
         let read = Source { input, length }.checkpoint();
         read.map_err(|trouble| match trouble {
             ReadFault::Read(source) => IoError::read(path, source),
-            ReadFault::Fault(fault) => IoError::Checkpoint {
-                path: path.to_path_buf(),
-                fault,
-            },
+            ReadFault::Fault(fault) => IoError::Checkpoint(path.into(), fault),
         })
     }
 

@@ -23,10 +23,7 @@ impl Checkpoint {
             meta: &self.meta,
             columns: shapes,
         };
-        let header = serde_json::to_vec(&header).map_err(|source| IoError::Json {
-            path: path.to_path_buf(),
-            source,
-        })?;
+        let header = serde_json::to_vec(&header).map_err(|e| IoError::Json(path.into(), e))?;
         let total = PREFIX + header.len() as u64 + data + SUFFIX;
         write_atomic(path, Durability::Power, |file| {
             self.fill(file, &header, total)

@@ -98,10 +98,8 @@ fn on_white(map: &Pixmap, width: usize, height: usize) -> Vec<u8> {
 
 fn read(path: &Path) -> Result<Pixmap> {
     let bytes = std::fs::read(path).map_err(|e| IoError::read(path, e))?;
-    let map = Pixmap::decode_png(&bytes).map_err(|e| IoError::Unfit {
-        path: path.to_path_buf(),
-        problem: format!("it is no picture: {e}"),
-    })?;
+    let map = Pixmap::decode_png(&bytes)
+        .map_err(|e| IoError::Unfit(path.into(), format!("it is no picture: {e}")))?;
     match map.width() > WIDEST && map.height() > 1 {
         true => Ok(halved(&map).unwrap_or(map)),
         false => Ok(map),

@@ -96,10 +96,7 @@ pub fn write_whole(target: impl AsRef<Path>, content: impl AsRef<[u8]>) -> Resul
 /// JSON has no NaN and no infinity: such numbers become `null`.
 pub fn write_json(path: impl AsRef<Path>, value: &(impl Serialize + ?Sized)) -> Result<()> {
     let path = path.as_ref();
-    let mut text = serde_json::to_vec_pretty(value).map_err(|source| IoError::Json {
-        path: path.to_path_buf(),
-        source,
-    })?;
+    let mut text = serde_json::to_vec_pretty(value).map_err(|e| IoError::Json(path.into(), e))?;
     text.push(b'\n');
     write_whole(path, text)
 }
@@ -182,7 +179,7 @@ mod tests {
             Err(io::ErrorKind::StorageFull.into())
         })
         .unwrap_err();
-        assert!(matches!(error, IoError::DiskFull { .. }), "{error}");
+        assert!(matches!(error, IoError::DiskFull(..)), "{error}");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(names(folder.path()), ["a.json"]);
     }
@@ -236,7 +233,7 @@ mod tests {
         let path = folder.path().join("summary.json");
         let odd = std::collections::BTreeMap::from([(vec![1], 1)]);
         let error = write_json(&path, &odd).unwrap_err();
-        assert!(matches!(error, IoError::Json { .. }));
+        assert!(matches!(error, IoError::Json(..)));
         assert!(!path.exists());
     }
 }

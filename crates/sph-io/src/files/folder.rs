@@ -62,17 +62,10 @@ pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
 /// A file without a name is gone with the process, however that ends.
 pub fn writable(folder: impl AsRef<Path>) -> Result<()> {
     let folder = folder.as_ref();
-    fs::create_dir_all(folder).map_err(|source| IoError::CreateFolder {
-        path: folder.to_path_buf(),
-        source,
-    })?;
-    write_block(folder).map_err(|source| {
-        let path = folder.to_path_buf();
-        if is_full(&source) {
-            IoError::DiskFull { path, source }
-        } else {
-            IoError::NotWritable { path, source }
-        }
+    fs::create_dir_all(folder).map_err(|e| IoError::CreateFolder(folder.into(), e))?;
+    write_block(folder).map_err(|e| match is_full(&e) {
+        true => IoError::DiskFull(folder.into(), e),
+        false => IoError::NotWritable(folder.into(), e),
     })
 }
 
@@ -112,7 +105,7 @@ mod tests {
         let file = folder.path().join("file");
         fs::write(&file, b"").unwrap();
         let error = writable(file.join("below")).unwrap_err();
-        assert!(matches!(error, IoError::CreateFolder { .. }));
+        assert!(matches!(error, IoError::CreateFolder(..)));
         assert!(error.to_string().contains("below"));
     }
 
@@ -124,6 +117,6 @@ mod tests {
             return;
         }
         let error = writable(folder).unwrap_err();
-        assert!(matches!(error, IoError::NotWritable { .. }), "{error}");
+        assert!(matches!(error, IoError::NotWritable(..)), "{error}");
     }
 }

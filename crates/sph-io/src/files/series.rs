@@ -89,10 +89,7 @@ impl SeriesWriter {
                 found,
             });
         }
-        let malformed = |problem: &str| IoError::Malformed {
-            path: path.to_path_buf(),
-            problem: problem.into(),
-        };
+        let malformed = |problem: &str| IoError::Malformed(path.into(), problem.into());
         let mut header = Vec::new();
         let mut start = BufReader::new((&file).take(offset));
         start.read_until(b'\n', &mut header).map_err(failed)?;
@@ -273,7 +270,7 @@ mod tests {
         assert!(matches!(beyond, IoError::TooShort { .. }), "{beyond}");
         for inside in [0, 3, mark - 1] {
             let error = SeriesWriter::open_truncated(&path, inside, COLUMNS).unwrap_err();
-            assert!(matches!(error, IoError::Malformed { .. }), "{error}");
+            assert!(matches!(error, IoError::Malformed(..)), "{error}");
         }
         let more = COLUMNS.into_iter().chain([("front", "m")]);
         let turned = COLUMNS.into_iter().rev();

@@ -235,10 +235,7 @@ impl PvdSeries {
             Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
             Err(e) => return Err(IoError::read(&self.path, e)),
         };
-        parse(&text).map_err(|problem| IoError::Malformed {
-            path: self.path.clone(),
-            problem,
-        })
+        parse(&text).map_err(|problem| IoError::Malformed(self.path.clone(), problem))
     }
 }
 
@@ -287,9 +284,9 @@ pub(crate) fn beside(list: &Path, file: &str) -> Result<PathBuf> {
     let leads = matches!(real, (Ok(real), Ok(folder)) if !real.starts_with(&folder));
     match named && !leads {
         true => Ok(path),
-        false => Err(IoError::Unfit {
-            path: list.to_path_buf(),
-            problem: format!("it names `{file}`, which is outside its folder"),
-        }),
+        false => {
+            let problem = format!("it names `{file}`, which is outside its folder");
+            Err(IoError::Unfit(list.into(), problem))
+        }
     }
 }

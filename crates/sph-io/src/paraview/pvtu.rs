@@ -92,9 +92,9 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     if path.extension().is_none_or(|e| e != "pvtu") {
         return read_vtu(path);
     }
-    let unfit = |problem: &str| IoError::Unfit {
-        path: path.to_path_buf(),
-        problem: format!("it is not a PVTU file of this program: {problem}"),
+    let unfit = |problem: &str| {
+        let problem = format!("it is not a PVTU file of this program: {problem}");
+        IoError::Unfit(path.into(), problem)
     };
     let text = fs::read_to_string(path).map_err(|e| IoError::read(path, e))?;
     let mut whole: Option<(Piece<'static>, f64)> = None;

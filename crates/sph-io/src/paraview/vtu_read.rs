@@ -22,9 +22,9 @@ pub fn read_vtu(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
-    let unfit = |problem: &str| IoError::Unfit {
-        path: path.to_path_buf(),
-        problem: format!("it is not a VTU file of this program: {problem}"),
+    let unfit = |problem: &str| {
+        let problem = format!("it is not a VTU file of this program: {problem}");
+        IoError::Unfit(path.into(), problem)
     };
     piece(&bytes, name).map_err(unfit)
 }

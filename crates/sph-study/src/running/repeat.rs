@@ -84,10 +84,7 @@ impl Job<'_> {
         }
         // Not where another run has started.
         let _lock = sph_io::FolderLock::take(folder)?;
-        std::fs::remove_dir_all(folder).map_err(|source| {
-            let path = folder.to_path_buf();
-            IoError::Write { path, source }
-        })
+        std::fs::remove_dir_all(folder).map_err(|e| IoError::Write(folder.into(), e))
     }
 
     /// One repetition; the status is its outcome.
