@@ -22,7 +22,7 @@ pub enum Trouble {
     /// The run failed; the summary it left, if it did.
     Failed {
         /// The error.
-        told: ModelError,
+        told: Box<ModelError>,
         /// Content of `summary.json`.
         summary: Option<Box<Json>>,
         /// The way to go on.
@@ -129,7 +129,7 @@ impl From<DemError> for ModelError {
 impl From<ModelError> for Trouble {
     fn from(told: ModelError) -> Self {
         Trouble::Failed {
-            told,
+            told: Box::new(told),
             summary: None,
             advice: None,
         }

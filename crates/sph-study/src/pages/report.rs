@@ -164,13 +164,18 @@ fn facts(results: &Results) -> String {
         row("built with", origin.built_with.clone()),
     ];
     rows.retain(|row| !row[1].is_empty());
-    let unlike: [(&str, fn(&Origin) -> Option<String>); 3] = [
-        ("variants ran at", |o| o.commit.clone()),
-        ("variants ran on", |o| Some(o.machine.to_string())),
-        ("variants ran with", |o| Some(o.built_with.clone())),
+    let unlike = [
+        ("variants ran at", differing(results, |o| o.commit.clone())),
+        (
+            "variants ran on",
+            differing(results, |o| Some(o.machine.to_string())),
+        ),
+        (
+            "variants ran with",
+            differing(results, |o| Some(o.built_with.clone())),
+        ),
     ];
-    for (name, of) in unlike {
-        let all = differing(results, of);
+    for (name, all) in unlike {
         if all.len() > 1 {
             rows.push(row(name, all.join("; ")));
         }
