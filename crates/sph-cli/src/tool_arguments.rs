@@ -29,7 +29,13 @@ pub struct MeasureArguments {
     /// The field, of a vector its length, or a component (velocity.x), or a coordinate (x, y, z)
     pub field: String,
     /// Reductions of its values
-    #[arg(long, value_name = "HOW,…", value_delimiter = ',', default_value = "mean", value_parser = named(&Reduction::ALL, Reduction::name))]
+    #[arg(
+        long,
+        value_name = "HOW,…",
+        value_delimiter = ',',
+        default_value = "mean",
+        value_parser = named(&Reduction::ALL, Reduction::name)
+    )]
     pub reduce: Vec<Reduction>,
     /// Shares q: the least value that a share q of the weight does not exceed
     #[arg(long, value_name = "Q,…", value_delimiter = ',', value_parser = share)]

@@ -1,7 +1,7 @@
 //! The particles of a picture: discs, or in space one surface, seen from the front, the left and above.
 //!
-//! Of a surface every particle is a sphere of 1.5 times its diameter. Depths of the nearest spheres are made smooth over about a
-//! diameter, and light from the upper left shades what their slopes are.
+//! Of a surface every particle is a sphere of 1.5 times its diameter. Depths of the nearest spheres are made smooth over
+//! about a diameter, and light from the upper left shades what their slopes are.
 
 use crate::drawing::axes::Axes;
 use crate::drawing::canvas::Canvas;
