@@ -16,3 +16,4 @@ pub mod plot;
 pub mod svg;
 pub mod text;
 pub mod ticks;
+pub mod view;

@@ -5,14 +5,14 @@ use std::time::Duration;
 
 use serde::Serialize;
 use serde_json::json;
-use sph_particles::setup::{Examination, Memory};
+use sph_particles::setup::Examination;
 use sph_particles::{ZoneSize, draw_scene, examine_and_try};
 
 use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};
 use crate::number;
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::layout::{row, sections};
+use crate::terminal::layout::{memory, row, sections};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 
@@ -148,17 +148,6 @@ fn too_fast(examined: &Examination) -> Vec<String> {
         .replace(" ;", ";")
     };
     machs.map(remark).collect()
-}
-
-/// The memory of a run, and the parts that are a twentieth of it and more.
-pub fn memory(memory: &Memory) -> String {
-    let all = memory.total();
-    let parts = memory.parts().into_iter();
-    let parts: Vec<String> = parts
-        .filter(|(_, bytes)| *bytes > 0.05 * all)
-        .map(|(name, bytes)| format!("{name} {}", number::percent(bytes / all)))
-        .collect();
-    format!("{}: {}", number::bytes(all), parts.join(", "))
 }
 
 fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternatives>) -> String {

@@ -6,10 +6,11 @@ use sph_particles::setup::{Examination, Ranks, StageUse, examine, ranks};
 use sph_solver::PluginInForce;
 
 use crate::arguments::ExplainArguments;
-use crate::commands::check::memory;
 use crate::commands::grains;
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::layout::{columns, paragraph, parameters, row, table, table_and_below};
+use crate::terminal::layout::{
+    columns, memory, paragraph, parameters, row, table, table_and_below,
+};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 

@@ -6,10 +6,9 @@ use std::path::Path;
 use sph_particles::Summary;
 use sph_run::Status;
 
-use crate::commands::check::memory;
 use crate::commands::file_list;
 use crate::number;
-use crate::terminal::layout::{columns, remarks, row, table};
+use crate::terminal::layout::{columns, memory, remarks, row, table};
 
 /// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {

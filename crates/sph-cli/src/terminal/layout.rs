@@ -1,6 +1,9 @@
 //! Text in columns.
 
 use serde_json::Value as Json;
+use sph_particles::setup::Memory;
+
+use crate::number;
 
 /// Rows as columns with two spaces between; the last column is not padded.
 pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
@@ -103,6 +106,17 @@ pub fn parameters(all: &Json) -> String {
     let given = all.as_object().into_iter().flatten();
     let list: Vec<String> = given.filter(|(_, v)| !v.is_null()).map(one).collect();
     list.join(", ")
+}
+
+/// The memory of a run, and the parts that are a twentieth of it and more.
+pub fn memory(memory: &Memory) -> String {
+    let all = memory.total();
+    let parts = memory.parts().into_iter();
+    let parts: Vec<String> = parts
+        .filter(|(_, bytes)| *bytes > 0.05 * all)
+        .map(|(name, bytes)| format!("{name} {}", number::percent(bytes / all)))
+        .collect();
+    format!("{}: {}", number::bytes(all), parts.join(", "))
 }
 
 #[cfg(test)]

@@ -16,22 +16,10 @@ use crate::drawing::colour::{Colour, ColourMap};
 use crate::drawing::colour_bar::{ClassBar, ColourBar};
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::extent;
-use crate::drawing::particles::{draw_compass, project};
 use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
+use crate::drawing::view::{View, draw_compass, project};
 use crate::error::{IoError, Result};
-
-/// Plane of the drawing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
-    /// x to the right, y upwards: 2D.
-    #[default]
-    Plane,
-    /// x to the right, z upwards, seen along +y: 3D.
-    Front,
-    /// Seen from the front, the left and above, without perspective; the particles as one shaded surface: 3D.
-    Above,
-}
 
 /// A particle field and how it is to be drawn.
 ///

@@ -7,13 +7,13 @@
 
 use std::fs;
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
 use crate::files::atomic::write_whole;
-use crate::files::folder::writable;
+use crate::files::folder::{beside, writable};
 use crate::paraview::frame::Frame;
 use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;
@@ -270,23 +270,4 @@ fn distinct_times(entries: &[Entry]) -> Vec<f64> {
     let mut times: Vec<f64> = entries.iter().map(|e| e.time).collect();
     times.dedup();
     times
-}
-
-/// The path of a file that a list names; it stays in the folder of the list, links followed.
-pub(crate) fn beside(list: &Path, file: &str) -> Result<PathBuf> {
-    let path = list.with_file_name(file);
-    let folder = list.parent().filter(|f| !f.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
-    let within = |c| matches!(c, Component::Normal(_) | Component::CurDir);
-    let named = Path::new(file).components().all(within);
-    // A missing file leads nowhere.
-    let real = (path.canonicalize(), folder.canonicalize());
-    let leads = matches!(real, (Ok(real), Ok(folder)) if !real.starts_with(&folder));
-    match named && !leads {
-        true => Ok(path),
-        false => {
-            let problem = format!("it names `{file}`, which is outside its folder");
-            Err(IoError::Unfit(list.into(), problem))
-        }
-    }
 }

@@ -9,8 +9,8 @@ use roxmltree::Document;
 
 use crate::error::{IoError, Result};
 use crate::files::atomic::write_whole;
+use crate::files::folder::beside;
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
-use crate::paraview::pvd::beside;
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::read_vtu;
 use crate::paraview::xml::escape;

@@ -51,7 +51,7 @@ pub(crate) fn carried<const D: usize>(
     Ok(frame.map_or(drawn, |frame| frame.present(&drawn)))
 }
 
-/// The number of the first wall of a name, which a stage wants for a purpose.
+/// The number of the first wall of a name, which a stage needs for a purpose.
 ///
 /// # Errors
 /// If there is none.

@@ -6,7 +6,7 @@ use sph_core::number;
 use sph_io::{IoError, Plot, Series, Style, escape};
 use sph_run::Trouble;
 
-use crate::pages::report::grid;
+use crate::pages::grid::grid;
 use crate::results::Results;
 use crate::results::frontier::Frontier;
 use crate::results::variant_result::VariantResult;

@@ -4,33 +4,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use sph_io::IoError;
-use sph_run::Progress;
 
 use crate::reading::options::Options;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
 use crate::running::record::{Record, Status};
-use crate::running::repeat;
+use crate::running::repeat::{self, Watcher};
 use crate::running::verdict::{Colour, verdict};
-
-/// A watcher of a study; variants may call it from several threads.
-pub trait Watcher: Sync {
-    /// A repetition of a variant begins or goes on.
-    fn started(&self, _variant: &Variant, _repetition: usize) {}
-    /// After every step.
-    fn step(&self, _variant: &Variant, _progress: &Progress) {}
-    /// A line worth saying.
-    fn message(&self, _variant: &Variant, _text: &str) {}
-    /// A variant has come to an end, or had one.
-    fn finished(&self, _variant: &Variant, _record: &Record) {}
-    /// True to stop, with finished variants kept.
-    fn stop(&self) -> bool {
-        false
-    }
-}
-
-/// A silent watcher.
-impl Watcher for () {}
 
 /// Results of running a study.
 #[derive(Debug)]

@@ -41,10 +41,10 @@ pub struct Verdict {
 }
 
 /// A number by which a run is judged.
-type Judged = fn(&Health) -> Option<f64>;
+type HealthNumber = fn(&Health) -> Option<f64>;
 
 /// Quantities of every run for a verdict, besides the scene's references.
-pub const QUANTITIES: [(&str, Judged); 7] = [
+pub const QUANTITIES: [(&str, HealthNumber); 7] = [
     // Most that the energy was above its first value, over the largest energy of any kind.
     ("energy-rise", |h| h.energy_rise),
     // Size of the energy's change from start to end, over the same.
