@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
-use sph_cli::library::{self, Begin, Request, StudyOptions};
+use sph_cli::library::{self, SceneArguments};
 
 use crate::scene::opened;
 use crate::watch::{Shared, Watching, watched};
@@ -12,10 +12,6 @@ use crate::{errors, functions};
 
 /// Text for people, JSON for programs.
 type Pair = (String, String);
-
-fn request(set: Vec<String>, allow_path: Vec<PathBuf>) -> Request {
-    Request { set, allow_path }
-}
 
 /// `sph check`.
 #[pyfunction]
@@ -26,7 +22,7 @@ pub fn check(
     threads: Option<usize>,
 ) -> PyResult<Pair> {
     let py = scene.py();
-    let opened = opened(scene, &request(set, allow_path))?;
+    let opened = opened(scene, set, allow_path)?;
     let told = py.detach(|| library::check(&opened, threads));
     let told = told.map_err(|t| errors::from_trouble(py, &t))?;
     Ok((told.text, told.json.to_string()))
@@ -40,7 +36,7 @@ pub fn explain(
     allow_path: Vec<PathBuf>,
 ) -> PyResult<Pair> {
     let py = scene.py();
-    let opened = opened(scene, &request(set, allow_path))?;
+    let opened = opened(scene, set, allow_path)?;
     let told = py.detach(|| library::explain(&opened));
     let told = told.map_err(|t| errors::from_trouble(py, &t))?;
     Ok((told.text, told.json.to_string()))
@@ -68,20 +64,27 @@ pub fn run(
     message: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, String, PathBuf, bool)> {
     let py = scene.py();
-    let request = request(arguments.set, arguments.allow_path);
-    let opened = opened(scene, &request)?;
-    let begin = match (arguments.start, arguments.resume, arguments.changed) {
-        (Some(other), ..) => Begin::From(other),
-        (None, true, true) => Begin::ResumeChanged,
-        (None, true, false) => Begin::Resume,
-        _ => Begin::Afresh,
+    let (set, allow_path) = (arguments.set, arguments.allow_path);
+    let opened = opened(scene, set.clone(), allow_path.clone())?;
+    let wanted = library::RunArguments {
+        scene: SceneArguments {
+            scene: opened.shown.clone(),
+            set,
+            allow_path,
+        },
+        out: arguments.out,
+        threads: arguments.threads,
+        resume: arguments.resume && arguments.start.is_none(),
+        changed: arguments.changed,
+        from: arguments.start,
+        ..Default::default()
     };
-    let how = (arguments.out, arguments.threads, begin);
+    let folder = library::folder(&wanted, &opened);
     let shared = Shared::default();
     let ran = watched(py, &shared, progress, message, || {
-        library::run(&opened, &request, how, &mut Watching(&shared))
+        library::run(&wanted, &opened, &mut Watching(&shared))
     })?;
-    let (ended, folder) = ran.map_err(|trouble| {
+    let ended = ran.map_err(|trouble| {
         let error = errors::from_trouble(py, &trouble);
         error.set_cause(py, functions::raised());
         error
@@ -115,18 +118,20 @@ pub fn study(
     study: String,
     arguments: StudyArguments,
 ) -> PyResult<(String, String, Option<String>)> {
-    let request = request(arguments.set, arguments.allow_path);
-    let mut options = StudyOptions::default();
-    options.out = arguments.out;
-    options.threads = arguments.threads;
-    options.only = arguments.only;
-    options.fresh = arguments.fresh;
-    options.quiet = arguments.quiet;
+    let wanted = library::StudyArguments {
+        study: Some(study),
+        out: arguments.out,
+        threads: arguments.threads,
+        only: arguments.only,
+        set: arguments.set,
+        allow_path: arguments.allow_path,
+        fresh: arguments.fresh,
+        quiet: arguments.quiet,
+        ..Default::default()
+    };
     let shared = Shared::default();
     let stop = shared.stop.clone();
-    let done = watched(py, &shared, None, None, || {
-        library::study(&study, &request, &options, stop)
-    })?;
+    let done = watched(py, &shared, None, None, || library::study(&wanted, stop))?;
     debug_assert!(!shared.stop.load(Ordering::SeqCst));
     let studied = done.map_err(|t| errors::from_trouble(py, &t))?;
     Ok((

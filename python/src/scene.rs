@@ -1,9 +1,11 @@
 //! From what Python calls a scene to an opened one.
 
+use std::path::PathBuf;
+
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString};
-use sph_cli::library::{OpenScene, Request, open, open_text};
+use sph_cli::library::{OpenScene, SceneArguments, open, open_text};
 use toml::{Table, Value};
 
 use crate::errors;
@@ -12,20 +14,29 @@ use crate::errors;
 const DEEPEST: usize = 64;
 
 /// Opens a scene: a path or the name of a shipped scene, a text with several lines, or a dict.
-pub fn opened(scene: &Bound<'_, PyAny>, request: &Request) -> PyResult<OpenScene> {
+pub fn opened(
+    scene: &Bound<'_, PyAny>,
+    set: Vec<String>,
+    allow_path: Vec<PathBuf>,
+) -> PyResult<OpenScene> {
     let py = scene.py();
     let told = |t| errors::from_trouble(py, &t);
+    let named = |scene| SceneArguments {
+        scene,
+        set,
+        allow_path,
+    };
     if let Ok(dict) = scene.cast::<PyDict>() {
         let table = table(dict.as_mapping(), 0)?;
         let text = toml::to_string_pretty(&table);
         let text = text.map_err(|e| PyValueError::new_err(format!("the dict is no scene: {e}")))?;
-        return open_text(&text, "dict.toml", request).map_err(told);
+        return open_text(&text, "dict.toml", &named("dict.toml".into())).map_err(told);
     }
     let path = py.import("os")?.call_method1("fspath", (scene,));
     let path: String = path?.extract()?;
     match path.contains('\n') {
-        true => open_text(&path, "text.toml", request).map_err(told),
-        false => open(&path, request).map_err(told),
+        true => open_text(&path, "text.toml", &named("text.toml".into())).map_err(told),
+        false => open(&named(path)).map_err(told),
     }
 }
 

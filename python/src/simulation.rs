@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sph_cli::library::{AnyScene, Request, Trouble};
+use sph_cli::library::{AnyScene, Trouble};
 use sph_core::{Role, StepError};
 use sph_particles::{RunError, Stepper};
 
@@ -94,7 +94,7 @@ impl Simulation {
         start: Option<PathBuf>,
     ) -> PyResult<Self> {
         let py = scene.py();
-        let opened = opened(scene, &Request { set, allow_path })?;
+        let opened = opened(scene, set, allow_path)?;
         let AnyScene::Particles(loaded) = &opened.scene else {
             let why = "a scene of grains cannot be stepped from Python: run it with sph.run";
             return Err(errors::from_trouble(py, &Trouble::usage(why)));

@@ -220,7 +220,7 @@ impl Command {
 }
 
 /// A scene with values put on top.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct SceneArguments {
     /// Scene file, or the name of a shipped scene (see `sph scenes`)
     pub scene: String,
@@ -233,8 +233,9 @@ pub struct SceneArguments {
 }
 
 /// Arguments of `sph run`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct RunArguments {
+    /// The scene
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Folder of the results [default: results/NAME of the scene file]
@@ -265,7 +266,7 @@ pub struct RunArguments {
 }
 
 /// Arguments of `sph study`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct StudyArguments {
     /// Study file, or the name of a shipped study
     #[arg(required_unless_present = "compare", conflicts_with = "compare")]

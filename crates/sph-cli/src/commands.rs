@@ -7,7 +7,6 @@ pub mod explain;
 pub mod failed;
 pub mod file_list;
 pub mod grains;
-pub mod interrupted;
 pub mod manual;
 pub mod measure;
 pub mod mesh;

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::shipped;
 
 /// The file as it was when the program was built.
-static GALLERY: LazyLock<Gallery> = LazyLock::new(|| {
+pub static GALLERY: LazyLock<Gallery> = LazyLock::new(|| {
     toml::from_str(shipped::GALLERY)
         .expect("docs/gallery.toml is read by every test of `sph scenes`")
 });
@@ -52,11 +52,6 @@ pub struct Entry {
 }
 
 impl Gallery {
-    /// That of the program.
-    pub fn own() -> &'static Gallery {
-        &GALLERY
-    }
-
     /// The theme and the entry of a scene.
     pub fn find(&self, name: &str) -> Option<(&Theme, &Entry)> {
         let all = self.theme.iter();

@@ -8,11 +8,10 @@ use sph_io::Scratch;
 use sph_particles::Particles;
 use sph_run::Method;
 use sph_scene::{Override, Source, read_text, within};
-use sph_study::SceneText;
+use sph_study::{Mistake, SceneText};
 
 use crate::arguments::SceneArguments;
 use crate::shipped::{self, Content, Data};
-use crate::terminal::diagnostics;
 use crate::terminal::trouble::Trouble;
 
 /// A scene of one kind or the other, with its text.
@@ -25,8 +24,8 @@ pub enum AnyScene {
 
 /// Reads a scene of either kind: the one place that distinguishes them.
 pub fn read(source: Source) -> Result<AnyScene, Trouble> {
-    let mistakes = |source: &Source, diagnostics: &[sph_scene::Diagnostic]| {
-        Trouble::Scene(diagnostics::located(source, diagnostics))
+    let mistakes = |source: &Source, found: &[sph_scene::Diagnostic]| {
+        Trouble::Scene(Mistake::located(source, found))
     };
     // Text that is no TOML is refused by the reader of particles.
     let table = source.table();
@@ -91,6 +90,9 @@ pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
 }
 
 /// Reads the scene, by its path or by the name of a shipped one.
+///
+/// # Errors
+/// Mistakes of the scene with their places, or that there is none.
 pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
@@ -106,6 +108,9 @@ pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
 }
 
 /// Reads a scene from a text; the files that it names are looked for in the folder of `file`.
+///
+/// # Errors
+/// Mistakes of the scene with their places.
 pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
@@ -117,28 +122,23 @@ pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<O
     })
 }
 
-/// A scene's text, found but not yet read as one; its data disappear with it.
-pub struct SceneSource {
-    /// Name, text and file.
-    pub scene: SceneText,
-    _unpacked: Option<Scratch>,
-}
-
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
-/// allowed one, or by the name of a shipped one, beside which all shipped data lie then.
-pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<SceneSource, String> {
+/// allowed one, or by the name of a shipped one, beside which all shipped data lie as long as the folder is kept.
+pub fn find(
+    folder: &Path,
+    scene: &str,
+    allowed: &[PathBuf],
+) -> Result<(SceneText, Option<Scratch>), String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
     let found = located(&path, scene, None)?;
-    Ok(SceneSource {
-        scene: SceneText {
-            method: method(&found.text, &found.shown),
-            name: found.name,
-            text: found.text,
-            file: found.file,
-            allowed: allowed.to_vec(),
-        },
-        _unpacked: found.unpacked,
-    })
+    let scene = SceneText {
+        method: method(&found.text, &found.shown),
+        name: found.name,
+        text: found.text,
+        file: found.file,
+        allowed: allowed.to_vec(),
+    };
+    Ok((scene, found.unpacked))
 }
 
 /// The text of a scene, and the folder that its data were unpacked to.

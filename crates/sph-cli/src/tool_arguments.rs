@@ -29,13 +29,19 @@ pub struct MeasureArguments {
     /// The field, of a vector its length, or a component (velocity.x), or a coordinate (x, y, z)
     pub field: String,
     /// Reductions of its values
-    #[arg(long, value_name = "HOW,…", value_delimiter = ',', default_value = "mean", value_parser = reductions())]
+    #[arg(
+        long,
+        value_name = "HOW,…",
+        value_delimiter = ',',
+        default_value = "mean",
+        value_parser = named(&Reduction::ALL, Reduction::name)
+    )]
     pub reduce: Vec<Reduction>,
     /// Shares q: the least value that a share q of the weight does not exceed
     #[arg(long, value_name = "Q,…", value_delimiter = ',', value_parser = share)]
     pub quantile: Vec<f64>,
     /// The weight of a particle
-    #[arg(long, default_value = "one", value_parser = weights())]
+    #[arg(long, default_value = "one", value_parser = named(&Weight::ALL, Weight::name))]
     pub weight: Weight,
     /// Name of the phase whose particles count [default: all]
     #[arg(long, value_name = "NAME")]
@@ -54,20 +60,15 @@ pub struct MeasureArguments {
     pub json: bool,
 }
 
-fn reductions() -> impl TypedValueParser<Value = Reduction> {
-    let names = PossibleValuesParser::new(Reduction::ALL.map(Reduction::name));
-    names.map(|name| one_of(&Reduction::ALL, |how| how.name() == name))
-}
-
-fn weights() -> impl TypedValueParser<Value = Weight> {
-    let names = PossibleValuesParser::new(Weight::ALL.map(Weight::name));
-    names.map(|name| one_of(&Weight::ALL, |weight| weight.name() == name))
-}
-
-/// The one of a name, which the parser has checked.
-fn one_of<T: Copy + Default>(all: &[T], is: impl Fn(T) -> bool) -> T {
-    let found = all.iter().copied().find(|one| is(*one));
-    found.unwrap_or_default()
+/// One of some values by its name.
+fn named<T: Copy + Default + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let names = PossibleValuesParser::new(all.iter().map(|one| name(*one)));
+    let of = move |given| all.iter().copied().find(|one| name(*one) == given);
+    // The parser knows the names.
+    names.map(move |given| of(given).unwrap_or_default())
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -193,6 +193,7 @@ fn overlap<const D: usize>(a: Corners<D>, b: Corners<D>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SplitMix;
 
     fn numbers(tree: &BoxTree<2>, query: Corners<2>) -> Vec<usize> {
         let mut all = Vec::new();
@@ -219,6 +220,23 @@ mod tests {
         );
         assert_eq!(numbers(&tree, [[4.6, 7.6], [4.9, 7.9]]), [0; 0]);
         assert!(numbers(&BoxTree::new(Vec::new()), [[0.0; 2], [1.0; 2]]).is_empty());
+    }
+
+    #[test]
+    fn the_nearest_has_the_least_of_all_distances() {
+        let mut random = SplitMix(1);
+        let mut place = |size: f64| [0, 1, 2].map(|_| size * random.unit());
+        let places: Vec<[f64; 3]> = (0..500).map(|_| place(1.0)).collect();
+        let tree = BoxTree::new(places.iter().map(|place| [*place; 2]).collect());
+        for _ in 0..200 {
+            let x = place(2.0);
+            let apart = |k: usize| (0..3).map(|i| (places[k][i] - x[i]).powi(2)).sum();
+            let least = (0..500).map(apart).fold(f64::INFINITY, f64::min);
+            let found = tree.nearest(x, f64::INFINITY, apart);
+            assert_eq!(found.map(|(apart, _)| apart), Some(least));
+        }
+        let none = BoxTree::<2>::new(Vec::new());
+        assert_eq!(none.nearest([0.0; 2], f64::INFINITY, |_| 0.0), None);
     }
 
     #[test]

@@ -4,8 +4,6 @@ pub mod atomic;
 pub mod clean;
 pub mod folder;
 pub mod lock;
-pub mod rows;
 pub mod scratch;
 pub mod series;
-pub mod summary;
 pub mod table;

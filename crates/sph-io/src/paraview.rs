@@ -1,7 +1,6 @@
 //! Files for ParaView.
 
 pub mod frame;
-pub(crate) mod named_files;
 pub mod pvd;
 pub mod pvtu;
 pub mod vtu;

@@ -20,11 +20,26 @@ impl ProbeColumn {
 
     /// One of several columns.
     pub fn named(suffix: &str, unit: &'static str) -> ProbeColumn {
-        ProbeColumn {
-            suffix: suffix.into(),
-            unit,
-        }
+        let suffix = suffix.into();
+        ProbeColumn { suffix, unit }
     }
+
+    /// Several columns, each with its suffix and its unit.
+    pub fn several(all: &[(&str, &'static str)]) -> Vec<ProbeColumn> {
+        let named = |(suffix, unit): &(&str, &'static str)| ProbeColumn::named(suffix, unit);
+        all.iter().map(named).collect()
+    }
+
+    /// The components of a vector in so many dimensions.
+    pub fn components(dimension: usize, unit: &'static str) -> Vec<ProbeColumn> {
+        ProbeColumn::several(&[(".x", unit), (".y", unit), (".z", unit)][..dimension])
+    }
+}
+
+/// The error of a probe that cannot measure.
+pub(crate) fn refused(stage: &str, reason: impl Into<String>) -> StepError {
+    let (stage, reason) = (stage.into(), reason.into());
+    StepError::Stage { stage, reason }
 }
 
 /// The scene for probes.

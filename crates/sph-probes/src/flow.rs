@@ -2,16 +2,13 @@
 
 pub(crate) mod angular_momentum;
 pub(crate) mod displacement;
-pub(crate) mod energy;
 pub(crate) mod energy_budget;
-pub(crate) mod front;
 pub(crate) mod level;
 pub(crate) mod mean_profile;
 pub(crate) mod mooring;
 pub(crate) mod passed;
 pub(crate) mod point;
 pub(crate) mod profile;
-pub(crate) mod range;
 pub(crate) mod spectrum;
 pub(crate) mod stream_function;
 pub(crate) mod wall_force;

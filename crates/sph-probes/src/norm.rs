@@ -83,9 +83,13 @@ pub fn moving_mean(times: &[f64], values: &[f64], width: f64) -> Vec<f64> {
 /// Root mean square of the difference at the reference's times over the reference's range.
 pub fn rms_over_range(differences: &[f64], reference: &[f64]) -> f64 {
     let mean = differences.iter().map(|d| d * d).sum::<f64>() / differences.len() as f64;
-    let high = reference.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let low = reference.iter().copied().fold(f64::INFINITY, f64::min);
-    mean.sqrt() / (high - low)
+    mean.sqrt() / range(reference)
+}
+
+/// The largest of all values less the least.
+fn range(values: &[f64]) -> f64 {
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    high - values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Time weight of each sample of a series: half the gaps on both sides. A reference may be denser in some places; with
@@ -98,10 +102,6 @@ pub fn time_weights(times: &[f64]) -> Vec<f64> {
 
 /// |range of the values / range of the reference − 1|: the error of a wave's height.
 pub fn range_error(values: &[f64], reference: &[f64]) -> f64 {
-    let range = |v: &[f64]| {
-        let high = v.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        high - v.iter().copied().fold(f64::INFINITY, f64::min)
-    };
     (range(values) / range(reference) - 1.0).abs()
 }
 
@@ -209,16 +209,6 @@ pub fn line(x: &[f64], y: &[f64]) -> [f64; 2] {
     [slope, (squares / x.len() as f64).sqrt()]
 }
 
-/// Observed order of convergence: least-squares slope of ln error over ln spacing, three finest.
-pub fn order(spacing: &[f64], error: &[f64]) -> f64 {
-    let mut pairs: Vec<(f64, f64)> = spacing.iter().copied().zip(error.iter().copied()).collect();
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    pairs.truncate(3);
-    let x: Vec<f64> = pairs.iter().map(|p| p.0.ln()).collect();
-    let y: Vec<f64> = pairs.iter().map(|p| p.1.ln()).collect();
-    slope(&x, &y)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,12 +266,5 @@ mod tests {
         assert_eq!(mean(&[0.0, 1.0, 3.0], &[1.0, 2.0, 4.0]), Some(7.5 / 3.0));
         assert_eq!(mean(&[1.0], &[5.0]), Some(5.0));
         assert_eq!(mean(&[1.0], &[f64::NAN]), None);
-    }
-
-    #[test]
-    fn the_order_of_a_quadratic_error_is_two() {
-        let h = [0.4, 0.2, 0.1, 0.05];
-        let error: Vec<f64> = h.iter().map(|h| 3.0 * h * h).collect();
-        assert!((order(&h, &error) - 2.0).abs() < 1e-12);
     }
 }

@@ -1,10 +1,8 @@
 //! The distance to the free surface.
 
 use rayon::prelude::*;
-use sph_core::{Field, Scalar, StepError, Vect, fields};
+use sph_core::{BoxTree, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::{Around, Values, World, walk, walk_some};
-
-use crate::nearest::PlaceTree;
 
 /// Distance to the nearest free surface, m.
 pub const SURFACE_DISTANCE: Field<Scalar> = Field::new(
@@ -37,11 +35,13 @@ pub fn surface_distance<const D: usize>(world: &World<D>) -> Result<Vec<f64>, St
     let positions = world.free.get(fields::POSITION)?;
     let surface = at_surface(world)?;
     let found = positions.iter().zip(&surface).filter(|(_, s)| **s);
-    let tree = PlaceTree::new(found.flat_map(|(x, _)| images(world, *x)).collect());
+    let places: Vec<Vect<D>> = found.flat_map(|(x, _)| images(world, *x)).collect();
+    let tree = BoxTree::new(places.iter().map(|place| [(*place).into(); 2]).collect());
     let half = 0.5 * world.spacing;
-    let distance = |x: &Vect<D>| match tree.distance(x) {
-        far if far.is_infinite() => f64::NAN,
-        near => near + half,
+    let distance = |x: &Vect<D>| {
+        let apart = |k: usize| (x - places[k]).norm_squared();
+        let nearest = tree.nearest((*x).into(), f64::INFINITY, apart);
+        nearest.map_or(f64::NAN, |(apart, _)| apart.sqrt() + half)
     };
     let all = positions.par_iter().with_min_len(256).map(distance);
     Ok(all.collect())

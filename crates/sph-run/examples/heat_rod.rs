@@ -59,7 +59,7 @@ impl Model for Rod {
         }
         let path = own.to_path_buf();
         let saved = SavedState::load(own)?.state();
-        let (rod, books) = saved.map_err(|problem| IoError::Unfit { path, problem })?;
+        let (rod, books) = saved.map_err(|problem| IoError::Unfit(path, problem))?;
         *self = rod;
         Ok(books)
     }

@@ -1,12 +1,11 @@
 //! A run from start to end.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use sph_io::{FolderLock, IoError, SeriesWriter};
 
 use crate::frames::{Frames, Outlay};
-use crate::lock;
 use crate::model::{Model, ModelTime, Poll, RunCounters, Status};
 use crate::observer::{Command, Progress, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
@@ -56,7 +55,7 @@ impl Opened {
         let folder = &options.out;
         let mut held = None;
         if outlay.is_some() {
-            held = Some(lock::take(folder, observer)?);
+            held = Some(take(folder, observer)?);
             sph_io::writable(folder)?;
             sph_io::sweep_temporaries(folder)?;
         }
@@ -69,10 +68,7 @@ impl Opened {
                 "note: the earlier run in {} is overwritten (--resume would have gone on with it)",
                 folder.display()
             ));
-            std::fs::remove_file(&checkpoint).map_err(|source| IoError::Write {
-                path: checkpoint,
-                source,
-            })?;
+            std::fs::remove_file(&checkpoint).map_err(|e| IoError::Write(checkpoint, e))?;
         }
         let files = match outlay {
             None => None,
@@ -140,6 +136,26 @@ impl Opened {
             }
         }
     }
+}
+
+/// Takes the folder of a run until the lock is dropped; reports a folder that was left by a killed run.
+///
+/// # Errors
+/// If another run holds it, or it cannot be made.
+fn take(folder: &Path, observer: &mut Watch<'_>) -> Result<FolderLock, IoError> {
+    let lock = FolderLock::take(folder)?;
+    let out = folder.display();
+    if let Some(dead) = lock.taken_over_from() {
+        observer.message(&format!(
+            "note: {dead} had {out} and is gone without giving it back; it is taken over"
+        ));
+    }
+    if !lock.holds() {
+        observer.message(&format!(
+            "note: the file system of {out} has no locks; take care that no other run writes there"
+        ));
+    }
+    Ok(lock)
 }
 
 struct Driver<'a> {

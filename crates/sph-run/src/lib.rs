@@ -12,7 +12,6 @@
 mod drive;
 mod frames;
 mod identity;
-mod lock;
 mod model;
 mod observer;
 mod options;

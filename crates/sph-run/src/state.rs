@@ -15,10 +15,8 @@ const STATE: &str = "state";
 /// # Errors
 /// If it cannot be written.
 pub fn save_state(path: &Path, meta: Json, state: &impl Serialize) -> Result<(), IoError> {
-    let bytes = serde_json::to_vec(state).map_err(|e| IoError::Input {
-        path: path.to_path_buf(),
-        problem: e.to_string(),
-    })?;
+    let bytes =
+        serde_json::to_vec(state).map_err(|e| IoError::Input(path.into(), e.to_string()))?;
     let words = bytes.chunks(4).map(|four| {
         let mut word = [b' '; 4];
         word[..four.len()].copy_from_slice(four);

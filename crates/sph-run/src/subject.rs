@@ -87,6 +87,6 @@ pub fn unusable(error: &IoError) -> bool {
     use IoError::{Checkpoint, Malformed, Read, TooShort};
     matches!(
         error,
-        Checkpoint { .. } | Malformed { .. } | Read { .. } | TooShort { .. }
+        Checkpoint(..) | Malformed(..) | Read(..) | TooShort { .. }
     )
 }

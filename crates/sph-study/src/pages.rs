@@ -1,7 +1,7 @@
 //! Results as tables, plots and a page.
 
-pub mod grid;
-pub mod matrix_plots;
+mod grid;
+pub mod matrix;
 pub mod plots;
 pub mod publish;
 pub mod report;

@@ -8,6 +8,4 @@ pub mod mistake;
 pub mod options;
 pub mod plan;
 pub mod reader;
-pub mod rung;
-pub mod scene_text;
 pub mod variant;

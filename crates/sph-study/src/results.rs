@@ -2,13 +2,12 @@
 
 pub mod compare;
 pub mod frontier;
-pub mod matrix;
 pub mod order;
 pub mod pareto;
 pub mod scaling;
 pub mod variant_result;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
@@ -118,6 +117,14 @@ impl Results {
     /// The error by which plots judge.
     pub fn judged(&self) -> &str {
         self.errors.first().map_or("", String::as_str)
+    }
+
+    /// Numbers of threads of the variants that have run.
+    pub fn threads(&self) -> String {
+        let ran = self.variants.iter().filter(|v| v.threads > 0);
+        let all: BTreeSet<usize> = ran.map(|v| v.threads).collect();
+        let all: Vec<String> = all.iter().map(usize::to_string).collect();
+        all.join(", ")
     }
 
     fn make_series(&self, study: &Study) -> Vec<SeriesResult> {

@@ -2,9 +2,7 @@
 
 pub mod cost;
 pub mod execute;
-pub mod fingerprint;
 pub mod machine;
 pub mod record;
 pub mod repeat;
 pub mod verdict;
-pub mod watcher;

@@ -67,7 +67,7 @@ const ALLOWED: [(&str, &[&str]); 22] = [
         ],
     ),
     ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
-    ("sph-io", &[]),
+    ("sph-io", &["sph-core"]),
     (
         "sph-turbulence",
         &[

@@ -4,15 +4,15 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use serde_json::{Value as Json, json};
-use sph_particles::setup::{Examination, Memory};
+use serde_json::json;
+use sph_particles::setup::Examination;
 use sph_particles::{ZoneSize, draw_scene, examine_and_try};
 
 use crate::arguments::CheckArguments;
 use crate::commands::{draw, grains, mesh};
 use crate::number;
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::layout::{columns, remarks};
+use crate::terminal::layout::{memory, row, sections};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 
@@ -62,7 +62,7 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
     let threads = threads.unwrap_or(cores);
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::check::output(loaded, &opened.shown),
+        AnyScene::Grains(loaded) => return grains::check(loaded, &opened.shown),
     };
     let on = threads.min(cores);
     let examined = examine_and_try(&loaded.scene, on, TRIAL);
@@ -95,16 +95,14 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
         let hours = pace * loaded.scene.run.end * share / 3600.0;
         Alternatives::new(&examined, loaded.scene.numerics.spacing, hours)
     });
-    let mut all = serde_json::to_value(&examined).unwrap_or(Json::Null);
-    all["threads"] = json!(threads);
-    all["estimate"]["hours"] = json!(hours);
+    let text = text(&examined, &opened.shown, &time, alternatives.as_ref());
+    let mut told = CommandOutput::new(&examined, text);
+    told.json["threads"] = json!(threads);
+    told.json["estimate"]["hours"] = json!(hours);
     if let Some(alternatives) = &alternatives {
-        all["estimate"]["alternatives"] = json!(alternatives);
+        told.json["estimate"]["alternatives"] = json!(alternatives);
     }
-    Ok(CommandOutput {
-        json: all,
-        text: text(&examined, &opened.shown, &time, alternatives.as_ref()),
-    })
+    Ok(told)
 }
 
 /// Cost of a scene with zones without these, and of its finest spacing everywhere.
@@ -150,17 +148,6 @@ fn too_fast(examined: &Examination) -> Vec<String> {
         .replace(" ;", ";")
     };
     machs.map(remark).collect()
-}
-
-/// The memory of a run, and the parts that are a twentieth of it and more.
-pub fn memory(memory: &Memory) -> String {
-    let all = memory.total();
-    let parts = memory.parts().into_iter();
-    let parts: Vec<String> = parts
-        .filter(|(_, bytes)| *bytes > 0.05 * all)
-        .map(|(name, bytes)| format!("{name} {}", number::percent(bytes / all)))
-        .collect();
-    format!("{}: {}", number::bytes(all), parts.join(", "))
 }
 
 fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternatives>) -> String {
@@ -220,18 +207,8 @@ fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternati
         ("relaxed density", relaxation),
         ("estimate", estimate),
     ];
-    for (title, rows) in parts.into_iter().filter(|(_, rows)| !rows.is_empty()) {
-        text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));
-    }
-    if !e.warnings.is_empty() {
-        text.push_str(&format!("\nwarnings\n{}", remarks(&e.warnings)));
-    }
+    text.push_str(&sections(parts, &e.warnings));
     text
-}
-
-/// A name beside its value.
-fn row(name: &str, value: String) -> Vec<String> {
-    vec![name.to_string(), value]
 }
 
 /// Particles of a zone.
@@ -257,7 +234,7 @@ fn estimate_rows(
     let cost = &e.estimate;
     let mut rows = vec![
         row("steps", number::count(cost.steps)),
-        row("wall time", time.to_string()),
+        row("wall time", time),
     ];
     if let Some(a) = alternatives {
         let without = number::duration(3600.0 * a.hours_without_zones);

@@ -5,12 +5,12 @@ mod tables;
 
 use std::path::Path;
 
-use serde_json::{Value as Json, json};
+use serde_json::json;
 use sph_io::{Checkpoint, IoError};
 use sph_run::CHECKPOINT;
 
 use crate::number;
-use crate::terminal::layout::columns;
+use crate::terminal::layout::table;
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::CompareArguments;
@@ -41,7 +41,7 @@ pub fn output(first: &Path, second: &Path) -> Result<(CommandOutput, bool), Trou
     let found = compared(first, second)?;
     let same = found.remarks.is_empty() && found.columns.iter().all(|c| c.same);
     let told = CommandOutput {
-        json: json(&found, same),
+        json: json!({ "same": same, "columns": found.columns, "remarks": found.remarks }),
         text: text(&found, same, [first, second]),
     };
     Ok((told, same))
@@ -148,15 +148,6 @@ impl Comparison {
     }
 }
 
-fn json(found: &Comparison, same: bool) -> Json {
-    let columns = found.columns.iter().map(Difference::json);
-    json!({
-        "same": same,
-        "columns": columns.collect::<Vec<_>>(),
-        "remarks": found.remarks,
-    })
-}
-
 fn text(found: &Comparison, same: bool, folders: [&Path; 2]) -> String {
     let [a, b] = folders.map(|f| f.display().to_string());
     if same {
@@ -168,28 +159,18 @@ fn text(found: &Comparison, same: bool, folders: [&Path; 2]) -> String {
         "{a} and {b} differ; {alike} of {} columns have the same bits\n",
         found.columns.len()
     );
-    let mut rows = vec![
-        [
-            "file",
-            "column",
-            "largest difference",
-            "of the range",
-            "first",
-            "second",
-            "where",
-        ]
-        .map(String::from)
-        .to_vec(),
+    let heads = [
+        "file",
+        "column",
+        "largest difference",
+        "of the range",
+        "first",
+        "second",
+        "where",
     ];
-    rows.extend(
-        found
-            .columns
-            .iter()
-            .filter(|c| !c.same)
-            .map(Difference::row),
-    );
-    if rows.len() > 1 {
-        text.push_str(&columns(2, &rows));
+    if alike < found.columns.len() {
+        let rows = found.columns.iter().filter(|c| !c.same);
+        text.push_str(&table(&heads, rows.map(Difference::row)));
     }
     for remark in &found.remarks {
         text.push_str(&format!("  {remark}\n"));

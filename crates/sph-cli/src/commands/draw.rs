@@ -138,7 +138,7 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
 /// A file that cannot be written is a failure; other errors are mistakes in the arguments.
 pub fn trouble(error: DrawError) -> Trouble {
     match error {
-        DrawError::Io(error @ (IoError::Write { .. } | IoError::DiskFull { .. })) => error.into(),
+        DrawError::Io(error @ (IoError::Write(..) | IoError::DiskFull(..))) => error.into(),
         other => Trouble::usage(other.to_string()),
     }
 }

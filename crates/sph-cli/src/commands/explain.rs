@@ -1,15 +1,16 @@
 //! `sph explain`.
 
-use serde_json::Value as Json;
+use serde_json::json;
 use sph_particles::RunError;
 use sph_particles::setup::{Examination, Ranks, StageUse, examine, ranks};
 use sph_solver::PluginInForce;
 
 use crate::arguments::ExplainArguments;
-use crate::commands::check::memory;
 use crate::commands::grains;
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::layout::{columns, columns_and_below, paragraph, parameters};
+use crate::terminal::layout::{
+    columns, memory, paragraph, parameters, row, table, table_and_below,
+};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 
@@ -31,16 +32,14 @@ pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
 pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     let loaded = match &opened.scene {
         AnyScene::Particles(loaded) => loaded,
-        AnyScene::Grains(loaded) => return grains::explain::output(loaded),
+        AnyScene::Grains(loaded) => return grains::explain(loaded),
     };
     let examined = examine(&loaded.scene);
     let examined = examined.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
-    let mut json = serde_json::to_value(&examined).unwrap_or(Json::Null);
-    json["suited"] = serde_json::to_value(&loaded.scene.suited).unwrap_or(Json::Null);
-    Ok(CommandOutput {
-        json,
-        text: text(&examined) + &suited(&loaded.scene.suited),
-    })
+    let text = text(&examined) + &suited(&loaded.scene.suited);
+    let mut told = CommandOutput::new(&examined, text);
+    told.json["suited"] = json!(loaded.scene.suited);
+    Ok(told)
 }
 
 /// Adds the shares and messages of several machines.
@@ -52,12 +51,7 @@ fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(
     };
     let split = ranks(&loaded.scene, count);
     let split = split.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
-    if let Json::Object(json) = &mut told.json {
-        json.insert(
-            "ranks".into(),
-            serde_json::to_value(&split).unwrap_or(Json::Null),
-        );
-    }
+    told.json["ranks"] = json!(split);
     told.text.push_str(&ranks_text(&split));
     Ok(())
 }
@@ -76,19 +70,19 @@ fn ranks_text(split: &Ranks) -> String {
         "sends per step",
         "ghosts of",
     ];
-    let mut rows = vec![header.map(String::from).to_vec()];
-    for (rank, own) in split.ranks.iter().enumerate().take(SHOWN) {
+    let rows = split.ranks.iter().enumerate().take(SHOWN);
+    let rows = rows.map(|(rank, own)| {
         let partners: Vec<String> = own.partners.iter().map(ToString::to_string).collect();
-        rows.push(vec![
+        vec![
             rank.to_string(),
             own.particles.to_string(),
             format!("{:.3}", own.cost),
             own.ghosts.to_string(),
             format!("{:.1} kB", 1e-3 * (own.sent * split.bytes_per_ghost) as f64),
             partners.join(", "),
-        ]);
-    }
-    text.push_str(&columns(2, &rows));
+        ]
+    });
+    text.push_str(&table(&header, rows));
     if count > SHOWN {
         text.push_str(&format!(
             "  … and {} more (all of them with --json)\n",
@@ -100,16 +94,9 @@ fn ranks_text(split: &Ranks) -> String {
          besides\n",
         split.bytes_per_ghost, split.bytes_per_newcomer
     ));
-    let header = ["after", "bytes", "columns"];
-    let mut rows = vec![header.map(String::from).to_vec()];
-    rows.extend(
-        split
-            .exchanges
-            .iter()
-            .map(|e| vec![e.stage.clone(), e.bytes.to_string(), e.columns.join(", ")]),
-    );
-    text.push_str(&columns(2, &rows));
-    text
+    let rows = split.exchanges.iter();
+    let rows = rows.map(|e| vec![e.stage.clone(), e.bytes.to_string(), e.columns.join(", ")]);
+    text + &table(&["after", "bytes", "columns"], rows)
 }
 
 fn text(e: &Examination) -> String {
@@ -120,7 +107,7 @@ fn text(e: &Examination) -> String {
         e.bytes_per_particle,
         e.fields.len()
     ));
-    text.push_str(&columns(2, &fields(e)));
+    text.push_str(&fields(e));
     text.push_str(&format!("\nmemory: about {}\n", memory(&e.memory)));
     text.push_str("\nstages of an evaluation, in order\n");
     for (k, stage) in e.stages.iter().enumerate() {
@@ -143,8 +130,8 @@ fn suited(choices: &[(&'static str, &'static str)]) -> String {
     if choices.is_empty() {
         return String::new();
     }
-    let row = |(key, reason): &(&str, &str)| vec![key.to_string(), reason.to_string()];
-    let rows: Vec<_> = choices.iter().map(row).collect();
+    let rows = choices.iter().map(|(key, reason)| row(key, *reason));
+    let rows: Vec<_> = rows.collect();
     format!("\nleft to the flow, with the reason\n{}", columns(2, &rows))
 }
 
@@ -155,12 +142,11 @@ fn plugins(plugins: &[PluginInForce]) -> String {
         (names, parameters(&p.parameters))
     };
     let rows = plugins.iter().map(row).collect();
-    columns_and_below(2, &["kind", "name", "provider"], rows)
+    table_and_below(&["kind", "name", "provider"], rows)
 }
 
-fn fields(e: &Examination) -> Vec<Vec<String>> {
+fn fields(e: &Examination) -> String {
     let header = ["name", "unit", "bytes", "role", "written by", "read by"];
-    let mut rows = vec![header.map(String::from).to_vec()];
     let list = |names: &[String]| {
         let place = |n: &String| e.stages.iter().position(|s| s.name == *n);
         let places = names.iter().filter_map(place).map(|k| (k + 1).to_string());
@@ -169,7 +155,7 @@ fn fields(e: &Examination) -> Vec<Vec<String>> {
             false => places.collect::<Vec<_>>().join(", "),
         }
     };
-    rows.extend(e.fields.iter().map(|f| {
+    let rows = e.fields.iter().map(|f| {
         let written = match (f.written_by.is_empty(), f.state) {
             (true, true) => "start, integrator".to_string(),
             _ => list(&f.written_by),
@@ -183,8 +169,8 @@ fn fields(e: &Examination) -> Vec<Vec<String>> {
             written,
             list(&f.read_by),
         ]
-    }));
-    rows
+    });
+    table(&header, rows)
 }
 
 fn stage_text(k: usize, stage: &StageUse) -> String {
@@ -194,17 +180,15 @@ fn stage_text(k: usize, stage: &StageUse) -> String {
         "particle by particle"
     };
     let mut text = format!("  {}. {}: {what}\n", k + 1, stage.name);
-    let row = |name: &str, fields: &[String]| {
-        (!fields.is_empty()).then(|| vec![name.to_string(), fields.join(", ")])
-    };
-    let rows: Vec<Vec<String>> = [
-        row("reads here", &stage.reads_here),
-        row("reads at neighbours", &stage.reads_at_neighbours),
-        row("writes", &stage.writes),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let all = [
+        ("reads here", &stage.reads_here),
+        ("reads at neighbours", &stage.reads_at_neighbours),
+        ("writes", &stage.writes),
+    ];
+    let some = all.into_iter().filter(|(_, fields)| !fields.is_empty());
+    let rows: Vec<_> = some
+        .map(|(name, fields)| row(name, fields.join(", ")))
+        .collect();
     text.push_str(&columns(5, &rows));
     text
 }

@@ -1,10 +1,8 @@
 //! A failed run in a few lines.
 
-use std::path::Path;
-
 use sph_particles::{Failure, Findings, ParticleRecord, Share, Suspect};
 
-use crate::terminal::layout::{columns, remarks};
+use crate::terminal::layout::{columns, remarks, row};
 
 /// Number of terms in the report.
 const TERMS: usize = 6;
@@ -14,42 +12,32 @@ pub fn text(failure: &Failure) -> String {
     let found = &failure.findings;
     let mut text = found.particle.as_ref().map_or(String::new(), suspect);
     text.push_str(&terms(found));
+    let tried = match found.retries {
+        0 => "not tried again".to_string(),
+        1 => "after a roll-back".to_string(),
+        n => format!("after {n} roll-backs"),
+    };
     text.push_str(&format!(
-        "the step\n  {}\n",
-        match found.retries {
-            0 => format!(
-                "Δt = {:.3e} s, bound `{}`, not tried again",
-                found.dt, found.limiter
-            ),
-            1 => format!(
-                "Δt = {:.3e} s, bound `{}`, after a roll-back",
-                found.dt, found.limiter
-            ),
-            n => format!(
-                "Δt = {:.3e} s, bound `{}`, after {n} roll-backs",
-                found.dt, found.limiter
-            ),
-        }
+        "the step\n  Δt = {:.3e} s, bound `{}`, {tried}\n",
+        found.dt, found.limiter
     ));
     if !found.advice.is_empty() {
         text.push_str("what may help\n");
         text.push_str(&remarks(&found.advice));
     }
-    let row = |what: &str, path: &Path| vec![what.to_string(), path.display().to_string()];
-    let mut rows = Vec::new();
     let titles = [
         "a picture of the bad state",
         "and of what is around the particle",
     ];
-    rows.extend(failure.pictures.iter().zip(titles).map(|(p, t)| row(t, p)));
-    rows.extend(
-        failure
-            .bad_state
-            .iter()
-            .map(|p| row("all of it, for ParaView", p)),
-    );
+    let pictures = titles.into_iter().zip(&failure.pictures);
+    let bad_state = failure.bad_state.iter();
+    let bad_state = bad_state.map(|path| ("all of it, for ParaView", path));
     let saved = failure.checkpoint.iter();
-    rows.extend(saved.map(|p| row("the last good state, for --resume", p)));
+    let saved = saved.map(|path| ("the last good state, for --resume", path));
+    let files = pictures.chain(bad_state).chain(saved);
+    let rows: Vec<_> = files
+        .map(|(what, path)| row(what, path.display().to_string()))
+        .collect();
     if !rows.is_empty() {
         text.push_str("written\n");
         text.push_str(&columns(2, &rows));

@@ -2,7 +2,7 @@
 
 use clap::CommandFactory;
 use clap_mangen::Man;
-use sph_io::{Durability, write_atomic};
+use sph_io::write_whole;
 
 use crate::arguments::Arguments;
 use crate::terminal::console;
@@ -42,10 +42,7 @@ pub fn man(arguments: &ManArguments) -> Result<(), Trouble> {
     };
     sph_io::writable(folder)?;
     for (name, page) in &pages {
-        let path = folder.join(format!("{name}.1"));
-        write_atomic(&path, Durability::Process, |file| {
-            std::io::Write::write_all(file, page)
-        })?;
+        write_whole(folder.join(format!("{name}.1")), page)?;
     }
     console::out(&format!("{} pages in {}", pages.len(), folder.display()));
     Ok(())

@@ -1,14 +1,13 @@
 //! `sph measure`: a field of the frames of a run, over particles that fulfil conditions, reduced to numbers.
 
 use std::fmt::Write as _;
-use std::io::Write;
 use std::path::Path;
 
 use serde_json::{Value as Json, json};
 use sph_core::parse_quantity;
 use sph_io::curves::{Column, Snapshot};
-use sph_io::{Durability, write_atomic};
-use sph_probes::{Reduction, Weight, quantile, reduced};
+use sph_io::write_whole;
+use sph_probes::{Reduce, Reduction, Weight, WeightedValues};
 
 use crate::commands::draw::{frames, trouble};
 use crate::terminal::output::CommandOutput;
@@ -55,8 +54,7 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     match &arguments.out {
         None => told.print(arguments.json),
         Some(file) => {
-            let write = |out: &mut dyn Write| out.write_all(told.text.as_bytes());
-            write_atomic(file, Durability::Process, write)?;
+            write_whole(file, &told.text)?;
             let count = rows.len();
             let file = file.display();
             CommandOutput {
@@ -71,15 +69,16 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
 
 /// A row of the table: the time and all reductions.
 fn row(time: f64, counted: &CountedParticles, arguments: &MeasureArguments) -> Vec<f64> {
-    let weights = counted.weights.as_deref();
-    let reductions = arguments.reduce.iter();
-    let reductions = reductions.map(|how| reduced(*how, &counted.values, weights, counted.whole));
+    let weighed = WeightedValues {
+        values: &counted.values,
+        weights: counted.weights.as_deref(),
+        whole: counted.whole,
+    };
+    let reductions = arguments.reduce.iter().map(|how| Reduce::By(*how));
     let quantiles = arguments.quantile.iter();
-    let quantiles = quantiles.map(|share| quantile(*share, &counted.values, weights));
-    std::iter::once(time)
-        .chain(reductions)
-        .chain(quantiles)
-        .collect()
+    let all = reductions.chain(quantiles.map(|share| Reduce::Quantile(*share)));
+    let numbers = all.map(|how| weighed.reduced(how));
+    std::iter::once(time).chain(numbers).collect()
 }
 
 /// The names of the columns, with their units.

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use sph_core::number;
 use sph_scene::{Facets, Topology, sense};
 
-use crate::terminal::layout::{columns, remarks};
+use crate::terminal::layout::{columns, remarks, row};
 use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 
@@ -94,7 +94,6 @@ impl Mesh {
     }
 
     fn rows(&self) -> Vec<Vec<String>> {
-        let row = |name: &str, value: String| vec![name.to_string(), value];
         let (topology, all) = (&self.topology, self.facets.triangles.len());
         let orientation = match topology.flipped.as_slice() {
             [] => format!("consistent, {}", self.facing),

@@ -6,23 +6,19 @@ use std::path::Path;
 use sph_particles::Summary;
 use sph_run::Status;
 
-use crate::commands::check::memory;
 use crate::commands::file_list;
 use crate::number;
-use crate::terminal::layout::{columns, remarks};
+use crate::terminal::layout::{columns, memory, remarks, row, table};
 
 /// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {
     let mut text = headline(summary.status, &summary.scene);
     text.push_str(&columns(2, &cost(summary)));
     text.push_str(&errors(summary));
-    if !summary.warnings.is_empty() {
-        text.push_str("warnings\n");
-        text.push_str(&remarks(&summary.warnings));
-    }
-    if !summary.advice.is_empty() {
-        text.push_str("advice\n");
-        text.push_str(&remarks(&summary.advice));
+    for (title, list) in [("warnings", &summary.warnings), ("advice", &summary.advice)] {
+        if !list.is_empty() {
+            text.push_str(&format!("{title}\n{}", remarks(list)));
+        }
     }
     text.push_str(&file_list::ending(out));
     text
@@ -56,11 +52,6 @@ pub fn limited_by(shares: &BTreeMap<String, f64>) -> String {
         .map(|(name, share)| format!("{name} {}", number::percent(**share)))
         .collect();
     limiters.join(", ")
-}
-
-/// A row of name and value.
-pub fn row(name: &str, value: String) -> Vec<String> {
-    vec![name.to_string(), value]
 }
 
 fn cost(s: &Summary) -> Vec<Vec<String>> {
@@ -103,21 +94,20 @@ fn errors(summary: &Summary) -> String {
     if summary.errors.is_empty() {
         return String::new();
     }
-    let header = ["name", "value", "norm", "against", "samples"].map(String::from);
-    let mut rows = vec![header.to_vec()];
-    for (name, error) in &summary.errors {
+    let rows = summary.errors.iter().map(|(name, error)| {
         let unit = match error.unit.as_str() {
             "" | "1" => String::new(),
             unit => format!(" {unit}"),
         };
         let value = error.value.map_or("none".to_string(), number::plain);
-        rows.push(vec![
+        vec![
             name.clone(),
             format!("{value}{unit}"),
             error.norm.clone(),
             error.against.clone(),
             error.samples.to_string(),
-        ]);
-    }
-    format!("errors\n{}", columns(2, &rows))
+        ]
+    });
+    let heads = ["name", "value", "norm", "against", "samples"];
+    format!("errors\n{}", table(&heads, rows))
 }

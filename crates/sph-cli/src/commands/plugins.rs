@@ -10,8 +10,8 @@ mod snippet;
 use serde_json::{Value as Json, json};
 use sph_core::{Parameter, PluginInfo, PluginKind, kinds, parameters, suggestion};
 
-use crate::terminal::console;
-use crate::terminal::layout::{columns, paragraph};
+use crate::terminal::layout::{columns, paragraph, row};
+use crate::terminal::output::CommandOutput;
 use crate::terminal::trouble::Trouble;
 use crate::tool_arguments::PluginArguments;
 
@@ -28,7 +28,8 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
             true => page::markdown(&all),
             false => overview(&kinds),
         };
-        return shown(arguments, &text, &Json::Array(all));
+        CommandOutput::new(&all, text).print(arguments.json);
+        return Ok(());
     };
     let kind = find_kind(&kinds, kind)?;
     let names = arguments.names.iter();
@@ -52,14 +53,7 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
             (texts.collect::<Vec<_>>().join("\n"), each.collect())
         }
     };
-    shown(arguments, &text, &json)
-}
-
-fn shown(arguments: &PluginArguments, text: &str, json: &Json) -> Result<(), Trouble> {
-    match arguments.json {
-        true => console::json(json),
-        false => console::out(text),
-    }
+    CommandOutput { json, text }.print(arguments.json);
     Ok(())
 }
 
@@ -129,11 +123,11 @@ fn plugin_text(kind: &PluginKind, plugin: &PluginInfo) -> String {
     let schema = (plugin.schema)();
     let mut text = format!("{} {}: {}\n", kind.name, plugin.name, plugin.summary);
     let facts = [
-        ["dimensions".to_string(), dimensions(plugin)],
-        ["source".to_string(), plugin.source.to_string()],
-        ["provider".to_string(), plugin.provider.to_string()],
+        row("dimensions", dimensions(plugin)),
+        row("source", plugin.source),
+        row("provider", plugin.provider),
     ];
-    text.push_str(&columns(2, &facts.map(Vec::from)));
+    text.push_str(&columns(2, &facts));
     if let Some(description) = schema.get("description").and_then(Json::as_str) {
         text.push('\n');
         for part in prose(description) {

@@ -9,7 +9,6 @@ use sph_run::{CHECKPOINT, Identity, RunOptions, SUMMARY, Start, Status, Watch};
 use sph_scene::{Loaded, Source};
 
 use crate::arguments::RunArguments;
-use crate::commands::interrupted::{failed_summary, going_on};
 use crate::commands::{grains, outcome};
 use crate::interrupt;
 use crate::ranks;
@@ -17,6 +16,7 @@ use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::console;
 use crate::terminal::output::{CommandOutput, Ended};
 use crate::terminal::progress::Watcher;
+use crate::terminal::shell;
 use crate::terminal::trouble::{ModelError, Trouble};
 
 /// Runs a scene.
@@ -30,8 +30,7 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
         AnyScene::Grains(_) => "grain",
     };
     let quiet = arguments.quiet || !ranks::is_first();
-    let watcher = Watcher::new(quiet, start, interrupt::flag());
-    let mut watcher = watcher.counting(noun);
+    let mut watcher = Watcher::new(quiet, start, noun, interrupt::flag());
     let ended = execute(arguments, &opened, &mut watcher);
     watcher.finish();
     let ended = ended?;
@@ -41,13 +40,16 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     }
 }
 
-/// The folder of the results.
+/// The folder of the results: `results/NAME` if none is given.
 pub fn folder(arguments: &RunArguments, opened: &OpenScene) -> PathBuf {
     let out = arguments.out.clone();
     out.unwrap_or_else(|| Path::new("results").join(&opened.stem))
 }
 
 /// Runs an opened scene, of particles or of grains, without output of its own.
+///
+/// # Errors
+/// A folder that cannot be used, a scene that cannot be assembled, a run that failed.
 pub fn execute(
     arguments: &RunArguments,
     opened: &OpenScene,
@@ -85,13 +87,7 @@ fn particles(
     let summary = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
     let Some(s) = summary else {
         // Another rank has it.
-        return Ok(Ended {
-            interrupted: None,
-            told: CommandOutput {
-                json: Json::Null,
-                text: String::new(),
-            },
-        });
+        return Ok(Ended::default());
     };
     let text = outcome::text(&s, out);
     Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))
@@ -115,7 +111,7 @@ fn grains(
     options.identity = dem_pfv::scene::identity(loaded);
     let result = dem_pfv::scene::run(loaded, &options, observer);
     let s = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
-    let text = grains::outcome::text(&s, out);
+    let text = grains::outcome(&s, out);
     Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))
 }
 
@@ -130,11 +126,10 @@ fn ended(
     text: String,
     (status, time, steps): (Status, f64, u64),
 ) -> Ended {
-    let json = serde_json::to_value(summary).unwrap_or(Json::Null);
     let stopped = status != Status::Done;
     Ended {
         interrupted: stopped.then_some((time, steps)),
-        told: CommandOutput { json, text },
+        told: CommandOutput::new(summary, text),
     }
 }
 
@@ -214,4 +209,22 @@ fn trouble(
         *advice = again;
     }
     trouble
+}
+
+/// The command that resumes the run.
+fn going_on(arguments: &RunArguments, out: &Path) -> String {
+    let scene = &arguments.scene;
+    let set = scene.set.iter().map(|set| ("--set", set.clone()));
+    let allowed = scene.allow_path.iter();
+    let allowed = allowed.map(|folder| ("--allow-path", folder.display().to_string()));
+    let out = ("--out", out.display().to_string());
+    let options = [out].into_iter().chain(set).chain(allowed);
+    shell::command(&["sph", "run", &scene.scene], options) + " --resume"
+}
+
+/// The summary that a failed run left; not one of an earlier run.
+fn failed_summary(path: &Path) -> Option<Json> {
+    let text = std::fs::read_to_string(path).ok()?;
+    let summary: Json = serde_json::from_str(&text).ok()?;
+    (summary["status"] == "failed").then_some(summary)
 }

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use sph_scene::{Source, read_text};
 
 use crate::arguments::ScenesArguments;
-use crate::gallery::Gallery;
+use crate::gallery::{GALLERY, Gallery};
 use crate::scene_file::{self, AnyScene};
 use crate::shipped::{self, Content, Shipped};
 use crate::terminal::layout::columns;
@@ -15,7 +15,7 @@ use crate::terminal::{console, diagnostics};
 
 /// Lists the shipped scenes.
 pub fn command(arguments: &ScenesArguments) -> Result<(), Trouble> {
-    let gallery = Gallery::own();
+    let gallery = &*GALLERY;
     if arguments.markdown {
         console::out(&page::markdown(gallery));
         return Ok(());
@@ -90,10 +90,7 @@ fn text(gallery: &Gallery, all: &[Shipped]) -> String {
     if text.is_empty() {
         return "there is no scene in ./scenes, and none was compiled in\n".into();
     }
-    let start = gallery
-        .start
-        .iter()
-        .map(|[name, why]| vec![name.clone(), why.clone()]);
+    let start = gallery.start.iter().map(|start| start.to_vec());
     let start = columns(2, &start.collect::<Vec<_>>());
     format!(
         "{text}Start here\n{start}\nsph run NAME runs one of them. {}\n",

@@ -6,20 +6,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use serde_json::Value as Json;
 use sph_core::suggestion;
 use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, execute, rows};
 
 use crate::arguments::StudyArguments;
 use crate::interrupt;
-use crate::scene_file::{SceneSource, allowed, find, overrides};
+use crate::scene_file::{allowed, find, overrides};
 use crate::shipped::{self, Content};
 use crate::terminal::console;
 use crate::terminal::layout::columns;
 use crate::terminal::output::CommandOutput;
-use crate::terminal::shell::quoted;
+use crate::terminal::shell;
 use crate::terminal::study_progress::Watcher;
 use crate::terminal::trouble::Trouble;
+
+/// A scene, and the folder that its data were unpacked to.
+type FoundScene = (SceneText, Option<sph_io::Scratch>);
 
 /// Most series whose orders are printed; the report has all.
 const MOST: usize = 12;
@@ -50,11 +52,14 @@ pub struct Studied {
     pub going_on: Option<String>,
 }
 
-/// Runs a study until it is done or the flag is raised.
+/// Runs a study until it is done or the flag is raised. Unless it is quiet, it reports its progress on stderr.
+///
+/// # Errors
+/// Mistakes of the study or its scenes with their places, files that cannot be written.
 pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
-    let scenes: RefCell<BTreeMap<String, SceneSource>> = RefCell::default();
+    let scenes: RefCell<BTreeMap<String, FoundScene>> = RefCell::default();
     let study = read(arguments, name, &scenes)?;
     let out = arguments.out.clone();
     let out = out.unwrap_or_else(|| Path::new("results/studies").join(&study.name));
@@ -77,10 +82,7 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
     published?;
     let records = &outcome.records;
     Ok(Studied {
-        told: CommandOutput {
-            json: serde_json::to_value(&results).unwrap_or(Json::Null),
-            text: text(&results, &out),
-        },
+        told: CommandOutput::new(&results, text(&results, &out)),
         going_on: outcome.stopped.then(|| kept(arguments, name, records)),
     })
 }
@@ -88,10 +90,6 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
 fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(), Trouble> {
     let load = |path| Results::load(path).map_err(Trouble::Usage);
     let comparison = compare(&load(first)?, &load(second)?);
-    if arguments.json {
-        console::json(&serde_json::to_value(&comparison).unwrap_or(Json::Null));
-        return Ok(());
-    }
     let mut text = String::new();
     for note in &comparison.notes {
         text.push_str(&format!("{note}\n"));
@@ -113,7 +111,7 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
     if let Some(ratio) = comparison.wall_ratio {
         text.push_str(&format!("wall seconds, geometric mean: ×{ratio:.3}\n"));
     }
-    console::out(&text);
+    CommandOutput::new(&comparison, text).print(arguments.json);
     Ok(())
 }
 
@@ -121,17 +119,17 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
 fn read(
     arguments: &StudyArguments,
     name: &str,
-    scenes: &RefCell<BTreeMap<String, SceneSource>>,
+    scenes: &RefCell<BTreeMap<String, FoundScene>>,
 ) -> Result<Study, Trouble> {
     let set = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
     let look = |folder: &Path, name: &str| -> Result<SceneText, String> {
-        let known = scenes.borrow().get(name).map(|s| s.scene.clone());
+        let known = scenes.borrow().get(name).map(|(scene, _)| scene.clone());
         if let Some(scene) = known {
             return Ok(scene);
         }
         let found = find(folder, name, allowed)?;
-        let scene = found.scene.clone();
+        let scene = found.0.clone();
         scenes.borrow_mut().insert(name.to_string(), found);
         Ok(scene)
     };
@@ -167,17 +165,13 @@ fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
 }
 
 fn text(results: &Results, out: &Path) -> String {
-    let pending = |k: usize| {
-        results
-            .variants
-            .get(k)
-            .is_some_and(|v| v.status == Status::Pending)
-    };
+    let is_pending = |v: &sph_study::VariantResult| v.status == Status::Pending;
+    let pending = |k: usize| results.variants.get(k).is_some_and(is_pending);
     let all = rows(results).into_iter().enumerate();
     let along = !results.frontiers.is_empty();
     let shown = all.filter(|(k, _)| *k == 0 || along || !pending(k - 1));
     let shown: Vec<Vec<String>> = shown.map(|(_, row)| row).collect();
-    let left = (0..results.variants.len()).filter(|k| pending(*k)).count();
+    let left = results.variants.iter().filter(|v| is_pending(v)).count();
     let mut text = format!("{}\n{}", results.title, columns(2, &shown));
     if left > 0 {
         text.push_str(&format!("{left} variants are pending\n"));
@@ -218,24 +212,14 @@ fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -
 }
 
 fn going_on(arguments: &StudyArguments, name: &str) -> String {
-    let mut words = vec!["sph".to_string(), "study".to_string(), quoted(name)];
-    let mut with = |option: &str, value: &str| {
-        words.extend([option.to_string(), quoted(value)]);
-    };
-    if let Some(out) = &arguments.out {
-        with("--out", &out.display().to_string());
-    }
-    if let Some(threads) = arguments.threads {
-        with("--threads", &threads.to_string());
-    }
-    for pattern in &arguments.only {
-        with("--only", pattern);
-    }
-    for set in &arguments.set {
-        with("--set", set);
-    }
-    for folder in &arguments.allow_path {
-        with("--allow-path", &folder.display().to_string());
-    }
-    words.join(" ")
+    let shown = |path: &PathBuf| path.display().to_string();
+    let out = arguments.out.iter().map(|out| ("--out", shown(out)));
+    let threads = arguments.threads.iter();
+    let threads = threads.map(|threads| ("--threads", threads.to_string()));
+    let only = arguments.only.iter().map(|only| ("--only", only.clone()));
+    let set = arguments.set.iter().map(|set| ("--set", set.clone()));
+    let allowed = arguments.allow_path.iter();
+    let allowed = allowed.map(|folder| ("--allow-path", shown(folder)));
+    let options = out.chain(threads).chain(only).chain(set).chain(allowed);
+    shell::command(&["sph", "study", name], options)
 }

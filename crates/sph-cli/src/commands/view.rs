@@ -2,7 +2,6 @@
 
 mod answer;
 mod series;
-mod state;
 
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read, Write};

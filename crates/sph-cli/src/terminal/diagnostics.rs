@@ -1,44 +1,19 @@
 //! Mistakes of a scene, shown in its text.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, sources};
 use serde_json::{Value as Json, json};
 use sph_core::MOST_PROBLEMS;
 use sph_io::clean;
-use sph_scene::{Diagnostic, Source};
+use sph_scene::Diagnostic;
 use sph_study::Mistake;
 
 /// Diagnostics shown one by one; of the others only the number.
 const MOST: usize = 20;
 
-/// A diagnostic with the text it points into.
-pub struct Located {
-    diagnostic: Diagnostic,
-    text: Arc<str>,
-}
-
-impl From<Mistake> for Located {
-    fn from(mistake: Mistake) -> Self {
-        Located {
-            diagnostic: mistake.diagnostic,
-            text: mistake.text,
-        }
-    }
-}
-
-/// Diagnostics with the texts they point into.
-pub fn located(source: &Source, diagnostics: &[Diagnostic]) -> Vec<Located> {
-    let with_text = |d: &Diagnostic| Located {
-        diagnostic: d.clone(),
-        text: source.shared_text_of(d),
-    };
-    diagnostics.iter().map(with_text).collect()
-}
-
 /// The diagnostics as text: the line, a mark under it, the expected value.
-pub fn render(all: &[Located], colour: bool) -> String {
+pub fn render(all: &[Mistake], colour: bool) -> String {
     let mut text = String::new();
     for located in all.iter().take(MOST) {
         text.push_str(&one(located, colour));
@@ -64,7 +39,7 @@ pub fn render(all: &[Located], colour: bool) -> String {
     text
 }
 
-fn one(located: &Located, colour: bool) -> String {
+fn one(located: &Mistake, colour: bool) -> String {
     let d = &cleaned(&located.diagnostic);
     let text = clean(&located.text);
     let plain = || format!("error: {d}\n");
@@ -146,8 +121,8 @@ fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
 }
 
 /// The diagnostics for a program.
-pub fn json(all: &[Located]) -> Json {
-    let one = |l: &Located| {
+pub fn json(all: &[Mistake]) -> Json {
+    let one = |l: &Mistake| {
         let d = &l.diagnostic;
         json!({
             "file": d.file,

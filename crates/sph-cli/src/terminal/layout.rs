@@ -1,6 +1,9 @@
 //! Text in columns.
 
 use serde_json::Value as Json;
+use sph_particles::setup::Memory;
+
+use crate::number;
 
 /// Rows as columns with two spaces between; the last column is not padded.
 pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
@@ -29,21 +32,42 @@ pub fn columns(indent: usize, rows: &[Vec<String>]) -> String {
     text
 }
 
-/// Rows as columns below their heads, and below each row its details.
-pub fn columns_and_below(
-    indent: usize,
-    heads: &[&str],
-    rows: Vec<(Vec<String>, String)>,
-) -> String {
-    let (rows, below): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+/// A name beside its value.
+pub fn row(name: &str, value: impl Into<String>) -> Vec<String> {
+    vec![name.to_string(), value.into()]
+}
+
+/// Rows as columns below their heads.
+pub fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let heads = heads.iter().map(|h| h.to_string()).collect();
     let rows: Vec<Vec<String>> = std::iter::once(heads).chain(rows).collect();
-    let table = columns(indent, &rows);
+    columns(2, &rows)
+}
+
+/// Rows as columns below their heads, and below each row its details.
+pub fn table_and_below(heads: &[&str], rows: Vec<(Vec<String>, String)>) -> String {
+    let (rows, below): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+    let table = table(heads, rows);
     let below = std::iter::once(String::new()).chain(below);
     let lines = table.lines().zip(below);
     lines
-        .map(|(line, below)| format!("{line}\n{}", paragraph(indent + 4, 98, &below)))
+        .map(|(line, below)| format!("{line}\n{}", paragraph(6, 98, &below)))
         .collect()
+}
+
+/// Titles with their rows, but for those without rows, and warnings, if there are any.
+pub fn sections<const N: usize>(
+    parts: [(&str, Vec<Vec<String>>); N],
+    warnings: &[String],
+) -> String {
+    let mut text = String::new();
+    for (title, rows) in parts.into_iter().filter(|(_, rows)| !rows.is_empty()) {
+        text.push_str(&format!("\n{title}\n{}", columns(2, &rows)));
+    }
+    if !warnings.is_empty() {
+        text.push_str(&format!("\nwarnings\n{}", remarks(warnings)));
+    }
+    text
 }
 
 /// A text broken between words, every line indented.
@@ -82,6 +106,17 @@ pub fn parameters(all: &Json) -> String {
     let given = all.as_object().into_iter().flatten();
     let list: Vec<String> = given.filter(|(_, v)| !v.is_null()).map(one).collect();
     list.join(", ")
+}
+
+/// The memory of a run, and the parts that are a twentieth of it and more.
+pub fn memory(memory: &Memory) -> String {
+    let all = memory.total();
+    let parts = memory.parts().into_iter();
+    let parts: Vec<String> = parts
+        .filter(|(_, bytes)| *bytes > 0.05 * all)
+        .map(|(name, bytes)| format!("{name} {}", number::percent(bytes / all)))
+        .collect();
+    format!("{}: {}", number::bytes(all), parts.join(", "))
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! The result of a command, for programs and for people.
 
+use serde::Serialize;
 use serde_json::Value as Json;
 
 use crate::terminal::console;
 
 /// Findings of a command.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct CommandOutput {
     /// For programs.
     pub json: Json,
@@ -14,6 +15,12 @@ pub struct CommandOutput {
 }
 
 impl CommandOutput {
+    /// Of findings, with their text.
+    pub(crate) fn new(findings: &impl Serialize, text: String) -> Self {
+        let json = serde_json::to_value(findings).unwrap_or(Json::Null);
+        CommandOutput { json, text }
+    }
+
     /// Prints one of the two.
     pub(crate) fn print(&self, json: bool) {
         match json {
@@ -24,6 +31,7 @@ impl CommandOutput {
 }
 
 /// The end of a run, which may be a stop by the user.
+#[derive(Default)]
 pub struct Ended {
     /// Its summary.
     pub told: CommandOutput,

@@ -29,24 +29,19 @@ pub struct Watcher {
 }
 
 impl Watcher {
-    /// A watcher that stops the run once the flag is raised.
-    pub fn new(quiet: bool, start: String, stop: Arc<AtomicBool>) -> Self {
+    /// A watcher that stops the run once the flag is raised, and counts something.
+    pub fn new(quiet: bool, start: String, noun: &'static str, stop: Arc<AtomicBool>) -> Self {
         let (display, every) = Display::new(quiet, LINE);
         Watcher {
             display,
             start: Some(start),
             stop,
-            noun: "particle",
+            noun,
             every,
             told: Instant::now(),
             meter: None,
             last: None,
         }
-    }
-
-    /// The same, counting something else.
-    pub fn counting(self, noun: &'static str) -> Self {
-        Watcher { noun, ..self }
     }
 
     /// Removes the bar, or prints the end of the run.

@@ -9,6 +9,14 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
+/// A command with its options, each of which stands before its value.
+pub fn command<'o>(words: &[&str], options: impl IntoIterator<Item = (&'o str, String)>) -> String {
+    let words = words.iter().map(|word| quoted(word));
+    let options = options.into_iter();
+    let options = options.map(|(option, value)| format!("{option} {}", quoted(&value)));
+    words.chain(options).collect::<Vec<_>>().join(" ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::quoted;

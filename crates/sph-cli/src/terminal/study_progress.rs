@@ -24,9 +24,8 @@ pub struct Watcher {
     /// Variants that are to be run or have been.
     total: usize,
     repetitions: usize,
-    /// By variant: whether there is something to do.
-    open: Vec<bool>,
-    names: Vec<String>,
+    /// By variant: its name, and whether there is something to do.
+    open: Vec<(String, bool)>,
     state: Mutex<State>,
 }
 
@@ -89,6 +88,7 @@ impl Watcher {
         let wanted = study.variants.iter().filter(|v| v.wanted).count();
         let to_run = open.iter().filter(|o| **o).count();
         let settled = wanted - to_run;
+        let names = study.variants.iter().map(|v| v.name.clone());
         let watcher = Watcher {
             display,
             stop,
@@ -96,8 +96,7 @@ impl Watcher {
             judged: study.variants.iter().map(|v| judged(study, v)).collect(),
             total: wanted,
             repetitions: file.repetitions,
-            open,
-            names: study.variants.iter().map(|v| v.name.clone()).collect(),
+            open: names.zip(open).collect(),
             state: Mutex::new(State {
                 started: Instant::now(),
                 told: Instant::now(),
@@ -119,13 +118,13 @@ impl Watcher {
 
     /// True if a variant has to run.
     pub fn has_to_run(&self, k: usize) -> bool {
-        self.open.get(k).copied().unwrap_or(false)
+        self.open.get(k).is_some_and(|(_, open)| *open)
     }
 
     /// A variant is good and will take about so long.
     pub fn assembled(&self, k: usize, work: f64) {
         let mut state = self.state();
-        if let Some(name) = self.names.get(k) {
+        if let Some((name, _)) = self.open.get(k) {
             state.cost.insert(name.clone(), work.max(1e-3));
             if let Display::Bar(bar) = &self.display {
                 bar.set_message(sph_io::clean(&format!("checked {name}")).into_owned());
@@ -170,10 +169,9 @@ impl State {
         let done = self.share.iter();
         let done = done.map(|(name, share)| share * self.cost.get(name).unwrap_or(&0.0));
         let done: f64 = done.sum();
-        if all > 0.0 {
-            (done / all).min(1.0)
-        } else {
-            0.0
+        match all > 0.0 {
+            true => (done / all).min(1.0),
+            false => 0.0,
         }
     }
 }
@@ -210,8 +208,8 @@ impl sph_study::Watcher for Watcher {
     fn finished(&self, variant: &Variant, record: &Record) {
         let mut state = self.state();
         state.share.insert(variant.name.clone(), 1.0);
-        let open = self.names.iter().position(|n| *n == variant.name);
-        if !open.is_some_and(|k| self.has_to_run(k)) {
+        let mut open = self.open.iter().filter(|(_, open)| *open);
+        if !open.any(|(name, _)| *name == variant.name) {
             return;
         }
         if record.status != Status::Interrupted {

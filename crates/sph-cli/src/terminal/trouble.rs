@@ -5,29 +5,24 @@ use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
 use sph_particles::RunError;
-use sph_scene::{LoadError, Source};
+use sph_scene::Source;
 use sph_solver::SolverError;
-use sph_study::{ReadError, Refused};
+use sph_study::{Mistake, ReadError, Refused};
 
-use crate::commands::interrupted::remedy;
 use crate::number;
 use crate::terminal::console;
-use crate::terminal::diagnostics::{self, Located};
+use crate::terminal::diagnostics;
 
 /// The reason why a command ended early.
 pub enum Trouble {
     /// The command line has a mistake.
     Usage(String),
     /// The scene has mistakes.
-    Scene(Vec<Located>),
+    Scene(Vec<Mistake>),
     /// The run failed; the summary it left, if it did.
     Failed {
         /// The error.
-        error: String,
-        /// The particle, and possible remedies, in lines.
-        more: String,
-        /// Exit code.
-        code: u8,
+        told: Box<ModelError>,
         /// Content of `summary.json`.
         summary: Option<Box<Json>>,
         /// The way to go on.
@@ -37,17 +32,6 @@ pub enum Trouble {
     Interrupted,
     /// Two compared results differ; all messages are written.
     Different,
-}
-
-impl From<LoadError> for Trouble {
-    fn from(error: LoadError) -> Self {
-        match error {
-            LoadError::Refused(refused) => {
-                Trouble::Scene(diagnostics::located(&refused.source, &refused.diagnostics))
-            }
-            unreadable => Trouble::Usage(unreadable.to_string()),
-        }
-    }
 }
 
 impl From<ReadError> for Trouble {
@@ -61,7 +45,7 @@ impl From<ReadError> for Trouble {
 
 impl From<Refused> for Trouble {
     fn from(refused: Refused) -> Self {
-        Trouble::Scene(refused.mistakes.into_iter().map(Located::from).collect())
+        Trouble::Scene(refused.mistakes)
     }
 }
 
@@ -77,7 +61,9 @@ pub struct ModelError {
     /// Mistakes of the scene, if it is these.
     mistakes: Vec<SceneProblem>,
     error: String,
+    /// The particle, and possible remedies, in lines.
     more: String,
+    /// Exit code.
     code: u8,
     /// True if a step failed.
     pub ran: bool,
@@ -143,9 +129,7 @@ impl From<DemError> for ModelError {
 impl From<ModelError> for Trouble {
     fn from(told: ModelError) -> Self {
         Trouble::Failed {
-            error: told.error,
-            more: told.more,
-            code: told.code,
+            told: Box::new(told),
             summary: None,
             advice: None,
         }
@@ -160,7 +144,7 @@ impl Trouble {
             true => told.into(),
             false => {
                 let found = source.diagnose(&told.mistakes);
-                Trouble::Scene(diagnostics::located(source, &found))
+                Trouble::Scene(Mistake::located(source, &found))
             }
         }
     }
@@ -174,7 +158,7 @@ impl Trouble {
     pub fn exit_code(&self) -> u8 {
         match self {
             Trouble::Usage(_) | Trouble::Scene(_) => 2,
-            Trouble::Failed { code, .. } => *code,
+            Trouble::Failed { told, .. } => told.code,
             Trouble::Interrupted | Trouble::Different => 1,
         }
     }
@@ -184,14 +168,10 @@ impl Trouble {
         match self {
             Trouble::Usage(message) => format!("error: {message}\n"),
             Trouble::Scene(all) => diagnostics::render(all, colour),
-            Trouble::Failed {
-                error,
-                more,
-                advice,
-                ..
-            } => {
+            Trouble::Failed { told, advice, .. } => {
                 let advice = advice.iter().map(|advice| format!("{advice}\n"));
-                format!("error: {error}\n{more}{}", advice.collect::<String>())
+                let advice: String = advice.collect();
+                format!("error: {}\n{}{advice}", told.error, told.more)
             }
             Trouble::Interrupted | Trouble::Different => String::new(),
         }
@@ -202,10 +182,10 @@ impl Trouble {
         match self {
             Trouble::Usage(message) => json!([{ "message": message }]),
             Trouble::Scene(all) => diagnostics::json(all),
-            Trouble::Failed { error, summary, .. } => match summary {
+            Trouble::Failed { told, summary, .. } => match summary {
                 // The remaining text, or else the error alone.
                 Some(summary) => (**summary).clone(),
-                None => json!([{ "message": error }]),
+                None => json!([{ "message": told.error }]),
             },
             Trouble::Interrupted | Trouble::Different => Json::Null,
         }
@@ -227,6 +207,17 @@ impl Trouble {
 
 /// True if a checkpoint could not be read; one that could not be *written* leaves the one before.
 fn is_unreadable_checkpoint(error: &IoError) -> bool {
-    let read = matches!(error, IoError::Read { .. } | IoError::Checkpoint { .. });
-    read && error.path().extension().is_some_and(|e| e == "sph")
+    let (IoError::Read(path, _) | IoError::Checkpoint(path, _)) = error else {
+        return false;
+    };
+    path.extension().is_some_and(|e| e == "sph")
+}
+
+/// First remedy where a file could not be written.
+fn remedy(error: &IoError) -> Option<&'static str> {
+    match error {
+        IoError::DiskFull(..) => Some("make room"),
+        IoError::Write(..) | IoError::NotWritable(..) => Some("make the folder writable"),
+        _ => None,
+    }
 }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 
+use flate2::CrcReader;
 use serde_json::Value;
 
 use super::{
@@ -27,13 +28,11 @@ impl Checkpoint {
         let file = File::open(path).map_err(failed)?;
         let length = file.metadata().map_err(failed)?.len();
         let input = BufReader::with_capacity(CHUNK, file);
-        let read = Source::new(input, length).checkpoint();
+        let input = CrcReader::new(input);
+        let read = Source { input, length }.checkpoint();
         read.map_err(|trouble| match trouble {
             ReadFault::Read(source) => IoError::read(path, source),
-            ReadFault::Fault(fault) => IoError::Checkpoint {
-                path: path.to_path_buf(),
-                fault,
-            },
+            ReadFault::Fault(fault) => IoError::Checkpoint(path.into(), fault),
         })
     }
 
@@ -42,61 +41,43 @@ impl Checkpoint {
     /// # Errors
     /// The check that failed.
     pub fn from_bytes(bytes: &[u8]) -> std::result::Result<Self, Fault> {
-        let found = bytes.len() as u64;
-        let read = Source::new(bytes, found).checkpoint();
+        let length = bytes.len() as u64;
+        let input = CrcReader::new(bytes);
+        let read = Source { input, length }.checkpoint();
         read.map_err(|trouble| match trouble {
             ReadFault::Fault(fault) => fault,
             // Sizes are checked first, so that there is always enough to read.
             ReadFault::Read(_) => Fault::Length {
                 expected: PREFIX + SUFFIX,
-                found,
+                found: length,
             },
         })
     }
 }
 
 /// Reason that a checkpoint could not be read: the disk, or its contents.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
 enum ReadFault {
-    Read(io::Error),
-    Fault(Fault),
+    Read(#[from] io::Error),
+    Fault(#[from] Fault),
 }
 
-impl From<io::Error> for ReadFault {
-    fn from(error: io::Error) -> Self {
-        Self::Read(error)
-    }
-}
-
-impl From<Fault> for ReadFault {
-    fn from(fault: Fault) -> Self {
-        Self::Fault(fault)
-    }
-}
-
-/// The file and the checksum of the part that has been read.
+/// The file, and the checksum of the part that has been read.
 struct Source<R> {
-    input: R,
-    sum: crc32fast::Hasher,
+    input: CrcReader<R>,
     /// Length of the file in bytes.
     length: u64,
 }
 
 impl<R: Read> Source<R> {
-    fn new(input: R, length: u64) -> Self {
-        Source {
-            input,
-            sum: crc32fast::Hasher::new(),
-            length,
-        }
-    }
-
     fn checkpoint(mut self) -> std::result::Result<Checkpoint, ReadFault> {
         let header = self.header()?;
         let mut columns = Vec::with_capacity(header.columns.len());
         for shape in header.columns {
             columns.push(self.column(shape)?);
         }
-        let found = self.sum.clone().finalize();
+        let found = self.input.crc().sum();
         let expected = u32::from_le_bytes(self.take()?);
         if found != expected {
             return Err(Fault::Checksum { expected, found }.into());
@@ -186,14 +167,12 @@ impl<R: Read> Source<R> {
     fn bytes(&mut self, count: u64) -> io::Result<Vec<u8>> {
         let mut bytes = vec![0; count as usize];
         self.input.read_exact(&mut bytes)?;
-        self.sum.update(&bytes);
         Ok(bytes)
     }
 
     fn take<const N: usize>(&mut self) -> io::Result<[u8; N]> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes)?;
-        self.sum.update(&bytes);
         Ok(bytes)
     }
 }

@@ -1,8 +1,7 @@
 //! Values between particles.
 
 use nalgebra::{Matrix4, Vector4};
-
-use crate::curves::cells::PlaceCells;
+use sph_core::place_cells::PlaceCells;
 
 /// Radius of the fit, in spacings: some 20 particles in the plane and 65 in space.
 const RADIUS: f64 = 2.5;
@@ -38,7 +37,7 @@ pub struct Cloud<'a> {
     pub points: &'a [[f64; 3]],
     /// Their distance, m.
     pub spacing: f64,
-    cells: PlaceCells<u32>,
+    cells: PlaceCells<3, u32>,
     /// True if they lie in a plane of constant z.
     pub planar: bool,
 }
@@ -49,16 +48,14 @@ impl<'a> Cloud<'a> {
     pub fn new(points: &'a [[f64; 3]], spacing: f64) -> Self {
         let first = points.first().map_or(0.0, |p| p[2]);
         let planar = points.iter().all(|p| p[2] == first);
-        let mut cells = PlaceCells::new(RADIUS * spacing);
-        for (k, point) in points.iter().enumerate() {
-            if point.iter().all(|x| x.is_finite()) {
-                cells.add(*point, k as u32);
-            }
-        }
+        let finite = (0..)
+            .zip(points)
+            .filter(|(_, p)| p.iter().all(|x| x.is_finite()));
+        let cells = finite.map(|(k, point)| (zyx(*point), k));
         Cloud {
             points,
             spacing,
-            cells,
+            cells: PlaceCells::new(RADIUS * spacing, cells),
             planar,
         }
     }
@@ -70,7 +67,7 @@ impl<'a> Cloud<'a> {
             let r = self.points[j as usize];
             (j, [0, 1, 2].map(|k| r[k] - x[k]))
         };
-        let here = self.cells.around(x);
+        let here = self.cells.around(zyx(x));
         here.map(apart)
             .filter(move |(_, d)| square(d) < reach * reach)
     }
@@ -108,6 +105,11 @@ impl<'a> Cloud<'a> {
         let stretched: f64 = shares.iter().map(|(_, share)| share.abs()).sum();
         (stretched <= STRETCHED).then_some(shares)
     }
+}
+
+/// A place as cells have it, so that neighbours come in the order of their x, y and z.
+fn zyx([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [z, y, x]
 }
 
 /// The squared length.

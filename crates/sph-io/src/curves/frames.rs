@@ -96,7 +96,12 @@ impl Frames {
             Some(path) => drawn(&crate::read_piece(path)?.0, self.spacing),
             None => Vec::new(),
         };
-        Ok(Snapshot::new(piece, time, walls, self.spacing))
+        Ok(Snapshot {
+            piece,
+            time,
+            walls,
+            spacing: self.spacing,
+        })
     }
 }
 
@@ -119,13 +124,8 @@ fn spacing(points: &[[f64; 3]]) -> f64 {
             true => f64::INFINITY,
             false => (0..3).map(|i| (r[i] - x[i]).powi(2)).sum(),
         };
-        nearest.push(
-            points
-                .iter()
-                .enumerate()
-                .map(apart)
-                .fold(f64::INFINITY, f64::min),
-        );
+        let all = points.iter().enumerate().map(apart);
+        nearest.push(all.fold(f64::INFINITY, f64::min));
     }
     nearest.sort_by(f64::total_cmp);
     let middle = nearest.get(nearest.len() / 2).copied().unwrap_or(1.0);

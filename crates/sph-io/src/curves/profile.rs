@@ -77,14 +77,8 @@ pub fn draw_profile(
             .push(Series::line(format!("t = {time} s"), points));
     }
     plot.save(path)?;
-    let columns = [
-        ("time", "s"),
-        ("distance", "m"),
-        ("x", "m"),
-        ("y", "m"),
-        ("z", "m"),
-        (field, &unit),
-    ];
+    let mut columns = vec![("time", "s"), ("distance", "m")];
+    columns.extend([("x", "m"), ("y", "m"), ("z", "m"), (field, &*unit)]);
     Ok(crate::write_table(
         path.with_extension("csv"),
         columns,

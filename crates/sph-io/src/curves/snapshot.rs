@@ -1,17 +1,26 @@
 //! One frame with its columns.
 
+use sph_core::{Corners, bounds};
+
 use crate::curves::{Cloud, DrawError};
 use crate::{FieldValues, Location, Picture, Piece, View};
 
 /// Particles at one time.
 pub struct Snapshot {
-    piece: Piece<'static>,
+    pub(crate) piece: Piece<'static>,
     /// Simulated time, s.
     pub time: f64,
     /// Walls in the plane, by their ends, m.
     pub walls: Vec<[[f64; 3]; 2]>,
     /// Distance of particles at the start, m.
     pub spacing: f64,
+}
+
+/// The box around points, whose coordinates that are not finite do not count; zero along an axis where there is none.
+pub(crate) fn finite_bounds<'p>(points: impl Iterator<Item = &'p [f64; 3]>) -> Corners<3> {
+    let finite = |x: f64| if x.is_finite() { x } else { f64::NAN };
+    let ends = bounds(points.map(|point| point.map(finite)));
+    ends.map(|corner| corner.map(|x| if x.is_finite() { x } else { 0.0 }))
 }
 
 /// One number per particle.
@@ -25,23 +34,14 @@ pub struct Column {
 }
 
 impl Snapshot {
-    pub(crate) fn new(
-        piece: Piece<'static>,
-        time: f64,
-        walls: Vec<[[f64; 3]; 2]>,
-        spacing: f64,
-    ) -> Self {
-        Snapshot {
-            piece,
-            time,
-            walls,
-            spacing,
-        }
-    }
-
     /// Positions of the particles, m.
     pub fn points(&self) -> &[[f64; 3]] {
         &self.piece.points
+    }
+
+    /// The box around the particles, m.
+    pub(crate) fn bounds(&self) -> Corners<3> {
+        finite_bounds(self.points().iter())
     }
 
     /// The particles sorted for values between them.

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use crate::curves::cells::PlaceCells;
+use sph_core::place_cells::PlaceCells;
+
 use crate::curves::cloud::square;
-use crate::curves::{Cloud, DrawError, Frames, Snapshot};
+use crate::curves::{Cloud, DrawError, Frames};
 
 /// Length of a step along a line, in spacings.
 const STEP: f64 = 0.25;
@@ -38,11 +39,11 @@ pub fn streamlines(
     let mut seeds: Vec<u32> = (0..cloud.points.len() as u32).collect();
     // The same on every machine: particles of one speed keep their order.
     seeds.sort_by(|a, b| speed(*b).total_cmp(&speed(*a)).then(a.cmp(b)));
-    let mut drawn = PointCells::new(apart);
+    let mut drawn = PointCells::new(apart, []);
     let mut lines = Vec::new();
     for seed in seeds {
         let start = cloud.points[seed as usize];
-        if drawn.near(start, apart) {
+        if near(&drawn, start, apart) {
             continue;
         }
         let line = flow.through(start, &drawn, apart);
@@ -56,10 +57,8 @@ pub fn streamlines(
 }
 
 fn fastest(velocity: &[f64]) -> f64 {
-    let speeds = velocity
-        .chunks(3)
-        .map(|u| u.iter().map(|x| x * x).sum::<f64>());
-    speeds.fold(0.0, f64::max).sqrt()
+    let (velocities, _) = velocity.as_chunks();
+    velocities.iter().map(square).fold(0.0, f64::max).sqrt()
 }
 
 /// A field of directions.
@@ -124,7 +123,7 @@ impl Flow<'_> {
     ) -> (Vec<[f64; 3]>, bool) {
         let mut line = vec![start];
         // Its own earlier points, of which the last ones are always near.
-        let mut own = PointCells::new(apart);
+        let mut own = PointCells::new(apart, []);
         let lag = (2.0 * apart / step.abs()).ceil() as usize;
         let home = |x: &[f64; 3]| square(&[0, 1, 2].map(|k| x[k] - start[k])).sqrt();
         let crowded = CROWDED * apart;
@@ -133,7 +132,8 @@ impl Flow<'_> {
                 line.push(start);
                 return (line, true);
             }
-            if drawn.near(next, crowded) || own.near(next, 0.5 * crowded) || line.len() == LONGEST {
+            let taken = near(drawn, next, crowded) || near(&own, next, 0.5 * crowded);
+            if taken || line.len() == LONGEST {
                 break;
             }
             line.push(next);
@@ -149,14 +149,12 @@ impl Flow<'_> {
 }
 
 /// Points of lines, sorted into cells.
-type PointCells = PlaceCells<[f64; 3]>;
+type PointCells = PlaceCells<3, [f64; 3]>;
 
-impl PointCells {
-    /// True if a point is nearer than `reach`, which is at most a side of a cell.
-    fn near(&self, x: [f64; 3], reach: f64) -> bool {
-        let apart = |p: &[f64; 3]| square(&[0, 1, 2].map(|k| p[k] - x[k]));
-        self.around(x).any(|p| apart(p) < reach * reach)
-    }
+/// True if a point is nearer than `reach`, which is at most a side of a cell.
+fn near(points: &PointCells, x: [f64; 3], reach: f64) -> bool {
+    let apart = |p: &[f64; 3]| square(&[0, 1, 2].map(|k| p[k] - x[k]));
+    points.around(x).any(|p| apart(p) < reach * reach)
 }
 
 /// Draws streamlines over a field of the frame nearest to a time (s; the last one if there is none) into a picture,
@@ -176,14 +174,11 @@ pub fn draw_streamlines(
     let snapshot = frames.read(frames.at(time))?;
     let (velocity, column) = (snapshot.velocity()?, snapshot.column(field)?);
     let cloud = snapshot.cloud();
-    let sides = [0, 1, 2]
-        .map(|k| ends(&snapshot, k))
-        .map(|[lo, hi]| hi - lo);
-    let apart = apart.unwrap_or(sides.iter().fold(0.0_f64, |m, s| m.max(*s)) / 40.0);
-    let apart = apart.max(snapshot.spacing);
+    let [low, high] = snapshot.bounds();
+    let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    let apart = apart.unwrap_or(longest / 40.0).max(snapshot.spacing);
     let flat = if cloud.planar { 2 } else { 1 };
-    let [near, far] = ends(&snapshot, flat);
-    let level = plane.unwrap_or(0.5 * (near + far));
+    let level = plane.unwrap_or(0.5 * (low[flat] + high[flat]));
     // Lines of a slice begin at its own particles, moved into it.
     let (mut points, mut values, mut moving) = (Vec::new(), Vec::new(), Vec::new());
     for (k, point) in snapshot.points().iter().enumerate() {
@@ -221,18 +216,6 @@ pub fn draw_streamlines(
     let rows: Vec<Vec<f64>> = rows.collect();
     crate::write_table(path.with_extension("csv"), columns, &rows)?;
     Ok(lines.len())
-}
-
-fn ends(snapshot: &Snapshot, axis: usize) -> [f64; 2] {
-    let along = snapshot
-        .points()
-        .iter()
-        .map(|p| p[axis])
-        .filter(|x| x.is_finite());
-    let (lo, hi) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| {
-        (lo.min(x), hi.max(x))
-    });
-    if lo <= hi { [lo, hi] } else { [0.0, 0.0] }
 }
 
 /// The head of an arrow in the middle of a line.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::curves::snapshot::finite_bounds;
 use crate::curves::{DrawError, Frames, Snapshot};
 
 /// The places of a particle, frame by frame.
@@ -78,7 +79,8 @@ pub fn draw_tracks(
     let snapshot = frames.read(frames.at(None))?;
     let column = snapshot.column(field)?;
     let along = tracks.iter().flat_map(|t| t.places.iter().map(|(_, x)| x));
-    let half = extent(along.chain(snapshot.points())).map(|side| 0.5 * side);
+    let [low, high] = finite_bounds(along.chain(snapshot.points()));
+    let half = [0, 1, 2].map(|k| 0.5 * (high[k] - low[k]));
     let lines: Vec<Vec<[f64; 3]>> = tracks.iter().flat_map(|t| unbroken(t, half)).collect();
     let picture = crate::Picture {
         label: &column.label,
@@ -118,14 +120,4 @@ fn unbroken(track: &Track, longest: [f64; 3]) -> Vec<Vec<[f64; 3]>> {
         }
     }
     pieces
-}
-
-/// The sides of the box around points, m.
-fn extent<'p>(points: impl Iterator<Item = &'p [f64; 3]> + Clone) -> [f64; 3] {
-    [0, 1, 2].map(|k| {
-        let along = points.clone().map(|p| p[k]).filter(|x| x.is_finite());
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (lo, hi) = along.fold(ends, |(lo, hi), x| (lo.min(x), hi.max(x)));
-        (hi - lo).max(0.0)
-    })
 }

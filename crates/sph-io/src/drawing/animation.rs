@@ -98,10 +98,8 @@ fn on_white(map: &Pixmap, width: usize, height: usize) -> Vec<u8> {
 
 fn read(path: &Path) -> Result<Pixmap> {
     let bytes = std::fs::read(path).map_err(|e| IoError::read(path, e))?;
-    let map = Pixmap::decode_png(&bytes).map_err(|e| IoError::Unfit {
-        path: path.to_path_buf(),
-        problem: format!("it is no picture: {e}"),
-    })?;
+    let map = Pixmap::decode_png(&bytes)
+        .map_err(|e| IoError::Unfit(path.into(), format!("it is no picture: {e}")))?;
     match map.width() > WIDEST && map.height() > 1 {
         true => Ok(halved(&map).unwrap_or(map)),
         false => Ok(map),
@@ -127,28 +125,30 @@ fn halved(map: &Pixmap) -> Option<Pixmap> {
 mod tests {
     use super::*;
 
+    /// A picture of a colour and a width, and 20 pixels high.
+    fn picture(folder: &Path, name: &str, width: u32, [r, g, b]: [u8; 3]) -> PathBuf {
+        let mut map = Pixmap::new(width, 20).expect("a map");
+        map.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
+        let path = folder.join(name);
+        map.save_png(&path).expect("saved");
+        path
+    }
+
+    fn decoder(path: &Path) -> gif::Decoder<std::fs::File> {
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let file = std::fs::File::open(path).expect("there");
+        options.read_info(file).expect("a GIF")
+    }
+
     #[test]
     fn frames_come_back_with_their_size_order_and_delays() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut pictures = Vec::new();
-        for (k, colour) in [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
-            .into_iter()
-            .enumerate()
-        {
-            let [r, g, b] = colour;
-            let mut map = Pixmap::new(30, 20).expect("a map");
-            map.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
-            let path = folder.path().join(format!("{k}.png"));
-            map.save_png(&path).expect("saved");
-            pictures.push(path);
-        }
+        let at = |k: usize, colour| picture(folder.path(), &format!("{k}.png"), 30, colour);
+        let pictures = [at(0, [255, 0, 0]), at(1, [0, 255, 0]), at(2, [0, 0, 255])];
         let path = folder.path().join("a.gif");
         write_gif(&path, &pictures, 12.5).expect("written");
-        let mut options = gif::DecodeOptions::new();
-        options.set_color_output(gif::ColorOutput::RGBA);
-        let mut decoder = options
-            .read_info(std::fs::File::open(&path).expect("there"))
-            .expect("a GIF");
+        let mut decoder = decoder(&path);
         assert_eq!((decoder.width(), decoder.height()), (30, 20));
         let mut seen = Vec::new();
         while let Some(frame) = decoder.read_next_frame().expect("a frame") {
@@ -177,20 +177,11 @@ mod tests {
     #[test]
     fn smaller_pictures_stand_on_white_and_nothing_is_written_of_what_is_none() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut pictures = Vec::new();
-        for (k, width) in [30, 20].into_iter().enumerate() {
-            let path = folder.path().join(format!("{k}.png"));
-            let mut map = Pixmap::new(width, 20).expect("a map");
-            map.fill(tiny_skia::Color::BLACK);
-            map.save_png(&path).expect("saved");
-            pictures.push(path);
-        }
+        let black = |name, width| picture(folder.path(), name, width, [0; 3]);
+        let pictures = [black("0.png", 30), black("1.png", 20)];
         let path = folder.path().join("a.gif");
         write_gif(&path, &pictures, 10.0).expect("written");
-        let mut options = gif::DecodeOptions::new();
-        options.set_color_output(gif::ColorOutput::RGBA);
-        let file = std::fs::File::open(&path).expect("there");
-        let mut decoder = options.read_info(file).expect("a GIF");
+        let mut decoder = decoder(&path);
         let mut last = |column: usize| {
             let frame = decoder.read_next_frame().expect("read").expect("a frame");
             [frame.buffer[0], frame.buffer[4 * column]]

@@ -137,8 +137,8 @@ pub(crate) fn left_room(axis: &PlotAxis, height: f64, size: f64) -> f64 {
 }
 
 fn label_room(ticks: &Ticks, size: f64) -> f64 {
-    let widths = ticks.major.iter().map(|(_, l)| text::width(l, size));
-    widths.fold(0.0, f64::max) + 2.4 * size
+    let labels = ticks.major.iter().map(|(_, label)| label.as_str());
+    text::widest(labels, size) + 2.4 * size
 }
 
 fn y_ticks(axis: &PlotAxis, height: f64, size: f64) -> Ticks {

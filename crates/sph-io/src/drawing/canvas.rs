@@ -10,7 +10,7 @@ use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::text;
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
+use crate::files::atomic::write_whole;
 
 /// Sides in pixels that a picture may have.
 pub(crate) const SIDES: std::ops::RangeInclusive<u32> = 200..=8192;
@@ -33,7 +33,7 @@ impl Canvas {
     pub(crate) fn save(&self, path: &Path) -> Result<()> {
         let png = self.map.encode_png();
         let png = png.map_err(|e| IoError::write(path, std::io::Error::other(e)))?;
-        write_atomic(path, Durability::Process, |file| file.write_all(&png))
+        write_whole(path, png)
     }
 
     /// A filled circle, leaving out the part outside of `clip`.
@@ -42,16 +42,14 @@ impl Canvas {
         let drawn = radius.max(0.6);
         let opacity = fill.opacity * (radius / drawn).powi(2);
         let reach = drawn + 0.5;
-        let (width, height) = (self.map.width(), self.map.height());
         let span = |at: f64, lo: f64, hi: f64, side: u32| {
             let from = (at - reach).max(lo).floor().clamp(0.0, f64::from(side));
             let to = (at + reach).min(hi).ceil().clamp(0.0, f64::from(side));
             from as usize..to as usize
         };
-        let columns = span(x, clip.left, clip.right, width);
+        let columns = span(x, clip.left, clip.right, self.map.width());
         let solid = (drawn - 0.5).max(0.0).powi(2);
-        let data = self.map.data_mut();
-        for j in span(y, clip.top, clip.bottom, height) {
+        for j in span(y, clip.top, clip.bottom, self.map.height()) {
             let dy = j as f64 + 0.5 - y;
             for i in columns.clone() {
                 let dx = i as f64 + 0.5 - x;
@@ -62,8 +60,7 @@ impl Canvas {
                     reach - square.sqrt()
                 };
                 if cover > 0.0 {
-                    let at = 4 * (j * width as usize + i);
-                    blend(&mut data[at..at + 3], fill.colour, cover.min(1.0) * opacity);
+                    self.blend([i, j], fill.colour, cover.min(1.0) * opacity);
                 }
             }
         }
@@ -71,17 +68,14 @@ impl Canvas {
 
     /// Fills whole pixels.
     pub(crate) fn block(&mut self, rect: Rect, colour: Colour) {
-        let (width, height) = (self.map.width(), self.map.height());
         let span = |from: f64, to: f64, side: u32| {
             let end = f64::from(side);
             from.round().clamp(0.0, end) as usize..to.round().clamp(0.0, end) as usize
         };
-        let columns = span(rect.left, rect.right, width);
-        let data = self.map.data_mut();
-        for j in span(rect.top, rect.bottom, height) {
+        let columns = span(rect.left, rect.right, self.map.width());
+        for j in span(rect.top, rect.bottom, self.map.height()) {
             for i in columns.clone() {
-                let at = 4 * (j * width as usize + i);
-                blend(&mut data[at..at + 3], colour, 1.0);
+                self.blend([i, j], colour, 1.0);
             }
         }
     }
@@ -90,8 +84,18 @@ impl Canvas {
     pub(crate) fn dot(&mut self, [i, j]: [usize; 2], colour: Colour) {
         let (width, height) = (self.map.width() as usize, self.map.height() as usize);
         if i < width && j < height {
-            let at = 4 * (j * width + i);
-            blend(&mut self.map.data_mut()[at..at + 3], colour, 1.0);
+            self.blend([i, j], colour, 1.0);
+        }
+    }
+
+    /// Mixes a colour into a pixel of the image.
+    fn blend(&mut self, [i, j]: [usize; 2], Colour(colour): Colour, cover: f64) {
+        let at = 4 * (j * self.map.width() as usize + i);
+        let part = (cover * 256.0) as u32;
+        let pixel = &mut self.map.data_mut()[at..at + 3];
+        for (old, new) in pixel.iter_mut().zip(colour) {
+            let mixed = u32::from(*old) * (256 - part) + u32::from(new) * part;
+            *old = (mixed >> 8) as u8;
         }
     }
 
@@ -152,7 +156,6 @@ impl DrawTarget for Canvas {
         };
         let (x, y) = (x.round() as i32, y.round() as i32);
         let (width, height) = (self.map.width() as i32, self.map.height() as i32);
-        let data = self.map.data_mut();
         text::pixels(text, lettering.size, |right, down, cover| {
             let (i, j) = if lettering.upwards {
                 (x + down, y - right)
@@ -160,8 +163,7 @@ impl DrawTarget for Canvas {
                 (x + right, y + down)
             };
             if (0..width).contains(&i) && (0..height).contains(&j) {
-                let at = 4 * (j as usize * width as usize + i as usize);
-                blend(&mut data[at..at + 3], Colour::INK, f64::from(cover));
+                self.blend([i as usize, j as usize], Colour::INK, f64::from(cover));
             }
         });
     }
@@ -189,13 +191,4 @@ fn paint(fill: Fill) -> Paint<'static> {
     let alpha = (fill.opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
     paint.set_color_rgba8(r, g, b, alpha);
     paint
-}
-
-/// Mixes `colour` into an opaque pixel.
-fn blend(pixel: &mut [u8], Colour(colour): Colour, cover: f64) {
-    let part = (cover * 256.0) as u32;
-    for (old, new) in pixel.iter_mut().zip(colour) {
-        let mixed = u32::from(*old) * (256 - part) + u32::from(new) * part;
-        *old = (mixed >> 8) as u8;
-    }
 }

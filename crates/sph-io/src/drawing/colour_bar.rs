@@ -1,39 +1,23 @@
-//! The scale beside a picture of colours and numbers.
+//! The scale beside a picture: of colours and numbers, or of names.
 
 use crate::drawing::axes::crisp;
 use crate::drawing::canvas::Canvas;
-use crate::drawing::colour::{Colour, ColourMap};
+use crate::drawing::colour::{Colour, ColourMap, SERIES};
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect};
 use crate::drawing::text;
 use crate::drawing::ticks::{Ticks, linear};
 
 /// A vertical colour scale with ticks and a label.
 pub(crate) struct ColourBar<'a> {
-    range: [f64; 2],
-    colours: ColourMap,
-    label: &'a str,
+    pub(crate) range: [f64; 2],
+    pub(crate) colours: ColourMap,
+    pub(crate) label: &'a str,
     /// True for values below, and above, the range: pointed ends.
-    beyond: [bool; 2],
-    size: f64,
+    pub(crate) beyond: [bool; 2],
+    pub(crate) size: f64,
 }
 
-impl<'a> ColourBar<'a> {
-    pub(crate) fn new(
-        range: [f64; 2],
-        colours: ColourMap,
-        label: &'a str,
-        beyond: [bool; 2],
-        size: f64,
-    ) -> Self {
-        Self {
-            range,
-            colours,
-            label,
-            beyond,
-            size,
-        }
-    }
-
+impl ColourBar<'_> {
     /// Pixels that the bar takes to the right of the frame.
     pub(crate) fn room(&self) -> f64 {
         // With the most ticks it can have; fewer are never wider.
@@ -115,15 +99,48 @@ impl<'a> ColourBar<'a> {
 
     fn ticks(&self, height: f64) -> Ticks {
         let [lo, hi] = self.range;
-        linear(
-            lo,
-            hi,
-            (height / (3.2 * self.size)).clamp(2.0, 7.0) as usize,
-        )
+        let wanted = (height / (3.2 * self.size)).clamp(2.0, 7.0);
+        linear(lo, hi, wanted as usize)
     }
 
     fn labels_width(&self, ticks: &Ticks) -> f64 {
-        let widths = ticks.major.iter().map(|(_, l)| text::width(l, self.size));
-        widths.fold(0.0, f64::max)
+        let labels = ticks.major.iter().map(|(_, label)| label.as_str());
+        text::widest(labels, self.size)
+    }
+}
+
+/// A list of names, one below the other, to the right of the frame.
+pub(crate) struct ClassBar<'a> {
+    pub(crate) names: &'a [String],
+    pub(crate) size: f64,
+}
+
+impl ClassBar<'_> {
+    /// Pixels that the list takes to the right of the frame.
+    pub(crate) fn room(&self) -> f64 {
+        let names = self.names.iter().map(String::as_str);
+        text::widest(names, self.size) + 3.2 * self.size
+    }
+
+    pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
+        let size = self.size;
+        for (k, name) in self.names.iter().enumerate() {
+            let top = frame.top + 1.6 * k as f64 * size;
+            let block = Rect {
+                left: frame.right + 0.8 * size,
+                right: frame.right + 1.8 * size,
+                top,
+                bottom: top + size,
+            };
+            on.block(block, SERIES[k % SERIES.len()]);
+            let [a, b, c, d] = block.corners();
+            on.line(&[a, b, c, d, a], Pen::solid(Colour::INK, size / 16.0));
+            let start = Lettering::new(size, Anchor::Start);
+            on.text(
+                [block.right + 0.4 * size, block.bottom - 0.14 * size],
+                name,
+                start,
+            );
+        }
     }
 }

@@ -1,49 +1,25 @@
 //! The part of the plane in a picture.
 
+use sph_core::{Corners, bounds};
+
 use crate::drawing::draw_target::Spot;
 use crate::drawing::ticks::widened;
 
 /// Size of coordinates beyond which a difference might not be finite.
 const SANE: f64 = 1e150;
 
-/// The least box around some spots.
-#[derive(Clone, Copy)]
-struct Extent {
-    lo: Spot,
-    hi: Spot,
+/// The least box around some spots; none if there are none that are sane.
+fn around(spots: impl Iterator<Item = Spot>) -> Option<Corners<2>> {
+    let [lo, hi] = bounds(spots.filter(|spot| spot.iter().all(|x| x.abs() < SANE)));
+    (lo[0] <= hi[0]).then_some([lo, hi])
 }
 
-impl Extent {
-    fn from_spots(spots: impl Iterator<Item = Spot>) -> Option<Self> {
-        let sane = |s: &Spot| s.iter().all(|x| x.abs() < SANE);
-        let point = |at| Self { lo: at, hi: at };
-        spots.filter(sane).map(point).reduce(Self::joined)
-    }
+fn grown([lo, hi]: Corners<2>, by: f64) -> Corners<2> {
+    [lo.map(|x| x - by), hi.map(|x| x + by)]
+}
 
-    fn joined(self, other: Self) -> Self {
-        Self {
-            lo: [0, 1].map(|i| self.lo[i].min(other.lo[i])),
-            hi: [0, 1].map(|i| self.hi[i].max(other.hi[i])),
-        }
-    }
-
-    fn grown(self, by: f64) -> Self {
-        Self {
-            lo: self.lo.map(|x| x - by),
-            hi: self.hi.map(|x| x + by),
-        }
-    }
-
-    fn within(self, other: Self) -> Self {
-        Self {
-            lo: [0, 1].map(|i| self.lo[i].clamp(other.lo[i], other.hi[i])),
-            hi: [0, 1].map(|i| self.hi[i].clamp(other.lo[i], other.hi[i])),
-        }
-    }
-
-    fn largest_side(self) -> f64 {
-        (self.hi[0] - self.lo[0]).max(self.hi[1] - self.lo[1])
-    }
+fn largest_side([lo, hi]: Corners<2>) -> f64 {
+    (hi[0] - lo[0]).max(hi[1] - lo[1])
 }
 
 /// The horizontal and vertical extent of particles of `diameter` and walls.
@@ -57,29 +33,26 @@ pub(crate) fn window(
 ) -> [[f64; 2]; 2] {
     let points: Vec<Spot> = points.collect();
     let most = most(&points);
-    let points = Extent::from_spots(points.into_iter()).map(|e| e.grown(diameter / 2.0));
-    let walls = Extent::from_spots(walls);
-    let all = match (points, walls) {
+    let points = around(points.into_iter()).map(|points| grown(points, diameter / 2.0));
+    let all = match (points, around(walls)) {
         (Some(points), Some(walls)) => {
-            let near = most.map_or(walls, |most| walls.joined(most));
-            let near = near.grown(near.largest_side() / 4.0 + diameter);
-            walls.joined(points.within(near))
+            let near = bounds(walls.into_iter().chain(most.into_iter().flatten()));
+            let [lo, hi] = grown(near, largest_side(near) / 4.0 + diameter);
+            let within = points.map(|spot| [0, 1].map(|i| spot[i].clamp(lo[i], hi[i])));
+            bounds(walls.into_iter().chain(within))
         }
         (Some(one), None) | (None, Some(one)) => one,
-        (None, None) => Extent {
-            lo: [0.0; 2],
-            hi: [1.0; 2],
-        },
+        (None, None) => [[0.0; 2], [1.0; 2]],
     };
-    let all = all.grown(0.02 * all.largest_side());
-    [0, 1].map(|i| widened(all.lo[i], all.hi[i]))
+    let [lo, hi] = grown(all, 0.02 * largest_side(all));
+    [0, 1].map(|i| widened(lo[i], hi[i]))
 }
 
 /// Share of the particles at either end of an axis that are not counted among most of them.
 const FEW: f64 = 0.005;
 
 /// The extent of most particles; none if there are few.
-fn most(points: &[Spot]) -> Option<Extent> {
+fn most(points: &[Spot]) -> Option<Corners<2>> {
     let few = ((FEW * points.len() as f64) as usize).max(1);
     let range = |axis: usize| {
         let all = points.iter().map(|p| p[axis]).filter(|x| x.abs() < SANE);
@@ -91,10 +64,7 @@ fn most(points: &[Spot]) -> Option<Extent> {
         }
     };
     let (x, y) = (range(0)?, range(1)?);
-    Some(Extent {
-        lo: [x[0], y[0]],
-        hi: [x[1], y[1]],
-    })
+    Some([[x[0], y[0]], [x[1], y[1]]])
 }
 
 #[cfg(test)]

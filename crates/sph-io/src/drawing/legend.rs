@@ -3,8 +3,7 @@
 use crate::drawing::axes::Axes;
 use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
-use crate::drawing::drawn_series::Style;
-use crate::drawing::mark::Mark;
+use crate::drawing::mark::{Mark, Style};
 use crate::drawing::text;
 
 /// Names and samples of the series that have a name.
@@ -17,10 +16,9 @@ pub(crate) struct Legend<'a> {
 impl<'a> Legend<'a> {
     pub(crate) fn new(marks: &'a [Mark<'a>], axes: &Axes) -> Self {
         let size = 0.92 * axes.size;
-        let named = marks.iter().filter(|m| m.is_named());
-        let named: Vec<&Mark> = named.collect();
-        let widths = named.iter().map(|m| text::width(&m.series.name, size));
-        let width = widths.fold(0.0, f64::max) + 4.2 * size;
+        let named: Vec<&Mark> = marks.iter().filter(|m| m.is_named()).collect();
+        let names = named.iter().map(|m| m.series.name.as_str());
+        let width = text::widest(names, size) + 4.2 * size;
         let height = (1.45 * named.len() as f64 + 0.5) * size;
         // Grey lines are covered rather than those in the legend.
         let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);

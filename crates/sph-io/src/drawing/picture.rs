@@ -8,29 +8,18 @@
 
 use std::path::Path;
 
+use sph_core::bounds;
+
 use crate::drawing::axes::{Axes, PlotAxis, left_room};
 use crate::drawing::canvas::{Canvas, SIDES};
-use crate::drawing::class_bar::ClassBar;
 use crate::drawing::colour::{Colour, ColourMap};
-use crate::drawing::colour_bar::ColourBar;
+use crate::drawing::colour_bar::{ClassBar, ColourBar};
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::extent;
-use crate::drawing::relief;
 use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
+use crate::drawing::view::{View, draw_compass, project};
 use crate::error::{IoError, Result};
-
-/// Plane of the drawing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
-    /// x to the right, y upwards: 2D.
-    #[default]
-    Plane,
-    /// x to the right, z upwards, seen along +y: 3D.
-    Front,
-    /// Seen from the front, the left and above, without perspective; the particles as one shaded surface: 3D.
-    Above,
-}
 
 /// A particle field and how it is to be drawn.
 ///
@@ -47,7 +36,7 @@ pub enum View {
 /// picture.save(folder.path().join("two.png"))?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Picture<'a> {
     /// Above the picture, to the left.
     pub title: &'a str,
@@ -93,24 +82,10 @@ impl<'a> Picture<'a> {
     /// walls, automatic window and range, 1200 pixels wide.
     pub fn new(points: &'a [[f64; 3]], values: &'a [f64]) -> Self {
         Self {
-            title: "",
-            time: None,
-            label: "",
             points,
             values,
-            diameter: 0.0,
-            diameters: &[],
-            walls: &[],
-            lines: &[],
-            strokes: &[],
-            labels: &[],
-            classes: &[],
-            view: View::Plane,
-            window: None,
-            ring: None,
-            range: None,
-            colours: ColourMap::Viridis,
             width: 1200,
+            ..Self::default()
         }
     }
 
@@ -131,8 +106,17 @@ impl<'a> Picture<'a> {
         // At 1200 pixels letters of 20; never too small to read.
         let size = (f64::from(width) / 60.0).max(9.0);
         let beyond = self.has_outliers(range);
-        let bar = ColourBar::new(range, self.colours, self.label, beyond, size);
-        let classes = ClassBar::new(self.classes, size);
+        let bar = ColourBar {
+            range,
+            colours: self.colours,
+            label: self.label,
+            beyond,
+            size,
+        };
+        let classes = ClassBar {
+            names: self.classes,
+            size,
+        };
         let room = match self.classes {
             [] => bar.room(),
             _ => classes.room(),
@@ -153,7 +137,7 @@ impl<'a> Picture<'a> {
         self.draw_strokes(&mut canvas, &axes);
         let frame = &axes.frame;
         match self.view {
-            View::Above => relief::draw_compass(&mut canvas, &axes),
+            View::Above => draw_compass(&mut canvas, &axes),
             _ => axes.draw(&mut canvas),
         }
         match self.classes {
@@ -176,19 +160,13 @@ impl<'a> Picture<'a> {
         if points != values {
             return Err(format!("{values} values for {points} particles"));
         }
-        if !(self.diameter.is_finite() && self.diameter >= 0.0) {
-            return Err(format!("a diameter of {} m", self.diameter));
+        let mut diameters = self.diameters.iter().chain([&self.diameter]);
+        if let Some(bad) = diameters.find(|d| !(d.is_finite() && **d >= 0.0)) {
+            return Err(format!("a diameter of {bad} m"));
         }
         let sizes = self.diameters.len();
         if sizes != 0 && sizes != points {
             return Err(format!("{sizes} diameters for {points} particles"));
-        }
-        if let Some(bad) = self
-            .diameters
-            .iter()
-            .find(|d| !(d.is_finite() && **d >= 0.0))
-        {
-            return Err(format!("a diameter of {bad} m"));
         }
         let rising = |r: &[f64; 2]| r[0] < r[1] && (r[1] - r[0]).is_finite();
         if let Some(range) = self.range.filter(|r| !rising(r)) {
@@ -339,12 +317,8 @@ impl<'a> Picture<'a> {
 
     /// The least and the largest finite value, symmetric for signed colours.
     fn automatic_range(&self) -> [f64; 2] {
-        let finite = self.values.iter().copied().filter(|v| v.is_finite());
-        let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
-        for value in finite {
-            lo = lo.min(value);
-            hi = hi.max(value);
-        }
+        let finite = self.values.iter().filter(|v| v.is_finite());
+        let [[mut lo], [mut hi]] = bounds(finite.map(|v| [*v]));
         if lo > hi {
             return [0.0, 1.0];
         }
@@ -368,7 +342,7 @@ impl<'a> Picture<'a> {
         match self.view {
             View::Plane => [x, y],
             View::Front => [x, z],
-            View::Above => relief::project([x, y, z]).0,
+            View::Above => project([x, y, z]).0,
         }
     }
 }

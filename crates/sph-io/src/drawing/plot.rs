@@ -1,16 +1,17 @@
-//! Lines, markers and bands over two axes, as PNG or SVG.
+//! Lines, markers and bands over two axes, alone or side by side, as PNG or SVG.
 //!
 //! Meant for probes against reference data and for work–precision plots, not
 //! for publication: everything is automatic.
 
 use std::path::Path;
 
+use sph_core::bounds;
+
 use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
-use crate::drawing::drawn_series::{Series, Style};
 use crate::drawing::legend::Legend;
-use crate::drawing::mark::Mark;
+use crate::drawing::mark::{Mark, Series, Style};
 use crate::drawing::svg::Svg;
 use crate::drawing::ticks::widened;
 use crate::error::{IoError, Result};
@@ -75,17 +76,13 @@ impl Plot {
         Ok(svg.finish())
     }
 
-    pub(crate) fn check(&self, path: &Path) -> Result<()> {
-        for Series {
-            name,
-            points,
-            style,
-        } in &self.series
-        {
-            if let Style::Band(upper) = style
-                && upper.len() != points.len()
+    fn check(&self, path: &Path) -> Result<()> {
+        for series in &self.series {
+            let points = series.points.len();
+            if let Style::Band(upper) = &series.style
+                && upper.len() != points
             {
-                let (points, upper) = (points.len(), upper.len());
+                let (name, upper) = (&series.name, upper.len());
                 let said = format!("band `{name}` has {upper} upper ordinates at {points} points");
                 return Err(IoError::input(path, said));
             }
@@ -94,7 +91,7 @@ impl Plot {
     }
 
     /// Draws the plot into a part of a surface.
-    pub(crate) fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
+    fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
         let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
         axes.draw_grid(on);
@@ -115,11 +112,7 @@ impl Plot {
         let x = self.axis(0, self.log_x, &self.x_label);
         let y = self.axis(1, self.log_y, &self.y_label);
         let top = if self.title.is_empty() { 1.2 } else { 2.6 } * LETTERS;
-        let room = if y.ticks(8).factor.is_some() {
-            0.9
-        } else {
-            0.0
-        };
+        let room = y.ticks(8).factor.map_or(0.0, |_| 0.9);
         let top = place.top + top + room * LETTERS;
         let bottom = place.bottom - 3.6 * LETTERS;
         Axes {
@@ -141,16 +134,8 @@ impl Plot {
         let logs = [self.log_x, self.log_y];
         let shown = |p: &[f64; 2]| (0..2).all(|i| shown(p[i], logs[i]));
         let values = self.series.iter().flat_map(Series::spots).filter(shown);
-        let values = values.map(|p| {
-            if log {
-                p[direction].log10()
-            } else {
-                p[direction]
-            }
-        });
-        let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
-            (lo.min(v), hi.max(v))
-        });
+        let scaled = |v: f64| if log { v.log10() } else { v };
+        let [[lo], [hi]] = bounds(values.map(|p| [scaled(p[direction])]));
         let [lo, hi] = if lo > hi { [0.0, 1.0] } else { widened(lo, hi) };
         let margin = 0.04 * (hi - lo);
         let [lo, hi] = [lo - margin, hi + margin];
@@ -164,13 +149,8 @@ impl Plot {
     }
 }
 
-/// The place of a plot that stands alone.
 /// Draws into a file of so many pixels: vectors if its name ends in `.svg`, else a PNG.
-pub(crate) fn save(
-    path: &Path,
-    [width, height]: [u32; 2],
-    draw: impl Fn(&mut dyn DrawTarget),
-) -> Result<()> {
+fn save(path: &Path, [width, height]: [u32; 2], draw: impl Fn(&mut dyn DrawTarget)) -> Result<()> {
     if path.extension().is_some_and(|e| e == "svg") {
         let mut svg = Svg::new(width, height);
         draw(&mut svg);
@@ -182,11 +162,96 @@ pub(crate) fn save(
     canvas.save(path)
 }
 
+/// The place of a plot that stands alone.
 fn whole() -> Rect {
     Rect {
         left: 0.0,
         top: 0.0,
         right: f64::from(SIZE[0]),
         bottom: f64::from(SIZE[1]),
+    }
+}
+
+/// Pixels of one panel.
+const PANEL: [u32; 2] = [900, 720];
+/// Panels that fit into the largest picture.
+const MOST: usize = 9;
+
+/// Plots side by side, from left to right: for related curves with other axes.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// use sph_io::{Panels, Plot, Series};
+/// let law = |y_label: &str, points| Plot {
+///     x_label: "strain rate [1/s]".into(),
+///     y_label: y_label.into(),
+///     series: vec![Series::line("water", points)],
+///     ..Plot::default()
+/// };
+/// let panels = Panels(vec![
+///     law("shear stress [Pa]", vec![[0.0, 0.0], [10.0, 0.01]]),
+///     law("viscosity [Pa s]", vec![[0.0, 1e-3], [10.0, 1e-3]]),
+/// ]);
+/// panels.save(folder.path().join("water.svg"))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panels(pub Vec<Plot>);
+
+impl Panels {
+    /// Writes the picture as vectors if the name ends in `.svg`, else as PNG.
+    ///
+    /// # Errors
+    /// If there are no panels or too many, the series of one do not fit together, or the file
+    /// cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        if self.0.is_empty() || self.0.len() > MOST {
+            let said = format!("{} panels where 1 to {MOST} fit", self.0.len());
+            return Err(IoError::input(path, said));
+        }
+        self.0.iter().try_for_each(|plot| plot.check(path))?;
+        let [width, height] = PANEL;
+        save(path, [width * self.0.len() as u32, height], |on| {
+            for (left, plot) in (0..).step_by(width as usize).zip(&self.0) {
+                let place = Rect {
+                    left: f64::from(left),
+                    top: 0.0,
+                    right: f64::from(left + width),
+                    bottom: f64::from(height),
+                };
+                plot.draw(on, &place);
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_stand_side_by_side_and_none_or_too_many_are_refused() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plot = Plot {
+            title: "a law".into(),
+            series: vec![Series::line("line", vec![[0.0, 0.0], [1.0, 2.0]])],
+            ..Plot::default()
+        };
+        let path = folder.path().join("two.svg");
+        Panels(vec![plot.clone(), plot.clone()])
+            .save(&path)
+            .expect("saved");
+        let text = std::fs::read_to_string(&path).expect("text");
+        assert!(text.contains("viewBox=\"0 0 1800 720\""), "{text}");
+        assert_eq!(text.matches(">a law<").count(), 2);
+        let png = folder.path().join("two.png");
+        Panels(vec![plot.clone()]).save(&png).expect("saved");
+        assert!(png.exists());
+        let refused = folder.path().join("none.png");
+        for count in [0, 10] {
+            let panels = Panels(vec![plot.clone(); count]);
+            assert!(panels.save(&refused).is_err() && !refused.exists());
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Spot};
 use crate::error::Result;
-use crate::files::atomic::{Durability, write_atomic};
+use crate::files::atomic::write_whole;
 use crate::paraview::xml::escape;
 
 /// An SVG document, white at first.
@@ -34,10 +34,7 @@ impl Svg {
 
     /// Writes the document to `path`, all or nothing.
     pub(crate) fn save(self, path: &Path) -> Result<()> {
-        let text = self.finish();
-        write_atomic(path, Durability::Process, |file| {
-            file.write_all(text.as_bytes())
-        })
+        write_whole(path, self.finish())
     }
 
     fn push(&mut self, element: &str) {

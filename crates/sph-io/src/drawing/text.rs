@@ -23,6 +23,11 @@ pub(crate) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum()
 }
 
+/// Width in pixels of the widest of some texts.
+pub(crate) fn widest<'t>(texts: impl Iterator<Item = &'t str>, size: f64) -> f64 {
+    texts.map(|text| width(text, size)).fold(0.0, f64::max)
+}
+
 /// As much of the beginning of `text` as `room` pixels hold at `size`, with dots for the rest.
 pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {

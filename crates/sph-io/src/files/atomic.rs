@@ -6,11 +6,15 @@
 //! its former content. Only a killed process can leave a temporary behind;
 //! [`sweep_temporaries`] removes those.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+use serde::Serialize;
+use tempfile::TempPath;
 
 use crate::error::{IoError, Result};
 
@@ -23,89 +27,8 @@ pub enum Durability {
     Power,
 }
 
-/// A file being written under a temporary name.
-///
-/// Dropping it without [`commit`](Self::commit) removes the temporary.
-#[derive(Debug)]
-pub struct AtomicFile {
-    target: PathBuf,
-    temporary: PathBuf,
-    /// `None` once closed.
-    file: Option<BufWriter<File>>,
-}
-
 /// Makes the temporary names of one process distinct.
 static SERIAL: AtomicU64 = AtomicU64::new(0);
-
-impl AtomicFile {
-    /// Opens a temporary beside `target`.
-    pub fn create(target: impl AsRef<Path>) -> Result<Self> {
-        let target = target.as_ref();
-        let Some(name) = target.file_name() else {
-            return Err(IoError::input(target, "the path names no file"));
-        };
-        let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}-{serial}.tmp", process::id()));
-        let temporary = target.with_file_name(hidden);
-        let file = File::create(&temporary).map_err(|e| IoError::write(target, e))?;
-        Ok(Self {
-            target: target.to_path_buf(),
-            temporary,
-            file: Some(BufWriter::with_capacity(1 << 18, file)),
-        })
-    }
-
-    /// Makes the content appear under the target's name.
-    pub fn commit(mut self, durability: Durability) -> Result<()> {
-        let done = self.close(durability);
-        done.map_err(|e| IoError::write(&self.target, e))
-    }
-
-    fn close(&mut self, durability: Durability) -> io::Result<()> {
-        self.flush()?;
-        // Dropping the handle first lets the rename succeed on every platform.
-        if let Some(buffer) = self.file.take() {
-            let file = buffer.into_inner().map_err(|e| e.into_error());
-            let kept = file.and_then(|file| match durability {
-                Durability::Process => Ok(()),
-                Durability::Power => file.sync_all(),
-            });
-            if let Err(error) = kept.and_then(|()| fs::rename(&self.temporary, &self.target)) {
-                let _ = fs::remove_file(&self.temporary);
-                return Err(error);
-            }
-        }
-        if durability == Durability::Power {
-            sync_folder(&self.target);
-        }
-        Ok(())
-    }
-}
-
-impl Write for AtomicFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.file {
-            Some(file) => file.write(bytes),
-            None => Err(io::ErrorKind::BrokenPipe.into()),
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.as_mut().map_or(Ok(()), Write::flush)
-    }
-}
-
-impl Drop for AtomicFile {
-    fn drop(&mut self) {
-        if let Some(buffer) = self.file.take() {
-            // Not flushed: the content is discarded.
-            drop(buffer.into_parts());
-            let _ = fs::remove_file(&self.temporary);
-        }
-    }
-}
 
 /// Writes `target` through `fill`, all or nothing.
 ///
@@ -123,9 +46,59 @@ pub fn write_atomic(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<()> {
     let target = target.as_ref();
-    let mut file = AtomicFile::create(target)?;
-    fill(&mut file).map_err(|e| IoError::write(target, e))?;
-    file.commit(durability)
+    let Some(name) = target.file_name() else {
+        return Err(IoError::input(target, "the path names no file"));
+    };
+    let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
+    let mut hidden = OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}-{serial}.tmp", process::id()));
+    let temporary = target.with_file_name(hidden);
+    replace(target, &temporary, durability, fill).map_err(|e| IoError::write(target, e))
+}
+
+fn replace(
+    target: &Path,
+    temporary: &Path,
+    durability: Durability,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let file = File::create(temporary)?;
+    // Removed when it is dropped, unless it has taken its place.
+    let temporary = TempPath::try_from_path(temporary)?;
+    let mut buffer = BufWriter::with_capacity(1 << 18, file);
+    fill(&mut buffer)?;
+    let file = buffer.into_inner().map_err(|e| e.into_error())?;
+    if durability == Durability::Power {
+        file.sync_all()?;
+    }
+    // Without the handle the renaming succeeds on every platform.
+    drop(file);
+    temporary.persist(target).map_err(|e| e.error)?;
+    if durability == Durability::Power {
+        sync_folder(target);
+    }
+    Ok(())
+}
+
+/// Writes `target` with a content, all or nothing.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_whole(target: impl AsRef<Path>, content: impl AsRef<[u8]>) -> Result<()> {
+    write_atomic(target, Durability::Process, |file| {
+        file.write_all(content.as_ref())
+    })
+}
+
+/// Writes `value` to `path` as indented JSON with a final newline.
+///
+/// JSON has no NaN and no infinity: such numbers become `null`.
+pub fn write_json(path: impl AsRef<Path>, value: &(impl Serialize + ?Sized)) -> Result<()> {
+    let path = path.as_ref();
+    let mut text = serde_json::to_vec_pretty(value).map_err(|e| IoError::Json(path.into(), e))?;
+    text.push(b'\n');
+    write_whole(path, text)
 }
 
 /// Removes temporaries that a killed process left in `folder` and in the folders directly below it; returns how many.
@@ -206,7 +179,7 @@ mod tests {
             Err(io::ErrorKind::StorageFull.into())
         })
         .unwrap_err();
-        assert!(matches!(error, IoError::DiskFull { .. }), "{error}");
+        assert!(matches!(error, IoError::DiskFull(..)), "{error}");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(names(folder.path()), ["a.json"]);
     }
@@ -216,10 +189,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("taken");
         fs::create_dir(&path).unwrap();
-        let error = write_atomic(&path, Durability::Process, |f| f.write_all(b"x")).unwrap_err();
+        let error = write_whole(&path, b"x").unwrap_err();
         assert!(error.to_string().contains("taken"), "{error}");
         assert_eq!(names(folder.path()), ["taken"]);
-        assert!(AtomicFile::create("..").is_err());
+        assert!(write_whole("..", b"x").is_err());
     }
 
     #[test]
@@ -241,5 +214,26 @@ mod tests {
         assert_eq!(names(folder.path()).len(), 4);
         assert_eq!(names(&folder.path().join("animations")), ["old"]);
         assert_eq!(names(&folder.path().join("animations/old")).len(), 1);
+    }
+
+    #[test]
+    fn written_values_are_read_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        write_json(&path, &serde_json::json!({"steps": 12, "dt": 0.1})).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.ends_with("}\n") && text.contains("  \"steps\": 12"));
+        let back: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(back["dt"], 0.1);
+    }
+
+    #[test]
+    fn values_outside_json_leave_the_file_unchanged() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        let odd = std::collections::BTreeMap::from([(vec![1], 1)]);
+        let error = write_json(&path, &odd).unwrap_err();
+        assert!(matches!(error, IoError::Json(..)));
+        assert!(!path.exists());
     }
 }

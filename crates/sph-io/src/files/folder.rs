@@ -2,7 +2,9 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
+
+use flate2::CrcReader;
 
 use crate::error::{IoError, Result, is_full};
 
@@ -47,22 +49,9 @@ pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
     let path = path.as_ref();
     readable(path, most)?;
     let read = || -> io::Result<Checksum> {
-        let mut file = File::open(path)?.take(most + 1);
-        let mut hasher = crc32fast::Hasher::new();
-        let mut piece = vec![0; 1 << 16];
-        let mut bytes = 0;
-        loop {
-            match file.read(&mut piece) {
-                Ok(0) => break,
-                Ok(n) => {
-                    hasher.update(&piece[..n]);
-                    bytes += n as u64;
-                }
-                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
-                Err(e) => return Err(e),
-            }
-        }
-        let crc = hasher.finalize();
+        let mut file = CrcReader::new(File::open(path)?.take(most + 1));
+        let bytes = io::copy(&mut file, &mut io::sink())?;
+        let crc = file.crc().sum();
         Ok(Checksum { bytes, crc })
     };
     read().map_err(|e| IoError::read(path, e))
@@ -73,17 +62,10 @@ pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
 /// A file without a name is gone with the process, however that ends.
 pub fn writable(folder: impl AsRef<Path>) -> Result<()> {
     let folder = folder.as_ref();
-    fs::create_dir_all(folder).map_err(|source| IoError::CreateFolder {
-        path: folder.to_path_buf(),
-        source,
-    })?;
-    write_block(folder).map_err(|source| {
-        let path = folder.to_path_buf();
-        if is_full(&source) {
-            IoError::DiskFull { path, source }
-        } else {
-            IoError::NotWritable { path, source }
-        }
+    fs::create_dir_all(folder).map_err(|e| IoError::CreateFolder(folder.into(), e))?;
+    write_block(folder).map_err(|e| match is_full(&e) {
+        true => IoError::DiskFull(folder.into(), e),
+        false => IoError::NotWritable(folder.into(), e),
     })
 }
 
@@ -92,6 +74,25 @@ fn write_block(folder: &Path) -> io::Result<()> {
     file.write_all(&[0; BLOCK])?;
     // Some file systems report a full disk only when the data go out.
     file.sync_data()
+}
+
+/// The path of a file that a list names; it stays in the folder of the list, links followed.
+pub(crate) fn beside(list: &Path, file: &str) -> Result<PathBuf> {
+    let path = list.with_file_name(file);
+    let folder = list.parent().filter(|f| !f.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    let within = |c| matches!(c, Component::Normal(_) | Component::CurDir);
+    let named = Path::new(file).components().all(within);
+    // A missing file leads nowhere.
+    let real = (path.canonicalize(), folder.canonicalize());
+    let leads = matches!(real, (Ok(real), Ok(folder)) if !real.starts_with(&folder));
+    match named && !leads {
+        true => Ok(path),
+        false => {
+            let problem = format!("it names `{file}`, which is outside its folder");
+            Err(IoError::Unfit(list.into(), problem))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -123,7 +124,7 @@ mod tests {
         let file = folder.path().join("file");
         fs::write(&file, b"").unwrap();
         let error = writable(file.join("below")).unwrap_err();
-        assert!(matches!(error, IoError::CreateFolder { .. }));
+        assert!(matches!(error, IoError::CreateFolder(..)));
         assert!(error.to_string().contains("below"));
     }
 
@@ -135,6 +136,6 @@ mod tests {
             return;
         }
         let error = writable(folder).unwrap_err();
-        assert!(matches!(error, IoError::NotWritable { .. }), "{error}");
+        assert!(matches!(error, IoError::NotWritable(..)), "{error}");
     }
 }

@@ -71,10 +71,7 @@ impl FolderLock {
     /// [`IoError::InUse`] if another run holds it; if the folder or the file in it cannot be made.
     pub fn take(folder: impl AsRef<Path>) -> Result<Self> {
         let folder = folder.as_ref();
-        fs::create_dir_all(folder).map_err(|source| IoError::CreateFolder {
-            path: folder.to_path_buf(),
-            source,
-        })?;
+        fs::create_dir_all(folder).map_err(|e| IoError::CreateFolder(folder.into(), e))?;
         Self::take_existing(folder)
     }
 
@@ -84,19 +81,14 @@ impl FolderLock {
     /// [`IoError::InUse`] if another run holds it; if the file in it cannot be made.
     pub(crate) fn take_existing(folder: &Path) -> Result<Self> {
         let path = folder.join(LOCK);
-        let failed = |source| IoError::NotWritable {
-            path: folder.to_path_buf(),
-            source,
-        };
+        let failed = |source| IoError::NotWritable(folder.into(), source);
         loop {
             let mut file = opened(&path).map_err(failed)?;
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
-                    return Err(IoError::InUse {
-                        path: folder.to_path_buf(),
-                        by: holder(&mut file).map_or("another process".into(), |h| h.to_string()),
-                    });
+                    let by = holder(&mut file).map_or("another process".into(), |h| h.to_string());
+                    return Err(IoError::InUse(folder.into(), by));
                 }
                 Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => {
                     let (file, before) = (None, None);
@@ -211,7 +203,7 @@ mod tests {
         let first = FolderLock::take(&out).unwrap();
         assert!(first.holds() && first.taken_over_from().is_none());
         let told = FolderLock::take(&out).unwrap_err();
-        assert!(matches!(told, IoError::InUse { .. }), "{told}");
+        assert!(matches!(told, IoError::InUse(..)), "{told}");
         let told = told.to_string();
         let me = format!("process {} on {} since 20", std::process::id(), host());
         assert!(told.contains(&me) && told.contains("a/b"), "{told}");

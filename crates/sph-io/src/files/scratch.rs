@@ -27,10 +27,7 @@ impl Scratch {
     }
 
     fn create_in(place: &Path, prefix: &str) -> Result<Self> {
-        let failed = |source| IoError::CreateFolder {
-            path: place.to_path_buf(),
-            source,
-        };
+        let failed = |source| IoError::CreateFolder(place.into(), source);
         // Never one that exists: the library tries other names then.
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
@@ -65,7 +62,7 @@ impl Scratch {
 const TRIES: usize = 100;
 
 fn is_swept(error: &IoError, folder: &Path) -> bool {
-    matches!(error, IoError::InUse { .. }) || !folder.exists()
+    matches!(error, IoError::InUse(..)) || !folder.exists()
 }
 
 /// Removes folders of the prefix whose process is dead; folders that cannot be removed stay.

@@ -1,10 +1,11 @@
-//! A table that grows by one row at a time while the run goes on.
+//! Tables that are written: by one row at a time while the run goes on, or at once.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::{IoError, Result};
+use crate::files::atomic::write_whole;
 
 /// Writes a CSV file with a header `time[s],dt[s],…`, one flushed row at a time.
 ///
@@ -88,10 +89,7 @@ impl SeriesWriter {
                 found,
             });
         }
-        let malformed = |problem: &str| IoError::Malformed {
-            path: path.to_path_buf(),
-            problem: problem.into(),
-        };
+        let malformed = |problem: &str| IoError::Malformed(path.into(), problem.into());
         let mut header = Vec::new();
         let mut start = BufReader::new((&file).take(offset));
         start.read_until(b'\n', &mut header).map_err(failed)?;
@@ -146,6 +144,30 @@ impl SeriesWriter {
     }
 }
 
+/// Writes a CSV file with a header `x[m],height[m],…`, all or nothing.
+///
+/// Columns are (name, unit); reals are written in the shortest form that reads back to the same bits.
+///
+/// ```
+/// # use sph_io::{read_table, write_table};
+/// # let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("line.csv");
+/// write_table(&path, [("x", "m"), ("height", "m")], &[vec![0.0, 0.1], vec![0.5, 0.3]])?;
+/// assert_eq!(read_table(&path)?.column("height"), Some(&[0.1, 0.3][..]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_table<N: AsRef<str>, U: AsRef<str>>(
+    path: impl AsRef<Path>,
+    columns: impl IntoIterator<Item = (N, U)>,
+    rows: &[Vec<f64>],
+) -> Result<()> {
+    let path = path.as_ref();
+    let cells = headings(path, columns)?;
+    let lines = rows.iter().map(|row| line(path, row, cells.len()));
+    let text = (cells.join(",") + "\n") + &lines.collect::<Result<String>>()?;
+    write_whole(path, text)
+}
+
 /// Difference of a header from the columns that are to be written under it.
 fn difference(header: &str, cells: &[String]) -> Option<String> {
     let before: Vec<&str> = header.split(',').collect();
@@ -160,7 +182,7 @@ fn difference(header: &str, cells: &[String]) -> Option<String> {
 }
 
 /// A row of a table with so many columns.
-pub(crate) fn line(path: &Path, values: &[f64], columns: usize) -> Result<String> {
+fn line(path: &Path, values: &[f64], columns: usize) -> Result<String> {
     if values.len() != columns {
         let problem = format!("a row of {} values for {columns} columns", values.len());
         return Err(IoError::input(path, problem));
@@ -170,7 +192,7 @@ pub(crate) fn line(path: &Path, values: &[f64], columns: usize) -> Result<String
 }
 
 /// The cells of a header for columns given as (name, unit).
-pub(crate) fn headings<N: AsRef<str>, U: AsRef<str>>(
+fn headings<N: AsRef<str>, U: AsRef<str>>(
     path: &Path,
     columns: impl IntoIterator<Item = (N, U)>,
 ) -> Result<Vec<String>> {
@@ -248,7 +270,7 @@ mod tests {
         assert!(matches!(beyond, IoError::TooShort { .. }), "{beyond}");
         for inside in [0, 3, mark - 1] {
             let error = SeriesWriter::open_truncated(&path, inside, COLUMNS).unwrap_err();
-            assert!(matches!(error, IoError::Malformed { .. }), "{error}");
+            assert!(matches!(error, IoError::Malformed(..)), "{error}");
         }
         let more = COLUMNS.into_iter().chain([("front", "m")]);
         let turned = COLUMNS.into_iter().rev();
@@ -274,5 +296,20 @@ mod tests {
         }
         assert!(SeriesWriter::create(&path, [("a", "m"), ("a", "m")]).is_err());
         assert!(!path.exists());
+    }
+
+    #[test]
+    fn a_table_reads_back_to_its_bits_and_a_ragged_one_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let rows = [vec![0.1, f64::NAN], vec![1.0 / 3.0, -0.0]];
+        write_table(&path, [("a", "m"), ("b", "")], &rows).unwrap();
+        let table = read_table(&path).unwrap();
+        let [a, b] = [0, 1].map(|k| table.columns[k].values.clone());
+        assert_eq!(a, [0.1, 1.0 / 3.0]);
+        assert!(b[0].is_nan() && b[1].to_bits() == (-0.0_f64).to_bits());
+        let error = write_table(&path, [("a", "m")], &rows).unwrap_err();
+        assert!(error.to_string().contains("2 values for 1"), "{error}");
+        assert_eq!(read_table(&path).unwrap().rows(), 2, "the old one stays");
     }
 }

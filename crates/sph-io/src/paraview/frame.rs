@@ -114,7 +114,7 @@ impl<'a> FieldData<'a> {
         unit: impl Into<Cow<'a, str>>,
         data: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
-        Self::new(name, unit, 1, FieldValues::F64(data.into()))
+        Self::tensor(name, unit, 1, data)
     }
 
     /// Three reals per point.
@@ -123,7 +123,7 @@ impl<'a> FieldData<'a> {
         unit: impl Into<Cow<'a, str>>,
         data: &'a [[f64; 3]],
     ) -> Self {
-        Self::new(name, unit, 3, FieldValues::F64(data.as_flattened().into()))
+        Self::tensor(name, unit, 3, data.as_flattened())
     }
 
     /// Some reals per point: a tensor, as its components stand in the data.
@@ -133,33 +133,27 @@ impl<'a> FieldData<'a> {
         components: usize,
         data: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
-        Self::new(name, unit, components, FieldValues::F64(data.into()))
+        Self {
+            name: name.into(),
+            unit: unit.into(),
+            location: Location::Point,
+            components,
+            data: FieldValues::F64(data.into()),
+        }
     }
 
     /// One identity per point.
     pub fn integer(name: impl Into<Cow<'a, str>>, data: impl Into<Cow<'a, [u32]>>) -> Self {
-        Self::new(name, "", 1, FieldValues::U32(data.into()))
+        Self {
+            data: FieldValues::U32(data.into()),
+            ..Self::scalar(name, "", &[][..])
+        }
     }
 
     /// The same values understood as belonging to cells.
     pub fn at_cells(mut self) -> Self {
         self.location = Location::Cell;
         self
-    }
-
-    fn new(
-        name: impl Into<Cow<'a, str>>,
-        unit: impl Into<Cow<'a, str>>,
-        components: usize,
-        data: FieldValues<'a>,
-    ) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            location: Location::Point,
-            components,
-            data,
-        }
     }
 }
 
@@ -190,14 +184,8 @@ impl Piece<'_> {
         let points = self.points.len();
         let cells = self.cells.len(points);
         let piece = &self.name;
-        if let Some(last) = self
-            .cells
-            .corners()
-            .2
-            .iter()
-            .max()
-            .filter(|&&p| p as usize >= points)
-        {
+        let (_, _, corners) = self.cells.corners();
+        if let Some(last) = corners.iter().max().filter(|&&p| p as usize >= points) {
             return Err(format!(
                 "a cell of piece `{piece}` uses point {last} but there are only {points} points"
             ));

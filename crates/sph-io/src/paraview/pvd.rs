@@ -9,14 +9,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use roxmltree::{Document, Node};
+
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
-use crate::files::folder::writable;
+use crate::files::atomic::write_whole;
+use crate::files::folder::{beside, writable};
 use crate::paraview::frame::Frame;
-use crate::paraview::named_files::beside;
 use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;
-use crate::paraview::xml::{attributes, escape};
+use crate::paraview::xml::escape;
 
 /// A time series being written: `fields.pvd` and `fields/fluid_000000.vtu`, …
 #[derive(Debug)]
@@ -224,9 +225,7 @@ impl PvdSeries {
             ));
         }
         xml.push_str("  </Collection>\n</VTKFile>\n");
-        write_atomic(&self.path, Durability::Process, |file| {
-            file.write_all(xml.as_bytes())
-        })
+        write_whole(&self.path, xml)
     }
 
     /// The entries on disk; no file is as good as an empty one if none are wanted.
@@ -236,24 +235,19 @@ impl PvdSeries {
             Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
             Err(e) => return Err(IoError::read(&self.path, e)),
         };
-        parse(&text).map_err(|problem| IoError::Malformed {
-            path: self.path.clone(),
-            problem,
-        })
+        parse(&text).map_err(|problem| IoError::Malformed(self.path.clone(), problem))
     }
 }
 
 /// The entries of a list as this module writes it.
 fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
-    if !text.contains("type=\"Collection\"") || !text.trim_end().ends_with("</VTKFile>") {
-        return Err("it is not a whole VTK collection".into());
-    }
+    let whole = Document::parse(text).ok();
+    let whole = whole.filter(|d| d.root_element().attribute("type") == Some("Collection"));
+    let whole = whole.ok_or("it is not a whole VTK collection")?;
     let mut entries: Vec<Entry> = Vec::new();
-    for (i, after) in text.split("<DataSet").skip(1).enumerate() {
-        let entry = after
-            .split_once("/>")
-            .and_then(|(tag, _)| entry(&attributes(tag)?))
-            .ok_or_else(|| format!("entry {} cannot be read", i + 1))?;
+    let listed = whole.descendants().filter(|n| n.has_tag_name("DataSet"));
+    for (i, node) in listed.enumerate() {
+        let entry = entry(node).ok_or_else(|| format!("entry {} cannot be read", i + 1))?;
         if entries.last().is_some_and(|last| last.time > entry.time) {
             return Err(format!("entry {} goes back in time", i + 1));
         }
@@ -262,16 +256,13 @@ fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-fn entry(found: &[(&str, String)]) -> Option<Entry> {
-    let get = |name| found.iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+fn entry(node: Node<'_, '_>) -> Option<Entry> {
+    let time = node.attribute("timestep")?.parse().ok();
     Some(Entry {
-        time: get("timestep")?
-            .parse()
-            .ok()
-            .filter(|t: &f64| t.is_finite())?,
-        part: get("part")?.parse().ok()?,
-        name: get("name")?.clone(),
-        file: get("file")?.clone(),
+        time: time.filter(|t: &f64| t.is_finite())?,
+        part: node.attribute("part")?.parse().ok()?,
+        name: node.attribute("name")?.into(),
+        file: node.attribute("file")?.into(),
     })
 }
 

@@ -5,13 +5,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use roxmltree::Document;
+
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
+use crate::files::atomic::write_whole;
+use crate::files::folder::beside;
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
-use crate::paraview::named_files::beside;
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::read_vtu;
-use crate::paraview::xml::{attributes, escape};
+use crate::paraview::xml::escape;
 
 /// Writes a process's share of a piece of frame `index` at `time` (s) into a folder, `fluid_000003_r1.vtu` for rank 1, and
 /// returns its path.
@@ -78,9 +80,7 @@ pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize)
         xml.push_str(&format!("    <Piece Source=\"{file}\"/>\n"));
     }
     xml.push_str("  </PUnstructuredGrid>\n</VTKFile>\n");
-    write_atomic(path, Durability::Process, |file| {
-        file.write_all(xml.as_bytes())
-    })
+    write_whole(path, xml)
 }
 
 /// Reads a piece that one process wrote, or several, and its time (s); its name is that of the file without its number.
@@ -92,17 +92,16 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     if path.extension().is_none_or(|e| e != "pvtu") {
         return read_vtu(path);
     }
-    let unfit = |problem: &str| IoError::Unfit {
-        path: path.to_path_buf(),
-        problem: format!("it is not a PVTU file of this program: {problem}"),
+    let unfit = |problem: &str| {
+        let problem = format!("it is not a PVTU file of this program: {problem}");
+        IoError::Unfit(path.into(), problem)
     };
     let text = fs::read_to_string(path).map_err(|e| IoError::read(path, e))?;
     let mut whole: Option<(Piece<'static>, f64)> = None;
-    for tag in text.split("<Piece ").skip(1) {
-        let (tag, _) = tag.split_once('>').ok_or_else(|| unfit("a tag is cut"))?;
-        let found = attributes(tag).ok_or_else(|| unfit("a tag cannot be read"))?;
-        let source = found.iter().find(|(name, _)| *name == "Source");
-        let (_, source) = source.ok_or_else(|| unfit("a piece has no file"))?;
+    let document = Document::parse(&text).map_err(|_| unfit("a tag cannot be read"))?;
+    for piece in document.descendants().filter(|n| n.has_tag_name("Piece")) {
+        let source = piece.attribute("Source");
+        let source = source.ok_or_else(|| unfit("a piece has no file"))?;
         let (mut share, time) = read_vtu(beside(path, source)?)?;
         whole = Some(match whole {
             None => {

@@ -5,10 +5,10 @@ use std::io::Read;
 use std::path::Path;
 
 use flate2::read::ZlibDecoder;
+use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
-use crate::paraview::xml::{attributes, unescape};
 
 /// Largest array that is read, bytes.
 const MOST: usize = 1 << 36;
@@ -22,9 +22,9 @@ pub fn read_vtu(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
-    let unfit = |problem: &str| IoError::Unfit {
-        path: path.to_path_buf(),
-        problem: format!("it is not a VTU file of this program: {problem}"),
+    let unfit = |problem: &str| {
+        let problem = format!("it is not a VTU file of this program: {problem}");
+        IoError::Unfit(path.into(), problem)
     };
     piece(&bytes, name).map_err(unfit)
 }
@@ -42,19 +42,22 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
     const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
     let end = file.windows(MARK.len()).position(|w| w == MARK);
     let end = end.ok_or("its arrays are not appended")?;
-    let xml = std::str::from_utf8(&file[..end]).map_err(|_| "its head is no text")?;
+    let head = std::str::from_utf8(&file[..end]).map_err(|_| "its head is no text")?;
+    let head = format!("{head}</VTKFile>");
+    let head = Document::parse(&head).map_err(|_| "a tag cannot be read")?;
     let appended = &file[end + MARK.len()..];
     let section = |tag: &str| -> std::result::Result<Vec<Array>, &'static str> {
-        let within = xml.split_once(&format!("<{tag}>"));
-        let within = within.and_then(|(_, rest)| rest.split_once(&format!("</{tag}>")));
-        let (within, _) = within.ok_or("a section is missing")?;
-        let tags = within.split("<DataArray ").skip(1);
-        tags.map(|tag| array(tag, appended)).collect()
+        let section = head.descendants().find(|n| n.has_tag_name(tag));
+        let arrays = section.ok_or("a section is missing")?.children();
+        let arrays = arrays.filter(|n| n.has_tag_name("DataArray"));
+        arrays.map(|node| array(node, appended)).collect()
     };
     let time = section("FieldData")?.pop().ok_or("it has no time")?;
-    let time = *reals(&time.bytes).first().ok_or("it has no time")?;
+    let time = *numbers(&time.bytes, f64::from_le_bytes)
+        .first()
+        .ok_or("it has no time")?;
     let points = section("Points")?.pop().ok_or("it has no points")?;
-    let points = reals(&points.bytes);
+    let points = numbers(&points.bytes, f64::from_le_bytes);
     let (points, _) = points.as_chunks::<3>();
     let mut fields = Vec::new();
     for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
@@ -74,23 +77,18 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
     Ok((piece, time))
 }
 
-fn array(tag: &str, appended: &[u8]) -> std::result::Result<Array, &'static str> {
-    let (head, rest) = tag.split_once('>').ok_or("a tag does not end")?;
-    let found = attributes(head).ok_or("a tag cannot be read")?;
-    let get = |name| found.iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+fn array(node: Node<'_, '_>, appended: &[u8]) -> std::result::Result<Array, &'static str> {
+    let get = |name| node.attribute(name);
     let offset = get("offset").and_then(|o| o.parse::<usize>().ok());
     let data = offset.and_then(|o| appended.get(o..));
-    let unit = match head.trim_end().ends_with('/') {
-        true => None,
-        false => rest.split_once("\"vtkDataArray\">"),
-    };
-    let unit = unit.and_then(|(_, u)| u.split_once('<'));
+    let mut keys = node.children();
+    let unit = keys.find(|n| n.has_tag_name("InformationKey"));
     Ok(Array {
-        name: get("Name").ok_or("an array has no name")?.clone(),
-        kind: get("type").ok_or("an array has no type")?.clone(),
+        name: get("Name").ok_or("an array has no name")?.into(),
+        kind: get("type").ok_or("an array has no type")?.into(),
         components: get("NumberOfComponents")
             .map_or(Ok(1), |n| n.parse().map_err(|_| "a number"))?,
-        unit: unit.map_or(String::new(), |(u, _)| unescape(u)),
+        unit: unit.and_then(|n| n.text()).unwrap_or_default().into(),
         bytes: expanded(data.ok_or("an array lies outside of the file")?)?,
     })
 }
@@ -132,13 +130,9 @@ fn field(
     location: Location,
 ) -> std::result::Result<FieldData<'static>, &'static str> {
     let data = match array.kind.as_str() {
-        "Float64" => FieldValues::F64(reals(&array.bytes).into()),
-        "UInt32" => {
-            let (words, _) = array.bytes.as_chunks::<4>();
-            let words: Vec<u32> = words.iter().map(|w| u32::from_le_bytes(*w)).collect();
-            FieldValues::U32(words.into())
-        }
-        "Int64" => FieldValues::I64(integers(&array.bytes).into()),
+        "Float64" => FieldValues::F64(numbers(&array.bytes, f64::from_le_bytes).into()),
+        "UInt32" => FieldValues::U32(numbers(&array.bytes, u32::from_le_bytes).into()),
+        "Int64" => FieldValues::I64(numbers(&array.bytes, i64::from_le_bytes).into()),
         _ => return Err("an array has a type of other programs"),
     };
     Ok(FieldData {
@@ -150,14 +144,9 @@ fn field(
     })
 }
 
-fn reals(bytes: &[u8]) -> Vec<f64> {
-    let (words, _) = bytes.as_chunks::<8>();
-    words.iter().map(|w| f64::from_le_bytes(*w)).collect()
-}
-
-fn integers(bytes: &[u8]) -> Vec<i64> {
-    let (words, _) = bytes.as_chunks::<8>();
-    words.iter().map(|w| i64::from_le_bytes(*w)).collect()
+fn numbers<T, const N: usize>(bytes: &[u8], number: fn([u8; N]) -> T) -> Vec<T> {
+    let (images, _) = bytes.as_chunks::<N>();
+    images.iter().map(|image| number(*image)).collect()
 }
 
 fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> {
@@ -165,7 +154,7 @@ fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> 
     let (Some(joined), Some(types)) = (get("connectivity"), get("types")) else {
         return Err("it has no cells");
     };
-    let joined: Vec<u32> = integers(&joined.bytes).iter().map(|i| *i as u32).collect();
+    let joined = numbers(&joined.bytes, |image| i64::from_le_bytes(image) as u32);
     Ok(match types.bytes.first() {
         None | Some(1) => Cells::Vertices,
         Some(3) => Cells::Segments(joined.as_chunks::<2>().0.to_vec().into()),

@@ -1,4 +1,4 @@
-//! The little XML that VTK's formats and pages need: escaping, and attributes of tags.
+//! Texts in XML that VTK's formats and pages have.
 
 use std::borrow::Cow;
 
@@ -25,50 +25,17 @@ pub fn escape(text: &str) -> Cow<'_, str> {
     out.into()
 }
 
-/// Undoes [`escape`].
-pub(crate) fn unescape(text: &str) -> String {
-    text.replace("&lt;", "<")
-        .replace("&gt;", ">")
-        .replace("&quot;", "\"")
-        .replace("&apos;", "'")
-        .replace("&amp;", "&")
-}
-
-/// The attributes of `tag`, which is the text between `<Name` and `>`.
-///
-/// `None` if it is not a list of `name="value"`.
-pub(crate) fn attributes(tag: &str) -> Option<Vec<(&str, String)>> {
-    let mut rest = tag.trim().trim_end_matches('/').trim_end();
-    let mut found = Vec::new();
-    while !rest.is_empty() {
-        let (name, after) = rest.split_once('=')?;
-        let quote = after.trim_start().chars().next()?;
-        if quote != '"' && quote != '\'' {
-            return None;
-        }
-        let (value, after) = after.trim_start()[1..].split_once(quote)?;
-        found.push((name.trim(), unescape(value)));
-        rest = after.trim_start();
-    }
-    Some(found)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn escaping_is_undone() {
+    fn a_reader_of_xml_undoes_it() {
         let odd = r#"a < b & "c" > 'd' &lt;"#;
-        assert_eq!(unescape(&escape(odd)), odd);
+        let text = format!("<a b=\"{0}\">{0}</a>", escape(odd));
+        let read = roxmltree::Document::parse(&text).unwrap();
+        let node = read.root_element();
+        assert_eq!((node.attribute("b"), node.text()), (Some(odd), Some(odd)));
         assert_eq!(escape("a\u{1}b"), "a?b");
-    }
-
-    #[test]
-    fn attributes_are_read() {
-        let found = attributes(r#" part="0" file='a &amp; b.vtu' /"#).unwrap();
-        assert_eq!(found, [("part", "0".into()), ("file", "a & b.vtu".into())]);
-        assert!(attributes("part=0").is_none());
-        assert!(attributes("part=\"0").is_none());
     }
 }

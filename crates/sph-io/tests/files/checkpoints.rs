@@ -62,7 +62,7 @@ fn saved(folder: &Path) -> (PathBuf, Vec<u8>) {
 fn fault(path: &Path, bytes: &[u8]) -> Fault {
     fs::write(path, bytes).unwrap();
     match Checkpoint::load(path) {
-        Err(IoError::Checkpoint { fault, path: named }) => {
+        Err(IoError::Checkpoint(named, fault)) => {
             assert_eq!(named, path);
             fault
         }
@@ -206,11 +206,11 @@ fn misfits_are_refused_before_anything_is_written() {
                 column(twin, 1, ColumnData::U32(vec![])),
             ],
         };
-        assert!(matches!(bad.save(&path), Err(IoError::Input { .. })));
+        assert!(matches!(bad.save(&path), Err(IoError::Input(..))));
     }
     assert_eq!(fs::read(&path).unwrap(), bytes);
     let absent = Checkpoint::load(folder.path().join("absent"));
-    assert!(matches!(absent, Err(IoError::Read { .. })));
+    assert!(matches!(absent, Err(IoError::Read(..))));
 }
 
 proptest! {

@@ -26,10 +26,7 @@ pub fn reference_table(reference: &Reference, path: &Path) -> Result<Table, IoEr
     let table = columns_of(reference, path)?;
     match unfit(&table, reference.norm() == Norm::Band) {
         None => Ok(table),
-        Some(problem) => Err(IoError::Unfit {
-            path: path.to_path_buf(),
-            problem,
-        }),
+        Some(problem) => Err(IoError::Unfit(path.into(), problem)),
     }
 }
 

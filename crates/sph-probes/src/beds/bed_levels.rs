@@ -4,6 +4,7 @@ use sph_core::bed::Bed;
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 
+use crate::contract::refused;
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// Levels of a bed, its load, and Shields numbers.
@@ -36,16 +37,12 @@ impl BedLevels {
     fn bed<'a, const D: usize>(&self, world: &'a World<D>) -> Result<&'a Bed, StepError> {
         let name = |bed: &Bed| world.walls.names[bed.walls[0] as usize].as_str();
         let beds = &world.walls.beds;
-        beds.iter()
-            .find(|bed| name(bed) == self.wall)
-            .ok_or_else(|| StepError::Stage {
-                stage: "probe `bed-levels`".into(),
-                reason: format!(
-                    "no wall `{}` is `erodible`{}",
-                    self.wall,
-                    suggestion(&self.wall, beds.iter().map(name))
-                ),
-            })
+        let found = beds.iter().find(|bed| name(bed) == self.wall);
+        found.ok_or_else(|| {
+            let near = suggestion(&self.wall, beds.iter().map(name));
+            let reason = format!("no wall `{}` is `erodible`{near}", self.wall);
+            refused("probe `bed-levels`", reason)
+        })
     }
 
     /// The places that count.
@@ -63,7 +60,7 @@ impl BedLevels {
 impl<const D: usize> Probe<D> for BedLevels {
     fn columns(&self) -> Vec<ProbeColumn> {
         let volume = if D == 2 { "m²" } else { "m³" };
-        [
+        ProbeColumn::several(&[
             (".lowest", "m"),
             (".lowest-x", "m"),
             (".highest", "m"),
@@ -75,9 +72,7 @@ impl<const D: usize> Probe<D> for BedLevels {
             (".fed", volume),
             (".slid", volume),
             (".lifted", volume),
-        ]
-        .map(|(suffix, unit)| ProbeColumn::named(suffix, unit))
-        .into()
+        ])
     }
 
     fn as_curves(&self) -> Option<&dyn Curves<D>> {
@@ -123,26 +118,17 @@ impl<const D: usize> Probe<D> for BedLevels {
 
 impl<const D: usize> Curves<D> for BedLevels {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
-        let all: &[(&str, &'static str)] = match D {
-            2 => &[
-                ("x", "m"),
-                ("level", "m"),
-                ("rise", "m"),
-                ("shields", "1"),
-                ("transport", "m²/s"),
-            ],
-            _ => &[
-                ("x", "m"),
-                ("y", "m"),
-                ("level", "m"),
-                ("rise", "m"),
-                ("shields", "1"),
-                ("transport", "m²/s"),
-                ("transport-y", "m²/s"),
-            ],
-        };
-        let named = |(name, unit): &(&str, &'static str)| ProbeColumn::named(name, unit);
-        all.iter().map(named).collect()
+        let mut all = ProbeColumn::several(&[
+            ("x", "m"),
+            ("y", "m"),
+            ("level", "m"),
+            ("rise", "m"),
+            ("shields", "1"),
+            ("transport", "m²/s"),
+            ("transport-y", "m²/s"),
+        ]);
+        all.retain(|column| D == 3 || !column.suffix.ends_with('y'));
+        all
     }
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {

@@ -42,11 +42,6 @@ pub struct BedLines {
     number: Option<u32>,
 }
 
-/// One millimetre in five milliseconds, m/s.
-pub(crate) fn threshold() -> f64 {
-    0.2
-}
-
 /// The three curves, and the moving mass.
 struct BedCurves {
     surface: Columns,
@@ -63,12 +58,8 @@ impl BedLines {
         let positions = world.free.get(fields::POSITION)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;
-        let xs = || positions.iter().map(|x: &Vect<2>| x[0]);
-        let range = [
-            xs().fold(f64::INFINITY, f64::min),
-            xs().fold(f64::NEG_INFINITY, f64::max),
-        ];
-        let empty = |end| Columns::over(range, world.spacing, end);
+        let xs = positions.iter().map(|x: &Vect<2>| x[0]);
+        let empty = |end| Columns::over(xs.clone(), world.spacing, end);
         let mut drawn = BedCurves {
             surface: empty(End::Highest),
             interface: empty(End::Highest),
@@ -92,10 +83,7 @@ impl BedLines {
 
 impl Probe<2> for BedLines {
     fn columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named(".moving", "kg"),
-            ProbeColumn::named(".lowest", "m"),
-        ]
+        ProbeColumn::several(&[(".moving", "kg"), (".lowest", "m")])
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {

@@ -28,8 +28,10 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Columns from `low` to `high`, m, and one more on either side; nothing stands in them yet.
-    pub fn over([low, high]: [f64; 2], spacing: f64, end: End) -> Self {
+    /// Columns over some places, m, and one more on either side; nothing stands in them yet.
+    pub fn over(xs: impl Iterator<Item = f64> + Clone, spacing: f64, end: End) -> Self {
+        let low = xs.clone().fold(f64::INFINITY, f64::min);
+        let high = xs.fold(f64::NEG_INFINITY, f64::max);
         let width = WIDTH * spacing;
         let first = (low / width).floor() - 1.0;
         let count = (high / width).floor() + 2.0 - first;

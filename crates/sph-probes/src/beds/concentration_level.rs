@@ -3,6 +3,7 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
+use crate::contract::refused;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// The highest place at which the concentration of suspended grains comes up to a value, m: the interface below clear fluid, or
@@ -35,15 +36,10 @@ impl<const D: usize> Probe<D> for ConcentrationLevel {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let concentration =
-            world
-                .free
-                .get(fields::CONCENTRATION)
-                .map_err(|_| StepError::Stage {
-                    stage: "probe `concentration-level`".into(),
-                    reason: "no fluid of this scene carries grains: expected `[suspension.PLUGIN]`"
-                        .into(),
-                })?;
+        let concentration = world.free.get(fields::CONCENTRATION).map_err(|_| {
+            let reason = "no fluid of this scene carries grains: expected `[suspension.PLUGIN]`";
+            refused("probe `concentration-level`", reason)
+        })?;
         let position = world.free.get(fields::POSITION)?;
         let mass = world.free.get(fields::MASS)?;
         let mut grains: Vec<[f64; 3]> = (0..position.len())

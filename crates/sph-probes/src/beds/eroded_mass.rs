@@ -3,9 +3,8 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
-use crate::flow::front::Direction;
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Direction, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Mass of a bed that has left its place at the start, kg (per metre of width in 2D).
 ///

@@ -3,7 +3,9 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
+use crate::contract::refused;
 use crate::flow::point::{carried, point};
+use crate::sampling::around;
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the
@@ -47,25 +49,16 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let pore = world.free.get(fields::PORE_PRESSURE);
-        let pore = pore.map_err(|_| StepError::Stage {
-            stage: "probes".into(),
-            reason: "there is no pore pressure without an effective one: \
-                     [effective-pressure.PLUGIN]"
-                .into(),
+        let pore = world.free.get(fields::PORE_PRESSURE).map_err(|_| {
+            let reason =
+                "there is no pore pressure without an effective one: [effective-pressure.PLUGIN]";
+            refused("probes", reason)
         })?;
         let x = carried(world, point::<D>(&self.at), self.follows.as_deref())?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let radius = world.kernel.support_radius();
         let (mut filling, mut sum) = (0.0, 0.0);
-        for (j, r) in world.free.get(fields::POSITION)?.iter().enumerate() {
-            let d = world.domain.nearest_image(x - r);
-            let r2 = d.norm_squared();
-            if r2 < radius * radius {
-                let vw = volume[j] * world.kernel.at(r2.sqrt()).0;
-                filling += vw;
-                sum += vw * (pore[j] + self.density * world.gravity.dot(&d));
-            }
+        for (j, d, vw) in around(world, x)? {
+            filling += vw;
+            sum += vw * (pore[j] + self.density * world.gravity.dot(&d));
         }
         Ok(vec![if filling > 0.0 { sum / filling } else { 0.0 }])
     }

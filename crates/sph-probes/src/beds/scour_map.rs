@@ -139,11 +139,7 @@ fn height(particles: impl Iterator<Item = (f64, bool)> + Clone, spacing: f64) ->
 
 impl Probe<3> for ScourMap {
     fn columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named(".deepest", "m"),
-            ProbeColumn::named(".highest", "m"),
-            ProbeColumn::named(".volume", "m³"),
-        ]
+        ProbeColumn::several(&[(".deepest", "m"), (".highest", "m"), (".volume", "m³")])
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {

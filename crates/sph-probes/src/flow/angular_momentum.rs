@@ -30,14 +30,10 @@ impl<const D: usize> Probe<D> for AngularMomentum {
             (2, _) => "kg m/s",
             _ => "kg m²/s",
         };
-        if D == 2 {
-            return ProbeColumn::only(unit);
+        match D {
+            2 => ProbeColumn::only(unit),
+            _ => ProbeColumn::components(D, unit),
         }
-        let column = |axis: &str| ProbeColumn {
-            suffix: format!(".{axis}"),
-            unit,
-        };
-        ["x", "y", "z"].iter().map(|a| column(a)).collect()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -23,11 +23,7 @@ pub struct DisplacementProbe {
 
 impl<const D: usize> Probe<D> for DisplacementProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let column = |axis: &str| ProbeColumn {
-            suffix: format!(".{axis}"),
-            unit: "m",
-        };
-        ["x", "y", "z"].iter().take(D).map(|a| column(a)).collect()
+        ProbeColumn::components(D, "m")
     }
 
     fn needs(&self) -> Needs<'_> {

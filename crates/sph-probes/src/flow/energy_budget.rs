@@ -32,48 +32,26 @@ pub enum EnergyWork {
 
 /// Work of all terms on a particle since the start, J (per metre of depth in 2D).
 pub const ENERGY_WORKS: [Field<Scalar>; 9] = [
-    Field::new("work_viscosity", "J", "work of friction since the start"),
-    Field::new("work_smoother", "J", "work of the smoother since the start"),
-    Field::new("work_shifting", "J", "work of shifting since the start"),
-    Field::new(
-        "work_damper",
-        "J",
-        "work of the damper of sound since the start",
-    ),
-    Field::new(
-        "work_damping",
-        "J",
-        "work of damped velocities since the start",
-    ),
-    Field::new(
-        "work_surface",
-        "J",
-        "work of forgotten surfaces since the start",
-    ),
-    Field::new(
-        "work_walls",
-        "J",
-        "work of walls by pressure since the start",
-    ),
-    Field::new("work_others", "J", "work of other forces since the start"),
-    Field::new(
-        "work_remainder",
-        "J",
-        "work of finite steps since the start",
-    ),
+    energy("work_viscosity", "work of friction since the start"),
+    energy("work_smoother", "work of the smoother since the start"),
+    energy("work_shifting", "work of shifting since the start"),
+    energy("work_damper", "work of the damper of sound since the start"),
+    energy("work_damping", "work of damped velocities since the start"),
+    energy("work_surface", "work of forgotten surfaces since the start"),
+    energy("work_walls", "work of walls by pressure since the start"),
+    energy("work_others", "work of other forces since the start"),
+    energy("work_remainder", "work of finite steps since the start"),
 ];
 /// Energy of compression of a particle when it was last booked.
-pub const BOOKED_COMPRESSION: Field<Scalar> = Field::new(
-    "booked_compression",
-    "J",
-    "energy of compression, as booked",
-);
+pub const BOOKED_COMPRESSION: Field<Scalar> =
+    energy("booked_compression", "energy of compression, as booked");
 /// Energy of a particle at the start.
-pub const ENERGY_AT_START: Field<Scalar> = Field::new(
-    "energy_at_start",
-    "J",
-    "energy of the particle at the start",
-);
+pub const ENERGY_AT_START: Field<Scalar> =
+    energy("energy_at_start", "energy of the particle at the start");
+
+const fn energy(name: &'static str, meaning: &'static str) -> Field<Scalar> {
+    Field::new(name, "J", meaning)
+}
 
 /// Kinetic, potential and internal energy (of compression) of all particles, and the work of all parts that give or
 /// take energy since the start, J (per metre of depth in 2D). Positive work gives:
@@ -124,7 +102,7 @@ pub fn work_of_stranger(kind: &str) -> Field<Scalar> {
     let name = known
         .entry(kind.to_string())
         .or_insert_with(|| Box::leak(format!("work_{kind}").into_boxed_str()));
-    Field::new(name, "J", "work of a plugin since the start")
+    energy(name, "work of a plugin since the start")
 }
 
 impl<const D: usize> Probe<D> for EnergyBudget {

@@ -3,7 +3,6 @@
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::flow::point::{carried, point};
 use crate::phases::phase::{self, CountedPhase, column, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
@@ -64,12 +63,9 @@ impl<const D: usize> Probe<D> for Level {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let radius = world.kernel.support_radius();
-        let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
-        let mut foot = carried(world, drawn, self.follows.as_deref())?;
-        foot[D - 1] = 0.0;
         let counted = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         // Only the particles whose support meets the vertical line matter.
-        let mut near = column(world, &foot)?;
+        let mut near = column(world, &self.at, self.follows.as_deref())?;
         near.retain(|(_, _, k)| counted.has(*k));
         let filling = |z: f64| -> f64 { near.iter().map(|(d, v, _)| share(world, d, *v, z)).sum() };
         let heights = || near.iter().map(|(d, ..)| d[D - 1]);

@@ -1,6 +1,6 @@
 //! Profiles averaged along homogeneous directions and in time.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
@@ -8,7 +8,7 @@ use sph_neighbours::World;
 use crate::flow::profile::Component;
 use crate::measure::quantity::Quantity;
 use crate::norm::at;
-use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, contract};
 
 /// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
@@ -115,16 +115,21 @@ impl MeanProfile {
         Ok(Box::new(move |i, into| into.push(value(i))))
     }
 
+    fn sums(&self) -> Result<MutexGuard<'_, Vec<f64>>, StepError> {
+        let failed = |_| refused("a thread failed");
+        self.sums.lock().map_err(failed)
+    }
+
     fn check<const D: usize>(&self) -> Result<(), StepError> {
         let axis = self.axis as usize;
         if axis >= D {
-            return Err(refused("this scene has no such `axis`".into()));
+            return Err(refused("this scene has no such `axis`"));
         }
         if !(self.to > self.from && self.to.is_finite() && self.from.is_finite()) {
-            return Err(refused("`to` is to be larger than `from`".into()));
+            return Err(refused("`to` is to be larger than `from`"));
         }
         match self.layers {
-            0 => Err(refused("one layer at least was expected".into())),
+            0 => Err(refused("one layer at least was expected")),
             _ => Ok(()),
         }
     }
@@ -174,11 +179,8 @@ impl MeanProfile {
     }
 }
 
-fn refused(reason: String) -> StepError {
-    StepError::Stage {
-        stage: "probe `mean-profile`".into(),
-        reason,
-    }
+fn refused(reason: &str) -> StepError {
+    contract::refused("probe `mean-profile`", reason)
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -186,11 +188,9 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 impl<const D: usize> Probe<D> for MeanProfile {
     fn columns(&self) -> Vec<ProbeColumn> {
         match self.file {
-            Some(_) => vec![
-                ProbeColumn::named(".rms", "SI"),
-                ProbeColumn::named(".largest", "SI"),
-                ProbeColumn::named(".relative", "1"),
-            ],
+            Some(_) => {
+                ProbeColumn::several(&[(".rms", "SI"), (".largest", "SI"), (".relative", "1")])
+            }
             None => vec![ProbeColumn::named(".layers", "1")],
         }
     }
@@ -229,10 +229,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         self.check::<D>()?;
         drop(self.reader(world)?);
-        let sums = self
-            .sums
-            .lock()
-            .map_err(|_| refused("a thread failed".into()))?;
+        let sums = self.sums()?;
         let components = self.components::<D>();
         if self.file.is_none() {
             let filled = sums.chunks(self.stride::<D>()).filter(|s| s[0] > 0.0);
@@ -274,10 +271,7 @@ impl<const D: usize> Curves<D> for MeanProfile {
     }
 
     fn curves(&self, _: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
-        let sums = self
-            .sums
-            .lock()
-            .map_err(|_| refused("a thread failed".into()))?;
+        let sums = self.sums()?;
         let components = self.components::<D>();
         let empty = vec![0.0; self.stride::<D>()];
         let row = |k: usize| {
@@ -305,10 +299,7 @@ impl<const D: usize> Gathers<D> for MeanProfile {
         if world.time < self.after {
             return Ok(());
         }
-        let mut sums = self
-            .sums
-            .lock()
-            .map_err(|_| refused("a thread failed".into()))?;
+        let mut sums = self.sums()?;
         let (stride, components) = (self.stride::<D>(), self.components::<D>());
         sums.resize(self.layers * stride, 0.0);
         let positions = world.free.get(fields::POSITION)?;

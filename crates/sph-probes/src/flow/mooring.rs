@@ -1,8 +1,10 @@
 //! Force of a line on its body.
 
-use sph_core::{StepError, plugin, suggestion};
+use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 
+use crate::contract::refused;
+use crate::flow::point::wall_number;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Force of a line on the body that it holds, and its tension at both ends.
@@ -34,23 +36,15 @@ impl<const D: usize> Probe<D> for MooringProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let walls = &world.walls;
-        let refuse = |reason| {
-            let stage = "probe `mooring`".into();
-            Err(StepError::Stage { stage, reason })
-        };
-        let Some(wall) = walls.names.iter().position(|n| *n == self.wall) else {
-            let near = suggestion(&self.wall, walls.names.iter().map(String::as_str));
-            return refuse(format!("there is no wall `{}`{near}", self.wall));
-        };
-        let mut lines = walls.pulls.iter().filter(|p| p.wall as usize == wall);
-        let Some(pull) = lines.clone().nth(self.line as usize) else {
-            let (wall, count) = (&self.wall, lines.by_ref().count());
-            return refuse(format!(
-                "`{wall}` has {count} lines: there is no number {}",
-                self.line
-            ));
-        };
+        let stage = "probe `mooring`";
+        let wall = wall_number(world, &self.wall, (stage, ""))?;
+        let pulls = world.walls.pulls.iter();
+        let lines: Vec<_> = pulls.filter(|p| p.wall as usize == wall).collect();
+        let pull = lines.get(self.line as usize).ok_or_else(|| {
+            let (wall, count, line) = (&self.wall, lines.len(), self.line);
+            let reason = format!("`{wall}` has {count} lines: there is no number {line}");
+            refused(stage, reason)
+        })?;
         let mut values: Vec<f64> = pull.force.iter().copied().collect();
         values.extend([pull.force.norm(), pull.anchor]);
         Ok(values)

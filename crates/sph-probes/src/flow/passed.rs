@@ -3,6 +3,7 @@
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 
+use crate::contract::refused;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Mass of all phases that has come in and gone out by an open face since the start, and the mass that the face holds:
@@ -36,10 +37,8 @@ impl<const D: usize> Probe<D> for PassedProbe {
         let open = || walls.passed.iter().map(|p| name(p.wall));
         if let Some(wall) = self.wall.as_ref().filter(|w| open().all(|n| n != *w)) {
             let near = suggestion(wall, open());
-            return Err(StepError::Stage {
-                stage: "probe `passed`".into(),
-                reason: format!("there is no open wall `{wall}`{near}"),
-            });
+            let reason = format!("there is no open wall `{wall}`{near}");
+            return Err(refused("probe `passed`", reason));
         }
         let wanted = |wall: u32| self.wall.as_ref().is_none_or(|w| w == name(wall));
         let mut sums = vec![0.0; 3];

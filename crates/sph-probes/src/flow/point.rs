@@ -3,6 +3,7 @@
 use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::World;
 
+use crate::contract::refused;
 use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
 
 /// Pressure at a point, in the fluid or on a wall, averaged over the face of a sensor.
@@ -45,16 +46,25 @@ pub(crate) fn carried<const D: usize>(
     let Some(wall) = wall else {
         return Ok(drawn);
     };
-    let names = &world.walls.names;
-    let Some(number) = names.iter().position(|n| n == wall) else {
-        let near = suggestion(wall, names.iter().map(String::as_str));
-        return Err(StepError::Stage {
-            stage: "probes".into(),
-            reason: format!("there is no wall `{wall}` to follow{near}"),
-        });
-    };
+    let number = wall_number(world, wall, ("probes", " to follow"))?;
     let frame = world.walls.frames.get(number);
     Ok(frame.map_or(drawn, |frame| frame.present(&drawn)))
+}
+
+/// The number of the first wall of a name, which a stage needs for a purpose.
+///
+/// # Errors
+/// If there is none.
+pub(crate) fn wall_number<const D: usize>(
+    world: &World<D>,
+    wall: &str,
+    (stage, purpose): (&str, &str),
+) -> Result<usize, StepError> {
+    let names = &world.walls.names;
+    names.iter().position(|n| n == wall).ok_or_else(|| {
+        let near = suggestion(wall, names.iter().map(String::as_str));
+        refused(stage, format!("there is no wall `{wall}`{purpose}{near}"))
+    })
 }
 
 /// A point of D coordinates; missing ones are zero.
@@ -100,11 +110,7 @@ pub struct VelocityProbe {
 
 impl<const D: usize> Probe<D> for VelocityProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let column = |axis: &str| ProbeColumn {
-            suffix: format!(".{axis}"),
-            unit: "m/s",
-        };
-        ["x", "y", "z"].iter().take(D).map(|a| column(a)).collect()
+        ProbeColumn::components(D, "m/s")
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

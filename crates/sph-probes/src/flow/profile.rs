@@ -121,9 +121,7 @@ fn fitted_velocity<const D: usize>(
 
 impl<const D: usize> Probe<D> for Profile {
     fn columns(&self) -> Vec<ProbeColumn> {
-        [".rms", ".largest"]
-            .map(|suffix| ProbeColumn::named(suffix, "m/s"))
-            .to_vec()
+        ProbeColumn::several(&[(".rms", "m/s"), (".largest", "m/s")])
     }
 
     fn file(&self) -> Option<&str> {
@@ -157,11 +155,7 @@ impl<const D: usize> Probe<D> for Profile {
 
 impl<const D: usize> Curves<D> for Profile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named("distance", "m"),
-            ProbeColumn::named("velocity", "m/s"),
-            ProbeColumn::named("reference", "m/s"),
-        ]
+        ProbeColumn::several(&[("distance", "m"), ("velocity", "m/s"), ("reference", "m/s")])
     }
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
+use crate::contract::refused;
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// E(k) = ½ Σ |û|²/(2π/L) over the wave vectors whose length, in 2π/L, rounds to n, k = 2πn/L: the curve, up to the wave of two
@@ -27,13 +28,6 @@ pub struct EnergySpectrum {
     pub points: usize,
 }
 
-fn refused(reason: String) -> StepError {
-    StepError::Stage {
-        stage: "probe `energy-spectrum`".into(),
-        reason,
-    }
-}
-
 /// A complex number.
 type Complex = [f64; 2];
 
@@ -43,13 +37,14 @@ impl EnergySpectrum {
         let domain = &world.domain;
         let side = domain.length(0);
         let same = |k: usize| domain.periodic[k] && (domain.length(k) / side - 1.0).abs() < 1e-9;
-        match (0..D).all(same) {
-            true if (4..=128).contains(&self.points) => Ok(side),
-            true => Err(refused("4 to 128 `points` were expected".into())),
-            false => Err(refused(
-                "a box that is periodic along all axes, with sides of one length, was expected: `[numerics.periodic]`".into(),
-            )),
-        }
+        let reason = match (0..D).all(same) {
+            true if (4..=128).contains(&self.points) => return Ok(side),
+            true => "4 to 128 `points` were expected",
+            false => {
+                "a box that is periodic along all axes, with sides of one length, was expected: `[numerics.periodic]`"
+            }
+        };
+        Err(refused("probe `energy-spectrum`", reason))
     }
 
     /// Velocities at the points, the first axis running fastest.
@@ -157,10 +152,7 @@ fn transformed<const D: usize>(mut values: Vec<Complex>, n: usize) -> Vec<Comple
 
 impl<const D: usize> Probe<D> for EnergySpectrum {
     fn columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named(".energy", "m²/s²"),
-            ProbeColumn::named(".peak", "1/m"),
-        ]
+        ProbeColumn::several(&[(".energy", "m²/s²"), (".peak", "1/m")])
     }
 
     fn as_curves(&self) -> Option<&dyn Curves<D>> {
@@ -177,10 +169,7 @@ impl<const D: usize> Probe<D> for EnergySpectrum {
 
 impl<const D: usize> Curves<D> for EnergySpectrum {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
-        vec![
-            ProbeColumn::named("wavenumber", "1/m"),
-            ProbeColumn::named("energy", "m³/s²"),
-        ]
+        ProbeColumn::several(&[("wavenumber", "1/m"), ("energy", "m³/s²")])
     }
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Deserializer};
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::sampling::near::NearbyParticles;
+use crate::sampling::NearbyParticles;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// The largest |ψ| with ψ(x, y) = ∫ u_x dy′ from the bottom y₀ of a box, and its place: the
@@ -133,11 +133,7 @@ impl Grid {
 
 impl Probe<2> for StreamFunction {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let column = |suffix: &str, unit| ProbeColumn {
-            suffix: suffix.into(),
-            unit,
-        };
-        vec![column(".max", "m²/s"), column(".x", "m"), column(".y", "m")]
+        ProbeColumn::several(&[(".max", "m²/s"), (".x", "m"), (".y", "m")])
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {

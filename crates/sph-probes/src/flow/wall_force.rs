@@ -1,9 +1,9 @@
 //! Force and moment of the fluid on a wall.
 
-use sph_core::{StepError, plugin, suggestion};
+use sph_core::{StepError, plugin};
 use sph_neighbours::{WallForce, World, cross};
 
-use crate::flow::point::point;
+use crate::flow::point::{point, wall_number};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Force and moment of the fluid on a named wall, pressure and friction together, and the
@@ -34,25 +34,20 @@ pub struct WallForceProbe {
     pub about: Vec<f64>,
 }
 
-const AXES: [&str; 3] = ["x", "y", "z"];
-
 impl<const D: usize> Probe<D> for WallForceProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let mut columns = Vec::new();
-        let mut say = |suffix: String, unit| columns.push(ProbeColumn { suffix, unit });
-        for axis in &AXES[..D] {
-            say(format!(".{axis}"), if D == 2 { "N/m" } else { "N" });
-        }
-        for axis in moments::<D>() {
-            say(format!(".moment{axis}"), if D == 2 { "N" } else { "N m" });
-        }
-        for axis in &AXES[..D] {
-            say(
-                format!(".pressure.{axis}"),
-                if D == 2 { "N/m" } else { "N" },
-            );
-        }
-        columns
+        let (force, moment) = match D {
+            2 => ("N/m", "N"),
+            _ => ("N", "N m"),
+        };
+        let forces = ProbeColumn::components(D, force);
+        let prefixed = |column: &ProbeColumn| {
+            ProbeColumn::named(&format!(".pressure{}", column.suffix), force)
+        };
+        let pressures = forces.iter().map(prefixed).collect();
+        let moments = moments::<D>().iter();
+        let moments = moments.map(|axis| ProbeColumn::named(&format!(".moment{axis}"), moment));
+        [forces, moments.collect(), pressures].concat()
     }
 
     fn needs(&self) -> Needs<'_> {
@@ -63,17 +58,10 @@ impl<const D: usize> Probe<D> for WallForceProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let names = &world.walls.names;
-        if !names.contains(&self.wall) {
-            let near = suggestion(&self.wall, names.iter().map(String::as_str));
-            return Err(StepError::Stage {
-                stage: "probe `wall-force`".into(),
-                reason: format!("there is no wall `{}`{near}", self.wall),
-            });
-        }
+        wall_number(world, &self.wall, ("probe `wall-force`", ""))?;
         let mut total = WallForce::<D>::zero();
         // A wall drawn in several pieces has several forces.
-        let pieces = names.iter().zip(&world.walls.forces);
+        let pieces = world.walls.names.iter().zip(&world.walls.forces);
         for (_, force) in pieces.filter(|(name, _)| **name == self.wall) {
             total.force += force.force;
             total.pressure_force += force.pressure_force;

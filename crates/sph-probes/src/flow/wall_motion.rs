@@ -1,9 +1,9 @@
 //! Place of a wall.
 
-use sph_core::{StepError, Vect, plugin, suggestion};
+use sph_core::{StepError, Vect, plugin};
 use sph_neighbours::World;
 
-use crate::flow::point::point;
+use crate::flow::point::{point, wall_number};
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Displacement of a place of a named wall from where it is drawn, and the angle by which the wall is turned.
@@ -28,30 +28,19 @@ pub struct WallMotionProbe {
 
 impl<const D: usize> Probe<D> for WallMotionProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let all = match D {
-            2 => &[(".x", "m"), (".y", "m"), (".angle", "rad")][..],
-            _ => &[
-                (".x", "m"),
-                (".y", "m"),
-                (".z", "m"),
-                (".rx", "rad"),
-                (".ry", "rad"),
-                (".rz", "rad"),
-            ],
+        let angles = match D {
+            2 => &[(".angle", "rad")][..],
+            _ => &[(".rx", "rad"), (".ry", "rad"), (".rz", "rad")],
         };
-        let column = |(suffix, unit): &(&str, &'static str)| ProbeColumn::named(suffix, unit);
-        all.iter().map(column).collect()
+        [
+            ProbeColumn::components(D, "m"),
+            ProbeColumn::several(angles),
+        ]
+        .concat()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let names = &world.walls.names;
-        let Some(wall) = names.iter().position(|n| *n == self.wall) else {
-            let near = suggestion(&self.wall, names.iter().map(String::as_str));
-            return Err(StepError::Stage {
-                stage: "probe `wall-motion`".into(),
-                reason: format!("there is no wall `{}`{near}", self.wall),
-            });
-        };
+        let wall = wall_number(world, &self.wall, ("probe `wall-motion`", ""))?;
         let Some(frame) = world.walls.frames.get(wall) else {
             return Ok(vec![0.0; if D == 2 { 3 } else { 6 }]);
         };

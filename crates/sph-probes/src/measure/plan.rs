@@ -5,11 +5,51 @@ use std::sync::OnceLock;
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::conditions::{QuantityBounds, counted};
 use super::quantity::Quantity;
 use super::reduction::{Reduce, WeightedValues};
-use crate::phases::phase;
+use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
+
+/// Bounds on a quantity: a particle on a bound does not count.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct QuantityBounds {
+    pub of: Quantity,
+    pub above: f64,
+    pub below: f64,
+}
+
+impl QuantityBounds {
+    /// above < quantity.
+    pub fn above(of: Quantity, above: f64) -> Self {
+        let below = f64::INFINITY;
+        QuantityBounds { of, above, below }
+    }
+
+    /// quantity < below.
+    pub fn below(of: Quantity, below: f64) -> Self {
+        let above = f64::NEG_INFINITY;
+        QuantityBounds { of, above, below }
+    }
+}
+
+/// The numbers of the particles of a phase that fulfil all conditions, and the number of particles of the phase.
+///
+/// # Errors
+/// If a quantity is not known, or the phase's number.
+pub(crate) fn counted<const D: usize>(
+    world: &World<D>,
+    (name, number): (Option<&str>, Option<u32>),
+    conditions: &[QuantityBounds],
+) -> Result<(Vec<usize>, Vec<usize>), StepError> {
+    let phase = CountedPhase::in_phase(world, name, number)?;
+    let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
+    let mut all = of_phase.clone();
+    for condition in conditions {
+        let (value, _) = condition.of.values(world)?;
+        all.retain(|k| value(*k) > condition.above && value(*k) < condition.below);
+    }
+    Ok((all, of_phase))
+}
 
 /// A column of a measurement: reduced/`scale` + `spacings` · δr.
 pub(crate) struct PlannedColumn {
@@ -24,11 +64,11 @@ pub(crate) struct PlannedColumn {
 
 impl PlannedColumn {
     /// A reduced quantity as it is.
-    pub fn new(suffix: &str, of: Quantity, reduce: Reduce) -> Self {
+    pub fn new(suffix: &str, of: Quantity, reduce: impl Into<Reduce>) -> Self {
         PlannedColumn {
             suffix: suffix.into(),
             of,
-            reduce,
+            reduce: reduce.into(),
             scale: 1.0,
             spacings: 0.0,
             unit: None,
@@ -58,6 +98,7 @@ impl PlannedColumn {
 }
 
 /// A measurement: the particles that count, their weights, and the quantity that is reduced.
+#[derive(Default)]
 pub(crate) struct Plan<'a> {
     pub phase: Option<&'a str>,
     pub conditions: Vec<QuantityBounds>,
@@ -74,11 +115,8 @@ impl<'a> Plan<'a> {
     pub fn of_phase(phase: Option<&'a str>, columns: Vec<PlannedColumn>) -> Self {
         Plan {
             phase,
-            conditions: Vec::new(),
-            weight: None,
             columns,
-            slices: None,
-            fitted: None,
+            ..Plan::default()
         }
     }
 }

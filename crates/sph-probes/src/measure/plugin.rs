@@ -4,92 +4,10 @@ use std::collections::BTreeMap;
 
 use sph_core::{Axis, parameters, plugin};
 
-use super::conditions::QuantityBounds;
-use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset};
+use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset, QuantityBounds};
 use super::quantity::{Quantity, unit_of};
-use super::reduction::{Reduce, WeightedValues};
+use super::reduction::{Reduce, Reduction};
 use crate::ProbeEntry;
-
-/// A reduction of many values to a number.
-#[parameters]
-#[derive(Copy, PartialEq)]
-#[serde(rename_all = "lowercase")]
-pub enum Reduction {
-    /// The least value.
-    Min,
-    /// The largest value.
-    Max,
-    /// Σ w v/Σ w.
-    #[default]
-    Mean,
-    /// Σ w v.
-    Sum,
-    /// √(Σ w v²/Σ w).
-    Rms,
-    /// The weight of the particles that count, Σ w: their number, mass or volume.
-    Total,
-    /// Their weight over that of all particles of the phase.
-    Share,
-}
-
-impl Reduction {
-    /// All of them.
-    pub const ALL: [Reduction; 7] = [
-        Reduction::Min,
-        Reduction::Max,
-        Reduction::Mean,
-        Reduction::Sum,
-        Reduction::Rms,
-        Reduction::Total,
-        Reduction::Share,
-    ];
-
-    /// Its name in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Reduction::Min => "min",
-            Reduction::Max => "max",
-            Reduction::Mean => "mean",
-            Reduction::Sum => "sum",
-            Reduction::Rms => "rms",
-            Reduction::Total => "total",
-            Reduction::Share => "share",
-        }
-    }
-
-    fn reduce(self) -> Reduce {
-        match self {
-            Reduction::Min => Reduce::Min,
-            Reduction::Max => Reduce::Max,
-            Reduction::Mean => Reduce::Mean,
-            Reduction::Sum => Reduce::Sum,
-            Reduction::Rms => Reduce::Rms,
-            Reduction::Total => Reduce::Total,
-            Reduction::Share => Reduce::Share,
-        }
-    }
-}
-
-/// A reduction of values with their weights, which are one if none are given; `whole` is the weight of all particles of the
-/// phase, for shares.
-pub fn reduced(how: Reduction, values: &[f64], weights: Option<&[f64]>, whole: f64) -> f64 {
-    let weighed = WeightedValues {
-        values,
-        weights,
-        whole,
-    };
-    weighed.reduced(how.reduce())
-}
-
-/// The least value that a share of the weight does not exceed.
-pub fn quantile(share: f64, values: &[f64], weights: Option<&[f64]>) -> f64 {
-    let weighed = WeightedValues {
-        values,
-        weights,
-        whole: 0.0,
-    };
-    weighed.reduced(Reduce::Quantile(share))
-}
 
 /// The weight of a particle.
 #[parameters]
@@ -185,8 +103,8 @@ impl Statistic {
     fn column(&self, suffix: &str, reduce: Reduce) -> PlannedColumn {
         let column = PlannedColumn::new(suffix, Quantity::named(&self.field), reduce);
         match reduce {
-            Reduce::Share => column.in_unit("1"),
-            Reduce::Total => column.in_unit(self.weight.unit()),
+            Reduce::By(Reduction::Share) => column.in_unit("1"),
+            Reduce::By(Reduction::Total) => column.in_unit(self.weight.unit()),
             _ => match unit_of(&self.field) {
                 Some(unit) => column.in_unit(unit).over(self.scale),
                 None => column.over(self.scale),
@@ -205,7 +123,7 @@ impl Preset for Statistic {
         let reduced = self
             .reduce
             .iter()
-            .map(|reduction| self.column(&suffix(reduction.name().into()), reduction.reduce()));
+            .map(|reduction| self.column(&suffix(reduction.name().into()), (*reduction).into()));
         let quantiles = self.quantiles.iter();
         let quantiles =
             quantiles.map(|q| self.column(&suffix(format!("q{q}")), Reduce::Quantile(*q)));

@@ -3,6 +3,8 @@
 use sph_core::{Plain, StepError, fields, suggestion};
 use sph_neighbours::World;
 
+use crate::contract::refused;
+
 /// Quantities that are made of columns, with their units.
 const MADE: [(&str, &str); 6] = [
     ("x", "m"),
@@ -100,10 +102,10 @@ fn of_column<'a, const D: usize>(
         return Err(unknown(world, name));
     };
     match component {
-        Some(k) if k >= components => Err(StepError::Stage {
-            stage: "probes".into(),
-            reason: format!("`{name}` has {components} components in this scene"),
-        }),
+        Some(k) if k >= components => {
+            let reason = format!("`{name}` has {components} components in this scene");
+            Err(refused("probes", reason))
+        }
         Some(k) => Ok((Box::new(move |i| values[i * components + k]), unit)),
         None if components == 1 => Ok((Box::new(move |i| values[i]), unit)),
         None => {
@@ -121,13 +123,9 @@ fn unknown<const D: usize>(world: &World<D>, name: &str) -> StepError {
     let made = MADE.iter().map(|(name, _)| *name);
     let near = suggestion(name, columns.iter().copied().chain(made.clone()));
     let known: Vec<_> = columns.iter().copied().chain(made).collect();
-    StepError::Stage {
-        stage: "probes".into(),
-        reason: format!(
-            "there is no field `{name}` in this scene{near}; there are: {}",
-            known.join(", ")
-        ),
-    }
+    let known = known.join(", ");
+    let reason = format!("there is no field `{name}` in this scene{near}; there are: {known}");
+    refused("probes", reason)
 }
 
 /// The unit of a quantity that is no column.

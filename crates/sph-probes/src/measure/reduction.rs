@@ -1,22 +1,60 @@
 //! Reductions of many values to a number.
 
-/// Reduction of values to a number. NaN where there is none, but for sums, counts and shares of something.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Reduce {
-    /// The least.
+use sph_core::parameters;
+
+/// A reduction of many values to a number.
+#[parameters]
+#[derive(Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum Reduction {
+    /// The least value.
     Min,
-    /// The largest.
+    /// The largest value.
     Max,
     /// Σ w v/Σ w.
+    #[default]
     Mean,
     /// Σ w v.
     Sum,
     /// √(Σ w v²/Σ w).
     Rms,
-    /// The weight of the values, Σ w.
+    /// The weight of the particles that count, Σ w: their number, mass or volume.
     Total,
-    /// The weight over that of all particles of the phase.
+    /// Their weight over that of all particles of the phase.
     Share,
+}
+
+impl Reduction {
+    /// All of them.
+    pub const ALL: [Reduction; 7] = [
+        Reduction::Min,
+        Reduction::Max,
+        Reduction::Mean,
+        Reduction::Sum,
+        Reduction::Rms,
+        Reduction::Total,
+        Reduction::Share,
+    ];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Reduction::Min => "min",
+            Reduction::Max => "max",
+            Reduction::Mean => "mean",
+            Reduction::Sum => "sum",
+            Reduction::Rms => "rms",
+            Reduction::Total => "total",
+            Reduction::Share => "share",
+        }
+    }
+}
+
+/// Reduction of values to a number. NaN where there is none, but for sums, counts and shares of something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reduce {
+    /// By one of the reductions that scenes name.
+    By(Reduction),
     /// The least value that a share q of the weight does not exceed.
     Quantile(f64),
     /// The largest value that a share q of the weight does not fall below.
@@ -27,10 +65,18 @@ pub(crate) enum Reduce {
     FromAbove(f64),
 }
 
+impl From<Reduction> for Reduce {
+    fn from(how: Reduction) -> Self {
+        Reduce::By(how)
+    }
+}
+
 /// Values with their weights, as far as they are not all one.
 #[derive(Clone, Copy)]
-pub(crate) struct WeightedValues<'a> {
+pub struct WeightedValues<'a> {
+    /// The values.
     pub values: &'a [f64],
+    /// Their weights.
     pub weights: Option<&'a [f64]>,
     /// The weight of all particles of the phase.
     pub whole: f64,
@@ -55,16 +101,16 @@ impl WeightedValues<'_> {
     }
 
     /// The reduced value.
-    pub fn reduced(&self, how: Reduce) -> f64 {
+    pub fn reduced(&self, how: impl Into<Reduce>) -> f64 {
         let values = || self.values.iter().copied();
-        match how {
-            Reduce::Min => values().fold(f64::NAN, f64::min),
-            Reduce::Max => values().fold(f64::NAN, f64::max),
-            Reduce::Sum => self.sum(|v| v),
-            Reduce::Mean => self.sum(|v| v) / self.total(),
-            Reduce::Rms => (self.sum(|v| v * v) / self.total()).sqrt(),
-            Reduce::Total => self.total(),
-            Reduce::Share => self.total() / self.whole,
+        match how.into() {
+            Reduce::By(Reduction::Min) => values().fold(f64::NAN, f64::min),
+            Reduce::By(Reduction::Max) => values().fold(f64::NAN, f64::max),
+            Reduce::By(Reduction::Sum) => self.sum(|v| v),
+            Reduce::By(Reduction::Mean) => self.sum(|v| v) / self.total(),
+            Reduce::By(Reduction::Rms) => (self.sum(|v| v * v) / self.total()).sqrt(),
+            Reduce::By(Reduction::Total) => self.total(),
+            Reduce::By(Reduction::Share) => self.total() / self.whole,
             Reduce::Quantile(share) => self.quantile(share),
             Reduce::QuantileDown(share) => {
                 let values: Vec<f64> = values().map(|v| -v).collect();
@@ -132,16 +178,16 @@ mod tests {
             weights: Some(&[1.0, 2.0, 1.0]),
             whole: 8.0,
         };
-        let of = |how| weighed.reduced(how);
-        assert_eq!([of(Reduce::Min), of(Reduce::Max)], [-1.0, 3.0]);
-        assert_eq!([of(Reduce::Sum), of(Reduce::Mean)], [3.0, 0.75]);
-        assert_eq!(of(Reduce::Rms), (15.0_f64 / 4.0).sqrt());
-        assert_eq!([of(Reduce::Total), of(Reduce::Share)], [4.0, 0.5]);
-        let quantiles = [0.0, 0.5, 0.51, 1.0].map(|q| of(Reduce::Quantile(q)));
+        let of = |how: Reduction| weighed.reduced(how);
+        assert_eq!([of(Reduction::Min), of(Reduction::Max)], [-1.0, 3.0]);
+        assert_eq!([of(Reduction::Sum), of(Reduction::Mean)], [3.0, 0.75]);
+        assert_eq!(of(Reduction::Rms), (15.0_f64 / 4.0).sqrt());
+        assert_eq!([of(Reduction::Total), of(Reduction::Share)], [4.0, 0.5]);
+        let quantiles = [0.0, 0.5, 0.51, 1.0].map(|q| weighed.reduced(Reduce::Quantile(q)));
         assert_eq!(quantiles, [-1.0, -1.0, 2.0, 3.0]);
-        assert_eq!(of(Reduce::QuantileDown(0.5)), 2.0);
-        assert_eq!(of(Reduce::FromBelow(0.5)), 2.0);
-        assert_eq!(of(Reduce::FromAbove(0.5)), -1.0);
+        assert_eq!(weighed.reduced(Reduce::QuantileDown(0.5)), 2.0);
+        assert_eq!(weighed.reduced(Reduce::FromBelow(0.5)), 2.0);
+        assert_eq!(weighed.reduced(Reduce::FromAbove(0.5)), -1.0);
     }
 
     #[test]
@@ -151,15 +197,11 @@ mod tests {
             weights: None,
             whole: 0.0,
         };
-        for how in [
-            Reduce::Min,
-            Reduce::Max,
-            Reduce::Mean,
-            Reduce::Quantile(0.5),
-        ] {
+        for how in [Reduction::Min, Reduction::Max, Reduction::Mean] {
             assert!(nothing.reduced(how).is_nan(), "{how:?}");
         }
-        assert_eq!(nothing.reduced(Reduce::Sum), 0.0);
-        assert_eq!(nothing.reduced(Reduce::Total), 0.0);
+        assert!(nothing.reduced(Reduce::Quantile(0.5)).is_nan());
+        assert_eq!(nothing.reduced(Reduction::Sum), 0.0);
+        assert_eq!(nothing.reduced(Reduction::Total), 0.0);
     }
 }

@@ -3,7 +3,6 @@
 use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 
-use crate::flow::point::{carried, point};
 use crate::phases::phase::{self, CountedPhase, column, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
@@ -49,11 +48,8 @@ impl<const D: usize> Probe<D> for Interface {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let drawn = point::<D>(&self.at[..self.at.len().min(D - 1)]);
-        let mut foot = carried(world, drawn, self.follows.as_deref())?;
-        foot[D - 1] = 0.0;
         let counted = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
-        let near = column(world, &foot)?;
+        let near = column(world, &self.at, self.follows.as_deref())?;
         // Share of the phase less one half, if the place is not empty.
         let excess = |z: f64| -> Option<f64> {
             let (mut of_phase, mut of_all) = (0.0, 0.0);

@@ -3,7 +3,6 @@
 use sph_core::{StepError, fields, parameters, plugin};
 use sph_neighbours::World;
 
-use crate::beds::bed_lines;
 use crate::beds::columns::{Columns, End};
 use crate::phases::phase::{self, CountedPhase};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
@@ -57,7 +56,7 @@ pub struct Line {
     #[parameter(default: 1.5e-3, unit: "m", above: 0.0, source: "Ghaïtanellis 2017, §5.3.2")]
     pub moved: f64,
     /// Speed above which a particle moves, for `of = "limit"`.
-    #[parameter(default: bed_lines::threshold(), unit: "m/s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 5.21")]
+    #[parameter(default: 0.2, unit: "m/s", above: 0.0, source: "Ghaïtanellis 2017, Eq. 5.21")]
     pub threshold: f64,
     /// Name of the phase; all particles if left out.
     pub phase: Option<String>,
@@ -73,13 +72,9 @@ impl Line {
         let counted = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         // Particles far away from the reference make no columns: these must fit into memory.
-        let xs = || self.reference.iter().map(|[x, _]| *x);
-        let range = [
-            xs().fold(f64::INFINITY, f64::min),
-            xs().fold(f64::NEG_INFINITY, f64::max),
-        ];
+        let xs = self.reference.iter().map(|[x, _]| *x);
         let through = |end, has: &dyn Fn(usize) -> bool| {
-            let mut columns = Columns::over(range, world.spacing, end);
+            let mut columns = Columns::over(xs.clone(), world.spacing, end);
             let all = positions.iter().enumerate();
             all.filter(|(k, _)| counted.has(*k) && has(*k))
                 .for_each(|(_, x)| columns.put(x));
@@ -102,15 +97,7 @@ impl Line {
 
 impl Probe<2> for Line {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let column = |suffix: &str, unit| ProbeColumn {
-            suffix: suffix.into(),
-            unit,
-        };
-        vec![
-            column(".rms", "m"),
-            column(".share", "1"),
-            column(".distance", "m"),
-        ]
+        ProbeColumn::several(&[(".rms", "m"), (".share", "1"), (".distance", "m")])
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {

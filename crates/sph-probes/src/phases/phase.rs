@@ -3,6 +3,9 @@
 use sph_core::{StepError, Vect, fields, suggestion};
 use sph_neighbours::World;
 
+use crate::contract::refused;
+use crate::flow::point::{carried, point};
+
 /// Number of the phase called `name`, in the scene's order of names.
 ///
 /// # Errors
@@ -41,10 +44,10 @@ impl<'a> CountedPhase<'a> {
             (_, Some(0)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::All),
             (_, Some(_)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::None),
             (_, Some(k)) => Ok(CountedPhase::Of(world.free.get(fields::PHASE)?, k)),
-            (Some(name), None) => Err(StepError::Stage {
-                stage: "probes".into(),
-                reason: format!("the number of the phase `{name}` is not known yet"),
-            }),
+            (Some(name), None) => {
+                let reason = format!("the number of the phase `{name}` is not known yet");
+                Err(refused("probes", reason))
+            }
         }
     }
 
@@ -58,14 +61,17 @@ impl<'a> CountedPhase<'a> {
     }
 }
 
-/// Particles around a vertical line: place from the line's foot, volume, number.
+/// Particles around the vertical line over a place, which a wall may carry: place from the line's foot, volume, number.
 ///
 /// Volumes are at most a cell δr^d: a drop alone has a small density and a volume of several
 /// cells, and is no surface.
 pub(crate) fn column<const D: usize>(
     world: &World<D>,
-    foot: &Vect<D>,
+    at: &[f64],
+    follows: Option<&str>,
 ) -> Result<Vec<(Vect<D>, f64, usize)>, StepError> {
+    let mut foot = carried(world, point(&at[..at.len().min(D - 1)]), follows)?;
+    foot[D - 1] = 0.0;
     let positions = world.free.get(fields::POSITION)?;
     let volume = world.free.get(fields::VOLUME)?;
     let radius = world.kernel.support_radius();

@@ -37,11 +37,7 @@ pub struct SurfaceSlope {
 
 impl Probe<2> for SurfaceSlope {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let column = |suffix: &str, unit| ProbeColumn {
-            suffix: suffix.into(),
-            unit,
-        };
-        vec![column(".angle", "rad"), column(".rms", "m")]
+        ProbeColumn::several(&[(".angle", "rad"), (".rms", "m")])
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {

@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u(z) = 2I/(3d) √(φ g cos θ) [H^(3/2) − (H − z)^(3/2)] along the first axis, and
 /// p(z) = [exp(K φρ_g g cos θ (H − z)) − 1]/K.
@@ -110,10 +110,10 @@ impl<const D: usize> Solution<D> for Bagnold {
         let steady = self.steady()?;
         let over = (steady.depth + self.bottom - position[D - 1]).max(0.0);
         let scale = (steady.fraction * steady.pressing).sqrt() / self.grain_diameter;
-        let mut velocity = Vect::zeros();
-        velocity[0] =
-            2.0 / 3.0 * steady.inertial_number * scale * (steady.depth.powf(1.5) - over.powf(1.5));
-        Some(velocity)
+        along(
+            0,
+            2.0 / 3.0 * steady.inertial_number * scale * (steady.depth.powf(1.5) - over.powf(1.5)),
+        )
     }
 
     fn pressure(&self, position: &Vect<D>, _time: f64) -> Option<f64> {

@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u⁺ = α² − y⁺² + A (α + y⁺) below the interface, ω [(1−α)² − y⁺²] + λωA (y⁺ − (1−α)) above it,
 /// with A = [(1−α)² ω − α²] / [(1−α) λω + α].
@@ -68,9 +68,10 @@ impl<const D: usize> Solution<D> for BifluidPoiseuille {
     fn velocity(&self, position: &Vect<D>, _time: f64) -> Option<Vect<D>> {
         let kinematic = self.viscosities[0] / self.densities[0];
         let scale = self.acceleration * self.length * self.length / (2.0 * kinematic);
-        let mut velocity = Vect::zeros();
-        velocity[0] = scale * self.scaled((position[D - 1] - self.interface) / self.length);
-        Some(velocity)
+        along(
+            0,
+            scale * self.scaled((position[D - 1] - self.interface) / self.length),
+        )
     }
 }
 

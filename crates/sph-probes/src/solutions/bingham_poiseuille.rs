@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u = n/(n+1) (G/K)^(1/n) [(b − y₀)^(1+1/n) − (max(|y|, y₀) − y₀)^(1+1/n)] with G = ρa and a plug of half
 /// width y₀ = τ_y/G; b is half the height of the channel and y counts from its middle.
@@ -116,9 +116,7 @@ impl<const D: usize> Solution<D> for BinghamPoiseuille {
     fn velocity(&self, position: &Vect<D>, _time: f64) -> Option<Vect<D>> {
         let middle = self.bottom + 0.5 * self.height;
         let speed = self.speed((position[D - 1] - middle).abs());
-        let mut velocity = Vect::zeros();
-        velocity[0] = self.acceleration.signum() * speed;
-        Some(velocity)
+        along(0, self.acceleration.signum() * speed)
     }
 }
 

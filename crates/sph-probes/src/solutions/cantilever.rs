@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u = U f(x)/f(L) cos(ωt) across the plate, with kL = 1.875 and ω² = EH²k⁴/(12ρ(1 − ν²)).
 ///
@@ -63,11 +63,9 @@ impl Cantilever {
 
 impl<const D: usize> Solution<D> for Cantilever {
     fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
-        let along = (position[0] - self.root).max(0.0);
-        let mut velocity = Vect::zeros();
-        let shape = Self::shape(FIRST_ROOT * along / self.length);
-        velocity[D - 1] = self.speed * (self.frequency() * time).cos() * shape;
-        Some(velocity)
+        let x = (position[0] - self.root).max(0.0);
+        let shape = Self::shape(FIRST_ROOT * x / self.length);
+        along(D - 1, self.speed * (self.frequency() * time).cos() * shape)
     }
 }
 

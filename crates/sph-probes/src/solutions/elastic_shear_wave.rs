@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry};
+use crate::{Solution, SolutionEntry, solutions::along};
 
 /// u = U cos(ωt) sin(ky) along x with k = 2π/λ and ω = k√(𝒢/ρ).
 ///
@@ -33,9 +33,10 @@ impl<const D: usize> Solution<D> for ElasticShearWave {
     fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
         let k = TAU / self.wavelength;
         let frequency = k * (self.shear_modulus / self.density).sqrt();
-        let mut velocity = Vect::zeros();
-        velocity[0] = self.speed * (frequency * time).cos() * (k * position[D - 1]).sin();
-        Some(velocity)
+        along(
+            0,
+            self.speed * (frequency * time).cos() * (k * position[D - 1]).sin(),
+        )
     }
 }
 

@@ -27,3 +27,8 @@ pub(crate) fn grid(
     text.push_str("</table></div>\n");
     text
 }
+
+/// A table whose rows are alike.
+pub(crate) fn plain_grid(heads: &[String], rows: &[Vec<String>]) -> String {
+    grid(heads, rows, |_| String::new())
+}

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::number;
 use sph_io::{Plot, Series, Style};
 
 use crate::results::Results;
@@ -149,15 +148,4 @@ fn y_label(results: &Results) -> String {
         Some(e) => format!("error of {name}, {} [{}]", e.norm, e.unit),
         None => format!("error of {name}"),
     }
-}
-
-/// The plots in a line: the fastest within ever smaller errors.
-pub fn pareto_lines(results: &Results) -> Vec<[String; 3]> {
-    let line = |name: &String| {
-        let variant = results.variant(name)?;
-        let error = variant.error(results.judged())?;
-        let seconds = variant.wall_seconds.min?;
-        Some([name.clone(), number::plain(error), number::plain(seconds)])
-    };
-    results.pareto.iter().filter_map(line).collect()
 }

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use sph_io::{Durability, IoError, Plot, write_atomic};
+use sph_io::{IoError, Plot, write_whole};
 
-use crate::pages::{matrix_plots, plots, report, table};
+use crate::pages::{matrix, plots, report, table};
 use crate::reading::combine::safe;
 use crate::results::Results;
 
@@ -15,16 +15,13 @@ use crate::results::Results;
 pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
     sph_io::write_json(folder.join("study.json"), results)?;
     table::write_csv(results, &folder.join("study.csv"))?;
-    for (name, plot) in matrix_plots::axes(results) {
+    for (name, plot) in matrix::axes(results) {
         write_both(&plot, folder, &format!("axis-{}", safe(&name)))?;
     }
     if results.frontiers.is_empty() {
         compared(results, folder)?;
     }
-    let page = report::html(results)?;
-    write_atomic(folder.join("report.html"), Durability::Process, |file| {
-        file.write_all(page.as_bytes())
-    })
+    write_whole(folder.join("report.html"), report::html(results)?)
 }
 
 /// The plots of variants of one scene.

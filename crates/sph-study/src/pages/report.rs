@@ -5,25 +5,14 @@ use std::fmt::Write as _;
 use sph_core::number;
 use sph_io::{IoError, escape};
 
-use crate::pages::grid::grid;
-use crate::pages::plots;
-use crate::pages::table;
+use crate::pages::grid::{grid, plain_grid};
+use crate::pages::{matrix, plots, table};
 use crate::results::Results;
-use crate::results::matrix;
 use crate::running::machine::Origin;
 use crate::running::record::Status;
 
 /// Style of the page, on paper too.
-const STYLE: &str = "\
-body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem;color:#222}
-h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}
-th,td{text-align:left;padding:.2rem .9rem .2rem 0;border-bottom:1px solid #ddd;vertical-align:top}
-tr.pareto td:first-child::before{content:\"★ \"}tr.failed,tr.over-limit{color:#a33}
-tr.pending,tr.interrupted{color:#888}
-svg{width:100%;height:auto;max-width:60rem;display:block}
-pre{background:#f5f5f5;padding:.8rem;overflow-x:auto;font-size:.85rem}
-.wide{overflow-x:auto}";
+const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The page.
 ///
@@ -36,8 +25,7 @@ pub fn html(results: &Results) -> Result<String, IoError> {
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}\n{}\n</style>\n</head>\n<body>\n<h1>{title}</h1>",
-        matrix::STYLE
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
     );
     if let Some(description) = &results.description {
         let _ = writeln!(page, "<p>{}</p>", marked(&words(description)));
@@ -59,37 +47,35 @@ pub fn html(results: &Results) -> Result<String, IoError> {
 fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     if !results.errors.is_empty() {
-        let _ = writeln!(page, "<h2>Error against run time</h2>");
-        page.push_str(&plots::work_precision(results).to_svg()?);
+        let plot = plots::work_precision(results);
+        page.push_str(&headed("Error against run time", &plot.to_svg()?));
     }
     if let Some(plot) = plots::means(results) {
-        let _ = writeln!(page, "<h2>Means</h2>");
-        page.push_str(&plot.to_svg()?);
+        page.push_str(&headed("Means", &plot.to_svg()?));
     }
     if let Some(plot) = plots::convergence(results) {
-        let _ = writeln!(page, "<h2>Convergence</h2>");
-        page.push_str(&plot.to_svg()?);
+        page.push_str(&headed("Convergence", &plot.to_svg()?));
         page.push_str(&orders(results));
     }
     if let Some(scale) = &results.scale {
-        let _ = writeln!(page, "<h2>Cost against size</h2>");
-        page.push_str(&scale.plot(&results.title).to_svg()?);
+        let plot = scale.plot(&results.title);
+        page.push_str(&headed("Cost against size", &plot.to_svg()?));
         for line in scale.lines() {
             let _ = writeln!(page, "<p>{}</p>", escape(&line));
         }
     }
     if !results.errors.is_empty() {
-        let _ = writeln!(
-            page,
-            "<h2>Pareto line: not beaten in both error and time</h2>"
-        );
-        page.push_str(&best(results));
+        let title = "Pareto line: not beaten in both error and time";
+        page.push_str(&headed(title, &best(results)));
     }
-    let _ = writeln!(page, "<h2>Variants</h2>");
-    page.push_str(&variants(results));
+    page.push_str(&headed("Variants", &variants(results)));
     page.push_str(&failures(results));
     page.push_str(&stages(results));
     Ok(page)
+}
+
+fn headed(title: &str, body: &str) -> String {
+    format!("<h2>{title}</h2>\n{body}")
 }
 
 /// A text without its line breaks.
@@ -119,13 +105,8 @@ fn lines(text: &str) -> String {
 }
 
 fn facts(results: &Results) -> String {
-    let count = |status: Status| {
-        results
-            .variants
-            .iter()
-            .filter(|v| v.status == status)
-            .count()
-    };
+    let all = || results.variants.iter().map(|v| v.status);
+    let count = |status: Status| all().filter(|s| *s == status).count();
     let states = [
         Status::Done,
         Status::Failed,
@@ -138,14 +119,6 @@ fn facts(results: &Results) -> String {
     let states: Vec<String> = states
         .map(|s| format!("{} {}", count(*s), s.name()))
         .collect();
-    let mut threads: Vec<usize> = results.variants.iter().map(|v| v.threads).collect();
-    threads.sort_unstable();
-    threads.dedup();
-    let threads: Vec<String> = threads
-        .iter()
-        .filter(|t| **t > 0)
-        .map(|t| t.to_string())
-        .collect();
     let manner = match results.serial {
         true => "one variant at a time",
         false => "variants side by side",
@@ -157,21 +130,24 @@ fn facts(results: &Results) -> String {
         row("judged by", results.errors.join(", ")),
         row("variants", states.join(", ")),
         row("machine", origin.machine.to_string()),
-        row("threads", format!("{}; {manner}", threads.join(", "))),
+        row("threads", format!("{}; {manner}", results.threads())),
         row("version", format!("sph {}", origin.version)),
         row("commit", origin.commit.clone().unwrap_or("unknown".into())),
         row("built with", origin.built_with.clone()),
     ];
     rows.retain(|row| !row[1].is_empty());
-    for (name, of) in [
+    let unlike = [
+        ("variants ran at", differing(results, |o| o.commit.clone())),
         (
-            "variants ran at",
-            (|o| o.commit.clone()) as fn(&Origin) -> _,
+            "variants ran on",
+            differing(results, |o| Some(o.machine.to_string())),
         ),
-        ("variants ran on", |o| Some(o.machine.to_string())),
-        ("variants ran with", |o| Some(o.built_with.clone())),
-    ] {
-        let all = unlike(results, of);
+        (
+            "variants ran with",
+            differing(results, |o| Some(o.built_with.clone())),
+        ),
+    ];
+    for (name, all) in unlike {
         if all.len() > 1 {
             rows.push(row(name, all.join("; ")));
         }
@@ -179,11 +155,11 @@ fn facts(results: &Results) -> String {
     if !results.set.is_empty() {
         rows.push(row("set for all", results.set.join(", ")));
     }
-    grid(&[], &rows, |_| String::new())
+    plain_grid(&[], &rows)
 }
 
 /// Keys in which the variants that have run differ.
-fn unlike(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
+fn differing(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
     let ran = results.variants.iter().filter(|v| v.steps > 0);
     let mut all: Vec<String> = ran.filter_map(|v| of(&v.origin)).collect();
     all.sort();
@@ -212,14 +188,24 @@ fn orders(results: &Results) -> String {
     }
     match rows.is_empty() {
         true => String::new(),
-        false => grid(&heads, &rows, |_| String::new()),
+        false => plain_grid(&heads, &rows),
     }
 }
 
 fn best(results: &Results) -> String {
     let heads = ["variant", results.judged(), "wall seconds"].map(String::from);
-    let best = plots::pareto_lines(results).into_iter().map(|l| l.to_vec());
-    grid(&heads, &best.collect::<Vec<_>>(), |_| String::new())
+    let row = |name: &String| {
+        let variant = results.variant(name)?;
+        let error = variant.error(results.judged())?;
+        let seconds = variant.wall_seconds.min?;
+        Some(vec![
+            name.clone(),
+            number::plain(error),
+            number::plain(seconds),
+        ])
+    };
+    let rows: Vec<_> = results.pareto.iter().filter_map(row).collect();
+    plain_grid(&heads, &rows)
 }
 
 fn variants(results: &Results) -> String {
@@ -244,10 +230,7 @@ fn failures(results: &Results) -> String {
     let heads = ["variant", "status", "reason"].map(String::from);
     match bad.is_empty() {
         true => String::new(),
-        false => format!(
-            "<h2>What did not end well</h2>\n{}",
-            grid(&heads, &bad, |_| String::new())
-        ),
+        false => headed("What did not end well", &plain_grid(&heads, &bad)),
     }
 }
 
@@ -271,10 +254,7 @@ fn stages(results: &Results) -> String {
     }
     match rows.is_empty() {
         true => String::new(),
-        false => format!(
-            "<h2>Where the time goes</h2>\n{}",
-            grid(&heads, &rows, |_| String::new())
-        ),
+        false => headed("Where the time goes", &plain_grid(&heads, &rows)),
     }
 }
 

@@ -1,13 +1,12 @@
 //! Results as rows of text, for terminals, pages and spreadsheets.
 
-use std::io::Write;
 use std::path::Path;
 
 use sph_core::number;
-use sph_io::{Durability, IoError, clean, write_atomic};
+use sph_io::{IoError, clean, write_whole};
 
+use crate::pages::matrix;
 use crate::results::Results;
-use crate::results::matrix;
 use crate::results::variant_result::VariantResult;
 use crate::running::cost::Cost;
 use crate::running::record::Status;
@@ -17,77 +16,66 @@ pub fn rows(results: &Results) -> Vec<Vec<String>> {
     if !results.frontiers.is_empty() {
         return matrix::summary(results);
     }
-    let mut heads: Vec<String> = results.axes.clone();
-    if heads.is_empty() {
-        heads.push("variant".into());
+    with_heads(results.variants.iter().map(|v| row(results, v)))
+}
+
+/// Rows below the names of their cells, which are those of the first.
+fn with_heads(rows: impl Iterator<Item = Vec<(String, String)>>) -> Vec<Vec<String>> {
+    let mut all = Vec::new();
+    for row in rows {
+        let (heads, cells) = row.into_iter().unzip();
+        if all.is_empty() {
+            all.push(heads);
+        }
+        all.push(cells);
     }
-    heads.extend(results.errors.clone());
-    let refined = results.refinement.is_some() && !results.errors.is_empty();
-    heads.extend(refined.then(|| "order".to_string()));
-    let scale = results.scale.as_ref().map(|s| s.cost);
-    heads.extend(scale.iter().flat_map(|c| costs_heads(*c)));
-    heads.extend(["wall time", "steps", "particles", "limited by", "status"].map(String::from));
-    let mut all = vec![heads];
-    all.extend(results.variants.iter().map(|v| row(results, v, refined)));
     all
 }
 
-fn row(results: &Results, v: &VariantResult, refined: bool) -> Vec<String> {
+/// A variant as a row, each cell with its head.
+fn row(results: &Results, v: &VariantResult) -> Vec<(String, String)> {
     let none = || "–".to_string();
-    let labels = results.axes.iter().map(|a| v.values.get(a).cloned());
-    let mut row: Vec<String> = labels.map(Option::unwrap_or_default).collect();
+    let number = |x: Option<f64>| x.map_or_else(none, number::plain);
+    let value = |axis: &String| v.values.get(axis).cloned().unwrap_or_default();
+    let axes = results.axes.iter();
+    let mut row: Vec<(String, String)> = axes.map(|a| (a.clone(), value(a))).collect();
     if row.is_empty() {
-        row.push(v.name.clone());
+        row.push(("variant".into(), v.name.clone()));
     }
-    let errors = results.errors.iter().map(|name| v.error(name));
-    row.extend(errors.map(|e| e.map_or_else(none, number::plain)));
-    if refined {
-        row.push(v.order.map_or_else(none, |o| format!("{o:.2}")));
+    let errors = results.errors.iter();
+    row.extend(errors.map(|name| (name.clone(), number(v.error(name)))));
+    let mut add = |head: &str, cell: Option<String>| {
+        row.push((head.to_string(), cell.unwrap_or_else(none)));
+    };
+    if results.refinement.is_some() && !results.errors.is_empty() {
+        add("order", v.order.map(|o| format!("{o:.2}")));
     }
     if let Some(scale) = &results.scale {
-        row.extend(costs(scale.cost, v).map(|c| c.unwrap_or_else(none)));
+        let milliseconds = |s: f64| format!("{} ms", number::plain((s * 1e6).round() / 1e3));
+        add(scale.cost.name(), v.cost(scale.cost).map(milliseconds));
+        if scale.cost == Cost::Solve {
+            let solves = v.solves.as_ref();
+            add("iterations", solves.map(|s| format!("{:.1}", s.iterations)));
+            let megabytes = |bytes: usize| format!("{:.1} MB", bytes as f64 / 1e6);
+            add("memory", solves.map(|s| megabytes(s.bytes)));
+        }
     }
-    let begun = v.steps > 0;
-    row.push(seconds(v).unwrap_or_else(none));
-    let count = |n: f64| if begun { number::count(n) } else { none() };
-    row.push(count(v.steps as f64));
-    row.push(match v.particles {
-        0 => none(),
-        n => number::count(n as f64),
-    });
-    let limiter = v.dt_limiter.as_ref();
-    row.push(limiter.map_or_else(none, |name| {
+    add("wall time", seconds(v));
+    let count = |n: f64| (n > 0.0).then(|| number::count(n));
+    add("steps", count(v.steps as f64));
+    add("particles", count(v.particles as f64));
+    let limiter = v.dt_limiter.as_ref().map(|name| {
         let share = v.dt_limiters.get(name).copied().unwrap_or(0.0);
         format!("{name} {:.0} %", 100.0 * share)
-    }));
-    row.push(match (v.status, &v.reason) {
-        (Status::Failed | Status::OverLimit, Some(reason)) => {
-            format!("{}: {reason}", v.status.name())
-        }
-        (status, _) => status.name().to_string(),
     });
-    row
-}
-
-/// Heads of the columns of a cost.
-fn costs_heads(cost: Cost) -> Vec<String> {
-    let heads: &[&str] = match cost {
-        Cost::Step => &["time per step"],
-        Cost::Solve => &["time per solve", "iterations", "memory"],
+    add("limited by", limiter);
+    let name = v.status.name();
+    let status = match (v.status, &v.reason) {
+        (Status::Failed | Status::OverLimit, Some(reason)) => format!("{name}: {reason}"),
+        _ => name.to_string(),
     };
-    heads.iter().map(|h| h.to_string()).collect()
-}
-
-/// Cells of the costs below them.
-fn costs(cost: Cost, v: &VariantResult) -> impl Iterator<Item = Option<String>> {
-    let milliseconds = |s: f64| format!("{} ms", number::plain((s * 1e6).round() / 1e3));
-    let mut cells = vec![v.cost(cost).map(milliseconds)];
-    if cost == Cost::Solve {
-        let solves = v.solves.as_ref();
-        cells.push(solves.map(|s| format!("{:.1}", s.iterations)));
-        cells.push(solves.map(|s| format!("{:.1} MB", s.bytes as f64 / 1e6)));
-    }
-    cells.into_iter()
+    add("status", Some(status));
+    row
 }
 
 /// The least time, with the spread where there are several.
@@ -108,86 +96,58 @@ fn seconds(v: &VariantResult) -> Option<String> {
 /// # Errors
 /// If the file cannot be written.
 pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
-    write_atomic(path, Durability::Process, |file| csv(results, file))
+    let errors = errors(results);
+    let rows = with_heads(results.variants.iter().map(|v| plain(results, &errors, v)));
+    let cells = |row: &Vec<String>| row.iter().map(|c| quoted(c)).collect::<Vec<_>>();
+    let lines = rows.iter().map(|row| cells(row).join(",") + "\n");
+    write_whole(path, lines.collect::<String>())
 }
 
-fn csv(results: &Results, file: &mut dyn Write) -> std::io::Result<()> {
-    let mut heads = vec!["variant".to_string()];
-    heads.extend(results.axes.iter().cloned());
-    heads.push(results.refinement.clone().unwrap_or("refinement".into()));
-    heads.push("status".into());
-    let errors = errors(results);
-    heads.extend(errors.iter().map(|e| format!("error.{e}")));
+/// Plain numbers of a variant, with the heads of their columns.
+fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String, String)> {
+    let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x}"));
+    let value = |axis: &String| clean(&v.values[axis]).into_owned();
+    let refinement = results.refinement.clone();
+    let refinement = refinement.unwrap_or("refinement".into());
+    let mut row = vec![("variant".to_string(), clean(&v.name).into_owned())];
+    row.extend(results.axes.iter().map(|a| (a.clone(), value(a))));
+    row.push((refinement, number(v.refinement)));
+    row.push(("status".into(), v.status.name().into()));
+    row.extend((errors.iter()).map(|e| (format!("error.{e}"), number(v.error(e)))));
+    let (health, verdict, solves) = (&v.health, v.verdict.as_ref(), v.solves.as_ref());
+    let trouble = health.first_trouble.as_ref();
     let rest = [
-        "order",
-        "wall_seconds",
-        "wall_spread",
-        "solves",
-        "solve_seconds",
-        "solve_iterations",
-        "solve_bytes",
-        "threads",
-        "steps",
-        "particles",
-        "dt_limiter",
-        "colour",
-        "why",
-        "first_trouble",
-        "energy_drift",
-        "energy_rise",
-        "momentum_drift",
-        "least_density",
-        "largest_density",
-        "mach",
-        "escaped",
-        "reason",
-    ];
-    heads.extend(rest.map(String::from));
-    line(file, &heads)?;
-    for v in &results.variants {
-        let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x}"));
-        let mut row = vec![clean(&v.name).into_owned()];
-        row.extend(
-            results
-                .axes
-                .iter()
-                .map(|a| clean(&v.values[a]).into_owned()),
-        );
-        row.push(number(v.refinement));
-        row.push(v.status.name().into());
-        row.extend(errors.iter().map(|e| number(v.error(e))));
-        let health = &v.health;
-        let verdict = v.verdict.as_ref();
-        row.extend([
-            number(v.order),
-            number(v.wall_seconds.min),
-            number(v.wall_seconds.spread),
-            number(v.solves.as_ref().map(|s| s.count as f64)),
-            number(v.solves.as_ref().map(|s| s.seconds)),
-            number(v.solves.as_ref().map(|s| s.iterations)),
-            number(v.solves.as_ref().map(|s| s.bytes as f64)),
-            v.threads.to_string(),
-            v.steps.to_string(),
-            v.particles.to_string(),
-            v.dt_limiter.clone().unwrap_or_default(),
-            verdict.map_or("", |v| v.colour.name()).to_string(),
-            verdict.map_or(String::new(), |v| v.why.clone()),
-            health
-                .first_trouble
-                .as_ref()
-                .map_or(String::new(), matrix::trouble),
-            number(health.energy_drift),
-            number(health.energy_rise),
-            number(health.momentum_drift),
-            number(health.density_range.map(|r| r[0])),
+        ("order", number(v.order)),
+        ("wall_seconds", number(v.wall_seconds.min)),
+        ("wall_spread", number(v.wall_seconds.spread)),
+        ("solves", number(solves.map(|s| s.count as f64))),
+        ("solve_seconds", number(solves.map(|s| s.seconds))),
+        ("solve_iterations", number(solves.map(|s| s.iterations))),
+        ("solve_bytes", number(solves.map(|s| s.bytes as f64))),
+        ("threads", v.threads.to_string()),
+        ("steps", v.steps.to_string()),
+        ("particles", v.particles.to_string()),
+        ("dt_limiter", v.dt_limiter.clone().unwrap_or_default()),
+        ("colour", verdict.map_or("", |v| v.colour.name()).into()),
+        ("why", verdict.map_or(String::new(), |v| v.why.clone())),
+        (
+            "first_trouble",
+            trouble.map_or(String::new(), matrix::trouble),
+        ),
+        ("energy_drift", number(health.energy_drift)),
+        ("energy_rise", number(health.energy_rise)),
+        ("momentum_drift", number(health.momentum_drift)),
+        ("least_density", number(health.density_range.map(|r| r[0]))),
+        (
+            "largest_density",
             number(health.density_range.map(|r| r[1])),
-            number(health.mach),
-            health.escaped.to_string(),
-            v.reason.clone().unwrap_or_default(),
-        ]);
-        line(file, &row)?;
-    }
-    Ok(())
+        ),
+        ("mach", number(health.mach)),
+        ("escaped", health.escaped.to_string()),
+        ("reason", v.reason.clone().unwrap_or_default()),
+    ];
+    row.extend(rest.map(|(head, cell)| (head.to_string(), cell)));
+    row
 }
 
 /// Names of all errors in the report.
@@ -199,11 +159,6 @@ fn errors(results: &Results) -> Vec<String> {
         }
     }
     all
-}
-
-fn line(file: &mut dyn Write, cells: &[String]) -> std::io::Result<()> {
-    let cells: Vec<String> = cells.iter().map(|c| quoted(c)).collect();
-    writeln!(file, "{}", cells.join(","))
 }
 
 /// A cell as RFC 4180 has it.

@@ -27,7 +27,7 @@ pub struct StudyAxis {
 }
 
 /// A place on an axis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choice {
     /// Name in tables and plots.
     pub label: String,
@@ -37,6 +37,17 @@ pub struct Choice {
     pub scene: Option<(String, String)>,
     /// Keys and values that it sets.
     pub sets: Vec<Set>,
+}
+
+impl Choice {
+    /// A place of a name that sets nothing.
+    pub fn named(name: &str) -> Self {
+        Choice {
+            label: name.to_string(),
+            slug: name.to_string(),
+            ..Choice::default()
+        }
+    }
 }
 
 impl StudyAxis {
@@ -108,8 +119,8 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
                 Ok(Choice {
                     slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
                     label: given.unwrap_or(bare),
-                    scene: None,
                     sets: vec![set],
+                    ..Choice::default()
                 })
             };
             let choices: Result<Vec<_>, SceneProblem> =
@@ -127,10 +138,9 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
                 let at = format!("{at}.entries[{k}]");
                 let named = entry.scene.clone();
                 Ok(Choice {
-                    label: entry.name.clone(),
-                    slug: entry.name.clone(),
                     scene: named.map(|scene| (scene, format!("{at}.scene"))),
                     sets: sets(&entry.set, &format!("{at}.set"))?,
+                    ..Choice::named(&entry.name)
                 })
             };
             let choices: Result<Vec<_>, SceneProblem> =

@@ -209,15 +209,9 @@ mod tests {
     use crate::reading::axis::Choice;
 
     fn axis(name: &str, labels: &[&str]) -> StudyAxis {
-        let choice = |l: &&str| Choice {
-            label: (*l).into(),
-            slug: (*l).into(),
-            scene: None,
-            sets: Vec::new(),
-        };
         StudyAxis {
             name: name.into(),
-            choices: labels.iter().map(choice).collect(),
+            choices: labels.iter().map(|label| Choice::named(label)).collect(),
         }
     }
 

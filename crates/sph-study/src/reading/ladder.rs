@@ -1,16 +1,14 @@
 //! Axes that are gone along from harmless to absurd, each with its own scene.
 
 use sph_core::{SceneProblem, suggestion};
-use sph_scene::{Override, Source};
+use sph_scene::Source;
 
 use crate::reading::axis::{self, Choice, StudyAxis, label};
 use crate::reading::combine::{MOST, combinations, safe};
 use crate::reading::file::{self, Bounds, Combine, StudyFile};
 use crate::reading::mistake::Refused;
-use crate::reading::reader::Reader;
-use crate::reading::rung::{Ladder, Rung};
-use crate::reading::scene_text::SceneText;
-use crate::reading::variant::Variant;
+use crate::reading::reader::{Inputs, Reader};
+use crate::reading::variant::{Ladder, Rung, SceneText, Variant};
 use crate::running::verdict::QUANTITIES;
 
 /// Names of the axes to which the labels of such a study's variants belong.
@@ -32,14 +30,12 @@ pub fn columns() -> Vec<StudyAxis> {
 pub fn read(
     file: &StudyFile,
     source: &Source,
-    find: &dyn Fn(&str) -> Result<SceneText, String>,
-    set: &[Override],
-    only: &[String],
+    inputs: &Inputs<'_>,
 ) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
     let mut problems = study_problems(file);
     let mut ladders = Vec::new();
     for (k, given) in file.axis.iter().enumerate() {
-        match one(file, given, &format!("axis[{k}]"), find) {
+        match one(file, given, &format!("axis[{k}]"), inputs.find) {
             Ok(ladder) => ladders.push(ladder),
             Err(found) => problems.extend(found),
         }
@@ -66,15 +62,14 @@ pub fn read(
         let reader = Reader {
             file,
             source,
-            find,
+            inputs,
             scene: &found.scene,
             axes: &found.axes,
             common,
-            set,
             refinement: None,
             errors: errors.paths(&format!("axis[{k}].error")),
         };
-        match reader.all(&all, only) {
+        match reader.all(&all) {
             Err(refused) => mistakes.extend(refused.mistakes),
             Ok(read) => {
                 let placed = read.into_iter().zip(&all).map(|(mut variant, c)| {
@@ -116,11 +111,8 @@ fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     if !file.error.paths("error").is_empty() {
         problem("error".into(), "every `axis` names its own errors");
     }
-    let names: Vec<String> = file
-        .axis
-        .iter()
-        .map(|a| safe(&a.name).to_lowercase())
-        .collect();
+    let names = file.axis.iter().map(|a| safe(&a.name).to_lowercase());
+    let names: Vec<String> = names.collect();
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
             problem(
@@ -157,10 +149,8 @@ fn one(
         let place = labels.iter().position(|l| *l == must);
         place.ok_or_else(|| {
             let known = labels.join(", ");
-            problem(
-                ".must",
-                format!("the axis has no `{must}` (it has: {known})"),
-            )
+            let why = format!("the axis has no `{must}` (it has: {known})");
+            problem(".must", why)
         })
     });
     let must = must.transpose()?;
@@ -175,19 +165,13 @@ fn one(
         false => (&given.judge, format!("{at}.judge")),
     };
     check(judge, &errors, &path)?;
-    let itself = Choice {
-        label: given.name.clone(),
-        slug: given.name.clone(),
-        scene: None,
-        sets: Vec::new(),
-    };
     let axis = |k: usize, choices| StudyAxis {
         name: COLUMNS[k].to_string(),
         choices,
     };
     Ok(LadderSource {
         axes: [
-            axis(0, vec![itself]),
+            axis(0, vec![Choice::named(&given.name)]),
             axis(1, plugins(file, given)?),
             axis(2, values.choices),
         ],
@@ -227,21 +211,14 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
     let fitting = all.filter(|(_, c)| c.axes.is_empty() || c.axes.contains(&given.name));
     let choice = |(k, c): (usize, &file::Combination)| {
         Ok(Choice {
-            label: c.name.clone(),
-            slug: c.name.clone(),
-            scene: None,
             sets: axis::sets(&c.set, &format!("combination[{k}].set"))?,
+            ..Choice::named(&c.name)
         })
     };
     let choices: Result<Vec<Choice>, SceneProblem> = fitting.map(choice).collect();
     let mut choices = choices.map_err(|p| vec![p])?;
     if choices.is_empty() {
-        choices.push(Choice {
-            label: String::new(),
-            slug: String::new(),
-            scene: None,
-            sets: Vec::new(),
-        });
+        choices.push(Choice::default());
     }
     Ok(choices)
 }

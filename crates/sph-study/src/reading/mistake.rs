@@ -15,6 +15,17 @@ pub struct Mistake {
     pub text: Arc<str>,
 }
 
+impl Mistake {
+    /// Diagnostics of a source, each with the text that it points into.
+    pub fn located(source: &Source, found: &[Diagnostic]) -> Vec<Self> {
+        let mistake = |diagnostic: &Diagnostic| Mistake {
+            text: source.shared_text_of(diagnostic),
+            diagnostic: diagnostic.clone(),
+        };
+        found.iter().map(mistake).collect()
+    }
+}
+
 /// A study that cannot be run; nothing was written.
 #[derive(Clone, Debug)]
 pub struct Refused {
@@ -42,13 +53,8 @@ impl Refused {
 
     /// Mistakes that have a place in a source.
     pub(crate) fn from_diagnostics(source: &Source, found: Vec<Diagnostic>) -> Self {
-        let mistake = |diagnostic: Diagnostic| Mistake {
-            text: source.shared_text_of(&diagnostic),
-            diagnostic,
-        };
-        Refused {
-            mistakes: found.into_iter().map(mistake).collect(),
-        }
+        let mistakes = Mistake::located(source, &found);
+        Refused { mistakes }
     }
 }
 
@@ -64,11 +70,12 @@ impl OverrideSources<'_> {
     /// The mistakes of a scene: in the study file if it made them.
     pub fn place(&self, scene: &Source, found: &[Diagnostic]) -> Vec<Mistake> {
         let place = |d: &Diagnostic| {
-            let Origin::Override(k) = d.origin else {
-                return Refused::from_diagnostics(scene, vec![d.clone()]).mistakes;
+            let given = match d.origin {
+                Origin::Override(k) => self.given_by.get(k).cloned().flatten(),
+                _ => None,
             };
-            let Some(path) = self.given_by.get(k).cloned().flatten() else {
-                return Refused::from_diagnostics(scene, vec![d.clone()]).mistakes;
+            let Some(path) = given else {
+                return Mistake::located(scene, std::slice::from_ref(d));
             };
             let message = match d.path.as_str() {
                 "" => d.message.clone(),

@@ -11,10 +11,8 @@ use crate::reading::combine::{combinations, fits};
 use crate::reading::file::StudyFile;
 use crate::reading::ladder;
 use crate::reading::mistake::{OverrideSources, Refused};
-use crate::reading::reader::{Reader, refinement};
-use crate::reading::rung::Ladder;
-use crate::reading::scene_text::{FindScene, SceneText};
-use crate::reading::variant::Variant;
+use crate::reading::reader::{Inputs, Reader, refinement};
+use crate::reading::variant::{FindScene, Ladder, Variant};
 
 /// A study whose variants are known to be good.
 #[derive(Clone, Debug)]
@@ -79,9 +77,11 @@ impl Study {
         let folder = path.parent().unwrap_or(Path::new(""));
         let parts = Parts {
             name: name.unwrap_or("study").to_string(),
-            find: &|scene| find(folder, scene),
-            set,
-            only,
+            inputs: Inputs {
+                find: &|scene| find(folder, scene),
+                set,
+                only,
+            },
         };
         let study = match file.axis.is_empty() {
             true => parts.varied(file, source)?,
@@ -132,12 +132,10 @@ impl Study {
     }
 }
 
-/// Input of a study besides its file.
+/// Name and input of a study.
 struct Parts<'a> {
     name: String,
-    find: &'a dyn Fn(&str) -> Result<SceneText, String>,
-    set: &'a [Override],
-    only: &'a [String],
+    inputs: Inputs<'a>,
 }
 
 impl Parts<'_> {
@@ -168,7 +166,7 @@ impl Parts<'_> {
             return Err(refused(vec![SceneProblem::new("scaling.between", why)]));
         }
         let scene = match &file.scene {
-            Some(scene) => (self.find)(scene),
+            Some(scene) => (self.inputs.find)(scene),
             None => Err("a study needs a scene, or axes that have their own".into()),
         };
         let scene = scene.map_err(|why| refused(vec![SceneProblem::new("scene", why)]))?;
@@ -176,21 +174,20 @@ impl Parts<'_> {
         let reader = Reader {
             file: &file,
             source: &source,
-            find: self.find,
+            inputs: &self.inputs,
             scene: &scene,
             axes: &axes,
             common,
-            set: self.set,
             refinement: refinement(&file, &axes),
             errors,
         };
-        let variants = reader.all(&all, self.only)?;
+        let variants = reader.all(&all)?;
         Ok(Study {
             name: self.name.clone(),
             scene: scene.name.clone(),
             errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
             refinement: reader.refinement.clone(),
-            set: self.set.iter().map(|o| o.text.to_string()).collect(),
+            set: self.inputs.set.iter().map(|o| o.text.to_string()).collect(),
             ladders: Vec::new(),
             axes,
             variants,
@@ -201,7 +198,7 @@ impl Parts<'_> {
 
     /// Axes that are gone along until they break.
     fn plan_ladders(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
-        let (ladders, variants) = ladder::read(&file, &source, self.find, self.set, self.only)?;
+        let (ladders, variants) = ladder::read(&file, &source, &self.inputs)?;
         let mut scenes: Vec<&str> = Vec::new();
         for ladder in &ladders {
             if !scenes.contains(&ladder.scene.as_str()) {
@@ -213,7 +210,7 @@ impl Parts<'_> {
             scene: scenes.join(", "),
             errors: Vec::new(),
             refinement: None,
-            set: self.set.iter().map(|o| o.text.to_string()).collect(),
+            set: self.inputs.set.iter().map(|o| o.text.to_string()).collect(),
             axes: ladder::columns(),
             ladders,
             variants,

@@ -12,26 +12,31 @@ use crate::reading::axis::{Set, StudyAxis};
 use crate::reading::combine::{Combination, fits};
 use crate::reading::file::StudyFile;
 use crate::reading::mistake::{Mistake, OverrideSources, Refused};
-use crate::reading::scene_text::SceneText;
-use crate::reading::variant::Variant;
-use crate::running::fingerprint::fingerprint;
+use crate::reading::variant::{SceneText, Variant, fingerprint};
 
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";
+
+/// Input of a study besides its file.
+pub(crate) struct Inputs<'a> {
+    /// Finds a scene by its name.
+    pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
+    /// Settings put on top of every variant from outside.
+    pub set: &'a [Override],
+    /// Patterns of the names of the variants that are to be run; none for all.
+    pub only: &'a [String],
+}
 
 /// Makes variants from combinations.
 pub(crate) struct Reader<'a> {
     pub file: &'a StudyFile,
     pub source: &'a Source,
-    /// Finds the scenes of single places.
-    pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
-    /// The scene of all others.
+    pub inputs: &'a Inputs<'a>,
+    /// The scene of all places that have none of their own.
     pub scene: &'a SceneText,
     pub axes: &'a [StudyAxis],
     /// Settings of every variant.
     pub common: Vec<Set>,
-    /// Settings put on top of every variant from outside.
-    pub set: &'a [Override],
     /// References that the scene must have, with their places in the study file.
     pub errors: Vec<(String, String)>,
     /// The key over which the order of convergence is computed.
@@ -47,11 +52,11 @@ pub(crate) fn refinement(file: &StudyFile, axes: &[StudyAxis]) -> Option<String>
 
 impl Reader<'_> {
     /// Every variant, or every mistake once.
-    pub fn all(&self, all: &[Combination], only: &[String]) -> Result<Vec<Variant>, Refused> {
+    pub fn all(&self, all: &[Combination]) -> Result<Vec<Variant>, Refused> {
         let mut variants = Vec::new();
         let mut found: Vec<(&str, Mistake)> = Vec::new();
         for combination in all {
-            match self.one(combination, only) {
+            match self.one(combination) {
                 Ok(variant) => variants.push(variant),
                 Err(mistakes) => {
                     let named = mistakes.into_iter().map(|m| (combination.name.as_str(), m));
@@ -87,7 +92,7 @@ impl Reader<'_> {
         told
     }
 
-    fn one(&self, combination: &Combination, only: &[String]) -> Result<Variant, Vec<Mistake>> {
+    fn one(&self, combination: &Combination) -> Result<Variant, Vec<Mistake>> {
         let scene = self.scene(&combination.choices)?;
         let (overrides, given_by) = self.overrides(&scene, &combination.choices);
         let blame = OverrideSources {
@@ -120,6 +125,7 @@ impl Reader<'_> {
         };
         let marks = subject.marks().map_err(unreadable)?;
         let labels = self.axes.iter().zip(&combination.choices);
+        let only = self.inputs.only;
         let name = combination.name.clone();
         Ok(Variant {
             labels: labels.map(|(a, k)| a.choices[*k].label.clone()).collect(),
@@ -142,7 +148,7 @@ impl Reader<'_> {
             return Ok(Cow::Borrowed(self.scene));
         };
         let unknown = |why| Refused::in_study(self.source, &[SceneProblem::new(path, why)]);
-        let found = (self.find)(name).map(Cow::Owned);
+        let found = (self.inputs.find)(name).map(Cow::Owned);
         found.map_err(|why| unknown(why).mistakes)
     }
 
@@ -165,7 +171,7 @@ impl Reader<'_> {
             .flat_map(|(a, k)| &a.choices[*k].sets);
         let own = self.common.iter().chain(chosen);
         all.extend(own.map(|s| (s.value.clone(), Some(s.path.clone()))));
-        all.extend(self.set.iter().map(|o| (o.clone(), None)));
+        all.extend(self.inputs.set.iter().map(|o| (o.clone(), None)));
         all.into_iter().unzip()
     }
 

@@ -1,10 +1,13 @@
-//! One scene of a study.
+//! One scene of a study, its text, and its place on an axis.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sph_run::Subject;
+use sph_run::{Method, Subject};
+use toml::Table;
 
-use crate::reading::rung::Rung;
+use crate::reading::file::Bounds;
+use crate::running::machine::VERSION;
 
 /// One scene of a study.
 #[derive(Clone, Debug)]
@@ -28,3 +31,76 @@ pub struct Variant {
     /// For every override of the scene the path in the study file that gives it, if it does.
     pub(crate) given_by: Vec<Option<String>>,
 }
+
+/// A fingerprint of a resolved scene, the content of its data files by their keys, and the program's version.
+///
+/// Titles and descriptions do not count.
+pub fn fingerprint(mut scene: Table, marks: &[(String, String)]) -> String {
+    scene.remove("title");
+    scene.remove("description");
+    let mut text = format!(
+        "sph {VERSION}\n{}",
+        toml::to_string(&scene).unwrap_or_default()
+    );
+    for (key, content) in marks {
+        text.push_str(&format!("{key} {content}\n"));
+    }
+    format!("{:08x}-{}", crc32fast::hash(text.as_bytes()), text.len())
+}
+
+/// An axis that is gone along until it breaks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ladder {
+    /// Name in tables and folders.
+    pub name: String,
+    /// Title of the axis.
+    pub title: String,
+    /// Name of the scene.
+    pub scene: String,
+    /// References in the report; the plot shows the first.
+    pub errors: Vec<String>,
+    /// Names of the values, from harmless to absurd.
+    pub labels: Vec<String>,
+    /// The last value that must survive.
+    pub must: Option<usize>,
+    /// Bounds of green and yellow.
+    pub judge: Bounds,
+    /// True if variants after a red value are run all the same.
+    pub to_the_end: bool,
+}
+
+/// The place of a variant on a ladder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rung {
+    /// Number of the ladder.
+    pub ladder: usize,
+    /// Number of the combination of plugins with which it is gone along.
+    pub combination: usize,
+    /// Number of the value.
+    pub value: usize,
+}
+
+impl Rung {
+    /// Ladder and combination, common to variants that run one after the other.
+    pub fn chain(&self) -> (usize, usize) {
+        (self.ladder, self.combination)
+    }
+}
+
+/// The text of a scene and the file name against which it names other files.
+#[derive(Clone, Debug)]
+pub struct SceneText {
+    /// Name without folder and extension.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// Its file.
+    pub file: String,
+    /// Folders besides its own whose files it may name.
+    pub allowed: Vec<PathBuf>,
+    /// Method that computes the scene.
+    pub method: &'static dyn Method,
+}
+
+/// Finds the scene that a study names, from the study's folder; the error is passed on.
+pub type FindScene<'a> = dyn Fn(&Path, &str) -> Result<SceneText, String> + 'a;

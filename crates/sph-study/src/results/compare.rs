@@ -138,23 +138,10 @@ fn notes(a: &Results, b: &Results) -> Vec<String> {
         x.machine.to_string(),
         y.machine.to_string(),
     );
-    let threads = |r: &Results| {
-        let mut all: Vec<usize> = r.variants.iter().map(|v| v.threads).collect();
-        all.retain(|t| *t > 0);
-        all.sort_unstable();
-        all.dedup();
-        all.iter()
-            .map(usize::to_string)
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    differ("threads", threads(a), threads(b));
-    let manner = |r: &Results| {
-        if r.serial {
-            "one by one"
-        } else {
-            "side by side"
-        }
+    differ("threads", a.threads(), b.threads());
+    let manner = |r: &Results| match r.serial {
+        true => "one by one",
+        false => "side by side",
     };
     differ("variants ran", manner(a).into(), manner(b).into());
     notes

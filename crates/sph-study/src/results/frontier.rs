@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::reading::file::Bounds;
 use crate::reading::plan::Study;
-use crate::reading::rung::Ladder;
+use crate::reading::variant::Ladder;
 use crate::results::variant_result::VariantResult;
 use crate::running::verdict::Colour;
 

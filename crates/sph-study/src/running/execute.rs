@@ -9,9 +9,8 @@ use crate::reading::options::Options;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
 use crate::running::record::{Record, Status};
-use crate::running::repeat;
+use crate::running::repeat::{self, Watcher};
 use crate::running::verdict::{Colour, verdict};
-use crate::running::watcher::Watcher;
 
 /// Results of running a study.
 #[derive(Debug)]

@@ -5,7 +5,8 @@ use std::process::{Command, Stdio};
 
 use serde::{Deserialize, Serialize};
 
-use crate::running::fingerprint::VERSION;
+/// Version of the program, part of every fingerprint.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A computer, as far as run times depend on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

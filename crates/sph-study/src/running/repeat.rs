@@ -12,7 +12,25 @@ use crate::reading::options::Options;
 use crate::reading::plan::Study;
 use crate::reading::variant::Variant;
 use crate::running::record::{Record, Status};
-use crate::running::watcher::Watcher;
+
+/// A watcher of a study; variants may call it from several threads.
+pub trait Watcher: Sync {
+    /// A repetition of a variant begins or goes on.
+    fn started(&self, _variant: &Variant, _repetition: usize) {}
+    /// After every step.
+    fn step(&self, _variant: &Variant, _progress: &Progress) {}
+    /// A line worth saying.
+    fn message(&self, _variant: &Variant, _text: &str) {}
+    /// A variant has come to an end, or had one.
+    fn finished(&self, _variant: &Variant, _record: &Record) {}
+    /// True to stop, with finished variants kept.
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// A silent watcher.
+impl Watcher for () {}
 
 /// A variant to be run.
 pub(crate) struct Job<'a> {
@@ -84,10 +102,7 @@ impl Job<'_> {
         }
         // Not where another run has started.
         let _lock = sph_io::FolderLock::take(folder)?;
-        std::fs::remove_dir_all(folder).map_err(|source| {
-            let path = folder.to_path_buf();
-            IoError::Write { path, source }
-        })
+        std::fs::remove_dir_all(folder).map_err(|e| IoError::Write(folder.into(), e))
     }
 
     /// One repetition; the status is its outcome.

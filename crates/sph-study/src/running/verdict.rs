@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::number;
 
 use crate::reading::file::Bounds;
-use crate::running::record::{Record, Status};
+use crate::running::record::{Health, Record, Status};
 
 /// Soundness of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -40,65 +40,43 @@ pub struct Verdict {
     pub why: String,
 }
 
-/// Quantities of every run for a verdict, besides the scene's references, each with its meaning.
-pub const QUANTITIES: [(&str, &str); 7] = [
-    (
-        "energy-rise",
-        "most that the energy was above its first value, over the largest energy of any kind",
-    ),
-    (
-        "energy-drift",
-        "size of the energy's change from start to end, over the same",
-    ),
-    ("momentum-drift", "change of the momentum over Σ m|u|"),
-    (
-        "density",
-        "largest distance of a density from its reference, over it",
-    ),
-    (
-        "compression",
-        "largest density over its reference, less one",
-    ),
-    ("mach", "largest speed over the speed of sound"),
-    (
-        "pairing",
-        "what the mean distance to the nearest particle lacks of a spacing, over it",
-    ),
+/// A number by which a run is judged.
+type HealthNumber = fn(&Health) -> Option<f64>;
+
+/// Quantities of every run for a verdict, besides the scene's references.
+pub const QUANTITIES: [(&str, HealthNumber); 7] = [
+    // Most that the energy was above its first value, over the largest energy of any kind.
+    ("energy-rise", |h| h.energy_rise),
+    // Size of the energy's change from start to end, over the same.
+    ("energy-drift", |h| h.energy_drift.map(f64::abs)),
+    // Change of the momentum over Σ m|u|.
+    ("momentum-drift", |h| h.momentum_drift.map(f64::abs)),
+    // Largest distance of a density from its reference, over it.
+    ("density", Health::density_deviation),
+    // Largest density over its reference, less one.
+    ("compression", |h| {
+        h.density_range.map(|[_, high]| high - 1.0)
+    }),
+    // Largest speed over the speed of sound.
+    ("mach", |h| h.mach),
+    // What the mean distance to the nearest particle lacks of a spacing, over it.
+    ("pairing", |h| h.nearest.map(|[_, mean]| 1.0 - mean)),
 ];
 
 /// The numbers a run can be judged by, those of its references included.
-pub fn quantities(record: &Record) -> BTreeMap<String, f64> {
-    let mut all = BTreeMap::new();
-    let mut add = |name: &str, value: Option<f64>| {
-        if let Some(value) = value {
-            all.insert(name.to_string(), value);
-        }
-    };
-    for (name, error) in &record.errors {
-        add(name, error.value);
-    }
-    let health = &record.health;
-    add("energy-rise", health.energy_rise);
-    add("energy-drift", health.energy_drift.map(f64::abs));
-    add("momentum-drift", health.momentum_drift.map(f64::abs));
-    add("density", health.density_deviation());
-    add(
-        "compression",
-        health.density_range.map(|[_, high]| high - 1.0),
-    );
-    add("mach", health.mach);
-    add("pairing", health.nearest.map(|[_, mean]| 1.0 - mean));
-    all
+fn quantities(record: &Record) -> BTreeMap<&str, f64> {
+    let errors = record.errors.iter();
+    let errors = errors.map(|(name, error)| (name.as_str(), error.value));
+    let own = QUANTITIES.map(|(name, of)| (name, of(&record.health)));
+    let all = errors.chain(own);
+    all.filter_map(|(name, value)| Some((name, value?)))
+        .collect()
 }
 
 /// The verdict on a run that has come to an end.
 pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
-    let red = |why: String| {
-        Some(Verdict {
-            colour: Colour::Red,
-            why,
-        })
-    };
+    let told = |colour, why| Some(Verdict { colour, why });
+    let red = |why: String| told(Colour::Red, why);
     match record.status {
         Status::Done => {}
         Status::Failed | Status::OverLimit => {
@@ -113,18 +91,12 @@ pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
         ));
     }
     let found = quantities(record);
-    let mut worst = Verdict {
-        colour: Colour::Green,
-        why: String::new(),
+    let (mut worst, mut reason) = match record.steps_rolled_back {
+        0 => (Colour::Green, String::new()),
+        n => (Colour::Yellow, format!("{n} steps were tried again")),
     };
-    if record.steps_rolled_back > 0 {
-        worst = Verdict {
-            colour: Colour::Yellow,
-            why: format!("{} steps were tried again", record.steps_rolled_back),
-        };
-    }
     for (name, [green, yellow]) in bounds {
-        let Some(value) = found.get(name) else {
+        let Some(value) = found.get(name.as_str()) else {
             continue;
         };
         let (colour, bound) = match *value {
@@ -133,22 +105,18 @@ pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
             // Nothing compares with NaN.
             _ => (Colour::Red, yellow),
         };
-        if colour > worst.colour {
-            let why = format!(
-                "{name} {} > {}",
-                number::plain(*value),
-                number::plain(*bound)
-            );
-            worst = Verdict { colour, why };
+        if colour > worst {
+            let [value, bound] = [value, bound].map(|x| number::plain(*x));
+            (worst, reason) = (colour, format!("{name} {value} > {bound}"));
         }
     }
-    Some(worst)
+    told(worst, reason)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::running::record::{Error, Health};
+    use crate::running::record::Error;
 
     fn record(error: f64, rolled_back: u64, escaped: usize) -> Record {
         let error = Error {

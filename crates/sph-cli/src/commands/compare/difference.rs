@@ -2,12 +2,13 @@
 
 use std::collections::HashMap;
 
-use serde_json::{Value as Json, json};
+use serde::Serialize;
 
 use super::tables::{Column, Table};
 use crate::number;
 
-/// Difference of a column.
+/// Difference of a column; numbers that are not finite are null in JSON.
+#[derive(Serialize)]
 pub struct Difference {
     file: String,
     column: String,
@@ -19,12 +20,14 @@ pub struct Difference {
     /// The same over the largest |a| of the column.
     relative: f64,
     /// The numbers that differ most.
-    pair: [f64; 2],
+    first: f64,
+    second: f64,
+    #[serde(flatten)]
     place: DifferencePlace,
 }
 
 /// Place of a difference.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Serialize)]
 struct DifferencePlace {
     time: Option<f64>,
     /// Identity of the particle, or number of the row.
@@ -36,12 +39,7 @@ struct DifferencePlace {
 /// Differences of all common columns of two tables; columns of only one, and the numbers of rows.
 pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<String>) {
     let mut remarks = Vec::new();
-    let rows: HashMap<u64, usize> = b
-        .keys
-        .iter()
-        .enumerate()
-        .map(|(k, key)| (*key, k))
-        .collect();
+    let rows: HashMap<u64, usize> = b.keys.iter().copied().zip(0..).collect();
     let pairs: Vec<(usize, usize)> = (a.keys.iter().enumerate())
         .filter_map(|(k, key)| Some((k, *rows.get(key)?)))
         .collect();
@@ -54,10 +52,8 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
     }
     let twin = |name: &str, of: &Table| of.columns.iter().position(|c| c.name == name);
     for (one, other, which) in [(a, b, "first"), (b, a, "second")] {
-        let alone = one
-            .columns
-            .iter()
-            .filter(|c| twin(&c.name, other).is_none());
+        let all = one.columns.iter();
+        let alone = all.filter(|c| twin(&c.name, other).is_none());
         let alone: Vec<&str> = alone.map(|c| c.name.as_str()).collect();
         if !alone.is_empty() {
             let alone = alone.join(", ");
@@ -107,7 +103,8 @@ fn difference(
         same: true,
         largest: -1.0,
         relative: 0.0,
-        pair: [0.0; 2],
+        first: 0.0,
+        second: 0.0,
         place: DifferencePlace::default(),
     };
     let mut range: f64 = 0.0;
@@ -127,7 +124,7 @@ fn difference(
             };
             if apart > found.largest {
                 found.largest = apart;
-                found.pair = [x, y];
+                (found.first, found.second) = (x, y);
                 let over_time = table.over_time;
                 let key = table.keys.get(row).copied();
                 found.place = DifferencePlace {
@@ -135,9 +132,7 @@ fn difference(
                         true => key.map(f64::from_bits),
                         false => table.time,
                     },
-                    particle: key
-                        .filter(|_| !over_time)
-                        .or(Some(row as u64).filter(|_| !over_time)),
+                    particle: (!over_time).then(|| key.unwrap_or(row as u64)),
                     component: (per > 1).then_some(k),
                     position: table.places.get(row).cloned().unwrap_or_default(),
                 };
@@ -179,28 +174,10 @@ impl Difference {
             self.column.clone(),
             format!("{}{unit}", four_digits(self.largest)),
             four_digits(self.relative),
-            format!("{:?}", self.pair[0]),
-            format!("{:?}", self.pair[1]),
+            format!("{:?}", self.first),
+            format!("{:?}", self.second),
             self.place.label(),
         ]
-    }
-
-    /// The same for programs; numbers that are not finite are null.
-    pub fn json(&self) -> Json {
-        json!({
-            "file": self.file,
-            "column": self.column,
-            "unit": self.unit,
-            "same": self.same,
-            "largest": self.largest,
-            "relative": self.relative,
-            "first": self.pair[0],
-            "second": self.pair[1],
-            "time": self.place.time,
-            "particle": self.place.particle,
-            "component": self.place.component,
-            "position": self.place.position,
-        })
     }
 }
 

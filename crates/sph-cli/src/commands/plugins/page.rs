@@ -5,55 +5,27 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::{KERNELS, LAWS};
+use crate::terminal::layout::paragraph;
 
 /// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, description.
 const DRAWN: [(&str, &str, &str); 2] = [
     (LAWS, "law", "sheared alone"),
     (KERNELS, "kernel", "and its slope"),
 ];
-/// Pictures of runs and walls: kind, name, file in `docs/images`, description.
-const SHOWN: [(&str, &str, &str, &str); 8] = [
-    (
-        "eddy-viscosity",
-        "k-epsilon",
-        "dam-break-k-epsilon.png",
-        "A dam break with k–ε",
-    ),
-    (
-        "equation-of-state",
-        "compressible-grains",
-        "columns-runout.png",
-        "Run-out of columns of sand",
-    ),
-    (
-        "implicit-viscosity",
-        "backward-euler",
-        "implicit-error-against-time.png",
-        "Error against run time",
-    ),
-    (
-        "linear-solver",
-        "automatic",
-        "solver-scaling.png",
-        "Time per solve over the number of particles",
-    ),
-    ("mover", "rigid-body", "floating-box.png", "A floating box"),
-    (
-        "open-boundary",
-        "velocity-inlet",
-        "channel-open.png",
-        "A channel between two open faces",
-    ),
-    (
-        "smoother",
-        "delta-sph",
-        "granular-pile-lajeunesse.png",
-        "A pile of beads at rest",
-    ),
-    ("walls", "usaw", "gamma-gear.png", "γ around a gear"),
-];
+/// Pictures of runs and walls, one a line: kind, name, file in `docs/images`, description.
+const SHOWN: &str = "\
+eddy-viscosity k-epsilon dam-break-k-epsilon.png A dam break with k–ε
+equation-of-state compressible-grains columns-runout.png Run-out of columns of sand
+implicit-viscosity backward-euler implicit-error-against-time.png Error against run time
+linear-solver automatic solver-scaling.png Time per solve over the number of particles
+mover rigid-body floating-box.png A floating box
+open-boundary velocity-inlet channel-open.png A channel between two open faces
+smoother delta-sph granular-pile-lajeunesse.png A pile of beads at rest
+walls usaw gamma-gear.png γ around a gear";
 /// Longest line.
 const LONGEST: usize = 120;
+/// Stands for a space at which no line ends.
+const GLUE: char = '\0';
 
 /// A page of kinds in the form of `sph plugins --json`.
 pub fn markdown(kinds: &[Json]) -> String {
@@ -63,23 +35,16 @@ pub fn markdown(kinds: &[Json]) -> String {
     );
     for kind in kinds {
         let name = text(&kind["kind"]);
-        line(
-            &mut page,
-            &wrapped(
-                &format!("* [{name}](#{name}): {}", text(&kind["purpose"])),
-                "  ",
-            ),
-        );
+        let purpose = text(&kind["purpose"]);
+        line(&mut page, &item(&format!("[{name}](#{name}): {purpose}")));
     }
     for kind in kinds {
         let (name, purpose) = (text(&kind["kind"]), text(&kind["purpose"]));
         let default = kind["default"].as_str().map_or(String::new(), |plugin| {
             format!(" `{plugin}` is taken if a scene names none.")
         });
-        line(
-            &mut page,
-            &format!("\n## {name}\n\n{}.{default}", capital(purpose)),
-        );
+        let head = format!("\n## {name}\n\n{}.{default}", capital(purpose));
+        line(&mut page, &head);
         let plugins = kind["plugins"].as_array().into_iter().flatten();
         plugins.for_each(|plugin| one(&mut page, name, plugin));
     }
@@ -98,12 +63,12 @@ fn one(page: &mut String, kind: &str, plugin: &Json) {
     facts.push(format!("crate `{provider}`"));
     let (name, summary) = (text(&plugin["name"]), text(&plugin["summary"]));
     let told = format!("{}; {}.", capital(summary), facts.join("; "));
-    line(page, &format!("\n### {name}\n\n{}", wrapped(&told, "")));
+    line(page, &format!("\n### {name}\n\n{}", wrapped(&told, 0)));
     if let Some(picture) = picture(kind, name) {
         line(page, &format!("\n{picture}"));
     }
     let parameters = plugin["parameters"].as_array().into_iter().flatten();
-    let items: Vec<String> = parameters.map(item).collect();
+    let items: Vec<String> = parameters.map(self::parameter).collect();
     if !items.is_empty() {
         line(page, &format!("\n{}", items.join("\n")));
     }
@@ -114,12 +79,14 @@ fn picture(kind: &str, name: &str) -> Option<String> {
     if let Some((_, first, seen)) = DRAWN.iter().find(|drawn| drawn.0 == kind) {
         return Some(format!("![`{name}`, {seen}](images/{first}-{name}.svg)"));
     }
-    let shown = SHOWN.iter().find(|s| (s.0, s.1) == (kind, name));
-    shown.map(|(_, _, file, seen)| format!("![{seen}](images/{file})"))
+    let named = format!("{kind} {name} ");
+    let shown = SHOWN.lines().find_map(|line| line.strip_prefix(&named));
+    let (file, seen) = shown?.split_once(' ')?;
+    Some(format!("![{seen}](images/{file})"))
 }
 
 /// A parameter: name, unit, default, meaning.
-fn item(parameter: &Json) -> String {
+fn parameter(parameter: &Json) -> String {
     let unit = match text(&parameter["unit"]) {
         "" | "1" => String::new(),
         unit => format!("{unit}, "),
@@ -142,7 +109,7 @@ fn item(parameter: &Json) -> String {
         }
     }
     let name = text(&parameter["name"]);
-    wrapped(&format!("* `{name}` ({unit}{default}): {meaning}"), "  ")
+    item(&format!("`{name}` ({unit}{default}): {meaning}"))
 }
 
 fn text(value: &Json) -> &str {
@@ -160,35 +127,23 @@ fn line(page: &mut String, text: &str) {
     page.push('\n');
 }
 
-/// A text in lines that are not too long, the second and all later ones behind `indent`.
-fn wrapped(text: &str, indent: &str) -> String {
-    let mut pieces: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        // Characters that begin a list or a heading must not begin a line: it stays with the word before it.
+/// A text in lines that are not too long, without the end of the last one.
+fn wrapped(text: &str, indent: usize) -> String {
+    // Characters that begin a list or a heading must not begin a line: such a word stays with the one before it.
+    let begins = |word: &str| {
         let number = word.starts_with(|c: char| c.is_ascii_digit()) && word.ends_with(['.', ')']);
-        let begins = number || word.starts_with(['-', '+', '*', '#', '=', '>', '|']);
-        match pieces.last_mut().filter(|_| begins) {
-            Some(before) => {
-                before.push(' ');
-                before.push_str(word);
-            }
-            None => pieces.push(word.to_string()),
-        }
+        number || word.starts_with(['-', '+', '*', '#', '=', '>', '|'])
+    };
+    let mut kept = String::new();
+    for word in text.split(' ') {
+        kept.push(if begins(word) { GLUE } else { ' ' });
+        kept.push_str(word);
     }
-    let mut lines = String::new();
-    let mut length = 0;
-    for piece in &pieces {
-        let letters = piece.chars().count();
-        if length > 0 && length + 1 + letters > LONGEST {
-            lines.push('\n');
-            lines.push_str(indent);
-            length = indent.len();
-        } else if length > 0 {
-            lines.push(' ');
-            length += 1;
-        }
-        lines.push_str(piece);
-        length += letters;
-    }
-    lines
+    let lines = paragraph(indent, LONGEST, kept.trim_start_matches([' ', GLUE]));
+    lines.trim().replace(GLUE, " ")
+}
+
+/// An item of a list.
+fn item(text: &str) -> String {
+    format!("* {}", wrapped(text, 2))
 }

@@ -75,9 +75,8 @@ fn curves<'s>(samples: &'s [LawSample], pressures: &[f64]) -> Result<Vec<Curve<'
     for specimen in samples {
         let law = &*specimen.law;
         if !law.needs().pressure {
-            let label = specimen.label.clone();
             curves.push(Curve {
-                label,
+                label: specimen.label.clone(),
                 law,
                 pressure: 0.0,
             });
@@ -112,18 +111,12 @@ fn flow(curves: &[Curve], rates: &[f64]) -> Result<Panels, Trouble> {
     along.push(0.0);
     along.sort_by(f64::total_cmp);
     let stress = |c: &Curve| {
-        let viscosity = rheometer::viscosities(c.law, c.pressure, &along);
-        along
-            .iter()
-            .zip(viscosity)
-            .map(|(g, eta)| [*g, eta * g])
-            .collect()
+        let points = viscosity(c, &along).into_iter();
+        points.map(|[g, eta]| [g, eta * g]).collect()
     };
     let series = |of: &dyn Fn(&Curve) -> Vec<[f64; 2]>| -> Vec<Series> {
-        curves
-            .iter()
-            .map(|c| Series::line(&c.label, of(c)))
-            .collect()
+        let all = curves.iter();
+        all.map(|c| Series::line(&c.label, of(c))).collect()
     };
     Ok(Panels(vec![
         Plot {
@@ -132,14 +125,7 @@ fn flow(curves: &[Curve], rates: &[f64]) -> Result<Panels, Trouble> {
             series: series(&stress),
             ..Plot::default()
         },
-        Plot {
-            x_label: "strain rate [1/s]".into(),
-            y_label: "viscosity [Pa s]".into(),
-            log_x: true,
-            log_y: true,
-            series: series(&|c| viscosity(c, &fine)),
-            ..Plot::default()
-        },
+        viscosities(series(&|c| viscosity(c, &fine))),
     ]))
 }
 
@@ -181,16 +167,21 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
         .map(|c| Series::line(&c.label, viscosity(c, &fine)))
         .collect();
     if !viscous.is_empty() {
-        panels.push(Plot {
-            x_label: "strain rate [1/s]".into(),
-            y_label: "viscosity [Pa s]".into(),
-            log_x: true,
-            log_y: true,
-            series: viscous,
-            ..Plot::default()
-        });
+        panels.push(viscosities(viscous));
     }
     Ok(Panels(panels))
+}
+
+/// Viscosities over the strain rate.
+fn viscosities(series: Vec<Series>) -> Plot {
+    Plot {
+        x_label: "strain rate [1/s]".into(),
+        y_label: "viscosity [Pa s]".into(),
+        log_x: true,
+        log_y: true,
+        series,
+        ..Plot::default()
+    }
 }
 
 /// The strain at which a shear from rest comes to 99 % of its largest stress.
@@ -198,20 +189,15 @@ fn yielded(curve: &Curve, rate: f64) -> f64 {
     let strains = spread(1e-7, FAR, 10 * POINTS);
     let stress = rheometer::shear_stresses(curve.law, curve.pressure, rate, &strains);
     let largest = stress.iter().fold(0.0_f64, |m, t| m.max(*t));
-    let found = strains
-        .iter()
-        .zip(&stress)
-        .find(|(_, t)| **t >= 0.99 * largest);
+    let mut all = strains.iter().zip(stress);
+    let found = all.find(|(_, t)| *t >= 0.99 * largest);
     found.map_or(FAR, |(s, _)| *s)
 }
 
 fn viscosity(curve: &Curve, rates: &[f64]) -> Vec<[f64; 2]> {
     let viscosity = rheometer::viscosities(curve.law, curve.pressure, rates);
-    rates
-        .iter()
-        .zip(viscosity)
-        .map(|(g, eta)| [*g, eta])
-        .collect()
+    let points = rates.iter().zip(viscosity);
+    points.map(|(g, eta)| [*g, eta]).collect()
 }
 
 /// Numbers from `low` to `high`, evenly spread over the decades.

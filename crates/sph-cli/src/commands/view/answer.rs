@@ -1,8 +1,12 @@
 //! Answers to a browser.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::{series, state};
+use serde_json::{Value as Json, json};
+
+use super::series;
+use crate::commands::file_list::names;
 
 const PAGE: &str = include_str!("../../../templates/view.html");
 
@@ -26,11 +30,23 @@ const KINDS: [(&str, &str); 6] = [
     ("html", "text/html; charset=utf-8"),
 ];
 
-fn refused(status: &'static str) -> Answer {
-    Answer {
-        status,
-        kind: "text/plain; charset=utf-8",
-        body: format!("{status}\n").into_bytes(),
+impl Answer {
+    /// A content of a kind.
+    fn found(kind: &'static str, body: impl Into<Vec<u8>>) -> Self {
+        let (status, body) = ("200 OK", body.into());
+        Answer { status, kind, body }
+    }
+
+    /// A refusal, for its reason.
+    fn refused(status: &'static str) -> Self {
+        let (kind, body) = ("text/plain; charset=utf-8", format!("{status}\n").into());
+        Answer { status, kind, body }
+    }
+
+    /// The content of a file, if there is one.
+    fn of_file(kind: &'static str, content: Option<impl Into<Vec<u8>>>) -> Self {
+        let gone = || Answer::refused("404 Not Found");
+        content.map_or_else(gone, |body| Answer::found(kind, body))
     }
 }
 
@@ -45,7 +61,7 @@ pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
         words.next().unwrap_or_default(),
     );
     if !["GET", "HEAD"].contains(&method) {
-        return refused("405 Method Not Allowed");
+        return Answer::refused("405 Method Not Allowed");
     }
     let host = lines.find_map(|line| {
         let (name, value) = line.split_once(':')?;
@@ -53,7 +69,7 @@ pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
     });
     let own = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
     if !host.is_some_and(|host| own.iter().any(|own| own == host)) {
-        return refused("403 Forbidden");
+        return Answer::refused("403 Forbidden");
     }
     let mut parts = target.split(['?', '#']);
     let path = parts.next().unwrap_or_default();
@@ -62,25 +78,11 @@ pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
             let asked = parts.next().and_then(|query| query.strip_prefix("column="));
             let column = asked.and_then(decoded).unwrap_or_default();
             let file = inside(folder, "series.csv");
-            match file.and_then(|file| series::thinned(&file, &column).ok()) {
-                Some(text) => Answer {
-                    status: "200 OK",
-                    kind: "text/csv; charset=utf-8",
-                    body: text.into_bytes(),
-                },
-                None => refused("404 Not Found"),
-            }
+            let text = file.and_then(|file| series::thinned(&file, &column).ok());
+            Answer::of_file("text/csv; charset=utf-8", text)
         }
-        "/" => Answer {
-            status: "200 OK",
-            kind: "text/html; charset=utf-8",
-            body: PAGE.as_bytes().to_vec(),
-        },
-        "/state.json" => Answer {
-            status: "200 OK",
-            kind: "application/json",
-            body: state::folder_state(folder).to_string().into_bytes(),
-        },
+        "/" => Answer::found("text/html; charset=utf-8", PAGE),
+        "/state.json" => Answer::found("application/json", folder_state(folder).to_string()),
         path => file(path, folder),
     }
 }
@@ -93,23 +95,43 @@ fn inside(folder: &Path, name: &str) -> Option<PathBuf> {
 
 /// A file of the folder.
 fn file(path: &str, folder: &Path) -> Answer {
-    let Some(name) = path.strip_prefix("/files/").and_then(decoded) else {
-        return refused("404 Not Found");
+    let name = path.strip_prefix("/files/").and_then(decoded);
+    let name = name.unwrap_or_default();
+    let is_of = |extension: &str| name.ends_with(&format!(".{extension}"));
+    let Some((_, kind)) = KINDS.iter().find(|(extension, _)| is_of(extension)) else {
+        return Answer::refused("404 Not Found");
     };
-    let kind = KINDS
-        .iter()
-        .find(|(extension, _)| name.ends_with(&format!(".{extension}")));
-    let (Some((_, kind)), Some(real)) = (kind, inside(folder, &name)) else {
-        return refused("404 Not Found");
-    };
-    match std::fs::read(real) {
-        Ok(body) => Answer {
-            status: "200 OK",
-            kind,
-            body,
-        },
-        Err(_) => refused("404 Not Found"),
+    let real = inside(folder, &name);
+    Answer::of_file(kind, real.and_then(|real| std::fs::read(real).ok()))
+}
+
+/// Pictures by field, plots, whether there is a series and its first shown column, the summary if there is one.
+fn folder_state(folder: &Path) -> Json {
+    let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
+    let summary: Option<Json> = summary.and_then(|text| serde_json::from_str(&text).ok());
+    let name = folder.file_name().map(|n| n.to_string_lossy().into_owned());
+    json!({
+        "name": name,
+        "pictures": numbered(&folder.join("pictures")),
+        "plots": names(&folder.join("plots"), "png"),
+        "animations": names(&folder.join("animations"), "gif"),
+        "bad": names(folder, "png"),
+        "series": folder.join("series.csv").is_file(),
+        "column": series::first_shown(&folder.join("series.csv")),
+        "running": folder.join(".lock").exists(),
+        "summary": summary,
+    })
+}
+
+/// `pressure_0003.png` as the numbers of `pressure`.
+fn numbered(folder: &Path) -> BTreeMap<String, Vec<String>> {
+    let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for name in names(folder, "png") {
+        if let Some((field, _)) = name.rsplit_once('_') {
+            all.entry(field.to_string()).or_default().push(name);
+        }
     }
+    all
 }
 
 /// A path with `%20` and the like as characters.

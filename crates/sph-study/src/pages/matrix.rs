@@ -1,23 +1,17 @@
-//! The page of a study that goes along axes until they break.
+//! The page of a study that goes along axes until they break, and its plots.
 
 use std::fmt::Write as _;
 
 use sph_core::number;
-use sph_io::{IoError, escape};
+use sph_io::{IoError, Plot, Series, Style, escape};
 use sph_run::Trouble;
 
 use crate::pages::grid::grid;
-use crate::pages::matrix_plots;
 use crate::results::Results;
 use crate::results::frontier::Frontier;
 use crate::results::variant_result::VariantResult;
 use crate::running::record::Status;
-
-/// Style of the table of colours.
-pub const STYLE: &str = "\
-td.green{background:#c9e8c5}td.yellow{background:#fbe9a6}td.red{background:#f3b3ab}\
-td.none{color:#aaa}table.frontier td{padding:.2rem .5rem;border:1px solid #fff}\
-table.frontier td.must{border-right:3px solid #222}";
+use crate::running::verdict::Colour;
 
 /// All between the head of the page and the study file.
 ///
@@ -32,7 +26,7 @@ pub fn body(results: &Results) -> Result<String, IoError> {
          what comes after is not run.</p>\n",
     );
     page.push_str(&frontiers(results));
-    let plots = matrix_plots::axes(results);
+    let plots = axes(results);
     for (name, plot) in &plots {
         let lines = results.frontiers.iter().filter(|f| f.axis == *name);
         let lines: Vec<&Frontier> = lines.collect();
@@ -93,25 +87,8 @@ fn frontiers(results: &Results) -> String {
     text
 }
 
-/// Heads of the table of runs.
-pub const HEADS: [&str; 13] = [
-    "axis",
-    "combination",
-    "value",
-    "colour",
-    "why",
-    "first trouble",
-    "error",
-    "energy",
-    "density",
-    "Mach",
-    "limited by",
-    "steps",
-    "wall time",
-];
-
-/// A run as a row under [`HEADS`].
-pub fn row(frontier: &Frontier, v: &VariantResult) -> Vec<String> {
+/// A run as a row, each cell with its head.
+fn row(frontier: &Frontier, v: &VariantResult) -> [(&'static str, String); 12] {
     let none = || "–".to_string();
     let value = |name: &str| v.values.get(name).cloned().unwrap_or_default();
     let errors: Vec<String> = frontier
@@ -127,36 +104,32 @@ pub fn row(frontier: &Frontier, v: &VariantResult) -> Vec<String> {
             v.reason.clone().unwrap_or_default(),
         ),
     };
-    let begun = v.steps > 0;
     let seconds = v
         .wall_seconds
         .min
         .or((v.wall_seconds.spent > 0.0).then_some(v.wall_seconds.spent));
-    vec![
-        value("axis"),
-        value("combination"),
-        value("value"),
-        colour,
-        why,
-        health.first_trouble.as_ref().map_or_else(none, trouble),
-        match errors.is_empty() {
-            true => none(),
-            false => errors.join(", "),
-        },
-        health
-            .energy_drift
-            .map_or_else(none, |e| format!("{e:+.1e}")),
-        health
-            .density_range
-            .map_or_else(none, |[low, high]| format!("{low:.3}…{high:.3}")),
-        health.mach.map_or_else(none, number::plain),
-        v.dt_limiter.clone().unwrap_or_else(none),
-        if begun {
-            number::count(v.steps as f64)
-        } else {
-            none()
-        },
-        seconds.map_or_else(none, |s| format!("{s:.1} s")),
+    let trouble = health.first_trouble.as_ref().map(trouble);
+    let energy = health.energy_drift.map(|e| format!("{e:+.1e}"));
+    let density = health.density_range;
+    let density = density.map(|[low, high]| format!("{low:.3}…{high:.3}"));
+    let steps = (v.steps > 0).then(|| number::count(v.steps as f64));
+    let errors = (!errors.is_empty()).then(|| errors.join(", "));
+    [
+        ("combination", value("combination")),
+        ("value", value("value")),
+        ("colour", colour),
+        ("why", why),
+        ("first trouble", trouble.unwrap_or_else(none)),
+        ("error", errors.unwrap_or_else(none)),
+        ("energy", energy.unwrap_or_else(none)),
+        ("density", density.unwrap_or_else(none)),
+        ("Mach", health.mach.map_or_else(none, number::plain)),
+        ("limited by", v.dt_limiter.clone().unwrap_or_else(none)),
+        ("steps", steps.unwrap_or_else(none)),
+        (
+            "wall time",
+            seconds.map_or_else(none, |s| format!("{s:.1} s")),
+        ),
     ]
 }
 
@@ -180,22 +153,22 @@ pub fn trouble(first: &Trouble) -> String {
 }
 
 fn runs(results: &Results, lines: &[&Frontier]) -> String {
-    let mut rows = Vec::new();
-    let mut classes = Vec::new();
+    let (mut heads, mut rows, mut classes) = (Vec::new(), Vec::new(), Vec::new());
     for frontier in lines {
         for name in &frontier.variants {
             let Some(variant) = results.variant(name) else {
                 continue;
             };
-            rows.push(row(frontier, variant)[1..].to_vec());
+            let row = row(frontier, variant);
+            heads = row.each_ref().map(|(head, _)| head.to_string()).to_vec();
+            rows.push(row.map(|(_, cell)| cell).to_vec());
             classes.push(match (&variant.verdict, variant.status) {
-                (Some(v), _) if v.colour == crate::Colour::Red => "failed".to_string(),
+                (Some(v), _) if v.colour == Colour::Red => "failed".to_string(),
                 (None, Status::Pending | Status::Skipped) => "pending".to_string(),
                 _ => String::new(),
             });
         }
     }
-    let heads: Vec<String> = HEADS[1..].iter().map(|h| (*h).to_string()).collect();
     grid(&heads, &rows, |k| classes[k].clone())
 }
 
@@ -231,4 +204,88 @@ pub fn summary(results: &Results) -> Vec<Vec<String>> {
         ]);
     }
     rows
+}
+
+/// The plot of every axis with its name, combinations of plugins as lines.
+pub fn axes(results: &Results) -> Vec<(String, Plot)> {
+    let mut plots: Vec<(String, Plot)> = Vec::new();
+    let mut names: Vec<&str> = Vec::new();
+    for frontier in &results.frontiers {
+        if !names.contains(&frontier.axis.as_str()) {
+            names.push(&frontier.axis);
+        }
+    }
+    for name in names {
+        let lines = results.frontiers.iter().filter(|f| f.axis == name);
+        let lines: Vec<&Frontier> = lines.collect();
+        plots.push((name.to_string(), plot(results, &lines)));
+    }
+    plots
+}
+
+/// Ordinate of a run: the first error of its axis, or its largest deviation of the density.
+fn ordinate(frontier: &Frontier, variant: &VariantResult) -> Option<f64> {
+    match frontier.errors.first() {
+        Some(error) => variant.error(error),
+        None => variant.health.density_deviation(),
+    }
+}
+
+fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
+    let first = lines[0];
+    let mut series = Vec::new();
+    let mut broken = Vec::new();
+    let mut lowest = f64::INFINITY;
+    for frontier in lines {
+        let mut points = Vec::new();
+        for (place, name) in frontier.places().into_iter().zip(&frontier.variants) {
+            let Some(variant) = results.variant(name) else {
+                continue;
+            };
+            let red = variant
+                .verdict
+                .as_ref()
+                .is_some_and(|v| v.colour == Colour::Red);
+            match ordinate(frontier, variant).filter(|y| y.is_finite()) {
+                // A logarithmic axis cannot show an error of zero.
+                Some(y) => points.push([place, y.max(1e-16)]),
+                None if red => broken.push(place),
+                None => {}
+            }
+        }
+        lowest = points.iter().fold(lowest, |low, p| low.min(p[1]));
+        let name = match frontier.combination.as_str() {
+            "" => frontier.scene.clone(),
+            name => name.to_string(),
+        };
+        series.push(Series::styled(name, points, Style::LineAndMarkers));
+    }
+    let quantity = first.errors.first().cloned();
+    let judged = quantity.clone().unwrap_or("density".into());
+    let places = first.places();
+    let ends = [places[0], places[places.len() - 1]];
+    if let Some([green, yellow]) = first.judge.get(&judged) {
+        for (name, bound) in [("end of green", green), ("end of yellow", yellow)] {
+            if *bound > 0.0 {
+                let line = ends.iter().map(|x| [*x, *bound]).collect();
+                series.push(Series::styled(name, line, Style::Dashes));
+            }
+        }
+    }
+    if !broken.is_empty() {
+        let height = if lowest.is_finite() { lowest } else { 1.0 };
+        let marks = broken.into_iter().map(|x| [x, height]).collect();
+        series.push(Series::markers("did not come to its end", marks));
+    }
+    Plot {
+        title: first.title.clone(),
+        x_label: first.axis.replace('-', " "),
+        y_label: match quantity {
+            Some(error) => format!("error of {error}"),
+            None => "largest deviation of the density [1]".into(),
+        },
+        log_x: first.is_wide(),
+        log_y: true,
+        series,
+    }
 }

@@ -1,0 +1,265 @@
+//! Measurements with names of their own: energies, volumes, extrema, extents, fronts, yielded shares.
+
+use sph_core::{Axis, fields, parameters, plugin};
+
+use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset, QuantityBounds};
+use super::quantity::Quantity;
+use super::reduction::{Reduce, Reduction};
+use crate::ProbeEntry;
+
+/// ½ Σ m u² of all free particles, J (per metre of depth in 2D).
+///
+/// ```toml
+/// [probe.energy]
+/// kind = "kinetic-energy"
+/// ```
+#[plugin(ProbeEntry [2, 3], "kinetic-energy", "kinetic energy of all particles", source: "½ Σ m u²",
+    within: MeasuringProbe::new)]
+pub struct KineticEnergy {}
+
+impl Preset for KineticEnergy {
+    fn plan(&self, _: usize) -> Plan<'_> {
+        let energy = PlannedColumn::new("", Quantity::KineticEnergy, Reduction::Sum);
+        Plan::of_phase(None, vec![energy.in_unit("J")])
+    }
+}
+
+/// Kinetic energy ½ Σ m u² and potential energy −Σ m g·r of a phase, J (per metre of depth in 2D).
+///
+/// The potential energy counts from the origin.
+///
+/// ```toml
+/// [probe.water-energy]
+/// kind = "phase-energy"
+/// phase = "water"
+/// ```
+#[plugin(ProbeEntry [2, 3], "phase-energy", "kinetic and potential energy of a phase", source: "½ Σ m u², −Σ m g·r",
+    within: MeasuringProbe::new)]
+pub struct PhaseEnergy {
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+}
+
+impl Preset for PhaseEnergy {
+    fn plan(&self, _: usize) -> Plan<'_> {
+        let kinetic = PlannedColumn::new(".kinetic", Quantity::KineticEnergy, Reduction::Sum);
+        let potential = PlannedColumn::new(".potential", Quantity::PotentialEnergy, Reduction::Sum);
+        let columns = [kinetic, potential].map(|column| column.in_unit("J"));
+        Plan::of_phase(self.phase.as_deref(), columns.into())
+    }
+}
+
+/// Σ V over the particles of a phase, m² in two dimensions and m³ in three.
+///
+/// V = m/ρ: what a phase loses of it, it is compressed; what it gains, it has torn or swollen.
+///
+/// ```toml
+/// [probe.air-volume]
+/// kind = "phase-volume"
+/// phase = "air"
+/// scale = 0.786
+/// ```
+#[plugin(ProbeEntry [2, 3], "phase-volume", "volume of a phase", source: "Σ m/ρ",
+    within: MeasuringProbe::new)]
+pub struct PhaseVolume {
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+    /// The volume is divided by this, m² or m³.
+    #[parameter(default: 1.0, above: 0.0)]
+    pub scale: f64,
+}
+
+impl Preset for PhaseVolume {
+    fn plan(&self, dimension: usize) -> Plan<'_> {
+        let unit = if dimension == 2 { "m²" } else { "m³" };
+        let volume = Quantity::Column(fields::VOLUME.name.into());
+        let sum = PlannedColumn::new("", volume, Reduction::Sum).in_unit(unit);
+        Plan::of_phase(self.phase.as_deref(), vec![sum.over(self.scale)])
+    }
+}
+
+/// Smallest and largest value of a field, in its own unit; over `scale`, without one.
+///
+/// ```toml
+/// [probe.deficit]
+/// kind = "range"
+/// field = "density_constant"
+/// scale = 1000
+/// ```
+#[plugin(ProbeEntry [2, 3], "range", "smallest and largest value of a field", source: "plain extrema",
+    within: MeasuringProbe::new)]
+pub struct FieldRange {
+    /// Name of the field.
+    pub field: String,
+    /// The values are divided by this, in the field's own unit; 1 leaves them as they are.
+    #[parameter(default: 1.0, above: 0.0)]
+    pub scale: f64,
+}
+
+impl Preset for FieldRange {
+    fn plan(&self, _: usize) -> Plan<'_> {
+        let column = |suffix, reduce| {
+            let field = Quantity::Column(self.field.clone());
+            PlannedColumn::new(suffix, field, reduce).over(self.scale)
+        };
+        Plan::of_phase(
+            None,
+            vec![
+                column(".min", Reduction::Min),
+                column(".max", Reduction::Max),
+            ],
+        )
+    }
+}
+
+/// Least coordinate of a phase less half a spacing, and largest plus half a spacing, m.
+///
+/// With `quantile` = q > 0 they are the places below and above which a share q of the phase's
+/// volume lies: a few particles that have left the bulk do not count.
+///
+/// ```toml
+/// [probe.bubble]
+/// kind = "extent"
+/// phase = "light"
+/// axis = "y"
+/// ```
+#[plugin(ProbeEntry [2, 3], "extent", "lowest and highest coordinate of a phase",
+    source: "extrema or quantiles, and half a spacing",
+    within: MeasuringProbe::new)]
+pub struct Extent {
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+    /// The axis.
+    #[parameter(default)]
+    pub axis: Axis,
+    /// Share of the volume that is left out at either end.
+    #[parameter(default, unit: "1", min: 0.0, below: 0.5)]
+    pub quantile: f64,
+}
+
+impl Preset for Extent {
+    fn plan(&self, _: usize) -> Plan<'_> {
+        let (low, high, weight) = match self.quantile {
+            0.0 => (Reduction::Min.into(), Reduction::Max.into(), None),
+            share => {
+                let volume = Quantity::Column(fields::VOLUME.name.into());
+                (
+                    Reduce::FromBelow(share),
+                    Reduce::FromAbove(share),
+                    Some(volume),
+                )
+            }
+        };
+        let along = || Quantity::Coordinate(self.axis as usize);
+        let lowest = PlannedColumn::new(".lowest", along(), low).and_spacings(-0.5);
+        let highest = PlannedColumn::new(".highest", along(), high).and_spacings(0.5);
+        let columns = [lowest, highest].map(|column| column.in_unit("m"));
+        Plan {
+            weight,
+            ..Plan::of_phase(self.phase.as_deref(), columns.into())
+        }
+    }
+}
+
+/// One of the two ends of a phase along an axis.
+#[parameters]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Towards larger coordinates.
+    #[default]
+    Forward,
+    /// Towards smaller ones.
+    Backward,
+}
+
+/// The largest coordinate of any particle plus half a spacing: the front of a surge.
+///
+/// With `direction = "backward"` it is the smallest coordinate less half a spacing. With
+/// `quantile` = q < 1 a share q of the particles is behind it, and the others, which may have left
+/// the bulk, do not make a front.
+///
+/// ```toml
+/// [probe.front]
+/// kind = "front"
+/// axis = "x"
+/// below = 0.1
+/// quantile = 0.995
+/// ```
+#[plugin(ProbeEntry [2, 3], "front", "the foremost particle along an axis, either way",
+    source: "extreme coordinate or quantile, and half a spacing",
+    within: MeasuringProbe::new)]
+pub struct Front {
+    /// Axis along which the front moves.
+    #[parameter(default)]
+    pub axis: Axis,
+    /// Its direction along the axis.
+    #[parameter(default)]
+    pub direction: Direction,
+    /// Share of the particles that the front is ahead of; all of them if left out.
+    #[parameter(unit: "1", above: 0.0, max: 1.0)]
+    pub quantile: Option<f64>,
+    /// Only particles whose last coordinate is below this height count.
+    #[parameter(unit: "m")]
+    pub below: Option<f64>,
+    /// Name of the phase whose front is measured; that of all particles if left out.
+    pub phase: Option<String>,
+}
+
+impl Preset for Front {
+    fn plan(&self, dimension: usize) -> Plan<'_> {
+        let share = self.quantile.unwrap_or(1.0);
+        let (reduce, spacings) = match self.direction {
+            Direction::Forward => (Reduce::Quantile(share), 0.5),
+            Direction::Backward => (Reduce::QuantileDown(share), -0.5),
+        };
+        let along = Quantity::Coordinate(self.axis as usize);
+        let front = PlannedColumn::new("", along, reduce).and_spacings(spacings);
+        let upright = || Quantity::Coordinate(dimension - 1);
+        let below = self
+            .below
+            .map(|height| QuantityBounds::below(upright(), height));
+        Plan {
+            conditions: below.into_iter().collect(),
+            ..Plan::of_phase(self.phase.as_deref(), vec![front.in_unit("m")])
+        }
+    }
+}
+
+/// Share of the particles whose strain rate is above a threshold, γ̇ > γ̇_y, and the mean strain
+/// rate of those, 1/s.
+///
+/// A regularised law has no plug that does not move at all: the definition of yielding is a choice. A
+/// phase without particles has no share, and without one that yields there is no mean: NaN. Only
+/// scenes with a law that reads the strain rate have one; the probe computes it in all phases.
+///
+/// Source: ours.
+///
+/// ```toml
+/// [probe.sliding]
+/// kind = "yielded"
+/// phase = "sand"
+/// strain_rate = 1.0
+/// ```
+#[plugin(ProbeEntry [2, 3], "yielded", "share of a phase that strains faster than a threshold", source: "a count",
+    within: MeasuringProbe::new)]
+pub struct Yielded {
+    /// Threshold γ̇_y.
+    #[parameter(unit: "1/s", min: 0.0)]
+    pub strain_rate: f64,
+    /// Name of the phase; all particles if left out.
+    pub phase: Option<String>,
+}
+
+impl Preset for Yielded {
+    fn plan(&self, _: usize) -> Plan<'_> {
+        let rate = || Quantity::Column(fields::STRAIN_RATE.name.into());
+        let columns = vec![
+            PlannedColumn::new(".share", rate(), Reduction::Share).in_unit("1"),
+            PlannedColumn::new(".mean", rate(), Reduction::Mean).in_unit("1/s"),
+        ];
+        Plan {
+            conditions: vec![QuantityBounds::above(rate(), self.strain_rate)],
+            ..Plan::of_phase(self.phase.as_deref(), columns)
+        }
+    }
+}
