@@ -110,6 +110,17 @@ impl<const D: usize> Elements<D> {
         }
     }
 
+    /// Numbers of the places where a contact has its state, and their weights: corners are counted behind all elements.
+    pub fn places(&self, contact: &Contact<D>) -> [(usize, f64); D] {
+        let s = contact.element as usize;
+        let corner = |k: usize| self.centre.len() + self.corners[s][k] as usize;
+        std::array::from_fn(|k| match (contact.corners, k) {
+            (Some(weights), k) => (corner(k), weights[k]),
+            (None, 0) => (s, 1.0),
+            (None, _) => (s, 0.0),
+        })
+    }
+
     /// The centre of an element for given positions of the wall points, m; the corners may be
     /// on two sides of a period.
     pub fn centre_from(&self, element: usize, points: &[Vect<D>], domain: &Domain<D>) -> Vect<D> {

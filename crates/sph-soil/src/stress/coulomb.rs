@@ -202,7 +202,7 @@ fn wall_forces<const D: usize>(
     (0..world.walls.names.len()).map(force).collect()
 }
 
-/// Sums over the particles before an element.
+/// Sums over the particles before an element, or before a corner of elements.
 #[derive(Clone, Copy, Default)]
 struct ElementSums {
     /// Their forces on it, N.
@@ -232,11 +232,15 @@ impl<const D: usize> Soil<'_, D> {
         self.rubs[self.phase.map_or(0, |p| p[i] as usize)]
     }
 
-    /// N_s over Σ V_a|∇γ_as| of every element, N/m^(d−1).
+    /// N_s over Σ V_a|∇γ_as| of every element and corner, N/m^(d−1).
     fn pressed(&self, parts: &[WallPart<D>]) -> Vec<f64> {
         let elements = &self.world.walls.elements;
         let contacts = &self.world.walls.contacts;
-        let mut before = vec![ElementSums::default(); elements.centre.len()];
+        let corners = match self.world.walls.at_corners {
+            true => self.world.walls.points.position.len(),
+            false => 0,
+        };
+        let mut before = vec![ElementSums::default(); elements.centre.len() + corners];
         for WallPart {
             particle,
             wall,
@@ -248,17 +252,19 @@ impl<const D: usize> Soil<'_, D> {
             let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == *wall;
             let all: f64 = own.iter().filter(on_wall).map(|c| c.gradient.norm()).sum();
             for contact in own.iter().filter(on_wall) {
-                let s = contact.element as usize;
-                let (gradient, normal) = (contact.gradient.norm(), &elements.normal[s]);
-                let weight = self.volume[i] * gradient;
-                let sums = &mut before[s];
-                sums.force -= force.dot(normal) * gradient / all;
-                sums.weight += weight;
-                if let Some(effective) = self.effective {
-                    let stress = self.stress.map(|t| t[i].apply(normal).dot(normal));
-                    let elastic = stress.unwrap_or(0.0);
-                    sums.tractions[0] += weight * (effective[i] - elastic);
-                    sums.tractions[1] += weight * (self.pressure[i] - elastic);
+                let normal = &elements.normal[contact.element as usize];
+                let gradient = contact.gradient.norm();
+                for (place, share) in elements.places(&contact) {
+                    let weight = self.volume[i] * gradient * share;
+                    let sums = &mut before[place];
+                    sums.force -= force.dot(normal) * gradient / all * share;
+                    sums.weight += weight;
+                    if let Some(effective) = self.effective {
+                        let stress = self.stress.map(|t| t[i].apply(normal).dot(normal));
+                        let elastic = stress.unwrap_or(0.0);
+                        sums.tractions[0] += weight * (effective[i] - elastic);
+                        sums.tractions[1] += weight * (self.pressure[i] - elastic);
+                    }
                 }
             }
         }
@@ -290,7 +296,10 @@ impl<const D: usize> Soil<'_, D> {
                     let gamma = self.gamma.map_or(1.0, |g| g[i]);
                     self.effective.unwrap_or(self.pressure)[i].max(0.0) / gamma
                 }
-                false => pressed[s],
+                false => {
+                    let places = elements.places(&contact).into_iter();
+                    places.map(|(place, share)| pressed[place] * share).sum()
+                }
             };
             strength += coulomb.coefficient * normal * weight;
         }
