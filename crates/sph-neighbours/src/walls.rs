@@ -241,7 +241,7 @@ impl<const D: usize> WallSet<D> {
     }
 
     /// Gives every contact pressure and volume: those of its element, or the interpolated ones of the element's corners.
-    pub fn settle(&mut self) {
+    pub fn update_contacts(&mut self) {
         let (points, elements) = (&self.points, &self.elements);
         self.contacts.set_states(|element, weights| {
             let s = element as usize;

@@ -321,7 +321,7 @@ impl<const D: usize> Faces<D> {
             walls.points.volume[v] = walls.elements.volume[own[0] as usize];
             walls.points.share[v] = self.lacking[k];
         }
-        walls.settle();
+        walls.update_contacts();
         walls.passed = self.passed(walls);
     }
 

@@ -265,7 +265,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             }
         }
         // Until the state is found anew, contacts have the last one.
-        world.walls.settle();
+        world.walls.update_contacts();
         world.free.put(fields::RENORMALISATION, renormalisation)?;
         let (near, positions) = (&self.near, world.free.get(fields::POSITION)?);
         let mesh = &self.outline.mesh;
@@ -334,7 +334,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             false if walls.points.corners > 0 => pressure_at_corners(walls, &mut self.around),
             false => {}
         }
-        walls.settle();
+        walls.update_contacts();
         Ok(())
     }
 }

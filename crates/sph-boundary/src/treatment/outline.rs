@@ -250,10 +250,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn elements(&self) -> Elements<D> {
         let mut elements = Elements::default();
         let (moves, slips) = (self.moves(), self.slips());
-        let rubs = self
-            .specs
-            .iter()
-            .any(|s| s.condition.coulomb().coefficient > 0.0);
+        let rubs = |s: &WallSpec<D>| s.condition.coulomb().coefficient > 0.0;
+        let rubs = self.specs.iter().any(rubs);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
             elements.centre.push(element.centre.into());
