@@ -10,9 +10,9 @@ use sph_solver::Flow;
 const SPARE: f64 = 17.0 / 16.0;
 /// Excess of vectors that grow by doubling over their contents, in the mean.
 const GROWN: f64 = 1.5;
-/// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for: calibrated with
-/// the counts of an allocator in two and three dimensions.
-const TABLES_PER_ELEMENT: f64 = 550.0;
+/// Bytes of an element's corners, planes and edges, and of the grids in which elements are looked for, in the plane and in
+/// space: calibrated with the counts of an allocator.
+const TABLES_PER_ELEMENT: [f64; 2] = [550.0, 350.0];
 /// Bytes of the list of elements near a particle per contact: with the skin they are some three times as many.
 const NEAR_A_CONTACT: f64 = 32.0;
 /// Pixels of a picture, a little more than those of a plot, 1200 · 800.
@@ -132,7 +132,7 @@ fn walls<const D: usize>(world: &World<D>) -> f64 {
     // Points: position, two velocities, four numbers and the wall; elements: centre, normal, velocity, four numbers, the
     // wall and its corners.
     let point = (3 * 8 * D + 4 * 8 + 4) as f64;
-    let element = (3 * 8 * D + 4 * 8 + 4 + 4 * D) as f64 + TABLES_PER_ELEMENT;
+    let element = (3 * 8 * D + 4 * 8 + 4 + 4 * D) as f64 + TABLES_PER_ELEMENT[D - 2];
     // Where the elements of a particle are listed: place, motion and range, twice so that they can follow a sorted particle,
     // and whose they are.
     let listed = 2.0 * (8 * D + 16) as f64 + 4.0;
