@@ -13,7 +13,8 @@ use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup
 /// the kernel inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
 ///
 /// The pressure on elements and vertices is the Shepard mean of p + ρ (g − a_w)·(r_wall − r) over
-/// the fluid (∂p*/∂n = 0).
+/// the fluid (∂p*/∂n = 0). In space it is found at the corners of elements and interpolated to the mean place of what a
+/// particle sees of a face, which is one contact; where there are open faces, elements are contacts.
 ///
 /// With `vertices` the first row of particles lies at δr, and vertices carry the half row of fluid
 /// between: the share θ_v of a particle's volume. That half row stays at the wall. Under a lid that
