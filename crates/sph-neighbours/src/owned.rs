@@ -83,31 +83,42 @@ impl<const D: usize> OwnedElements<'_, D> {
     /// True if an element counts; where there are copies, none without a particle within a support.
     pub fn has(&self, element: usize) -> bool {
         let (walls, lists) = (&self.world.walls, &self.world.lists);
-        match walls.at_corners {
-            true => {
-                let corner = walls.elements.corners[element][0] as usize;
-                let list = lists.of_corners(&walls.points);
-                self.has_around(&walls.points.position[corner], || list.candidates(corner))
-            }
-            false => self.has_around(&walls.elements.centre[element], || {
-                lists.of_elements.candidates(element)
-            }),
+        if self.looked.is_none() {
+            return true;
         }
+        if !walls.at_corners {
+            let candidates = lists.of_elements.candidates(element);
+            return self.has_first([(&walls.elements.centre[element], candidates)]);
+        }
+        let list = lists.of_corners(&walls.points);
+        let corner = |c: u32| {
+            (
+                &walls.points.position[c as usize],
+                list.candidates(c as usize),
+            )
+        };
+        self.has_first(walls.elements.corners[element].map(corner))
     }
 
     /// The same of a place on a wall, with all particles that may be within a support of it.
     pub fn has_around<'c>(&self, place: &Vect<D>, candidates: impl FnOnce() -> &'c [u32]) -> bool {
+        self.looked.is_none() || self.has_first([(place, candidates())])
+    }
+
+    /// True if the particle of the lowest number within a support of any of some places is at home here.
+    fn has_first<const N: usize>(&self, places: [(&Vect<D>, &[u32]); N]) -> bool {
         let (world, Some((identity, position))) = (self.world, self.looked) else {
             return true;
         };
         let support = world.kernel.support_radius().powi(2);
-        let near = |j: &usize| {
-            let apart = world.domain.nearest_image(position[*j] - place);
-            apart.norm_squared() < support
-        };
-        let first = candidates().iter().map(|j| *j as usize).filter(near);
-        first
-            .min_by_key(|j| identity[*j])
+        let all = places.iter().flat_map(|(place, candidates)| {
+            let near = move |j: &usize| {
+                let apart = world.domain.nearest_image(position[*j] - *place);
+                apart.norm_squared() < support
+            };
+            candidates.iter().map(|j| *j as usize).filter(near)
+        });
+        all.min_by_key(|j| identity[*j])
             .is_some_and(|j| self.owned.has(j))
     }
 }

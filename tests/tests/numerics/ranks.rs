@@ -64,6 +64,14 @@ fn a_dam_break_gives_the_same_bits() {
     same_on_all_ranks(DAM_BREAK, "");
 }
 
+/// Water strikes a box: corners of one triangle may have their water on two ranks.
+#[test]
+fn pressures_on_walls_in_space_give_the_same_bits() {
+    let scene = without_references(include_str!("../../../scenes/dam-break-spheric2.toml"));
+    let rows = same_on_all_ranks(&scene, "--set numerics.spacing=0.06 --set run.end=0.5");
+    assert!(last(&rows, "box.pressure.x").abs() > 0.1);
+}
+
 #[test]
 fn a_renormalised_surface_gives_the_same_bits() {
     for walls in ["usaw", "symmetric"] {
