@@ -2,6 +2,7 @@
 
 use crate::Mesh;
 use crate::geometry::plane::Plane;
+use crate::geometry::vector::sub;
 
 /// A triangle that a place misses by less than this, over its size, has it.
 const ROUNDING: f64 = 1e-9;
@@ -113,8 +114,8 @@ impl FaceMap {
         apart(0) * apart(0) + apart(1) * apart(1) < distance * distance
     }
 
-    /// The triangle at a place in the plane, m, and the weights of its corners there; the nearest place of a triangle
-    /// where there is none.
+    /// The triangle at a place in the plane, m, and the weights of its corners there; outside the face those of the
+    /// nearest place of a triangle.
     pub fn find(&self, x: [f64; 2]) -> (u32, [f64; 3]) {
         let [i, j] = [0, 1].map(|k| self.cell(x[k], k));
         for &t in self.of_cell(i, j) {
@@ -162,31 +163,20 @@ impl FaceMap {
 
     /// Triangles that may be within a distance of a place in the plane, m, ascending.
     pub fn within(&self, x: [f64; 2], distance: f64, found: &mut Vec<u32>) {
-        let from = found.len();
+        found.clear();
         let range = |k: usize| self.cell(x[k] - distance, k)..=self.cell(x[k] + distance, k);
         for j in range(1) {
             for i in range(0) {
                 found.extend(self.of_cell(i, j).iter().map(|t| self.first + t));
             }
         }
-        found[from..].sort_unstable();
-        let mut kept = from;
-        for k in from..found.len() {
-            if kept == from || found[kept - 1] != found[k] {
-                found[kept] = found[k];
-                kept += 1;
-            }
-        }
-        found.truncate(kept);
+        found.sort_unstable();
+        found.dedup();
     }
 }
 
 fn cross([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     a * d - b * c
-}
-
-fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
 }
 
 /// Barycentric coordinates of a place.

@@ -59,7 +59,6 @@ impl Walls<3> {
                 continue;
             };
             let image = part[0].image;
-            found.clear();
             let foot = self.planes.planes[face].foot(self.unshifted(point, image));
             map.within(foot, distance, &mut found);
             all.extend(found.iter().map(|&element| NearElement { element, image }));
