@@ -152,6 +152,7 @@ impl Channel {
         }
         contacts.put_blocks(blocks);
         *world.free.get_mut(fields::RENORMALISATION).unwrap() = gammas;
+        world.walls.update_contacts();
     }
 }
 

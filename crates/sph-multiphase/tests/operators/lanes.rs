@@ -89,6 +89,7 @@ fn lanes_give_the_bits_of_single_particles_next_to_walls() {
     shaken(&mut channel.world);
     channel.world.walls.points.pressure.fill(2.0);
     channel.world.walls.elements.pressure.fill(2.5);
+    channel.world.walls.update_contacts();
     lanes_are_one_by_one(&channel.world);
 }
 

@@ -106,6 +106,7 @@ fn the_gradient_of_1_plus_03_y_is_02986_03562_03238_02998() {
     let walls = &mut channel.world.walls;
     walls.points.pressure.fill(1.0);
     walls.elements.pressure.fill(1.0);
+    walls.update_contacts();
     let force = acceleration(&channel.world, pressure());
     // Density 1: the acceleration is −∇p.
     let gradient = at_rows(&channel, &force, 1).map(|a| -a);
