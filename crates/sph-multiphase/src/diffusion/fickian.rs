@@ -30,7 +30,8 @@ use crate::diffusion::shifted_sum::ShiftedSum;
 ///
 /// Limits: where a support is less full than `surface`, and within a support of there, the
 /// component along the normal is left out, and all of it where there is no single normal (thin
-/// jets, corners); so is the component across an interface between phases, that into a wall nearer than δr/2, and all of it within reach of
+/// jets, corners); the rest is no faster than a fifth of the speed at which neighbours part. Left out are also the component
+/// across an interface between phases, that into a wall nearer than δr/2, and all of it within reach of
 /// wall points (`vertices` of semi-analytical walls, dummy particles). Where a wall moves, or with `along_walls`, so is all that
 /// leads along the normal of a wall within some 1.5 h: a shift towards a wall lets fluid flow through it, and a cylinder sank 1.6
 /// times too fast. Before plane walls at rest it does more harm than good: a channel at Re_τ = 180 misses its friction by 8 % with
@@ -133,7 +134,7 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             .both(fields::POSITION)
             .both(fields::VOLUME)
             .where_there(fields::PHASE)
-            .here(fields::VELOCITY)
+            .both(fields::VELOCITY)
             .here(fields::MASS)
             // Drifts may sort particles between their halves: the shift must be sorted, too.
             .remembers(fields::SHIFT_VELOCITY)
