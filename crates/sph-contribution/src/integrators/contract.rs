@@ -1,15 +1,19 @@
 //! The trait of time integrators.
 
-use sph_core::{StepError, System, contract};
+use sph_core::{StepError, System, contract, parameters};
 
 /// The part of each physical time scale that one step may take.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[parameters]
+#[derive(Copy, PartialEq)]
 pub struct LimitCoefficients {
-    /// Δt ≤ C h / c.
+    /// Share of the time sound takes over h: Δt ≤ courant · h / c.
+    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Ghaïtanellis 2017, Eq. 2.104")]
     pub courant: f64,
-    /// Δt ≤ C ρ h² / η.
+    /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
+    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Ghaïtanellis 2017, Eq. 2.106")]
     pub viscous: f64,
-    /// Δt ≤ C √(h / |a|).
+    /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
+    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
     pub force: f64,
 }
 

@@ -18,25 +18,12 @@ use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 /// ```
 #[plugin(IntegratorEntry, "leap-frog", "kick, drift, kick: second order, two evaluations per step",
     source: "Verlet 1967; Springel 2005")]
-pub struct LeapFrog {
-    /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Springel 2005")]
-    pub courant: f64,
-    /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Springel 2005")]
-    pub viscous: f64,
-    /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
-    pub force: f64,
-}
+#[derive(Copy, Default)]
+pub struct LeapFrog(pub LimitCoefficients);
 
 impl Integrator for LeapFrog {
     fn coefficients(&self) -> LimitCoefficients {
-        LimitCoefficients {
-            courant: self.courant,
-            viscous: self.viscous,
-            force: self.force,
-        }
+        self.0
     }
 
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {

@@ -18,25 +18,12 @@ use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 #[plugin(IntegratorEntry, "symplectic-euler",
     "kick, then drift with the new velocity; first order, one evaluation per step",
     source: "Ghaïtanellis 2017, Eq. 2.102")]
-pub struct SymplecticEuler {
-    /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Ghaïtanellis 2017, Eq. 2.104")]
-    pub courant: f64,
-    /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Ghaïtanellis 2017, Eq. 2.106")]
-    pub viscous: f64,
-    /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
-    pub force: f64,
-}
+#[derive(Copy, Default)]
+pub struct SymplecticEuler(pub LimitCoefficients);
 
 impl Integrator for SymplecticEuler {
     fn coefficients(&self) -> LimitCoefficients {
-        LimitCoefficients {
-            courant: self.courant,
-            viscous: self.viscous,
-            force: self.force,
-        }
+        self.0
     }
 
     fn kicks_once(&self) -> bool {

@@ -20,25 +20,12 @@ use crate::integrators::{Integrator, IntegratorEntry, LimitCoefficients};
 /// ```
 #[plugin(IntegratorEntry, "verlet", "drift, kick, drift: second order, two evaluations per step",
     source: "Kajtar & Monaghan 2010; Monaghan 2005")]
-pub struct Verlet {
-    /// Share of the time sound takes over h: Δt ≤ courant · h / c.
-    #[parameter(default: 0.4, unit: "1", above: 0.0, max: 1.7, source: "Kajtar & Monaghan 2010")]
-    pub courant: f64,
-    /// Share of the viscous time over h: Δt ≤ viscous · ρ h² / η.
-    #[parameter(default: 0.125, unit: "1", above: 0.0, max: 0.3, source: "Kajtar & Monaghan 2010")]
-    pub viscous: f64,
-    /// Share of the time the largest acceleration takes over h: Δt ≤ force · √(h / |a|).
-    #[parameter(default: 0.25, unit: "1", above: 0.0, max: 1.0, source: "Monaghan 1992")]
-    pub force: f64,
-}
+#[derive(Copy, Default)]
+pub struct Verlet(pub LimitCoefficients);
 
 impl Integrator for Verlet {
     fn coefficients(&self) -> LimitCoefficients {
-        LimitCoefficients {
-            courant: self.courant,
-            viscous: self.viscous,
-            force: self.force,
-        }
+        self.0
     }
 
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
