@@ -28,30 +28,21 @@
 //! # Ok::<(), dem_pfv::coupled::CoupledError>(())
 //! ```
 
-mod access;
 mod condition;
 mod edge_forces;
-mod error;
 mod limit;
 mod measure;
 mod pores;
-mod recorded;
 mod setup;
-mod state;
-mod step_limit;
 mod system;
-mod terzaghi;
-mod transfer;
-mod unit_forces;
 
+pub use crate::error::CoupledError;
+pub use condition::Recorded;
 pub use condition::{FlowCondition, WallBoundary, Wave};
-pub use error::CoupledError;
-pub use recorded::Recorded;
+pub use limit::StepLimit;
+pub use measure::Terzaghi;
+pub use setup::State;
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
-pub use state::State;
-pub use step_limit::StepLimit;
 pub use system::CoupledSystem;
-pub use terzaghi::Terzaghi;
 
-/// A vector in space, SI units of its quantity.
-pub type Vector = nalgebra::Vector3<f64>;
+pub use crate::Vector;

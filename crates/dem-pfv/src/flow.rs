@@ -34,28 +34,23 @@
 //! ```
 
 mod assembly;
-mod boundary;
 mod conductance;
-mod edges;
-mod error;
 mod facet;
 mod forces;
 mod geometry;
-mod inscribed;
-mod solid_angle;
 mod system;
 mod throat;
-mod volume;
 
-pub use boundary::Boundary;
+pub use crate::error::FlowError;
+pub use assembly::Boundary;
 pub use conductance::{
     Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance,
 };
-pub use edges::Edge;
-pub use error::FlowError;
+pub use facet::solid_angle;
 pub use forces::Forces;
+pub(crate) use forces::UnitForces;
+pub use geometry::Edge;
 pub use geometry::PoreGeometry;
-pub use solid_angle::solid_angle;
+pub use geometry::cell_volumes;
 pub use system::{FlowSystem, Solver, Storage};
 pub use throat::{SlipCondition, SolidAngles, Throat};
-pub use volume::cell_volumes;

@@ -31,52 +31,37 @@
 //! # Ok::<(), dem_pfv::grains::GrainError>(())
 //! ```
 
-mod access;
-mod cloud;
-mod columns;
-mod error;
 mod grid;
-mod growth;
-mod hertz_mindlin;
 mod law;
-mod linear;
 mod measure;
-mod mesh;
 mod motion;
-mod overlaps;
-mod partner;
 mod rest;
-mod resume;
-mod rolling;
+mod samples;
 mod setup;
-mod space;
+mod springs;
 mod stability;
 mod state;
-mod step_limits;
-mod strain;
 mod system;
 mod table;
 mod touch;
-mod unrest;
 mod wall;
 
-pub use cloud::{Cloud, rain, uniform_radii};
-pub use columns::Grains;
-pub use error::GrainError;
-pub use growth::{Growth, Target, step_to_rest};
-pub use hertz_mindlin::HertzMindlin;
+pub use crate::error::GrainError;
+pub use crate::error::Unrest;
 pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_law};
-pub use linear::LinearElastic;
+pub use measure::Partner;
 pub use measure::Touch;
-pub use mesh::Mesh;
-pub use partner::Partner;
-pub use rolling::RollingResistance;
+pub use measure::strains;
+pub use samples::{Cloud, rain, uniform_radii};
+pub use samples::{Growth, Target, step_to_rest};
 pub use setup::{Grain, Period, Setup};
+pub use springs::HertzMindlin;
+pub use springs::LinearElastic;
+pub use springs::RollingResistance;
+pub use state::Grains;
 pub use state::State;
-pub use strain::strains;
 pub use system::GrainSystem;
-pub use unrest::Unrest;
+pub use wall::Mesh;
 pub use wall::{Control, Wall};
 
-/// A vector in space, SI units of its quantity.
-pub type Vector = nalgebra::Vector3<f64>;
+pub use crate::Vector;

@@ -43,27 +43,17 @@
 
 mod assemble;
 mod check;
-mod checkpoint;
-mod columns;
 mod compare;
-mod culprits;
 mod error;
 mod examine;
 mod fields;
-mod forecast;
 mod frames;
 mod laws;
-mod level;
 mod measure;
 mod model;
-mod names;
-mod origin;
 mod prepare;
 mod read;
-mod recorded;
 mod run;
-mod scaling;
-mod schema;
 mod subject;
 mod summary;
 mod tables;
@@ -72,17 +62,16 @@ mod walls;
 pub use assemble::{Assembled, assemble};
 pub use compare::Compared;
 pub use error::{DemError, Failure};
+pub use examine::Cost;
 pub use examine::{Examination, examine};
-pub use forecast::Cost;
+pub use fields::Origin;
 pub use model::{Load, Model, Saved, StepOutcome};
-pub use origin::Origin;
+pub use read::editor_schema;
 pub use read::{Loaded, is_grain_scene, read};
 pub use run::{identity, run};
-pub use schema::editor_schema;
 pub use subject::DiscreteElements;
 pub use summary::{PluginInForce, Summary};
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
-    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, Wave,
-    Weight,
+    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };

@@ -32,15 +32,13 @@
 //! # Ok::<(), dem_pfv::triangulation::TriangulationError>(())
 //! ```
 
-mod bootstrap;
 mod build;
 mod cells;
-mod error;
 mod expansion;
 mod order;
 mod predicates;
 mod shapes;
 
+pub use crate::error::TriangulationError;
 pub use cells::{Cell, Facet, Triangulation, Vertex};
-pub use error::TriangulationError;
 pub use shapes::{Sphere, Wall};

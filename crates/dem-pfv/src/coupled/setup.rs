@@ -1,14 +1,14 @@
-//! Parameters of the fluid and of its computation.
+//! Parameters of the fluid and of its computation; the saved state.
 
 use serde::{Deserialize, Serialize};
 use sph_core::parameters;
 
-use crate::coupled::{CoupledError, WallBoundary};
-use crate::flow::{SolidAngles, Solver};
-use crate::{OutOfRange, require};
-
-/// Valid values of most numbers.
-pub(crate) const POSITIVE: &str = "positive and finite";
+use crate::coupled::pores::{PRESSED, Places, Pores};
+use crate::coupled::system::{Clock, check};
+use crate::coupled::{CoupledError, CoupledSystem, WallBoundary};
+use crate::flow::{Conductance, SolidAngles, Solver};
+use crate::grains::{ContactLaw, GrainSystem};
+use crate::{OutOfRange, POSITIVE, require};
 
 /// The fluid in the pores.
 #[parameters]
@@ -63,27 +63,6 @@ impl Fluid {
         }
     }
 
-    /// The same that shears between neighbours.
-    #[must_use]
-    pub fn shearing(mut self) -> Self {
-        self.shear = true;
-        self
-    }
-
-    /// The same with lubrication of the gaps between neighbours.
-    #[must_use]
-    pub fn lubricated(mut self, lubrication: Lubrication) -> Self {
-        self.lubrication = Some(lubrication);
-        self
-    }
-
-    /// The same with a bulk modulus, Pa.
-    #[must_use]
-    pub fn compressible(mut self, bulk_modulus: f64) -> Self {
-        self.bulk_modulus = Some(bulk_modulus);
-        self
-    }
-
     fn check(&self) -> Result<(), CoupledError> {
         let Self {
             viscosity, density, ..
@@ -132,27 +111,6 @@ impl Default for Remeshing {
 }
 
 impl Remeshing {
-    /// At a strain.
-    pub fn at(strain: f64) -> Self {
-        Self {
-            strain: Some(strain),
-            most_steps: None,
-        }
-    }
-
-    /// At every step.
-    pub fn always() -> Self {
-        Self::at(0.0)
-    }
-
-    /// Never: for comparison, and for grains that are held.
-    pub fn never() -> Self {
-        Self {
-            strain: None,
-            most_steps: None,
-        }
-    }
-
     pub(crate) fn due(&self, strain: f64, steps: u64) -> bool {
         self.strain.is_some_and(|most| strain >= most)
             || self.most_steps.is_some_and(|n| steps >= n)
@@ -195,22 +153,6 @@ impl FlowSetup {
         self
     }
 
-    /// The same with walls to which fluid sticks.
-    #[must_use]
-    pub fn sticking(mut self) -> Self {
-        for side in &mut self.sides {
-            side.sticks = true;
-        }
-        self
-    }
-
-    /// The same with another criterion.
-    #[must_use]
-    pub fn remeshing(mut self, remeshing: Remeshing) -> Self {
-        self.remeshing = remeshing;
-        self
-    }
-
     pub(crate) fn check(&self, walls: usize) -> Result<(), CoupledError> {
         self.fluid.check()?;
         if self.sides.len() != walls {
@@ -227,5 +169,66 @@ impl FlowSetup {
             })),
             _ => Ok(()),
         }
+    }
+}
+
+/// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
+/// keeps every bit of a number.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct State {
+    grains: crate::grains::State,
+    setup: FlowSetup,
+    /// Places at which the mesh was made; it is made again there.
+    places: Places,
+    clock: Clock,
+}
+
+impl CoupledSystem {
+    /// State to resume.
+    pub fn save(&self) -> State {
+        State {
+            grains: self.grains.save(),
+            setup: self.setup.clone(),
+            places: self.pores.places.clone(),
+            clock: self.clock.clone(),
+        }
+    }
+
+    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together.
+    pub fn resume(
+        state: State,
+        laws: Vec<Box<dyn ContactLaw>>,
+        law: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        let grains = GrainSystem::resume(state.grains, laws)?;
+        let setup = state.setup;
+        check(&grains, &setup)?;
+        let bad = |problem| Err(CoupledError::BadState(problem));
+        let (places, clock) = (state.places, state.clock);
+        if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
+            return bad("the mesh is that of other grains or walls");
+        }
+        let now = [grains.time, clock.storage_step];
+        let radii = &grains.grains.radius;
+        let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
+        let cells = pores.geometry.volumes.len();
+        if [&clock.volumes, &clock.rates, &clock.pressures]
+            .iter()
+            .any(|c| c.len() != cells)
+        {
+            return bad("columns of the pores differ in length from the mesh");
+        }
+        Ok(Self {
+            grains,
+            setup,
+            law,
+            pores,
+            clock,
+            evaluated: false,
+            inflows: None,
+        })
     }
 }

@@ -1,13 +1,11 @@
 //! The coupled system: made, stepped, meshed anew.
 
 use crate::coupled::limit::{Mode, combined, strongest_drag};
-use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
-use crate::coupled::setup::POSITIVE;
-use crate::coupled::transfer::transferred;
+use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores, transferred};
 use crate::coupled::{CoupledError, FlowSetup, StepLimit, Vector, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
 use crate::grains::GrainSystem;
-use crate::require;
+use crate::{POSITIVE, require, sphere};
 
 /// Grains that move, and the fluid in the pores between them.
 ///
@@ -365,11 +363,6 @@ fn add(to: &mut [Vector], more: &[Vector]) {
     for (to, more) in to.iter_mut().zip(more) {
         *to += more;
     }
-}
-
-/// Volume of a sphere, m³.
-pub(crate) fn sphere(radius: f64) -> f64 {
-    4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
 }
 
 pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {

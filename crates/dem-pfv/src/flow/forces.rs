@@ -1,7 +1,9 @@
 //! Forces of the fluid on spheres and walls.
 
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
+use crate::coupled::Vector;
 use crate::flow::PoreGeometry;
 use crate::triangulation::Vertex;
 
@@ -66,5 +68,75 @@ impl Forces {
     /// Sum of both parts on a sphere, N.
     pub fn on_sphere(&self, sphere: usize) -> Vector3<f64> {
         self.pressure[sphere] + self.viscous[sphere]
+    }
+}
+
+/// F_k = Σ_i p_i u_i^k, with a vector for each cell around each body:
+///
+/// ```text
+/// u_i^k = Σ_j (A_ij^k + A_ij^f γ_ij^k / γ_ij) n_ij          on a sphere k of cell i, m²
+/// ```
+///
+/// and on walls the viscous share and the cell's area in the wall. Bodies are the spheres, then the walls. Source:
+/// Catalano 2012, Eqs. (3.10), (3.13), (3.14), (4.6); the same numbers as `dem_pfv::flow::Forces`.
+pub(crate) struct UnitForces {
+    starts: Vec<usize>,
+    cells: Vec<u32>,
+    vectors: Vec<Vector>,
+}
+
+/// Bodies that a task sums at least.
+const TASK: usize = 256;
+
+impl UnitForces {
+    pub fn new(pores: &PoreGeometry) -> Self {
+        let mesh = &pores.mesh;
+        let mut slots = vec![[Vector::zeros(); 4]; mesh.cells.len()];
+        for throat in &pores.throats {
+            let shares = throat.shares();
+            for (c, vertex) in throat.vertices.iter().enumerate() {
+                let vector = (throat.sectors[c] + throat.fluid_area * shares[c]) * throat.normal;
+                for (cell, sign) in throat.cells.into_iter().zip([1.0, -1.0]) {
+                    let vertices = mesh.cells[cell].vertices();
+                    if let Some(place) = vertices.iter().position(|v| v == vertex) {
+                        slots[cell][place] += sign * vector;
+                    }
+                }
+            }
+        }
+        let spheres = (0..mesh.spheres.len()).map(Vertex::Sphere);
+        let bodies = spheres.chain((0..mesh.walls.len()).map(Vertex::Wall));
+        let (mut starts, mut cells, mut vectors) = (vec![0], Vec::new(), Vec::new());
+        for body in bodies {
+            for &cell in mesh.cells_around(body) {
+                let vertices = mesh.cells[cell as usize].vertices();
+                let place = vertices.iter().position(|v| *v == body).unwrap_or(0);
+                let mut vector = slots[cell as usize][place];
+                if let Vertex::Wall(w) = body {
+                    vector -= pores.area_on_wall(cell as usize, w) * mesh.walls[w].normal;
+                }
+                cells.push(cell);
+                vectors.push(vector);
+            }
+            starts.push(cells.len());
+        }
+        Self {
+            starts,
+            cells,
+            vectors,
+        }
+    }
+
+    /// Force on every sphere and wall (N) of the pressures of all cells (Pa); each body sums its cells in their order.
+    pub fn apply(&self, pressures: &[f64]) -> Vec<Vector> {
+        let force = |body: usize| {
+            let range = self.starts[body]..self.starts[body + 1];
+            let terms = self.cells[range.clone()].iter().zip(&self.vectors[range]);
+            terms.fold(Vector::zeros(), |sum, (c, u)| {
+                sum + u * pressures[*c as usize]
+            })
+        };
+        let bodies = (0..self.starts.len() - 1).into_par_iter();
+        bodies.with_min_len(TASK).map(force).collect()
     }
 }

@@ -3,10 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::flow::facet::{Facet, angle, edge};
-use crate::flow::inscribed::inscribed_radius;
+use crate::flow::facet::{Facet, angle, edge, inscribed_radius};
 use crate::flow::solid_angle;
-use crate::triangulation::{Triangulation, Vertex};
+use crate::triangulation::{self as mesh, Triangulation, Vertex};
 
 /// Condition of the fluid at a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +81,7 @@ pub struct Pores<'a> {
 }
 
 impl Pores<'_> {
-    pub fn throat(&self, facet: &crate::triangulation::Facet) -> Throat {
+    pub fn throat(&self, facet: &mesh::Facet) -> Throat {
         let [i, j] = facet.cells;
         let (pi, pj) = (self.centres[i], self.centres[j]);
         let shape = Facet::new(self.mesh, &facet.vertices);
@@ -110,32 +109,34 @@ impl Pores<'_> {
         }
     }
 
+    /// Centres of a facet's spheres.
+    fn centres_of(&self, facet: &mesh::Facet) -> impl Iterator<Item = Vector3<f64>> {
+        let spheres = facet.vertices.into_iter().filter_map(Vertex::sphere);
+        spheres.map(|k| self.mesh.spheres[k].centre)
+    }
+
     /// The area with its sign from cell i to j: as the power centres lie, or, where they are one point, away
     /// from the vertex opposite.
-    fn outward(&self, facet: &crate::triangulation::Facet, area: Vector3<f64>) -> Vector3<f64> {
+    fn outward(&self, facet: &mesh::Facet, area: Vector3<f64>) -> Vector3<f64> {
         let [i, j] = facet.cells;
         let along = self.centres[j] - self.centres[i];
         let far = along.norm() > NO_LENGTH * area.norm().sqrt();
-        let base = facet.vertices.iter().find_map(|v| match v {
-            Vertex::Sphere(k) => Some(self.mesh.spheres[*k].centre),
-            Vertex::Wall(_) => None,
-        });
+        let base = self.centres_of(facet).next();
         let direction = match self.mesh.cells[i].vertices()[facet.opposite] {
             _ if far => along,
             Vertex::Sphere(k) => base.unwrap_or_default() - self.mesh.spheres[k].centre,
             Vertex::Wall(w) => self.mesh.walls[w].normal,
         };
-        if area.dot(&direction) < 0.0 {
-            -area
-        } else {
-            area
+        match area.dot(&direction) < 0.0 {
+            true => -area,
+            false => area,
         }
     }
 
     /// Sectors, volume and wetted areas of the spheres.
     fn spheres(
         &self,
-        facet: &crate::triangulation::Facet,
+        facet: &mesh::Facet,
         shape: &Facet,
         area: Vector3<f64>,
     ) -> ([f64; 3], f64, [f64; 3]) {
@@ -175,27 +176,19 @@ impl Pores<'_> {
     }
 
     /// Areas of walls with grip under the throat: of a triangle or a trapezoid in the wall.
-    fn walls(&self, facet: &crate::triangulation::Facet, wetted: &mut [f64; 3]) {
+    fn walls(&self, facet: &mesh::Facet, wetted: &mut [f64; 3]) {
         let [pi, pj] = facet.cells.map(|c| self.centres[c]);
-        let spheres = facet.vertices.iter().filter_map(|v| match v {
-            Vertex::Sphere(k) => Some(self.mesh.spheres[*k].centre),
-            Vertex::Wall(_) => None,
-        });
-        let spheres: Vec<_> = spheres.collect();
-        let across = match *spheres {
-            [k, m] => k - m,
-            [k] => k - pj,
+        let mut spheres = self.centres_of(facet);
+        let across = match [(); 3].map(|()| spheres.next()) {
+            [Some(k), m, None] => k - m.unwrap_or(pj),
             _ => return,
         };
         for (c, v) in facet.vertices.iter().enumerate() {
             if let Vertex::Wall(w) = *v
                 && self.grips[w] == SlipCondition::NoSlip
             {
-                wetted[c] = 0.5
-                    * (pi - pj)
-                        .cross(&across)
-                        .dot(&self.mesh.walls[w].normal)
-                        .abs();
+                let normal = self.mesh.walls[w].normal;
+                wetted[c] = 0.5 * (pi - pj).cross(&across).dot(&normal).abs();
             }
         }
     }

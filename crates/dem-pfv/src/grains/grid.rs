@@ -2,6 +2,7 @@
 
 use crate::grains::Vector;
 use crate::grains::setup::Period;
+use crate::groups::Groups;
 
 /// Grains by cell; a cell is at least as long as the reach of a pair.
 pub(crate) struct Grid {
@@ -10,8 +11,7 @@ pub(crate) struct Grid {
     rate: Vector,
     count: [usize; 3],
     periodic: [bool; 3],
-    start: Vec<u32>,
-    members: Vec<u32>,
+    members: Groups,
 }
 
 impl Grid {
@@ -40,33 +40,18 @@ impl Grid {
         };
         let mut grid = Self {
             low,
-            rate: counts.zip_map(
-                &(high - low),
-                |n, length| {
-                    if length > 0.0 { n / length } else { 0.0 }
-                },
-            ),
+            rate: counts.zip_map(&(high - low), |n, length| match length > 0.0 {
+                true => n / length,
+                false => 0.0,
+            }),
             count: [counts.x as usize, counts.y as usize, counts.z as usize],
             periodic: period.map(|p| p.is_some()),
-            start: Vec::new(),
-            members: vec![0; positions.len()],
+            members: Groups::default(),
         };
-        let cells: Vec<usize> = positions
-            .iter()
-            .map(|p| grid.number(grid.cell(p)))
-            .collect();
-        grid.start = vec![0; grid.count.iter().product::<usize>() + 1];
-        for &cell in &cells {
-            grid.start[cell + 1] += 1;
-        }
-        for cell in 1..grid.start.len() {
-            grid.start[cell] += grid.start[cell - 1];
-        }
-        let mut next = grid.start.clone();
-        for (grain, &cell) in cells.iter().enumerate() {
-            grid.members[next[cell] as usize] = grain as u32;
-            next[cell] += 1;
-        }
+        let numbers = positions.iter().map(|p| grid.number(grid.cell(p)) as u32);
+        let cells: Vec<_> = numbers.zip(0..).collect();
+        let count = grid.count.iter().product();
+        grid.members = Groups::new(count, cells.into_iter());
         grid
     }
 
@@ -83,8 +68,7 @@ impl Grid {
     }
 
     fn members(&self, cell: [usize; 3]) -> &[u32] {
-        let number = self.number(cell);
-        &self.members[self.start[number] as usize..self.start[number + 1] as usize]
+        self.members.of(self.number(cell))
     }
 
     /// Cells on an axis around one, each once.

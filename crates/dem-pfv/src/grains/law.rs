@@ -6,7 +6,6 @@ use sph_core::Registry;
 use toml::Table;
 
 use crate::grains::{GrainError, Vector};
-use crate::require;
 
 /// Largest number of values in the memory of a contact.
 pub const MEMORY: usize = 8;
@@ -174,24 +173,4 @@ pub fn contact_law(name: &str, parameters: &Table) -> Result<Box<dyn ContactLaw>
     let law = (registry.find(name)?.build)(parameters)?;
     law.check()?;
     Ok(law)
-}
-
-/// Valid values of parameters.
-pub(crate) const AT_LEAST_0: &str = "at least 0";
-pub(crate) const BELOW_1: &str = "at least 0 and below 1";
-
-/// Checks parameters of a law: name, value, valid values, and whether it is one of them.
-pub(crate) fn check<const N: usize>(
-    law: &str,
-    parameters: [(&str, f64, &'static str, bool); N],
-) -> Result<(), GrainError> {
-    for (what, value, valid, fine) in parameters {
-        require(
-            format!("the contact law {law} has the {what}"),
-            value,
-            valid,
-            fine,
-        )?;
-    }
-    Ok(())
 }

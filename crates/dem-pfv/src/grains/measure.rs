@@ -1,9 +1,10 @@
-//! Measurements: energies, the unbalanced force ratio, stresses, porosity.
+//! Measurements: energies, the unbalanced force ratio, stresses, strains, porosity.
 
 use nalgebra::Matrix3;
 
 use crate::grains::table::Slot;
-use crate::grains::{GrainError, GrainSystem, Partner, Vector};
+use crate::grains::{GrainError, GrainSystem, Vector};
+use crate::sphere;
 
 /// A contact as it was at the last evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,10 +123,8 @@ impl GrainSystem {
     /// Mean stress in each grain, Pa, positive in compression: σ = −(1/V) Σ_c (x^C − x) ⊗ F^c with the grain's
     /// volume V. Source: Catalano 2012, Eqs. (2.17), (2.18), with the other sign.
     pub fn grain_stresses(&self) -> Vec<Matrix3<f64>> {
-        let volume = |i: usize| 4.0 / 3.0 * std::f64::consts::PI * self.grains.radius[i].powi(3);
-        (0..self.grains.len())
-            .map(|i| self.moment(i) / volume(i))
-            .collect()
+        let radii = self.grains.radius.iter().enumerate();
+        radii.map(|(i, r)| self.moment(i) / sphere(*r)).collect()
     }
 
     /// Love–Weber stress of all contacts in a volume (m³), Pa, positive in compression: (1/V) Σ_grains Σ_c l n ⊗ F.
@@ -259,4 +258,71 @@ impl GrainSystem {
         let sum: f64 = stresses.sum::<Result<f64, _>>()?;
         Ok(sum / self.walls.len() as f64)
     }
+}
+
+/// The second body of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Partner {
+    /// A grain.
+    Grain(usize),
+    /// A wall.
+    Wall(usize),
+    /// A triangle of a mesh.
+    Triangle {
+        /// The mesh.
+        mesh: usize,
+        /// The triangle.
+        triangle: usize,
+    },
+}
+
+impl std::fmt::Display for Partner {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Grain(grain) => write!(f, "grain {grain}"),
+            Self::Wall(wall) => write!(f, "wall {wall}"),
+            Self::Triangle { mesh, triangle } => write!(f, "triangle {triangle} of mesh {mesh}"),
+        }
+    }
+}
+
+/// Small strain ε = ½ (∇u + ∇uᵀ) around each grain from displacements u (m), positive in extension.
+///
+/// In each tetrahedron of grains, u is linear between the centres, so that ⟨∇u⟩ = (1/V) Σ_facets ū ⊗ S; a
+/// grain takes the mean of its tetrahedra, weighted by their volumes, and zero if it has none. Tetrahedra that
+/// name a grain that is not there or are flat are left out. Source: Catalano 2012, Eqs. (2.20), (2.21), in space; the
+/// printed factor 1/L there is 1/S.
+pub fn strains(
+    tetrahedra: &[[usize; 4]],
+    positions: &[Vector],
+    displacements: &[Vector],
+) -> Vec<Matrix3<f64>> {
+    let grains = positions.len().min(displacements.len());
+    let mut sums = vec![(Matrix3::zeros(), 0.0); positions.len()];
+    for corners in tetrahedra {
+        if corners.iter().any(|&c| c >= grains) {
+            continue;
+        }
+        let [a, b, c, d] = *corners;
+        let edges =
+            |of: &[Vector]| Matrix3::from_columns(&[of[b] - of[a], of[c] - of[a], of[d] - of[a]]);
+        let shape = edges(positions);
+        let Some(inverse) = shape.try_inverse() else {
+            continue;
+        };
+        let gradient = edges(displacements) * inverse;
+        let volume = shape.determinant().abs() / 6.0;
+        for &corner in corners {
+            sums[corner].0 += (gradient + gradient.transpose()) * (0.5 * volume);
+            sums[corner].1 += volume;
+        }
+    }
+    let mean = |(sum, volume): (Matrix3<f64>, f64)| {
+        if volume > 0.0 {
+            sum / volume
+        } else {
+            Matrix3::zeros()
+        }
+    };
+    sums.into_iter().map(mean).collect()
 }

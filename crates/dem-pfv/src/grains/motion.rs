@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::grains::columns::INERTIA;
+use crate::grains::setup::wrap;
+use crate::grains::state::INERTIA;
 use crate::grains::wall::sign;
-use crate::grains::{Control, GrainError, GrainSystem, State, Vector, Wall, space};
+use crate::grains::{Control, GrainError, GrainSystem, State, Vector, Wall};
 use crate::require;
 
 /// Grains per task at least.
@@ -73,7 +74,7 @@ impl GrainSystem {
                     *spin += damped(torque, *spin, inertia) * (step / inertia);
                 }
                 *x += *v * step;
-                space::wrap(x, period);
+                wrap(x, period);
                 turn(orientation, &(*spin * step));
             });
     }
@@ -125,7 +126,7 @@ impl GrainSystem {
         let State { grains, period, .. } = &mut self.state;
         for (x, v) in grains.position.iter_mut().zip(&grains.velocity) {
             *x += v * step;
-            space::wrap(x, period);
+            wrap(x, period);
         }
         self.last_step += step;
         Ok(())

@@ -1,9 +1,11 @@
-//! The critical time step.
+//! Limits of steps and overlaps.
 
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 
 use crate::grains::state::Limit;
-use crate::grains::{Control, GrainSystem};
+use crate::grains::table::Slot;
+use crate::grains::{Control, GrainError, GrainSystem, Partner};
 
 /// Overlap over radius from which the stiffness of the first touch is guessed.
 const FIRST_TOUCH: f64 = 1e-3;
@@ -89,4 +91,109 @@ fn largest(matrix: &Matrix3<f64>) -> f64 {
         return 0.0;
     }
     matrix.symmetric_eigenvalues().max()
+}
+
+impl GrainSystem {
+    /// Largest step (s) for which the leap-frog is proven stable while nothing slides.
+    ///
+    /// Δt = 2 / √max_i (A_i + B_i), A and B the largest eigenvalues of K^x / m and K^r / J with
+    ///
+    /// ```text
+    /// K^x = Σ_c w [k_n n nᵀ + k_t (1 − n nᵀ)],     K^r = Σ_c w (k_t l² + k_r) (1 − n nᵀ)
+    /// ```
+    ///
+    /// over the contacts of a grain, l the arm, w = 1 at walls and 2 between bodies that both move:
+    /// |a − b|² ≤ 2 |a|² + 2 |b|² bounds the elastic energy by a sum over grains. For a head-on pair and for a
+    /// grain at a wall it is the exact 2/ω. Catalano 2012, Eqs. (2.13), (2.14), takes √(m/K) with the same sums;
+    /// his Δt_cr is shorter for normal contact, but without the coupling of shift and spin. Dashpots multiply
+    /// it by √(1 + ζ²) − ζ. Every grain counts as if it touched another of its size at least.
+    pub fn critical_step(&self) -> f64 {
+        self.critical().step
+    }
+
+    /// Step (s) in which no grain goes further than a share of its radius, under the forces of the last evaluation:
+    /// |v| Δt + ½ |F/m + g| Δt² ≤ share · R. Contacts are looked for once per step, so a grain that goes further can
+    /// pass through another or through a wall; stability alone does not forbid it where contacts are soft.
+    pub fn motion_limit(&self, share: f64) -> f64 {
+        let g = &self.grains;
+        let forces = (&g.contact_force, &g.external_force);
+        let columns = (&g.velocity, &g.mass, &g.radius, &g.held);
+        let steps = (columns, forces).into_par_iter().map(|(columns, forces)| {
+            let (velocity, &mass, &radius, &held) = columns;
+            let force = if held {
+                0.0
+            } else {
+                (forces.0 + forces.1 + self.gravity * mass).norm()
+            };
+            let (speed, acceleration) = (velocity.norm(), force / mass);
+            // The root without a difference of large numbers, which is also that of no acceleration.
+            let root = (speed * speed + 2.0 * acceleration * share * radius).sqrt();
+            2.0 * share * radius / (speed + root)
+        });
+        steps.reduce(|| f64::INFINITY, f64::min)
+    }
+}
+
+/// Share of the smaller radius that an overlap may have at the start.
+const AT_START: f64 = 0.1;
+
+impl GrainSystem {
+    /// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
+    /// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
+    pub const DEEPEST: f64 = 0.25;
+
+    /// The first contact that is deeper than a share of the smaller radius, with the number of its part of the table.
+    fn deeper(&self, share: f64) -> Option<(usize, &Slot)> {
+        let radius = &self.grains.radius;
+        (0..self.table.ends.len()).find_map(|part| {
+            let deep = |slot: &&Slot| {
+                let mut smaller = radius[slot.first as usize];
+                if part == 0 {
+                    smaller = smaller.min(radius[slot.second as usize]);
+                }
+                slot.active && slot.overlap > share * smaller
+            };
+            let slots = self.table.slots[self.table.part(part)].par_iter();
+            Some((part, slots.with_min_len(4096).find_first(deep)?))
+        })
+    }
+
+    /// Refuses a step from contacts that are too deep.
+    pub(crate) fn check_depths(&self) -> Result<(), GrainError> {
+        let Some((part, slot)) = self.deeper(Self::DEEPEST) else {
+            return Ok(());
+        };
+        let grain = slot.first as usize;
+        Err(GrainError::TooDeep {
+            grain,
+            at: self.grains.position[grain].into(),
+            body: self.partner(part, slot),
+            overlap: slot.overlap,
+            share: slot.overlap / self.grains.radius[grain],
+            most: Self::DEEPEST,
+        })
+    }
+
+    pub(crate) fn check_overlaps(&mut self) -> Result<(), GrainError> {
+        self.evaluate()?;
+        let Some((part, slot)) = self.deeper(AT_START) else {
+            return Ok(());
+        };
+        let (grain, overlap) = (slot.first as usize, slot.overlap);
+        Err(match self.partner(part, slot) {
+            Partner::Grain(second) => GrainError::Overlap(grain, second, overlap),
+            Partner::Wall(wall) => GrainError::InWall {
+                grain,
+                wall,
+                overlap,
+                distance: self.walls[wall].distance(&self.grains.position[grain]),
+            },
+            Partner::Triangle { mesh, triangle } => GrainError::InMesh {
+                grain,
+                mesh,
+                triangle,
+                overlap,
+            },
+        })
+    }
 }

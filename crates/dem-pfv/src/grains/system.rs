@@ -2,13 +2,12 @@
 
 use std::ops::{Deref, DerefMut};
 
-use crate::grains::law::BELOW_1;
-use crate::grains::setup::finite;
+use crate::grains::setup::{check_period, finite};
 use crate::grains::state::Limit;
 use crate::grains::table::{Bodies, Table};
 use crate::grains::touch::View;
-use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector, space};
-use crate::require;
+use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector};
+use crate::{BELOW_1, require};
 
 /// Steps between two computations of the critical one.
 const CHECKED_EVERY: u64 = 100;
@@ -92,8 +91,7 @@ impl GrainSystem {
         check_damping(self.damping)?;
         require("the gravity is", self.gravity.norm(), "finite", true)?;
         self.check_laws()?;
-        let largest = self.grains.radius.iter().copied().fold(0.0, f64::max);
-        space::check(&self.period, 2.0 * largest + self.skin)?;
+        check_period(&self.period, 2.0 * self.grains.largest_radius() + self.skin)?;
         for (w, wall) in self.walls.iter().enumerate() {
             wall.check(w)?;
             for (axis, ends) in self.period.iter().enumerate() {
@@ -293,4 +291,69 @@ impl GrainSystem {
 pub(crate) fn check_damping(damping: f64) -> Result<(), GrainError> {
     let fine = (0.0..1.0).contains(&damping);
     Ok(require("the damping is", damping, BELOW_1, fine)?)
+}
+
+impl GrainSystem {
+    /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
+    ///
+    /// # Errors
+    /// If there is no such mesh or a number is not finite.
+    pub fn steer_mesh(
+        &mut self,
+        mesh: usize,
+        velocity: Vector,
+        spin: Vector,
+    ) -> Result<(), GrainError> {
+        let none = || GrainError::BadMesh(mesh, 0, "there is no such mesh".into());
+        let moved = self.meshes.get_mut(mesh).ok_or_else(none)?;
+        (moved.velocity, moved.spin) = (velocity, spin);
+        moved.check(mesh)
+    }
+
+    /// Sets the clock to zero, as when a preparation is over. Nothing else changes.
+    pub fn restart_clock(&mut self) {
+        (self.time, self.steps, self.limit_due) = (0.0, 0, 0);
+    }
+
+    /// Sets the coefficient of non-viscous damping; zero where a fluid damps.
+    ///
+    /// # Errors
+    /// Unless it is at least 0 and below 1.
+    pub fn set_damping(&mut self, damping: f64) -> Result<(), GrainError> {
+        check_damping(damping)?;
+        self.damping = damping;
+        Ok(())
+    }
+
+    /// Replaces a contact law, as when the friction of the preparation gives way to that of the test. The memory of
+    /// contacts stays.
+    ///
+    /// # Errors
+    /// Parameters out of range; no law of that number.
+    pub fn set_law(&mut self, number: usize, law: Box<dyn ContactLaw>) -> Result<(), GrainError> {
+        law.check()?;
+        let laws = self.laws.len();
+        let slot = self.laws.get_mut(number);
+        *slot.ok_or(GrainError::NoLaw("grain", 0, number, laws))? = law;
+        self.limit = None;
+        self.check()
+    }
+
+    /// Multiplies all radii; masses and moments of inertia follow with their third and fifth power.
+    ///
+    /// # Errors
+    /// A factor that is not positive and finite; a period that becomes too short.
+    pub fn scale_radii(&mut self, factor: f64) -> Result<(), GrainError> {
+        require(
+            "the factor of the radii is",
+            factor,
+            "positive",
+            factor > 0.0,
+        )?;
+        for radius in &mut self.grains.radius {
+            *radius *= factor;
+        }
+        self.grains.weigh();
+        check_period(&self.period, 2.0 * self.grains.largest_radius() + self.skin)
+    }
 }

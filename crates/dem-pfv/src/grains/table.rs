@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::grains::grid::Grid;
 use crate::grains::law::MEMORY;
-use crate::grains::mesh::nearest;
-use crate::grains::setup::Period;
-use crate::grains::space::separation;
+use crate::grains::setup::{Period, separation};
+use crate::grains::wall::nearest;
 use crate::grains::{Grains, Mesh, Vector, Wall};
+use crate::groups::Groups;
 
 /// Two bodies that are near each other.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -54,12 +54,9 @@ pub(crate) struct Table {
     pub slots: Vec<Slot>,
     /// Ends of the parts.
     pub ends: Vec<usize>,
-    /// For each grain, where its entries start.
-    #[serde(skip)]
-    offsets: Vec<u32>,
     /// Slots of each grain, twice their number plus the side.
     #[serde(skip)]
-    entries: Vec<u32>,
+    entries: Groups,
     /// Positions and shapes at the time the table was made.
     #[serde(skip)]
     then: PreviousState,
@@ -100,21 +97,14 @@ const TASK: usize = 256;
 
 impl Table {
     pub fn part(&self, number: usize) -> Range<usize> {
-        let from = if number == 0 {
-            0
-        } else {
-            self.ends[number - 1]
-        };
-        from..self.ends[number]
+        let before = number.checked_sub(1);
+        before.map_or(0, |before| self.ends[before])..self.ends[number]
     }
 
     /// Slots of a grain with the side it has in each: 0 for the first body, 1 for the second.
     pub fn slots_of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
-        let range = self.offsets[grain] as usize..self.offsets[grain + 1] as usize;
-        self.entries[range].iter().map(|&entry| {
-            let slot = &self.slots[(entry >> 1) as usize];
-            (slot, (entry & 1) as usize)
-        })
+        let entries = self.entries.of(grain).iter();
+        entries.map(|&entry| (&self.slots[(entry >> 1) as usize], (entry & 1) as usize))
     }
 
     /// True if something may have come near that is not in the table.
@@ -140,10 +130,8 @@ impl Table {
             let way = separation(&grains.position[i], &then.positions[i], bodies.period);
             room < 0.0 || way.norm_squared() > room * room
         };
-        (0..grains.len())
-            .into_par_iter()
-            .with_min_len(2048)
-            .any(left)
+        let all = (0..grains.len()).into_par_iter();
+        all.with_min_len(2048).any(left)
     }
 
     /// Makes the table anew; contacts keep their memory.
@@ -154,28 +142,29 @@ impl Table {
             meshes,
             period,
         } = bodies;
-        let largest = grains.radius.iter().copied().fold(0.0, f64::max);
+        let largest = grains.largest_radius();
         let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
         let mut slots = pairs(grains, &grid, period, skin);
         let mut ends = vec![slots.len()];
         for wall in walls {
             let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
-            slots.extend(
-                (0..grains.len())
-                    .filter(near)
-                    .map(|i| Slot::new(i as u32, 0)),
-            );
+            let near = (0..grains.len()).filter(near);
+            slots.extend(near.map(|i| Slot::new(i as u32, 0)));
             ends.push(slots.len());
         }
         for mesh in meshes {
             slots.extend(triangles(grains, &grid, mesh, largest, skin));
             ends.push(slots.len());
         }
-        let old = std::mem::take(&mut self.slots);
+        let old = std::mem::replace(&mut self.slots, slots);
         let old_ends = std::mem::replace(&mut self.ends, ends);
-        self.slots = slots;
         self.carry(&old, &old_ends);
-        self.index(grains.len());
+        let pairs = self.part(0).end;
+        let entries = self.slots.iter().enumerate().flat_map(|(k, slot)| {
+            let second = (k < pairs).then_some((slot.second, 2 * k as u32 + 1));
+            [Some((slot.first, 2 * k as u32)), second]
+        });
+        self.entries = Groups::new(grains.len(), entries.flatten());
         self.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
@@ -198,35 +187,6 @@ impl Table {
             }
             from = to;
         }
-    }
-
-    fn index(&mut self, grains: usize) {
-        let pairs = self.part(0).end;
-        let mut offsets = vec![0_u32; grains + 1];
-        for (k, slot) in self.slots.iter().enumerate() {
-            offsets[slot.first as usize + 1] += 1;
-            if k < pairs {
-                offsets[slot.second as usize + 1] += 1;
-            }
-        }
-        for i in 0..grains {
-            offsets[i + 1] += offsets[i];
-        }
-        let mut next = offsets.clone();
-        let mut entries = vec![0; offsets[grains] as usize];
-        let mut put = |grain: u32, entry: usize| {
-            let at = &mut next[grain as usize];
-            entries[*at as usize] = entry as u32;
-            *at += 1;
-        };
-        for (k, slot) in self.slots.iter().enumerate() {
-            put(slot.first, 2 * k);
-            if k < pairs {
-                put(slot.second, 2 * k + 1);
-            }
-        }
-        self.offsets = offsets;
-        self.entries = entries;
     }
 }
 

@@ -3,10 +3,9 @@
 use rayon::prelude::*;
 
 use crate::grains::law::Turn;
-use crate::grains::mesh::nearest;
-use crate::grains::setup::Period;
-use crate::grains::space::separation;
+use crate::grains::setup::{Period, separation};
 use crate::grains::table::Slot;
+use crate::grains::wall::nearest;
 use crate::grains::{Contact, ContactLaw, Grains, Mesh, Vector, Wall};
 
 /// Slots that one call of a law answers at most.

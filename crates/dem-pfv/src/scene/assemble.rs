@@ -5,15 +5,13 @@ use crate::coupled::{
 };
 use crate::grains::{GrainError, GrainSystem};
 use crate::scene::error::DemError;
+use crate::scene::fields::Origin;
 use crate::scene::laws::{Laws, throats};
 use crate::scene::model::{Load, Model};
-use crate::scene::names::{BOX, planes};
-use crate::scene::origin::Origin;
 use crate::scene::prepare;
-use crate::scene::read::Loaded;
-use crate::scene::recorded;
+use crate::scene::read::{Loaded, read_recorded};
 use crate::scene::tables::{self, Scene};
-use crate::scene::walls::{FAR, control};
+use crate::scene::walls::{BOX, FAR, control, planes, surfaces};
 
 /// A scene ready to run.
 pub struct Assembled {
@@ -98,7 +96,7 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
         wall.velocity = table.velocity.unwrap_or_default().into();
         wall.control = control(table, mass, |p| p.stress);
     }
-    for (number, name) in crate::scene::names::surfaces(scene).iter().enumerate() {
+    for (number, name) in surfaces(scene).iter().enumerate() {
         if let Some(table) = scene.wall.get(name) {
             let velocity = table.velocity.unwrap_or_default().into();
             let spin = table.spin.unwrap_or_default().into();
@@ -110,10 +108,11 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 
 /// The fluid and its conditions.
 fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
-    let mut setup = FlowSetup::new(fluid.given).remeshing(Remeshing {
+    let mut setup = FlowSetup::new(fluid.given);
+    setup.remeshing = Remeshing {
         strain: Some(fluid.remesh_strain),
         most_steps: fluid.remesh_steps,
-    });
+    };
     for (number, name) in BOX.iter().enumerate() {
         if let Some(table) = loaded.scene.wall.get(*name) {
             setup = setup.side(number, side(loaded, name, table)?);
@@ -128,7 +127,7 @@ fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<WallBoundar
         (_, Some(speed), _) => FlowCondition::Inflow(speed),
         (.., Some(load)) => FlowCondition::Wave(*load),
         _ => match &table.recorded {
-            Some(load) => FlowCondition::Recorded(recorded::read(&loaded.source, name, load)?),
+            Some(load) => FlowCondition::Recorded(read_recorded(&loaded.source, name, load)?),
             None => FlowCondition::Closed,
         },
     };

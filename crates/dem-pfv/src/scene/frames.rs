@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
+use sph_core::bounds;
 use sph_io::{Cells, FieldData, Picture, Piece, View};
 
-use crate::grains::{GrainSystem, Partner};
+use crate::Vector;
+use crate::grains::{GrainSystem, Partner, Wall};
 use crate::scene::error::DemError;
-use crate::scene::fields::{displacements, names, unit, values};
+use crate::scene::fields::{Origin, displacements, names, unit, values};
 use crate::scene::model::Model;
-use crate::scene::names::FAR_ENOUGH;
-use crate::scene::origin::Origin;
+use crate::scene::walls::FAR_ENOUGH;
 use crate::triangulation::Vertex;
 
 /// Everything at one time: `spheres`, `contacts`, and with a fluid `pores` and `throats`.
@@ -33,24 +34,23 @@ fn at_cells(name: &'static str, unit: &'static str, values: Vec<f64>) -> FieldDa
 /// One point per grain; scale glyphs by `radius`.
 fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
     let system = model.grains();
-    let velocity = system.grains.velocity.iter().flat_map(|v| [v.x, v.y, v.z]);
-    let spin = system.grains.spin.iter().flat_map(|v| [v.x, v.y, v.z]);
+    let vector = |name: &'static str, unit: &'static str, all: &[Vector]| {
+        FieldData::tensor(
+            name,
+            unit,
+            3,
+            all.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>(),
+        )
+    };
     let mut fields = vec![
-        FieldData::tensor("velocity", "m/s", 3, velocity.collect::<Vec<_>>()),
-        FieldData::tensor("spin", "1/s", 3, spin.collect::<Vec<_>>()),
+        vector("velocity", "m/s", &system.grains.velocity),
+        vector("spin", "1/s", &system.grains.spin),
         FieldData::tensor("shift", "m", 3, displacements(system, origin).concat()),
     ];
-    for name in names(model.wet().is_some()) {
-        fields.push(FieldData::scalar(
-            name,
-            unit(name),
-            values(name, model, origin),
-        ));
-    }
-    fields.push(FieldData::integer(
-        "grain",
-        (0..system.grains.len() as u32).collect::<Vec<_>>(),
-    ));
+    let names = names(model.wet().is_some());
+    fields.extend(names.map(|n| FieldData::scalar(n, unit(n), values(n, model, origin))));
+    let numbers: Vec<_> = (0..system.grains.len() as u32).collect();
+    fields.push(FieldData::integer("grain", numbers));
     Piece {
         name: "spheres".into(),
         points: points(system).into(),
@@ -101,18 +101,11 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
     let mut places = points(model.grains());
     let mut cells = Vec::new();
     for cell in &mesh.cells {
-        let vertices = cell.vertices();
-        let centres = vertices.iter().filter_map(|v| match v {
-            Vertex::Sphere(k) => Some(mesh.spheres[*k].centre),
-            Vertex::Wall(_) => None,
-        });
-        let count = (4 - cell.walls()).max(1) as f64;
-        let mean = centres.sum::<crate::grains::Vector>() / count;
-        cells.push(vertices.map(|v| match v {
+        let mean = mesh.middle(cell);
+        cells.push(cell.vertices().map(|v| match v {
             Vertex::Sphere(k) => k as u32,
             Vertex::Wall(w) => {
-                let wall = &mesh.walls[w];
-                let foot = mean - wall.normal * wall.distance(mean);
+                let foot = mesh.walls[w].projection(mean);
                 places.push([foot.x, foot.y, foot.z]);
                 places.len() as u32 - 1
             }
@@ -197,24 +190,19 @@ pub fn picture(
 
 /// Walls across x and z as lines around the contents.
 fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
-    let largest = system.grains.radius.iter().copied().fold(0.0, f64::max);
+    let largest = system.grains.largest_radius();
+    let there = |x: &f64| x.abs() < FAR_ENOUGH;
     let ends = |axis: usize| {
         let all = points.iter().map(|p| p[axis]).filter(|x| x.is_finite());
-        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
-        let near = system
-            .walls
-            .iter()
-            .filter(|w| w.normal[axis].abs() > 0.99 && w.point[axis].abs() < FAR_ENOUGH);
-        near.map(|w| w.point[axis])
-            .fold((low - largest, high + largest), |(l, h), x| {
-                (l.min(x), h.max(x))
-            })
+        let [[low], [high]] = bounds(all.map(|x| [x]));
+        let across = system.walls.iter().filter(|w| w.normal[axis].abs() > 0.99);
+        let walls = across.map(|w| w.point[axis]).filter(there);
+        let [[from], [to]] = bounds(walls.chain([low - largest, high + largest]).map(|x| [x]));
+        (from, to)
     };
     let (x, z) = (ends(0), ends(2));
-    let standing = |w: &crate::grains::Wall| w.normal.y.abs() < 0.01 && w.point.amax() < FAR_ENOUGH;
-    let line = |w: &crate::grains::Wall| {
+    let standing = |w: &&Wall| w.normal.y.abs() < 0.01 && there(&w.point.amax());
+    let line = |w: &Wall| {
         let p = w.point;
         match w.normal.x.abs() > w.normal.z.abs() {
             // z = p.z + s n_x, x = p.x − s n_z: a point at each end of the picture.
@@ -222,10 +210,5 @@ fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
             false => [x.0, x.1].map(|at| [at, 0.0, p.z - (at - p.x) * w.normal.x / w.normal.z]),
         }
     };
-    system
-        .walls
-        .iter()
-        .filter(|w| standing(w))
-        .map(line)
-        .collect()
+    system.walls.iter().filter(standing).map(line).collect()
 }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use scene_text::OnePlugin;
-use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of, reexport::inventory};
+use sph_core::reexport::inventory;
+use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of};
 
 use crate::flow::{Conductance, ConductanceEntry, HydraulicRadius};
 use crate::grains::{ContactLaw, ContactLawEntry};

@@ -1,17 +1,14 @@
 //! Grains at the start: placed, grown, rained, settled.
 
-use std::f64::consts::PI;
-
 use crate::grains::{
     Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, step_to_rest, uniform_radii,
 };
-use crate::scene::culprits::{at_start, named, rows};
-use crate::scene::error::DemError;
+use crate::scene::error::{DemError, at_start, named, rows};
 use crate::scene::laws::Laws;
-use crate::scene::names::planes;
 use crate::scene::read::Loaded;
 use crate::scene::tables::{Fluid, Lattice, Oedometer, Scene, Weight};
-use crate::scene::walls::{FAR, control, setup};
+use crate::scene::walls::{FAR, control, planes, setup};
+use crate::sphere;
 
 /// Porosity at which a poured bed is expected to lie.
 pub(crate) const POURED: f64 = 0.4;
@@ -153,7 +150,7 @@ fn lower_the_top(
 
 /// Volume of spheres, m³.
 pub(crate) fn volume(radii: &[f64]) -> f64 {
-    radii.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
+    radii.iter().map(|r| sphere(*r)).sum()
 }
 
 /// Grains at their first places.

@@ -11,19 +11,16 @@ use sph_run::{
 
 use crate::coupled::CoupledError;
 use crate::scene::assemble::{Assembled, assemble, loads};
-use crate::scene::checkpoint::{self, CheckpointState, Progress};
-use crate::scene::columns::{headings, row};
-use crate::scene::compare;
-use crate::scene::culprits;
-use crate::scene::error::{DemError, Failure};
+use crate::scene::error::{DemError, Failure, named};
 use crate::scene::examine::plugins;
 use crate::scene::fields::values;
-use crate::scene::frames;
 use crate::scene::laws::{Laws, throats};
-use crate::scene::model::Model;
+use crate::scene::measure::{headings, row};
+use crate::scene::model::{CheckpointState, Model, Progress, load_checkpoint, save_checkpoint};
 use crate::scene::read::Loaded;
 use crate::scene::summary::Summary;
 use crate::scene::tables::Probe;
+use crate::scene::{compare, frames};
 
 /// Version of the form of the summary.
 const SCHEMA_VERSION: u32 = 1;
@@ -111,7 +108,7 @@ impl<'a> Running<'a> {
     /// Grains of a checkpoint, with the laws of the scene.
     fn resume(&mut self, changed: bool, own: &Path) -> Result<(), DemError> {
         let scene = &self.loaded.scene;
-        let kept = checkpoint::load(&self.options.identity.scene, changed, own)?;
+        let kept = load_checkpoint(&self.options.identity.scene, changed, own)?;
         let laws = Laws::from_scene(scene)?.all;
         let model = Model::resume(kept.model, laws, throats(scene)?);
         self.parts = Some(Assembled {
@@ -224,7 +221,7 @@ impl sph_run::Model for Running<'_> {
             origin: parts.origin.clone(),
             progress: self.progress.clone(),
         };
-        checkpoint::save(kept, &self.options.identity.scene, own)
+        save_checkpoint(kept, &self.options.identity.scene, own)
     }
 
     fn conclude(
@@ -253,7 +250,7 @@ impl Running<'_> {
         observer: &mut Watch<'_>,
     ) -> Result<(), DemError> {
         if let CoupledError::Grains(error) = &failure.error {
-            failure.named = culprits::named(self.loaded, error);
+            failure.named = named(self.loaded, error);
         }
         let Assembled { model, origin, .. } = self.parts()?;
         let out = &self.options.out;

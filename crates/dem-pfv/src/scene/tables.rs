@@ -1,24 +1,21 @@
-//! A scene of grains as plain data: one file per group of tables.
+//! A scene of grains as plain data; the files below hold its larger tables.
 
-mod fluid;
 mod grains;
-mod output;
 mod probe;
-mod reference;
-mod scene;
 mod wall;
 
 pub use crate::Axis;
 pub use crate::coupled::Wave;
-pub use fluid::Fluid;
 pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start, Weight};
-pub use output::Output;
-pub use probe::Probe;
-pub use reference::{Reference, Statistic};
-pub use scene::{Oedometer, Run, Scene};
+pub use probe::{Probe, Reference, Statistic};
 pub use wall::{Box, Piston, RecordedLoad, Servo, Wall};
 
 use std::collections::BTreeMap;
+
+use scene_text::PictureRange;
+use sph_core::parameters;
+
+use crate::coupled;
 
 /// Parameter tables by plugin name.
 pub type Plugins = BTreeMap<String, toml::Table>;
@@ -26,5 +23,120 @@ pub type Plugins = BTreeMap<String, toml::Table>;
 /// The schema of [`Plugins`], whose keys are those of a plugin.
 pub(crate) type AnyPlugins = BTreeMap<String, serde_json::Map<String, serde_json::Value>>;
 
-/// A point or a vector along x, y and z.
-pub type Triple = [f64; 3];
+/// Grains, walls, fluid, times and output of a scene.
+#[parameters]
+pub struct Scene {
+    /// The scene in one line, with its publication.
+    pub title: String,
+    /// Subject of the scene and its results.
+    pub description: Option<String>,
+    /// Duration and accuracy of the run.
+    pub run: Run,
+    /// The grains and the law of their contacts.
+    pub grains: Grains,
+    /// Positions of the grains at the start, and their preparation.
+    pub start: Start,
+    /// A box of six walls, `left`, `right`, `front`, `back`, `bottom`, `top`.
+    pub r#box: Option<Box>,
+    /// Walls by name, `[wall.NAME]`: more about those of the box, further planes, and surfaces of triangles.
+    #[parameter(default)]
+    pub wall: BTreeMap<String, Wall>,
+    /// The fluid in the pores; dry if left out.
+    pub fluid: Option<Fluid>,
+    /// Makes an oedometer test of it.
+    pub oedometer: Option<Oedometer>,
+    /// Measurements by name, `[probe.NAME]`; `kind` chooses it, the other keys are its parameters.
+    #[parameter(default)]
+    pub probe: BTreeMap<String, Probe>,
+    /// Comparisons by name, `[reference.NAME]`; their errors are in the summary.
+    #[parameter(default)]
+    pub reference: BTreeMap<String, Reference>,
+    /// Files of a run, and the times of writing.
+    #[parameter(default)]
+    pub output: Output,
+}
+
+/// Duration and accuracy of the run.
+#[parameters]
+pub struct Run {
+    /// Simulated time at which the run ends, s, counted from the end of the preparation.
+    #[parameter(unit: "s", above: 0.0)]
+    pub end: f64,
+    /// Share of the largest stable step.
+    #[parameter(default: 0.8, unit: "1", above: 0.0, max: 1.0, quantity: "safety factor")]
+    pub safety: f64,
+    /// Coefficient of non-viscous damping D_a; leave it at zero where a fluid damps. Catalano 2012, Eq. (2.15).
+    #[parameter(default, unit: "1", min: 0.0, below: 1.0)]
+    pub damping: f64,
+    /// Largest number of steps; no limit if left out.
+    #[parameter(min: 1)]
+    pub max_steps: Option<u64>,
+    /// Simulated time between checkpoints, s; a tenth of `end` if left out.
+    #[parameter(unit: "s", above: 0.0)]
+    pub checkpoint_every: Option<f64>,
+}
+
+/// A sudden load on a piston, and the measures of its answer: the strain under the same load when it comes slowly and
+/// dry, and the consolidation coefficient C_v = K Δσ / ε that follows with the mobility K of the packing.
+#[parameters]
+pub struct Oedometer {
+    /// Name of the wall that is the piston; its load is the step from `prepared` to `stress`.
+    pub wall: String,
+    /// Parts in which the dry load comes, each left to settle.
+    #[parameter(default: 40, min: 1, max: 1000)]
+    pub parts: u32,
+}
+
+/// Files of a run, and the times of writing.
+#[parameters]
+pub struct Output {
+    /// Simulated time between pictures and files for ParaView, s; a twentieth of the end if left out.
+    #[parameter(unit: "s", above: 0.0)]
+    pub every: Option<f64>,
+    /// Simulated time between rows of the series, s; a five-hundredth of the end if left out.
+    #[parameter(unit: "s", above: 0.0)]
+    pub series_every: Option<f64>,
+    /// Fields of which pictures are drawn; none if left out.
+    #[parameter(default)]
+    pub picture: Vec<String>,
+    /// Values at the ends of the pictures' colours, SI: `[low, high]` for all pictures, or a table of fields with such
+    /// pairs. Where none is given, round numbers that hold 98 % of the values of the first picture in which they differ.
+    #[parameter(unit: "1")]
+    pub picture_range: Option<PictureRange>,
+    /// Pictures per second of the film of every field that has pictures, `animations/NAME.gif`; 10 if left out, 0 for no film.
+    #[parameter(unit: "1/s", min: 0.0, max: 50.0)]
+    pub animation: Option<f64>,
+    /// True if files for ParaView are left out.
+    #[parameter(default)]
+    pub no_vtk: bool,
+}
+
+impl Output {
+    /// Simulated time between outputs in force, s, for a run of `end` seconds.
+    pub fn interval(&self, end: f64) -> f64 {
+        self.every.unwrap_or(end / 20.0)
+    }
+
+    /// Simulated time between rows in force, s.
+    pub fn series_interval(&self, end: f64) -> f64 {
+        self.series_every.unwrap_or(end / 500.0)
+    }
+}
+
+/// The fluid that fills the pores of the box.
+#[parameters]
+pub struct Fluid {
+    /// Its properties.
+    #[serde(flatten)]
+    pub given: coupled::Fluid,
+    /// Strain of a pore, summed over steps, at which pores are found anew. Catalano 2012, Eq. (5.14).
+    #[parameter(default: 0.01, unit: "1", min: 0.0)]
+    pub remesh_strain: f64,
+    /// Steps after which they are found anew at any strain.
+    #[parameter(min: 1)]
+    pub remesh_steps: Option<u64>,
+    /// The law for the conductance of throats, `[fluid.conductance.LAW]`; hydraulic radii if left out.
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins")]
+    pub conductance: Plugins,
+}

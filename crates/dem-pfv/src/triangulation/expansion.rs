@@ -13,18 +13,10 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - virtual_a) + (b - virtual_b))
 }
 
-/// a b = product + error, exactly (Dekker, Veltkamp).
+/// a b = product + error, exactly.
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
-    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
-    let split = |x: f64| {
-        let c = SPLITTER * x;
-        let high = c - (c - x);
-        (high, x - high)
-    };
     let product = a * b;
-    let ((ah, al), (bh, bl)) = (split(a), split(b));
-    let error = al * bl - (((product - ah * bh) - al * bh) - ah * bl);
-    (product, error)
+    (product, a.mul_add(b, -product))
 }
 
 /// A sum of doubles in order of size, least first, none zero.

@@ -18,6 +18,7 @@ use std::cmp::Ordering;
 
 use robust::{Coord3D, orient3d};
 
+use crate::triangulation::cells::without;
 use crate::triangulation::expansion::Expansion;
 use crate::triangulation::{Sphere, Wall};
 
@@ -102,9 +103,7 @@ impl Predicates {
     /// Sign of O of four rays, of which one at least is a sphere and none is the ghost.
     fn orientation(&self, rays: [u32; 4]) -> Ordering {
         let k = (0..4).rev().find(|k| self.is_point(rays[*k])).unwrap_or(3);
-        let mut others = rays.iter().enumerate().filter(|(i, _)| *i != k);
-        let others = [(); 3].map(|()| others.next().map_or(GHOST, |(_, v)| *v));
-        let sign = self.side(others, rays[k]);
+        let sign = self.side(without(&rays, k), rays[k]);
         if k % 2 == 1 { sign } else { sign.reverse() }
     }
 
@@ -112,8 +111,7 @@ impl Predicates {
     /// one of them is the ghost and `e` lies in the plane of the others.
     pub fn conflict(&self, cell: [u32; 4], e: u32) -> Option<bool> {
         if let Some(k) = cell.iter().position(|v| *v == GHOST) {
-            let others = std::array::from_fn(|i| cell[if i < k { i } else { i + 1 }]);
-            let sign = self.side(others, e);
+            let sign = self.side(without(&cell, k), e);
             let sign = if k % 2 == 1 { sign } else { sign.reverse() };
             return (sign != Ordering::Equal).then_some(sign == Ordering::Greater);
         }
@@ -151,12 +149,8 @@ impl Predicates {
         }
         let (mut value, mut total) = (0.0, 0.0);
         for i in 0..4 {
-            let (minor, bound) = determinant3(&minor(&rows, i));
-            value += if i % 2 == 1 {
-                l[i] * minor
-            } else {
-                -l[i] * minor
-            };
+            let (minor, bound) = determinant3(&without(&rows, i));
+            value += if i % 2 == 1 { l[i] } else { -l[i] } * minor;
             total += size[i] * bound;
         }
         (value, total)
@@ -199,8 +193,7 @@ impl Predicates {
         let mut order = [0, 1, 2, 3, 4];
         order.sort_by_key(|i| rays[*i]);
         for i in order {
-            let sign =
-                self.orientation(std::array::from_fn(|k| rays[if k < i { k } else { k + 1 }]));
+            let sign = self.orientation(without(&rays, i));
             if sign != Ordering::Equal {
                 // The cofactor of l of ray i in column 3 has the sign (−1)^(i + 3).
                 return (sign == Ordering::Greater) == (i % 2 == 1);
@@ -237,10 +230,6 @@ fn coord(p: &[f64; 4]) -> Coord3D<f64> {
         y: p[1],
         z: p[2],
     }
-}
-
-fn minor(rows: &[[f64; 3]; 4], i: usize) -> [[f64; 3]; 3] {
-    std::array::from_fn(|k| rows[if k < i { k } else { k + 1 }])
 }
 
 /// Determinant and the sum of the absolute values of its products.

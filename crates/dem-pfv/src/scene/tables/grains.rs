@@ -2,7 +2,7 @@
 
 use sph_core::parameters;
 
-use super::{AnyPlugins, Plugins, Triple};
+use super::{AnyPlugins, Plugins};
 
 /// The grains and the law of their contacts.
 #[parameters]
@@ -22,7 +22,7 @@ pub struct Grains {
     pub seed: u64,
     /// Gravity, m/s²; none if left out.
     #[parameter(unit: "m/s²")]
-    pub gravity: Option<Triple>,
+    pub gravity: Option<[f64; 3]>,
     /// The law of contacts, `[grains.contact.LAW]`.
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
@@ -99,10 +99,10 @@ pub enum Weight {
 pub struct Cloud {
     /// Lower corner, m; that of the box if left out.
     #[parameter(unit: "m")]
-    pub low: Option<Triple>,
+    pub low: Option<[f64; 3]>,
     /// Upper corner, m.
     #[parameter(unit: "m")]
-    pub high: Option<Triple>,
+    pub high: Option<[f64; 3]>,
 }
 
 /// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter

@@ -2,17 +2,17 @@
 
 use sph_core::parameters;
 
-use super::{AnyPlugins, Axis, Plugins, Triple, Wave};
+use super::{AnyPlugins, Axis, Plugins, Wave};
 
 /// A box of six walls, `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z).
 #[parameters]
 pub struct Box {
     /// Lower corner, m.
     #[parameter(unit: "m")]
-    pub low: Triple,
+    pub low: [f64; 3],
     /// Upper corner, m.
     #[parameter(unit: "m")]
-    pub high: Triple,
+    pub high: [f64; 3],
     /// Axes along which it repeats itself instead of having two walls.
     #[parameter(default)]
     pub periodic: Vec<Axis>,
@@ -31,9 +31,9 @@ pub struct Box {
 pub struct Wall {
     /// A point of the plane, m.
     #[parameter(unit: "m")]
-    pub point: Option<Triple>,
+    pub point: Option<[f64; 3]>,
     /// Its normal, towards the grains, of any length.
-    pub normal: Option<Triple>,
+    pub normal: Option<[f64; 3]>,
     /// An STL file.
     pub file: Option<String>,
     /// Unit of the coordinates of the `file`, such as "mm"; metres if left out.
@@ -43,13 +43,13 @@ pub struct Wall {
     pub scale: Option<f64>,
     /// Shift of the surface of the `file`, after scaling, m.
     #[parameter(unit: "m")]
-    pub translate: Option<Triple>,
+    pub translate: Option<[f64; 3]>,
     /// Velocity, m/s.
     #[parameter(unit: "m/s")]
-    pub velocity: Option<Triple>,
+    pub velocity: Option<[f64; 3]>,
     /// Angular velocity of a surface of triangles about `point`, rad/s.
     #[parameter(unit: "1/s")]
-    pub spin: Option<Triple>,
+    pub spin: Option<[f64; 3]>,
     /// The law of contacts with it, `[wall.NAME.contact.LAW]`.
     #[schemars(with = "AnyPlugins")]
     #[parameter(default)]

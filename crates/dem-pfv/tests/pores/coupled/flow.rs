@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use dem_pfv::Axis;
 use dem_pfv::coupled::{
-    CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, Remeshing, WallBoundary, Wave,
+    CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, WallBoundary, Wave,
 };
 use dem_pfv::flow::Forces;
 use dem_pfv::grains::{Control, GrainSystem, step_to_rest};
 
-use crate::coupled::{BOX200, BOX1000, MODULUS, boxed, packing};
+use crate::coupled::{BOX200, BOX1000, MODULUS, boxed, packing, sticking};
 
 fn held(text: &str) -> GrainSystem {
     let mut grains = packing(text);
@@ -20,7 +20,7 @@ fn held(text: &str) -> GrainSystem {
 /// Kept unit forces give what a sum over throats gives, on grains and walls.
 #[test]
 fn unit_forces_are_the_forces_of_the_flow() {
-    let setup = FlowSetup::new(Fluid::new(1.0, 0.0)).sticking();
+    let setup = sticking(FlowSetup::new(Fluid::new(1.0, 0.0)));
     let open = |p: f64| WallBoundary {
         sticks: true,
         ..WallBoundary::drained(p)
@@ -170,8 +170,12 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
         GrainSystem::resume(state, crate::coupled::box_of_laws(MODULUS)).expect("grains");
     let porosity = grains.porosity().expect("a box");
     press(&mut grains, confining + load);
-    let fluid = Fluid::new(1.0, 0.0).compressible(porosity * modulus);
-    let setup = FlowSetup::new(fluid).remeshing(Remeshing::at(0.002));
+    let bulk_modulus = Some(porosity * modulus);
+    let mut setup = FlowSetup::new(Fluid {
+        bulk_modulus,
+        ..Fluid::new(1.0, 0.0)
+    });
+    setup.remeshing.strain = Some(0.002);
     let mut system = CoupledSystem::new(grains, setup).expect("a system");
     let step = 0.5 * system.step_limit().expect("a limit").step;
     for _ in 0..1500 {

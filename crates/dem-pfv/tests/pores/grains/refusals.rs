@@ -163,10 +163,9 @@ fn steps_and_runaways_are_refused() {
     let error = system.step(0.5 * limit).expect_err("gone");
     assert!(matches!(error, Error::NotFinite(0, ..)), "{error}");
 
-    let pressed = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).with_control(Control::Piston {
-        stress: 1.0,
-        mass: 1.0,
-    });
+    let mut pressed = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
+    let (stress, mass) = (1.0, 1.0);
+    pressed.control = Control::Piston { stress, mass };
     let mut open = GrainSystem::new(one().walls([pressed])).expect("open");
     assert!(matches!(open.step(0.5 * limit), Err(Error::NoArea(0))));
 }

@@ -115,8 +115,8 @@ fn a_piston_swings_as_its_mass_says() {
     let mut ball = grain(0.0, 0.0, 0.0);
     ball.held = true;
     let (mass, stress, area) = (2.0, 1e3, 0.04);
-    let mut piston = Wall::new([0.0, 0.0, RADIUS], [0.0, 0.0, -1.0])
-        .with_control(Control::Piston { stress, mass });
+    let mut piston = Wall::new([0.0, 0.0, RADIUS], [0.0, 0.0, -1.0]);
+    piston.control = Control::Piston { stress, mass };
     piston.area = Some(area);
     let setup = Setup::new(vec![ball], law(0.0, 0.0, 0.0)).walls([piston]);
     let mut system = GrainSystem::new(setup).expect("a ball");
