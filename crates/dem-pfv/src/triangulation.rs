@@ -40,5 +40,6 @@ mod predicates;
 mod shapes;
 
 pub use crate::error::TriangulationError;
+pub(crate) use cells::without;
 pub use cells::{Cell, Facet, Triangulation, Vertex};
 pub use shapes::{Sphere, Wall};

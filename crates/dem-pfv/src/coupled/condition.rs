@@ -68,55 +68,61 @@ impl Wave {
         let swing = self.period.map_or(1.0, |t| (2.0 * PI * time / t).sin());
         (self.amplitude + self.ramp * time) * phase.cos() * swing
     }
+
+    fn problem(&self) -> Option<&'static str> {
+        let lengths = [self.half_length, self.period.unwrap_or(1.0)];
+        match () {
+            () if !finite(&[self.crest, self.amplitude, self.ramp]) || !finite(&lengths) => {
+                Some("has numbers that are not finite")
+            }
+            () if lengths.iter().any(|l| *l <= 0.0) => {
+                Some("has a length or a period that is not positive")
+            }
+            () => None,
+        }
+    }
+}
+
+fn finite(numbers: &[f64]) -> bool {
+    numbers.iter().all(|x| x.is_finite())
+}
+
+impl From<FlowCondition> for WallBoundary {
+    /// Without grip.
+    fn from(condition: FlowCondition) -> Self {
+        Self {
+            condition,
+            sticks: false,
+        }
+    }
 }
 
 impl WallBoundary {
     /// No flow, and no grip.
     pub fn closed() -> Self {
-        Self {
-            condition: FlowCondition::Closed,
-            sticks: false,
-        }
+        FlowCondition::Closed.into()
     }
 
     /// A given pressure (Pa) without grip.
     pub fn drained(pressure: f64) -> Self {
-        Self {
-            condition: FlowCondition::Pressure(pressure),
-            sticks: false,
-        }
+        FlowCondition::Pressure(pressure).into()
     }
 
     pub(crate) fn check(&self, wall: usize) -> Result<(), CoupledError> {
         let bad = |problem| Err(CoupledError::BadCondition(wall, problem));
-        let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         match &self.condition {
-            FlowCondition::Closed => Ok(()),
             FlowCondition::Pressure(p) if !p.is_finite() => bad("is a pressure that is not finite"),
             FlowCondition::Inflow(v) if !v.is_finite() => bad("is an inflow that is not finite"),
-            FlowCondition::Pressure(_) | FlowCondition::Inflow(_) => Ok(()),
             FlowCondition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
-            FlowCondition::Wave(w) => {
-                let lengths = [w.half_length, w.period.unwrap_or(1.0)];
-                match () {
-                    () if !finite(&[w.crest, w.amplitude, w.ramp]) || !finite(&lengths) => {
-                        bad("has numbers that are not finite")
-                    }
-                    () if lengths.iter().any(|l| *l <= 0.0) => {
-                        bad("has a length or a period that is not positive")
-                    }
-                    () => Ok(()),
-                }
-            }
+            FlowCondition::Wave(wave) => wave.problem().map_or(Ok(()), bad),
+            _ => Ok(()),
         }
     }
 
     /// True if its values change while the clock runs.
     pub(crate) fn varies(&self) -> bool {
-        matches!(
-            self.condition,
-            FlowCondition::Wave(_) | FlowCondition::Recorded(_)
-        )
+        use FlowCondition::{Recorded, Wave};
+        matches!(self.condition, Wave(_) | Recorded(_))
     }
 
     /// True if both give a pressure, or neither does: then a change needs no new matrix.
@@ -126,10 +132,8 @@ impl WallBoundary {
 
     /// True if it gives a pressure.
     fn presses(&self) -> bool {
-        !matches!(
-            self.condition,
-            FlowCondition::Closed | FlowCondition::Inflow(_)
-        )
+        use FlowCondition::{Closed, Inflow};
+        !matches!(self.condition, Closed | Inflow(_))
     }
 
     /// Sets the given values at a time (s) in the conditions of the flow.
@@ -197,38 +201,28 @@ impl Recorded {
     pub fn pressure(&self, place: f64, time: f64) -> f64 {
         let width = self.places.len();
         let (row, next, share) = bracket(&self.times, time);
+        let (left, right, part) = bracket(&self.places, place);
         let at = |row: usize| {
             let row = &self.pressures[row * width..][..width];
-            interpolated(&self.places, row, place)
+            row[left] + part * (row[right] - row[left])
         };
         at(row) + share * (at(next) - at(row))
     }
 
     /// The fault of the record, if there is one.
     pub fn problem(&self) -> Option<&'static str> {
-        let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
+        let all = [&self.places, &self.times, &self.pressures];
         let whole = self.places.len() * self.times.len();
         match () {
             () if whole == 0 || self.pressures.len() != whole => {
                 Some("needs one pressure for each place and time, and one at least")
             }
-            () if ![&self.places, &self.times, &self.pressures]
-                .iter()
-                .all(|n| finite(n)) =>
-            {
-                Some("has numbers that are not finite")
-            }
+            () if !all.iter().all(|n| finite(n)) => Some("has numbers that are not finite"),
             () if !self.places.is_sorted() => Some("has places that do not ascend"),
             () if !self.times.is_sorted() => Some("has times that do not ascend"),
             () => None,
         }
     }
-}
-
-/// A value that is linear between places, constant beyond the ends.
-fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
-    let (here, next, share) = bracket(places, x);
-    values[here] + share * (values[next] - values[here])
 }
 
 /// The two of ascending numbers between which x lies, and how far it is from the first to the second.
@@ -242,51 +236,5 @@ fn bracket(numbers: &[f64], x: f64) -> (usize, usize, f64) {
             let [from, to] = [numbers[after - 1], numbers[after]];
             (after - 1, after, (x - from) / (to - from))
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_bilinear_load_comes_back_and_stays_beyond_the_ends() {
-        let (places, times) = (vec![0.0, 0.5, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
-        let load = |x: f64, t: f64| (3.0 - 2.0 * x) * (1.0 + 5.0 * t);
-        let rows = times
-            .iter()
-            .flat_map(|t| places.iter().map(|x| load(*x, *t)));
-        let recorded = Recorded {
-            axis: Axis::X,
-            pressures: rows.collect(),
-            places,
-            times,
-        };
-        assert_eq!(recorded.problem(), None);
-        for [x, t] in [[0.0, 0.0], [0.2, 0.05], [1.7, 0.39], [2.0, 1.0], [0.5, 0.4]] {
-            let off = (recorded.pressure(x, t) - load(x, t)).abs();
-            assert!(off < 1e-12, "{off} Pa at {x} m and {t} s");
-        }
-        assert_eq!(recorded.pressure(-1.0, -1.0), load(0.0, 0.0));
-        assert_eq!(recorded.pressure(9.0, 9.0), load(2.0, 1.0));
-    }
-
-    #[test]
-    fn tables_that_do_not_fit_are_named() {
-        let good = Recorded {
-            axis: Axis::X,
-            places: vec![0.0, 1.0],
-            times: vec![0.0],
-            pressures: vec![1.0, 2.0],
-        };
-        let with = |change: fn(&mut Recorded)| {
-            let mut recorded = good.clone();
-            change(&mut recorded);
-            recorded.problem().unwrap_or("nothing").to_string()
-        };
-        assert!(with(|r| r.pressures = vec![1.0]).contains("one pressure for each"));
-        assert!(with(|r| r.times = vec![]).contains("one at least"));
-        assert!(with(|r| r.places = vec![1.0, 0.0]).contains("places"));
-        assert!(with(|r| r.times = vec![f64::NAN]).contains("finite"));
     }
 }

@@ -122,7 +122,7 @@ impl EdgeForces {
             let there = match edge.other {
                 Vertex::Sphere(l) => mobility(l, gap.levers[1]),
                 // A piston moves along its normal only.
-                Vertex::Wall(w) => [0.0, wall_mobility(grains, w)],
+                Vertex::Wall(w) => [0.0, 1.0 / grains.walls[w].mass()],
             };
             let both: f64 = (0..2)
                 .map(|d| gap.resistances[d] * (here[d] + there[d]))
@@ -132,18 +132,8 @@ impl EdgeForces {
                 sums[l] += both;
             }
         }
-        let sums = sums.into_iter().enumerate();
-        sums.fold((0.0, 0), |most, (grain, sum)| match sum > most.0 {
-            true => (sum, grain),
-            false => most,
-        })
-    }
-}
-
-fn wall_mobility(grains: &GrainSystem, wall: usize) -> f64 {
-    match grains.walls[wall].control {
-        crate::grains::Control::Piston { mass, .. } => 1.0 / mass,
-        _ => 0.0,
+        let larger = |most: (f64, usize), (k, sum)| if sum > most.0 { (sum, k) } else { most };
+        sums.into_iter().enumerate().fold((0.0, 0), larger)
     }
 }
 

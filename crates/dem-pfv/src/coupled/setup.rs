@@ -64,27 +64,21 @@ impl Fluid {
     }
 
     fn check(&self) -> Result<(), CoupledError> {
-        let Self {
-            viscosity, density, ..
-        } = *self;
-        require("the viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
+        let (mu, rho) = (self.viscosity, self.density);
+        require("the viscosity is", mu, POSITIVE, mu > 0.0)?;
         let valid = "at least 0 and finite";
-        require("the fluid's density is", density, valid, density >= 0.0)?;
+        require("the fluid's density is", rho, valid, rho >= 0.0)?;
         if let Some(Lubrication { roughness, range }) = self.lubrication {
             let what = "the roughness of lubrication is";
             require(what, roughness, POSITIVE, roughness > 0.0)?;
-            let valid = "above the roughness and finite";
-            require(
+            let (what, valid) = (
                 "the range of lubrication is",
-                range,
-                valid,
-                range > roughness,
-            )?;
+                "above the roughness and finite",
+            );
+            require(what, range, valid, range > roughness)?;
         }
-        if let Some(k) = self.bulk_modulus {
-            require("the bulk modulus is", k, POSITIVE, k > 0.0)?;
-        }
-        Ok(())
+        let k = self.bulk_modulus.unwrap_or(1.0);
+        Ok(require("the bulk modulus is", k, POSITIVE, k > 0.0)?)
     }
 }
 
@@ -215,20 +209,10 @@ impl CoupledSystem {
         let radii = &grains.grains.radius;
         let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
         let cells = pores.geometry.volumes.len();
-        if [&clock.volumes, &clock.rates, &clock.pressures]
-            .iter()
-            .any(|c| c.len() != cells)
-        {
+        let columns = [&clock.volumes, &clock.rates, &clock.pressures];
+        if columns.iter().any(|c| c.len() != cells) {
             return bad("columns of the pores differ in length from the mesh");
         }
-        Ok(Self {
-            grains,
-            setup,
-            law,
-            pores,
-            clock,
-            evaluated: false,
-            inflows: None,
-        })
+        Ok(Self::of(grains, setup, law, pores, clock))
     }
 }

@@ -77,28 +77,20 @@ pub fn reachable(
     for (pore, first) in first.iter().enumerate() {
         reached[regions[pore] as usize] |= *first != GIVEN;
     }
-    match pores
-        .iter()
-        .position(|p| !reached[regions[*p as usize] as usize])
-    {
-        Some(cell) => Err(FlowError::NoPressure(cell)),
-        None => Ok(()),
-    }
+    let cut_off = |p: &u32| !reached[regions[*p as usize] as usize];
+    let cut_off = pores.iter().position(cut_off);
+    cut_off.map_or(Ok(()), |cell| Err(FlowError::NoPressure(cell)))
 }
 
 /// Unknowns of all cells, in the order of the pores, and their count.
 pub fn numbered(pores: &[u32], first: &[u32]) -> (Vec<u32>, usize) {
-    let mut numbers = vec![GIVEN; pores.len()];
-    let mut count = 0;
+    let (mut numbers, mut count) = (vec![GIVEN; pores.len()], 0);
     for (c, &pore) in pores.iter().enumerate() {
-        if first[pore as usize] != GIVEN {
-            continue;
-        }
-        if pore as usize == c {
+        if pore as usize != c {
+            numbers[c] = numbers[pore as usize];
+        } else if first[c] == GIVEN {
             numbers[c] = count;
             count += 1;
-        } else {
-            numbers[c] = numbers[pore as usize];
         }
     }
     (numbers, count as usize)

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::flow::facet::{Facet, edge};
 use crate::flow::throat::{Pores, SlipCondition, SolidAngles};
 use crate::flow::{FlowError, Throat, solid_angle};
-use crate::triangulation::{Cell, Sphere, Triangulation, Vertex, Wall};
+use crate::triangulation::{Cell, Sphere, Triangulation, Vertex, Wall, without};
 
 /// Deepest overlap, in terms of the smaller radius.
 const DEEPEST: f64 = 0.1;
@@ -87,8 +87,7 @@ impl PoreGeometry {
         let Some(i) = v.iter().position(|v| *v == Vertex::Wall(wall)) else {
             return 0.0;
         };
-        let others = std::array::from_fn(|k| v[if k < i { k } else { k + 1 }]);
-        let area = Facet::new(&self.mesh, &others).area();
+        let area = Facet::new(&self.mesh, &without(&v, i)).area();
         area.dot(&self.mesh.walls[wall].normal).abs()
     }
 }
@@ -167,12 +166,7 @@ fn volume(cell: &Cell, centres: &[Vector3<f64>], walls: &[Wall]) -> f64 {
     match (wall(1), wall(2), wall(3)) {
         (Some(u), Some(v), Some(w)) => u.distance(x(0)) * v.distance(x(0)) * w.distance(x(0)),
         (None, Some(v), Some(w)) => {
-            let [a1, a2, b1, b2] = [
-                v.distance(x(0)),
-                w.distance(x(0)),
-                v.distance(x(1)),
-                w.distance(x(1)),
-            ];
+            let [[a1, a2], [b1, b2]] = [0, 1].map(|i| [v, w].map(|wall| wall.distance(x(i))));
             let length = sign * (x(0) - x(1)).dot(&v.normal.cross(&w.normal));
             length / 3.0 * (a1 * a2 + b1 * b2 + 0.5 * (a1 * b2 + a2 * b1))
         }
@@ -187,14 +181,10 @@ fn volume(cell: &Cell, centres: &[Vector3<f64>], walls: &[Wall]) -> f64 {
 /// Vertices with spheres first, and the sign of the permutation.
 fn spheres_first(mut vertices: [Vertex; 4]) -> ([Vertex; 4], f64) {
     let mut sign = 1.0;
-    for end in (1..4).rev() {
-        for i in 0..end {
-            let is_wall = |v| matches!(v, Vertex::Wall(_));
-            if is_wall(vertices[i]) && !is_wall(vertices[i + 1]) {
-                vertices.swap(i, i + 1);
-                sign = -sign;
-            }
-        }
+    let wall = |v: Vertex| v.sphere().is_none();
+    while let Some(i) = (0..3).find(|&i| wall(vertices[i]) && !wall(vertices[i + 1])) {
+        vertices.swap(i, i + 1);
+        sign = -sign;
     }
     (vertices, sign)
 }
@@ -202,17 +192,12 @@ fn spheres_first(mut vertices: [Vertex; 4]) -> ([Vertex; 4], f64) {
 /// Volume of the spheres within a cell, m³: Σ ⅓ R³ |ω|.
 pub fn solid_volume(mesh: &Triangulation, cell: &Cell) -> f64 {
     let vertices = cell.vertices();
-    let share = |v: &Vertex| {
+    let share = |(i, v): (usize, &Vertex)| {
         let Vertex::Sphere(k) = *v else { return 0.0 };
-        let mut others = vertices.iter().filter(|o| *o != v);
-        let [a, b, c] = [(); 3].map(|()| {
-            others
-                .next()
-                .map_or(Vector3::zeros(), |o| edge(mesh, k, *o))
-        });
+        let [a, b, c] = without(&vertices, i).map(|o| edge(mesh, k, o));
         mesh.spheres[k].radius.powi(3) / 3.0 * solid_angle(a, b, c).abs()
     };
-    vertices.iter().map(share).sum()
+    vertices.iter().enumerate().map(share).sum()
 }
 
 /// Two neighbours: a sphere, and a sphere or a wall beside it.

@@ -83,6 +83,18 @@ impl Cloud {
         }
         Ok(places)
     }
+
+    /// Grains at rest with the centres of [`Cloud::place`] and this density, kg/m³.
+    ///
+    /// # Errors
+    /// As [`Cloud::place`].
+    pub fn grains(&self, radii: &[f64], density: f64, seed: u64) -> Result<Vec<Grain>, GrainError> {
+        let places = self.place(radii, seed)?;
+        let grains = places.into_iter().zip(radii);
+        Ok(grains
+            .map(|(x, r)| Grain::new(x.into(), *r, density))
+            .collect())
+    }
 }
 
 /// Radii drawn evenly from an interval, m; the same for the same seed.
@@ -112,11 +124,7 @@ pub fn rain(
     let largest = radii.iter().copied().fold(0.0, f64::max);
     let height = (solid / ((1.0 - porosity) * area)).max(2.0 * largest);
     let cloud = Cloud::new(low, [high[0], high[1], low[2] + height]);
-    let places = cloud.place(radii, seed)?;
-    let grains = places.iter().zip(radii);
-    Ok(grains
-        .map(|(at, &radius)| Grain::new((*at).into(), radius, density))
-        .collect())
+    cloud.grains(radii, density, seed)
 }
 
 /// End of the growth.

@@ -4,9 +4,9 @@ use std::ops::{Deref, DerefMut};
 
 use crate::grains::setup::{check_period, finite};
 use crate::grains::state::Limit;
-use crate::grains::table::{Bodies, Table};
+use crate::grains::table::Table;
 use crate::grains::touch::View;
-use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector};
+use crate::grains::{ContactLaw, Control, GrainError, Grains, MEMORY, Setup, State, Vector};
 use crate::{BELOW_1, require};
 
 /// Steps between two computations of the critical one.
@@ -138,18 +138,9 @@ impl GrainSystem {
         Ok(())
     }
 
-    fn bodies(&self) -> Bodies<'_> {
-        Bodies {
-            grains: &self.grains,
-            walls: &self.walls,
-            meshes: &self.meshes,
-            period: &self.period,
-        }
-    }
-
     pub(crate) fn renew(&mut self) {
         let mut table = std::mem::take(&mut self.table);
-        table.renew(self.bodies(), self.skin);
+        table.renew(&self.state);
         self.table = table;
         self.renewals += 1;
     }
@@ -164,7 +155,7 @@ impl GrainSystem {
         for (grain, position) in self.grains.position.iter().enumerate() {
             finite(grain, "position", position)?;
         }
-        if self.table.expired(self.bodies(), self.skin) {
+        if self.table.expired(&self.state) {
             self.renew();
         }
         let Self { state, laws } = self;
@@ -175,10 +166,11 @@ impl GrainSystem {
             table,
             ..
         } = state;
+        let (period, step) = (&state.period, state.last_step);
         let view = View {
             grains,
-            period: &state.period,
-            step: state.last_step,
+            period,
+            step,
         };
         let (pairs, mut rest) = table.slots.split_at_mut(table.ends[0]);
         view.pairs(pairs, &*laws[0]);
@@ -193,10 +185,9 @@ impl GrainSystem {
             let law = &laws[wall.law];
             (wall.force, wall.stiffness) = active.fold(zero, |(force, stiffness), s| {
                 let radius = [grains.radius[s.first as usize], f64::INFINITY];
-                let more = if wall.is_servo() {
-                    law.stiffness(radius, s.overlap).normal
-                } else {
-                    0.0
+                let more = match wall.control {
+                    Control::Stress { .. } => law.stiffness(radius, s.overlap).normal,
+                    _ => 0.0,
                 };
                 (force - s.force, stiffness + more)
             });

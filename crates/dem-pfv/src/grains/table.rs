@@ -9,7 +9,7 @@ use crate::grains::grid::Grid;
 use crate::grains::law::MEMORY;
 use crate::grains::setup::{Period, separation};
 use crate::grains::wall::nearest;
-use crate::grains::{Grains, Mesh, Vector, Wall};
+use crate::grains::{Grains, Mesh, State, Vector, Wall};
 use crate::groups::Groups;
 
 /// Two bodies that are near each other.
@@ -83,15 +83,6 @@ struct PreviousState {
     vertices: Vec<Vec<Vector>>,
 }
 
-/// Input of the table.
-#[derive(Clone, Copy)]
-pub(crate) struct Bodies<'a> {
-    pub grains: &'a Grains,
-    pub walls: &'a [Wall],
-    pub meshes: &'a [Mesh],
-    pub period: &'a Period,
-}
-
 /// Grains per task when lists are made.
 const TASK: usize = 256;
 
@@ -108,18 +99,18 @@ impl Table {
     }
 
     /// True if something may have come near that is not in the table.
-    pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
-        let (then, grains) = (&self.then, bodies.grains);
-        if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {
+    pub fn expired(&self, state: &State) -> bool {
+        let (then, grains, skin) = (&self.then, &state.grains, state.skin);
+        if then.positions.len() != grains.len() || then.walls.len() != state.walls.len() {
             return true;
         }
         let half = 0.5 * skin;
         let moved = |wall: &Wall, point: &Vector| (wall.point - point).dot(&wall.normal).abs();
-        let mut walls = bodies.walls.iter().zip(&then.walls);
+        let mut walls = state.walls.iter().zip(&then.walls);
         if walls.any(|(wall, point)| moved(wall, point) > half) {
             return true;
         }
-        for (mesh, old) in bodies.meshes.iter().zip(&then.vertices) {
+        for (mesh, old) in state.meshes.iter().zip(&then.vertices) {
             let mut vertices = mesh.vertices.iter().zip(old);
             if vertices.any(|(new, old)| (new - old).norm_squared() > half * half) {
                 return true;
@@ -127,7 +118,7 @@ impl Table {
         }
         let left = |i: usize| {
             let room = half - (grains.radius[i] - then.radii[i]);
-            let way = separation(&grains.position[i], &then.positions[i], bodies.period);
+            let way = separation(&grains.position[i], &then.positions[i], &state.period);
             room < 0.0 || way.norm_squared() > room * room
         };
         let all = (0..grains.len()).into_par_iter();
@@ -135,13 +126,15 @@ impl Table {
     }
 
     /// Makes the table anew; contacts keep their memory.
-    pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
-        let Bodies {
+    pub fn renew(&mut self, state: &State) {
+        let State {
             grains,
             walls,
             meshes,
             period,
-        } = bodies;
+            ..
+        } = state;
+        let skin = state.skin;
         let largest = grains.largest_radius();
         let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
         let mut slots = pairs(grains, &grid, period, skin);

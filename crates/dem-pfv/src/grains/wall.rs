@@ -101,6 +101,14 @@ impl Wall {
         self.force
     }
 
+    /// Mass as a body, kg: infinite unless it is a piston.
+    pub(crate) fn mass(&self) -> f64 {
+        match self.control {
+            Control::Piston { mass, .. } => mass,
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Signed distance of a point, m.
     pub fn distance(&self, point: &Vector) -> f64 {
         (point - self.point).dot(&self.normal)
@@ -158,11 +166,6 @@ impl Wall {
             }
             _ => Ok(()),
         }
-    }
-
-    /// True if its control needs the stiffness of its contacts.
-    pub(crate) fn is_servo(&self) -> bool {
-        matches!(self.control, Control::Stress { .. })
     }
 
     /// Sets the velocity along the normal for the coming step (s): `area` in m², `height` to the facing wall in m.

@@ -33,10 +33,8 @@ pub fn grains(
     if let (true, Some(top)) = (poured, top) {
         setup.walls[top].point.z += FAR;
     }
-    let mut run_laws = Vec::new();
-    for (number, law) in prepared {
-        run_laws.push((number, std::mem::replace(&mut setup.laws[number], law)));
-    }
+    let mut swap = |(k, law)| (k, std::mem::replace(&mut setup.laws[k], law));
+    let run_laws: Vec<_> = prepared.into_iter().map(&mut swap).collect();
     let told = |e: GrainError| at_start(loaded, e);
     let mut system = GrainSystem::new(setup).map_err(told)?;
     if let Some(grown) = &scene.start.grown {
@@ -116,8 +114,8 @@ fn settled(
         let (safety, most) = (scene.start.safety, scene.start.most_steps);
         let steps = step_to_rest(system, safety, tolerance, most);
         system.gravity = gravity;
-        let steps =
-            steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
+        let told = |e| DemError::at("start", format!("{e}{}", named(loaded, &e)));
+        let steps = steps.map_err(told)?;
         tell(&format!("settled in {steps} steps"));
     }
     Ok(())
@@ -139,9 +137,8 @@ fn lower_the_top(
         None => return Ok(()),
     };
     if highest > at {
-        let message = format!(
-            "the grains lie {highest} m high, above the top of the box: give `start.headroom`"
-        );
+        let above = "above the top of the box: give `start.headroom`";
+        let message = format!("the grains lie {highest} m high, {above}");
         return Err(DemError::at("box.high", message));
     }
     system.walls[top].point.z = at;
@@ -164,10 +161,8 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
     }
     let [small, large] = scene.grains.radius.unwrap_or_default();
     let draw = |count: usize| uniform_radii(count, small, large, seed);
-    let (low, high) = match &scene.r#box {
-        Some(b) => (b.low, b.high),
-        None => Default::default(),
-    };
+    let given = scene.r#box.as_ref();
+    let (low, high) = given.map_or_else(Default::default, |b| (b.low, b.high));
     let size: [f64; 3] = std::array::from_fn(|k| high[k] - low[k]);
     let count = scene.grains.count.unwrap_or_default();
     if let Some(lattice) = &start.lattice {
@@ -175,21 +170,12 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
     }
     if let Some(rained) = &start.rained {
         let mean = volume(&draw(10_000)) / 1e4;
-        let wanted = rained.height.map(|height| {
-            ((1.0 - POURED) * size[0] * size[1] * height / mean)
-                .round()
-                .max(1.0) as usize
-        });
-        let radii = draw(wanted.unwrap_or(count));
-        return rain(
-            low,
-            [high[0], high[1]],
-            &radii,
-            density,
-            rained.porosity,
-            seed,
-        )
-        .map_err(told);
+        let solid = |height: f64| (1.0 - POURED) * size[0] * size[1] * height;
+        let wanted = |height| (solid(height) / mean).round().max(1.0) as usize;
+        let wanted = rained.height.map(wanted);
+        let (radii, porosity) = (draw(wanted.unwrap_or(count)), rained.porosity);
+        let grains = rain(low, [high[0], high[1]], &radii, density, porosity, seed);
+        return grains.map_err(told);
     }
     let mut radii = draw(count);
     let mut cloud = Cloud::new(low, high);
@@ -201,20 +187,16 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
             radii.iter_mut().for_each(|r| *r *= factor);
         }
     }
-    if let Some(b) = scene
+    let whole = start.cloud.as_ref().is_none_or(|c| c.low.is_none());
+    for axis in scene
         .r#box
-        .as_ref()
-        .filter(|_| start.cloud.as_ref().is_none_or(|c| c.low.is_none()))
+        .iter()
+        .filter(|_| whole)
+        .flat_map(|b| &b.periodic)
     {
-        for axis in &b.periodic {
-            cloud = cloud.periodic(axis.number());
-        }
+        cloud = cloud.periodic(axis.number());
     }
-    let places = cloud.place(&radii, seed).map_err(told)?;
-    let grains = places.iter().zip(&radii);
-    Ok(grains
-        .map(|(x, r)| Grain::new((*x).into(), *r, density))
-        .collect())
+    cloud.grains(&radii, density, seed).map_err(told)
 }
 
 fn lattice_of(
@@ -228,12 +210,8 @@ fn lattice_of(
     let (count, seed) = (nx * ny * nz, scene.grains.seed);
     let radii = uniform_radii(count, small, large, seed);
     // Even numbers, drawn as radii are.
-    let shifts = uniform_radii(
-        3 * count,
-        -lattice.jitter,
-        lattice.jitter,
-        seed.wrapping_add(1),
-    );
+    let (jitter, of_shifts) = (lattice.jitter, seed.wrapping_add(1));
+    let shifts = uniform_radii(3 * count, -jitter, jitter, of_shifts);
     let grain = |k: usize| {
         let cell = [k % nx, k / nx % ny, k / (nx * ny)];
         let at = std::array::from_fn(|axis| {
@@ -259,23 +237,17 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
             .split(|c: char| c == ',' || c.is_whitespace())
             .filter(|w| !w.is_empty());
         let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
-        match numbers.as_deref() {
+        let found = match numbers.as_deref() {
             Ok([x, y, z, r]) => {
                 let at = [x, y, z].map(|c| factor * c);
-                grains.push(Grain::new(at, factor * r, loaded.scene.grains.density))
+                grains.push(Grain::new(at, factor * r, loaded.scene.grains.density));
+                continue;
             }
-            Ok(other) => {
-                return Err(told(format!(
-                    "line {line}: expected x y z r, found {} numbers",
-                    other.len()
-                )));
-            }
-            Err(_) => {
-                return Err(told(format!(
-                    "line {line}: expected x y z r, found `{row}`"
-                )));
-            }
-        }
+            Ok(other) => format!("{} numbers", other.len()),
+            Err(_) => format!("`{row}`"),
+        };
+        let problem = format!("line {line}: expected x y z r, found {found}");
+        return Err(told(problem));
     }
     match grains.is_empty() {
         true => Err(told("holds no spheres".into())),

@@ -75,13 +75,43 @@ impl<'a> Builder<'a> {
     /// # Errors
     /// It is hidden by those that are there.
     pub fn insert(&mut self, e: u32) -> Result<(), TriangulationError> {
-        let start = walk(self.predicates, &self.cells, &self.neighbours, self.last, e);
+        let start = self.walk(e);
         if !self.conflict(start, e) {
             return Err(TriangulationError::Hidden(e as usize));
         }
         self.carve(start, e);
         self.fill(e);
         Ok(())
+    }
+
+    /// Walks from the last cell to one that holds the centre of `e`, or to one behind the hull that sees it.
+    /// Every step crosses a facet that separates; in a regular triangulation such walks end.
+    fn walk(&self, e: u32) -> u32 {
+        let (cells, neighbours) = (&self.cells, &self.neighbours);
+        let mut here = self.last as usize;
+        if let Some(ghost) = cells[here].iter().position(|v| *v == GHOST) {
+            here = neighbours[here][ghost] as usize;
+        }
+        let mut from = NONE;
+        loop {
+            let cell = cells[here];
+            let beyond = (0..4).find(|&i| {
+                if neighbours[here][i] == from {
+                    return false;
+                }
+                let side = self.predicates.side(without(&cell, i), e);
+                // With e in place of vertex i, O has the sign (−1)^(i + 3) of that of the others and e.
+                side == [Ordering::Greater, Ordering::Less][i % 2]
+            });
+            let Some(i) = beyond else {
+                return here as u32;
+            };
+            from = here as u32;
+            here = neighbours[here][i] as usize;
+            if cells[here].contains(&GHOST) {
+                return here as u32;
+            }
+        }
     }
 
     /// A sphere in the plane of a facet of the hull is in conflict with the cell behind it if it is
@@ -153,61 +183,17 @@ impl<'a> Builder<'a> {
     }
 
     fn place(&mut self, cell: [u32; 4]) -> u32 {
-        let place = match self.free.pop() {
-            Some(c) => {
-                self.cells[c as usize] = cell;
-                self.neighbours[c as usize] = [NONE; 4];
-                self.marks[c as usize] = 0;
-                c
-            }
-            None => {
-                self.cells.push(cell);
-                self.neighbours.push([NONE; 4]);
-                self.marks.push(0);
-                (self.cells.len() - 1) as u32
-            }
-        };
+        let place = self.free.pop().unwrap_or_else(|| {
+            self.cells.push(cell);
+            self.neighbours.push([NONE; 4]);
+            self.marks.push(0);
+            (self.cells.len() - 1) as u32
+        });
+        self.cells[place as usize] = cell;
+        self.neighbours[place as usize] = [NONE; 4];
+        self.marks[place as usize] = 0;
         self.last = place;
         place
-    }
-}
-
-/// Walks from a cell to one that holds the centre of `e`, or to one behind the hull that sees it.
-/// Every step crosses a facet that separates; in a regular triangulation such walks end.
-fn walk(
-    predicates: &Predicates,
-    cells: &[[u32; 4]],
-    neighbours: &[[u32; 4]],
-    start: u32,
-    e: u32,
-) -> u32 {
-    let mut here = start as usize;
-    if let Some(ghost) = cells[here].iter().position(|v| *v == GHOST) {
-        here = neighbours[here][ghost] as usize;
-    }
-    let mut from = NONE;
-    loop {
-        let cell = cells[here];
-        let beyond = (0..4).find(|&i| {
-            if neighbours[here][i] == from {
-                return false;
-            }
-            let side = predicates.side(without(&cell, i), e);
-            // With e in place of vertex i, O has the sign (−1)^(i + 3) of that of the others and e.
-            side == if i % 2 == 1 {
-                Ordering::Less
-            } else {
-                Ordering::Greater
-            }
-        });
-        let Some(i) = beyond else {
-            return here as u32;
-        };
-        from = here as u32;
-        here = neighbours[here][i] as usize;
-        if cells[here].contains(&GHOST) {
-            return here as u32;
-        }
     }
 }
 

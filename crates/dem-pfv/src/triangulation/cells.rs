@@ -49,12 +49,9 @@ pub(crate) fn without<T: Copy, const N: usize, const M: usize>(all: &[T; N], i: 
 impl Cell {
     /// Its vertices.
     pub fn vertices(&self) -> [Vertex; 4] {
-        self.vertices.map(|v| {
-            if v & WALL == 0 {
-                Vertex::Sphere(v as usize)
-            } else {
-                Vertex::Wall((v & !WALL) as usize)
-            }
+        self.vertices.map(|v| match v & WALL {
+            0 => Vertex::Sphere(v as usize),
+            _ => Vertex::Wall((v & !WALL) as usize),
         })
     }
 
@@ -253,11 +250,8 @@ fn checked(spheres: &[Sphere], walls: &[Wall], needed: usize) -> Result<(), Tria
     for (sphere, s) in spheres.iter().enumerate() {
         let finite = s.centre.iter().all(|x| x.is_finite()) && s.radius.is_finite();
         if !finite || s.radius < 0.0 {
-            return Err(TriangulationError::BadSphere(
-                sphere,
-                s.centre.into(),
-                s.radius,
-            ));
+            let (at, radius) = (s.centre.into(), s.radius);
+            return Err(TriangulationError::BadSphere(sphere, at, radius));
         }
         let distances = walls.iter().map(|w| w.distance(s.centre)).enumerate();
         if let Some((wall, distance)) = distances.into_iter().find(|(_, d)| *d <= 0.0) {

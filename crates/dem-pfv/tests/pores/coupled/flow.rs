@@ -213,3 +213,25 @@ fn the_room_loses_what_flows_out() {
     assert!((through / total - 1.0).abs() < 1e-9, "{through} {total}");
     assert_eq!(system.inflow(5), Some(0.0));
 }
+
+#[test]
+fn a_bilinear_load_comes_back_and_stays_beyond_the_ends() {
+    let (places, times) = (vec![0.0, 0.5, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
+    let load = |x: f64, t: f64| (3.0 - 2.0 * x) * (1.0 + 5.0 * t);
+    let rows = times
+        .iter()
+        .flat_map(|t| places.iter().map(|x| load(*x, *t)));
+    let recorded = Recorded {
+        axis: Axis::X,
+        pressures: rows.collect(),
+        places,
+        times,
+    };
+    assert_eq!(recorded.problem(), None);
+    for [x, t] in [[0.0, 0.0], [0.2, 0.05], [1.7, 0.39], [2.0, 1.0], [0.5, 0.4]] {
+        let off = (recorded.pressure(x, t) - load(x, t)).abs();
+        assert!(off < 1e-12, "{off} Pa at {x} m and {t} s");
+    }
+    assert_eq!(recorded.pressure(-1.0, -1.0), load(0.0, 0.0));
+    assert_eq!(recorded.pressure(9.0, 9.0), load(2.0, 1.0));
+}

@@ -241,3 +241,22 @@ fn a_state_of_other_grains_is_refused() {
         Err(CoupledError::BadState(_))
     ));
 }
+
+#[test]
+fn tables_that_do_not_fit_are_named() {
+    let good = Recorded {
+        axis: Axis::X,
+        places: vec![0.0, 1.0],
+        times: vec![0.0],
+        pressures: vec![1.0, 2.0],
+    };
+    let with = |change: fn(&mut Recorded)| {
+        let mut recorded = good.clone();
+        change(&mut recorded);
+        recorded.problem().unwrap_or("nothing").to_string()
+    };
+    assert!(with(|r| r.pressures = vec![1.0]).contains("one pressure for each"));
+    assert!(with(|r| r.times = vec![]).contains("one at least"));
+    assert!(with(|r| r.places = vec![1.0, 0.0]).contains("places"));
+    assert!(with(|r| r.times = vec![f64::NAN]).contains("finite"));
+}
