@@ -7,7 +7,7 @@
 //! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:
 //!   [`ContactLawEntry`], [`contact_law`].
 //! * [`Control`]: walls at a velocity, a stress or a rate of strain, and free pistons.
-//! * [`Cloud`], [`rain`], [`Growth`], [`step_to_rest`]: samples.
+//! * [`Cloud`], [`rain`], [`Grown`], [`step_to_rest`]: samples.
 //! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
 //!   measures.
 //! * [`State`]: saved, and resumed to the same bits. [`GrainError`]: refusals, by the grain's number.
@@ -53,7 +53,7 @@ pub use measure::Partner;
 pub use measure::Touch;
 pub use measure::strains;
 pub use samples::{Cloud, rain, uniform_radii};
-pub use samples::{Growth, Target, step_to_rest};
+pub use samples::{Grown, step_to_rest};
 pub use setup::{Grain, Period, Setup};
 pub use springs::HertzMindlin;
 pub use springs::LinearElastic;

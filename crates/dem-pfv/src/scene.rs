@@ -54,7 +54,6 @@ mod model;
 mod prepare;
 mod read;
 mod run;
-mod subject;
 mod summary;
 mod tables;
 mod walls;
@@ -65,11 +64,10 @@ pub use error::{DemError, Failure};
 pub use examine::Cost;
 pub use examine::{Examination, examine};
 pub use fields::Origin;
-pub use model::{Load, Model, Saved, StepOutcome};
+pub use model::{Model, Saved};
 pub use read::editor_schema;
 pub use read::{Loaded, is_grain_scene, read};
-pub use run::{identity, run};
-pub use subject::DiscreteElements;
+pub use run::{DiscreteElements, identity, run};
 pub use summary::{PluginInForce, Summary};
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,

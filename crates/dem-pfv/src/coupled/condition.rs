@@ -171,13 +171,14 @@ pub(crate) fn inflows(sides: &[WallBoundary], pores: &PoreGeometry, influx: &[f6
         around(wall).for_each(|c| owners[*c as usize] = wall);
     }
     let through = |(wall, side): (usize, &WallBoundary)| match side.condition {
-        FlowCondition::Inflow(v) => around(wall)
-            .map(|c| v * pores.area_on_wall(*c as usize, wall))
-            .sum(),
-        _ => (owners.iter().zip(influx))
-            .filter(|(o, _)| **o == wall)
-            .map(|(_, q)| q)
-            .sum(),
+        FlowCondition::Inflow(v) => {
+            let rate = |c: &u32| v * pores.area_on_wall(*c as usize, wall);
+            around(wall).map(rate).sum()
+        }
+        _ => {
+            let own = owners.iter().zip(influx).filter(|(o, _)| **o == wall);
+            own.map(|(_, q)| q).sum()
+        }
     };
     sides.iter().enumerate().map(through).collect()
 }

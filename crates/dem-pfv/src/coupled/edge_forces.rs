@@ -124,9 +124,8 @@ impl EdgeForces {
                 // A piston moves along its normal only.
                 Vertex::Wall(w) => [0.0, 1.0 / grains.walls[w].mass()],
             };
-            let both: f64 = (0..2)
-                .map(|d| gap.resistances[d] * (here[d] + there[d]))
-                .sum();
+            let part = |d: usize| gap.resistances[d] * (here[d] + there[d]);
+            let both = part(0) + part(1);
             sums[edge.sphere] += both;
             if let Vertex::Sphere(l) = edge.other {
                 sums[l] += both;
@@ -160,9 +159,8 @@ fn gap(edge: &Edge, grains: &GrainSystem, fluid: &Fluid) -> Option<Gap> {
         true => fluid.viscosity * edge.area.max(0.0) / (open.max(0.0) + HYDRAULIC * smaller),
         false => 0.0,
     };
-    let lubrication = fluid
-        .lubrication
-        .map_or(0.0, |l| fluid.viscosity * resistance(l, reduced, open));
+    let lubricated = |l| fluid.viscosity * resistance(l, reduced, open);
+    let lubrication = fluid.lubrication.map_or(0.0, lubricated);
     Some(Gap {
         normal,
         levers: [radius + 0.5 * open, far + 0.5 * open],

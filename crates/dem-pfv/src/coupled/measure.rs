@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Vector, condition};
+use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Vector, WallBoundary, condition};
 use crate::flow::{FlowSystem, PoreGeometry, Solver};
-use crate::grains::GrainSystem;
+use crate::grains::{GrainError, GrainSystem};
 
 impl CoupledSystem {
     /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
@@ -16,10 +16,9 @@ impl CoupledSystem {
     /// without such cells.
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
         let cells = self.cells(axis, |x| (from..to).contains(&x[axis]));
-        let sums = cells.iter().fold((0.0, 0.0), |(v, pv), (_, volume, p)| {
-            (v + volume, pv + p * volume)
-        });
-        (sums.0 > 0.0).then(|| sums.1 / sums.0)
+        let add = |(v, pv), (_, volume, p): (_, f64, f64)| (v + volume, pv + p * volume);
+        let (volume, sum) = cells.into_iter().fold((0.0, 0.0), add);
+        (volume > 0.0).then(|| sum / volume)
     }
 
     /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells whose places are inside.
@@ -28,9 +27,8 @@ impl CoupledSystem {
         let clock = &self.clock;
         let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
         let cells = cells.filter(|((x, _), _)| inside(x));
-        cells
-            .map(|((x, volume), p)| (x[axis], *volume, *p))
-            .collect()
+        let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));
+        cells.collect()
     }
 
     /// Slope −dp/dx of the pressure along an axis (Pa/m): least squares over the cells whose places (m) are inside, by
@@ -82,28 +80,19 @@ impl CoupledSystem {
     /// A system that cannot be solved.
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
-        let mut sides = vec![crate::coupled::WallBoundary::closed(); 6];
+        let mut sides = vec![WallBoundary::closed(); 6];
         let walls = self.grains.walls.iter().enumerate();
-        let facing = |sign: f64| {
-            let found = walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
-            found.map(|(number, _)| number)
-        };
-        let none = crate::grains::GrainError::NoArea(2 * axis);
-        let (Some(low), Some(high)) = (facing(1.0), facing(-1.0)) else {
+        let facing = |sign: f64| walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
+        let none = GrainError::NoArea(2 * axis);
+        let (Some((low, _)), Some((high, _))) = (facing(1.0), facing(-1.0)) else {
             return Err(none.into());
         };
-        sides[low] = crate::coupled::WallBoundary::drained(0.0);
-        sides[high] = crate::coupled::WallBoundary::drained(1.0);
+        sides[low] = WallBoundary::drained(0.0);
+        sides[high] = WallBoundary::drained(1.0);
         let boundary = condition::boundary(&sides, geometry, 0.0);
         let viscosity = self.setup.fluid.viscosity;
-        let mut system = FlowSystem::new(
-            geometry,
-            &boundary,
-            &*self.law,
-            viscosity,
-            None,
-            Solver::Automatic,
-        )?;
+        let (law, solver) = (&*self.law, Solver::Automatic);
+        let mut system = FlowSystem::new(geometry, &boundary, law, viscosity, None, solver)?;
         let pressures = system.solve(&boundary, &[])?;
         let length = self.grains.box_lengths().ok_or(none)?[axis];
         Ok(system.inflow(geometry, high, &pressures) * length / self.grains.section(axis)?)

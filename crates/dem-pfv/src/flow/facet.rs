@@ -109,10 +109,8 @@ pub fn inscribed_radius(facet: &Facet, normal: Vector3<f64>) -> Option<f64> {
             -2.0 * (s.radius - first.radius),
         )
     });
-    let walls = facet
-        .walls
-        .iter()
-        .map(|w| (w.normal, -w.distance(first.centre), 1.0));
+    let wall = |w: &&Wall| (w.normal, -w.distance(first.centre), 1.0);
+    let walls = facet.walls.iter().map(wall);
     let rows: Vec<_> = discs.chain(walls).collect();
     let [(a, a0, a1), (b, b0, b1)] = *rows else {
         return None;

@@ -260,9 +260,8 @@ impl PoreGeometry {
         };
         let middle = centre + distance * direction;
         let [i, j] = throat.cells.map(|c| self.centres[c] - middle);
-        let turn = throat
-            .normal
-            .dot(&direction.cross(&edge(mesh, sphere, third)));
+        let around = direction.cross(&edge(mesh, sphere, third));
+        let turn = throat.normal.dot(&around);
         let area: Vector3<f64> = 0.5 * i.cross(&j);
         area.dot(&direction) * turn.signum()
     }

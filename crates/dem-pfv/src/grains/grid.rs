@@ -23,9 +23,8 @@ impl Grid {
             high = high.sup(p);
         }
         for (axis, ends) in period.iter().enumerate() {
-            if let Some([from, to]) = *ends {
-                low[axis] = from;
-                high[axis] = to;
+            if let Some(ends) = ends {
+                [low[axis], high[axis]] = *ends;
             }
         }
         // A grain that flew away must not cost memory: cells grow until there are few.
@@ -85,13 +84,12 @@ impl Grid {
     /// Calls `visit` for every grain in the cell of a point and in those around it.
     pub fn around(&self, point: &Vector, mut visit: impl FnMut(u32)) {
         let at = self.cell(point);
-        let [xs, ys, zs] = std::array::from_fn(|axis| self.span(axis, at[axis]));
-        for &z in &zs.0[..zs.1] {
-            for &y in &ys.0[..ys.1] {
-                for &x in &xs.0[..xs.1] {
-                    for &grain in self.members([x, y, z]) {
-                        visit(grain);
-                    }
+        let spans: [_; 3] = std::array::from_fn(|axis| self.span(axis, at[axis]));
+        let [xs, ys, zs] = spans.each_ref().map(|(cells, count)| &cells[..*count]);
+        for &z in zs {
+            for &y in ys {
+                for &x in xs {
+                    self.members([x, y, z]).iter().copied().for_each(&mut visit);
                 }
             }
         }
@@ -103,9 +101,7 @@ impl Grid {
         for z in from[2]..=to[2] {
             for y in from[1]..=to[1] {
                 for x in from[0]..=to[0] {
-                    for &grain in self.members([x, y, z]) {
-                        visit(grain);
-                    }
+                    self.members([x, y, z]).iter().copied().for_each(&mut visit);
                 }
             }
         }

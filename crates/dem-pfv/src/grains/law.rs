@@ -57,16 +57,15 @@ impl Contact {
             cosine,
             twist,
         } = self.turn;
-        let tilted = if cosine > -0.5 {
-            vector * cosine + axis.cross(&vector) + axis * (axis.dot(&vector) / (1.0 + cosine))
-        } else {
+        if cosine.is_nan() || cosine <= -0.5 {
             return Vector::zeros(); // it jumped to the other side
-        };
+        }
+        let along = axis.dot(&vector) / (1.0 + cosine);
+        let tilted = vector * cosine + axis.cross(&vector) + axis * along;
         let half = 0.5 * twist;
         let square = half * half;
-        let turned =
-            (tilted * (1.0 - square) + self.normal.cross(&tilted) * twist) / (1.0 + square);
-        self.tangential(turned)
+        let turned = tilted * (1.0 - square) + self.normal.cross(&tilted) * twist;
+        self.tangential(turned / (1.0 + square))
     }
 
     /// v − (v · n) n.
@@ -86,11 +85,7 @@ impl Contact {
 
     /// Three remembered numbers from `first` on.
     pub fn remembered(&self, first: usize) -> Vector {
-        Vector::new(
-            self.memory[first],
-            self.memory[first + 1],
-            self.memory[first + 2],
-        )
+        Vector::from_column_slice(&self.memory[first..first + 3])
     }
 
     /// Remembers three numbers from `first` on.

@@ -129,11 +129,8 @@ impl GrainSystem {
 
     /// Love–Weber stress of all contacts in a volume (m³), Pa, positive in compression: (1/V) Σ_grains Σ_c l n ⊗ F.
     pub fn stress(&self, volume: f64) -> Matrix3<f64> {
-        let mut sum = Matrix3::zeros();
-        for grain in 0..self.grains.len() {
-            sum += self.moment(grain);
-        }
-        sum / volume
+        let moments = (0..self.grains.len()).map(|grain| self.moment(grain));
+        moments.sum::<Matrix3<f64>>() / volume
     }
 
     /// Length of the box along an axis, m: the period, or the distance of the two walls that face each other.
@@ -141,11 +138,8 @@ impl GrainSystem {
         if let Some([from, to]) = self.period[axis] {
             return Some(to - from);
         }
-        let facing = |sign: f64| {
-            let found = self.walls.iter().find(|w| w.axis() == Some((axis, sign)));
-            found.map(|w| w.point[axis])
-        };
-        Some(facing(-1.0)? - facing(1.0)?)
+        let facing = |sign| self.walls.iter().find(|w| w.axis() == Some((axis, sign)));
+        Some(facing(-1.0)?.point[axis] - facing(1.0)?.point[axis])
     }
 
     /// Lengths of the box between walls along the axes and periods, m, if it is closed.
@@ -185,11 +179,7 @@ impl GrainSystem {
                 Partner::Triangle { .. } => first,
             };
             if first != second {
-                force += if first {
-                    touch.force[axis]
-                } else {
-                    -touch.force[axis]
-                };
+                force += if first { 1.0 } else { -1.0 } * touch.force[axis];
             }
         }
         Ok(force / self.section(axis)?)
@@ -222,19 +212,11 @@ impl GrainSystem {
     /// # Errors
     /// If it is not given and the box is not closed along the other two axes.
     pub fn wall_area(&self, wall: usize) -> Result<f64, GrainError> {
-        let none = GrainError::NoArea(wall);
-        let Some(w) = self.walls.get(wall) else {
-            return Err(none);
-        };
-        if let Some(area) = w.area {
-            return Ok(area);
-        }
-        let (axis, _) = w.axis().ok_or_else(|| none.clone())?;
-        let sides = [(axis + 1) % 3, (axis + 2) % 3].map(|side| self.length(side));
-        match sides {
-            [Some(a), Some(b)] => Ok(a * b),
-            _ => Err(none),
-        }
+        let area = self.walls.get(wall).and_then(|w| {
+            let side = |k: usize| self.length((w.axis()?.0 + k) % 3);
+            w.area.or_else(|| Some(side(1)? * side(2)?))
+        });
+        area.ok_or(GrainError::NoArea(wall))
     }
 
     /// Normal stress at a wall, Pa, positive in compression: the push of grains and fluid over its area.
@@ -303,9 +285,8 @@ pub fn strains(
         if corners.iter().any(|&c| c >= grains) {
             continue;
         }
-        let [a, b, c, d] = *corners;
-        let edges =
-            |of: &[Vector]| Matrix3::from_columns(&[of[b] - of[a], of[c] - of[a], of[d] - of[a]]);
+        let edge = |of: &[Vector], k: usize| of[corners[k]] - of[corners[0]];
+        let edges = |of| Matrix3::from_columns(&[1, 2, 3].map(|k| edge(of, k)));
         let shape = edges(positions);
         let Some(inverse) = shape.try_inverse() else {
             continue;
@@ -317,12 +298,9 @@ pub fn strains(
             sums[corner].1 += volume;
         }
     }
-    let mean = |(sum, volume): (Matrix3<f64>, f64)| {
-        if volume > 0.0 {
-            sum / volume
-        } else {
-            Matrix3::zeros()
-        }
+    let mean = |(sum, volume): (Matrix3<f64>, f64)| match volume > 0.0 {
+        true => sum / volume,
+        false => Matrix3::zeros(),
     };
     sums.into_iter().map(mean).collect()
 }

@@ -22,15 +22,9 @@ impl GrainSystem {
             .enumerate()
             .for_each(|(grain, (force, torque))| {
                 (*force, *torque) = (Vector::zeros(), Vector::zeros());
-                for (slot, side) in table.slots_of(grain) {
-                    if slot.active {
-                        if side == 0 {
-                            *force += slot.force;
-                        } else {
-                            *force -= slot.force;
-                        }
-                        *torque += slot.torque[side];
-                    }
+                for (slot, side) in table.slots_of(grain).filter(|(slot, _)| slot.active) {
+                    *force += if side == 0 { slot.force } else { -slot.force };
+                    *torque += slot.torque[side];
                 }
             });
     }

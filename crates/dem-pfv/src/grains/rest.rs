@@ -43,9 +43,7 @@ impl GrainSystem {
                 }
             }
         }
-        let count = free().count().max(1) as f64;
-        let speed = free().map(|i| g.velocity[i].norm() + g.radius[i] * g.spin[i].norm());
-        let speed = speed.sum::<f64>() / count;
+        let speed = mean(free().map(|i| g.velocity[i].norm() + g.radius[i] * g.spin[i].norm()));
         let (radius, mass): (f64, f64) = (g.radius.iter().sum(), g.mass.iter().sum());
         let slow = speed <= tolerance * (contact * radius / mass).sqrt();
         Ok((!slow).then_some(Unrest::Moving(speed)))
@@ -67,19 +65,11 @@ impl GrainSystem {
     /// Mean resultant force on a grain that is not held, and mean contact force, N; zero without contacts.
     pub(crate) fn mean_forces(&self) -> (f64, f64) {
         let g = &self.grains;
-        let (mut rest, mut free) = (0.0, 0_u32);
-        for i in (0..g.len()).filter(|&i| !g.held[i]) {
-            rest += self.resultant(i).norm();
-            free += 1;
-        }
-        let (mut forces, mut count) = (0.0, 0_u32);
-        for slot in self.table.slots.iter().filter(|s| s.active) {
-            forces += slot.force.norm();
-            count += 1;
-        }
+        let free = (0..g.len()).filter(|&i| !g.held[i]);
+        let active = self.table.slots.iter().filter(|s| s.active);
         (
-            rest / f64::from(free.max(1)),
-            forces / f64::from(count.max(1)),
+            mean(free.map(|i| self.resultant(i).norm())),
+            mean(active.map(|slot| slot.force.norm())),
         )
     }
 
@@ -88,4 +78,10 @@ impl GrainSystem {
         self.grains.velocity.fill(Vector::zeros());
         self.grains.spin.fill(Vector::zeros());
     }
+}
+
+/// Mean of some numbers; zero without any.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_u32), |(s, n), x| (s + x, n + 1));
+    sum / f64::from(count.max(1))
 }

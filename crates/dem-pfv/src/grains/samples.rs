@@ -1,7 +1,7 @@
 //! Samples: random clouds of spheres that do not touch, grown or left to settle.
 
-use sph_core::SplitMix;
 use sph_core::place_cells::{PlaceCells, offsets};
+use sph_core::{SplitMix, parameters};
 
 use crate::grains::setup::{Period, positive, separation};
 use crate::grains::{Grain, GrainError, GrainSystem, Unrest, Vector};
@@ -90,19 +90,16 @@ impl Cloud {
     /// As [`Cloud::place`].
     pub fn grains(&self, radii: &[f64], density: f64, seed: u64) -> Result<Vec<Grain>, GrainError> {
         let places = self.place(radii, seed)?;
-        let grains = places.into_iter().zip(radii);
-        Ok(grains
-            .map(|(x, r)| Grain::new(x.into(), *r, density))
-            .collect())
+        let grain = |(x, r): (Vector, &f64)| Grain::new(x.into(), *r, density);
+        Ok(places.into_iter().zip(radii).map(grain).collect())
     }
 }
 
 /// Radii drawn evenly from an interval, m; the same for the same seed.
 pub fn uniform_radii(count: usize, smallest: f64, largest: f64, seed: u64) -> Vec<f64> {
     let mut draw = SplitMix(seed ^ 0x5eed);
-    (0..count)
-        .map(|_| smallest + (largest - smallest) * draw.unit())
-        .collect()
+    let mut radius = |_| smallest + (largest - smallest) * draw.unit();
+    (0..count).map(&mut radius).collect()
 }
 
 /// Grains at rest for dry pluviation: a cloud of the given porosity above the floor z = `low`, as high as it must be.
@@ -127,73 +124,66 @@ pub fn rain(
     cloud.grains(radii, density, seed)
 }
 
-/// End of the growth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// At an isotropic stress, Pa, positive in compression.
-    Stress(f64),
-    /// At a porosity of the box.
-    Porosity(f64),
-}
-
-/// Internal compaction: radii grow between fixed walls until a stress or a porosity is reached.
-///
-/// Every ten steps all radii are multiplied by 1 + (1 − σ_m/σ₀) (m − 1), σ_m the mean stress of the walls, where m is
-/// `fast` until σ₀ was first exceeded and `slow` from then on; to a porosity they grow by `fast` alone and
-/// stop there. Walls without friction and some damping are the custom. Source: the triaxial controller of YADE;
-/// the method is named by Catalano 2012, ch. 2, without equations.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Growth {
-    /// End of the growth.
-    pub target: Target,
-    /// Largest factor before the target was reached for the first time.
+/// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter
+/// of the box.
+#[parameters]
+#[derive(Copy, PartialEq)]
+pub struct Grown {
+    /// Mean stress of the walls, Pa.
+    #[parameter(unit: "Pa", above: 0.0)]
+    pub stress: Option<f64>,
+    /// Porosity.
+    #[parameter(unit: "1", above: 0.0, below: 1.0)]
+    pub porosity: Option<f64>,
+    /// Largest factor of the radii in ten steps before the stress was first reached.
+    #[parameter(default: 1.0 + 2e4 / 15e6, unit: "1", above: 1.0)]
     pub fast: f64,
-    /// Largest factor afterwards.
+    /// The same afterwards.
+    #[parameter(default: 1.0 + 2e3 / 15e6, unit: "1", above: 1.0)]
     pub slow: f64,
-    /// Share of the critical step.
-    pub safety: f64,
-    /// Unbalanced force ratio, and relative distance from the stress, at which it ends.
+    /// Unbalanced force ratio and relative distance from the stress at which it ends.
+    #[parameter(default: 1e-3, unit: "1", above: 0.0)]
     pub tolerance: f64,
-    /// Largest number of steps.
-    pub most_steps: u64,
 }
 
 /// Steps between two changes of the radii.
 const EVERY: u64 = 10;
 
-impl Growth {
-    /// The custom: m_fast = 1 + 2·10⁴ Pa/E, m_slow = 1 + 2·10³ Pa/E with the micro modulus E in Pa.
-    pub fn new(target: Target, modulus: f64) -> Self {
-        Self {
-            target,
-            fast: 1.0 + 2e4 / modulus,
-            slow: 1.0 + 2e3 / modulus,
-            safety: 0.5,
-            tolerance: 1e-3,
-            most_steps: 1_000_000,
-        }
-    }
-
-    /// Grows the grains of a system in its box; returns the number of steps.
+impl Grown {
+    /// Internal compaction: grows the radii of a system between fixed walls until a stress or, without one, a porosity is
+    /// reached, by steps of a share `safety` of the critical one; returns the number of steps.
+    ///
+    /// Every ten steps all radii are multiplied by 1 + (1 − σ_m/σ₀) (m − 1), σ_m the mean stress of the walls, where m is
+    /// `fast` until σ₀ was first exceeded and `slow` from then on; to a porosity they grow by `fast` alone and
+    /// stop there. Walls without friction and some damping are the custom, and m_fast = 1 + 2·10⁴ Pa/E,
+    /// m_slow = 1 + 2·10³ Pa/E with the micro modulus E in Pa. Source: the triaxial controller of YADE; the method is named
+    /// by Catalano 2012, ch. 2, without equations.
     ///
     /// # Errors
-    /// A box that is not closed; a target out of range; [`GrainError::NotReached`]; the refusals of a step.
-    pub fn run(&self, system: &mut GrainSystem) -> Result<u64, GrainError> {
-        let (what, value, fine) = match self.target {
-            Target::Stress(stress) => ("the stress is", stress, stress > 0.0),
-            Target::Porosity(n) => ("the porosity is", n, n > 0.0 && n < 1.0),
+    /// A box that is not closed; a target out of range; [`GrainError::NotReached`] after `most_steps`; the refusals of a
+    /// step.
+    pub fn run(
+        &self,
+        system: &mut GrainSystem,
+        safety: f64,
+        most_steps: u64,
+    ) -> Result<u64, GrainError> {
+        let goal = self.stress.or(self.porosity).unwrap_or(f64::NAN);
+        let (what, fine) = match self.stress {
+            Some(_) => ("the stress is", goal > 0.0),
+            None => ("the porosity is", goal > 0.0 && goal < 1.0),
         };
-        require(what, value, "positive, a porosity below 1", fine)?;
+        require(what, goal, "positive, a porosity below 1", fine)?;
         let mut reached = false;
         let (mut unbalanced, mut stress) = (f64::INFINITY, 0.0);
-        for made in 0..self.most_steps {
+        for made in 0..most_steps {
             system.evaluate()?;
             if made % EVERY == 0 {
                 unbalanced = system.unbalanced_force();
                 stress = system.mean_stress()?;
                 let still = unbalanced < self.tolerance;
-                let factor = match self.target {
-                    Target::Stress(goal) => {
+                let factor = match self.stress {
+                    Some(_) => {
                         reached |= stress >= goal;
                         if still && (stress / goal - 1.0).abs() < self.tolerance {
                             return Ok(made);
@@ -201,7 +191,7 @@ impl Growth {
                         let most = if reached { self.slow } else { self.fast };
                         1.0 + (1.0 - stress / goal) * (most - 1.0)
                     }
-                    Target::Porosity(goal) => {
+                    None => {
                         let (volume, solid) = (system.box_volume(), system.grains.volume());
                         let volume = volume.ok_or(GrainError::NoArea(0))?;
                         let left = ((1.0 - goal) * volume / solid).cbrt();
@@ -216,10 +206,10 @@ impl Growth {
                     system.scale_radii(factor.max(0.99))?;
                 }
             }
-            let step = self.safety * system.current_limit();
+            let step = safety * system.current_limit();
             system.integrate(step)?;
         }
-        Err(GrainError::NotReached(self.most_steps, unbalanced, stress))
+        Err(GrainError::NotReached(most_steps, unbalanced, stress))
     }
 }
 

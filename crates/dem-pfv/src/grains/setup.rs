@@ -43,25 +43,19 @@ impl Grain {
 
     /// Names the first value that is impossible for a grain.
     pub(crate) fn check(&self, grain: usize) -> Result<(), GrainError> {
-        for (what, value) in [("radius", self.radius), ("density", self.density)] {
-            positive(grain, what, value)?;
-        }
-        for (what, value) in [
-            ("position", self.position),
-            ("velocity", self.velocity),
-            ("angular velocity", self.spin),
-        ] {
-            finite(grain, what, &value)?;
-        }
-        Ok(())
+        positive(grain, "radius", self.radius)?;
+        positive(grain, "density", self.density)?;
+        finite(grain, "position", &self.position)?;
+        finite(grain, "velocity", &self.velocity)?;
+        finite(grain, "angular velocity", &self.spin)
     }
 }
 
 pub(crate) fn finite(grain: usize, what: &'static str, v: &Vector) -> Result<(), GrainError> {
-    if v.iter().all(|x| x.is_finite()) {
-        return Ok(());
+    match v.iter().all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(GrainError::NotFinite(grain, what, (*v).into())),
     }
-    Err(GrainError::NotFinite(grain, what, (*v).into()))
 }
 
 pub(crate) fn positive(grain: usize, what: &'static str, value: f64) -> Result<(), GrainError> {
@@ -185,8 +179,7 @@ pub(crate) fn wrap(point: &mut Vector, period: &Period) {
 pub(crate) fn check_period(period: &Period, reach: f64) -> Result<(), GrainError> {
     for (axis, ends) in period.iter().enumerate() {
         if let Some([from, to]) = ends {
-            let length = to - from;
-            let least = 2.0 * reach;
+            let (length, least) = (to - from, 2.0 * reach);
             if !(length.is_finite() && length > least) {
                 return Err(GrainError::ShortPeriod(axis, length, least));
             }

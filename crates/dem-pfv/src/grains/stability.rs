@@ -40,11 +40,8 @@ impl GrainSystem {
             let mut stiffness_of_wall = 0.0;
             for slot in slots.iter().filter(|s| s.active) {
                 let first = slot.first as usize;
-                let second = if part == 0 {
-                    g.radius[slot.second as usize]
-                } else {
-                    f64::INFINITY
-                };
+                let second = (part == 0).then(|| g.radius[slot.second as usize]);
+                let second = second.unwrap_or(f64::INFINITY);
                 let k = law.stiffness([g.radius[first], second], slot.overlap);
                 damping = damping.max(k.damping);
                 stiffness_of_wall += weight * k.normal;
@@ -120,10 +117,9 @@ impl GrainSystem {
         let columns = (&g.velocity, &g.mass, &g.radius, &g.held);
         let steps = (columns, forces).into_par_iter().map(|(columns, forces)| {
             let (velocity, &mass, &radius, &held) = columns;
-            let force = if held {
-                0.0
-            } else {
-                (forces.0 + forces.1 + self.gravity * mass).norm()
+            let force = match held {
+                true => 0.0,
+                false => (forces.0 + forces.1 + self.gravity * mass).norm(),
             };
             let (speed, acceleration) = (velocity.norm(), force / mass);
             // The root without a difference of large numbers, which is also that of no acceleration.

@@ -18,7 +18,7 @@ pub(crate) struct Limit {
 
 /// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
 /// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct State {
     /// The grains; the next evaluation finds the contacts of those that were moved.
     pub grains: Grains,
@@ -107,21 +107,14 @@ impl Grains {
 
     /// True if all columns have the same length.
     pub(crate) fn fits(&self) -> bool {
-        let n = self.position.len();
-        let vectors = [
-            &self.velocity,
-            &self.spin,
-            &self.contact_force,
-            &self.contact_torque,
-            &self.external_force,
-            &self.external_torque,
-        ];
-        vectors.iter().all(|c| c.len() == n)
-            && self.orientation.len() == n
-            && self.held.len() == n
-            && [&self.radius, &self.density, &self.mass]
-                .iter()
-                .all(|c| c.len() == n)
+        let n = self.len();
+        let forces = [&self.contact_force, &self.contact_torque];
+        let outer = [&self.external_force, &self.external_torque];
+        let motion = [&self.velocity, &self.spin].into_iter();
+        let mut vectors = motion.chain(forces).chain(outer);
+        let mut numbers = [&self.radius, &self.density, &self.mass].into_iter();
+        let others = self.orientation.len() == n && self.held.len() == n;
+        others && vectors.all(|c| c.len() == n) && numbers.all(|c| c.len() == n)
     }
 
     /// Number of grains.

@@ -4,7 +4,6 @@ use std::ops::{Deref, DerefMut};
 
 use crate::grains::setup::{check_period, finite};
 use crate::grains::state::Limit;
-use crate::grains::table::Table;
 use crate::grains::touch::View;
 use crate::grains::{ContactLaw, Control, GrainError, Grains, MEMORY, Setup, State, Vector};
 use crate::{BELOW_1, require};
@@ -59,18 +58,10 @@ impl GrainSystem {
             gravity: setup.gravity,
             damping: setup.damping,
             skin: setup.skin.unwrap_or(0.2 * mean),
-            time: 0.0,
-            steps: 0,
-            last_step: 0.0,
-            limit: None,
-            limit_due: 0,
-            table: Table::default(),
-            renewals: 0,
+            ..State::default()
         };
-        let mut system = Self {
-            state,
-            laws: setup.laws,
-        };
+        let laws = setup.laws;
+        let mut system = Self { state, laws };
         system.check()?;
         system.renew();
         system.check_overlaps()?;
@@ -229,10 +220,11 @@ impl GrainSystem {
         require("the step is", step, "positive", step > 0.0)?;
         let limit = self.fresh_limit();
         if step > limit.step {
+            let (critical, grain) = (limit.step, limit.grain);
             return Err(GrainError::StepTooLarge {
                 step,
-                critical: limit.step,
-                grain: limit.grain,
+                critical,
+                grain,
             });
         }
         self.integrate_unchecked(step)
@@ -267,15 +259,15 @@ impl GrainSystem {
     }
 
     fn fresh_limit(&mut self) -> Limit {
-        let limit = match self.limit {
-            Some(limit) if self.steps < self.limit_due => limit,
-            _ => {
+        let kept = self.limit.filter(|_| self.steps < self.limit_due);
+        *match kept {
+            Some(limit) => self.limit.insert(limit),
+            None => {
                 self.limit_due = self.steps + CHECKED_EVERY;
-                self.critical()
+                let limit = self.critical();
+                self.limit.insert(limit)
             }
-        };
-        self.limit = Some(limit);
-        limit
+        }
     }
 }
 
@@ -335,12 +327,8 @@ impl GrainSystem {
     /// # Errors
     /// A factor that is not positive and finite; a period that becomes too short.
     pub fn scale_radii(&mut self, factor: f64) -> Result<(), GrainError> {
-        require(
-            "the factor of the radii is",
-            factor,
-            "positive",
-            factor > 0.0,
-        )?;
+        let what = "the factor of the radii is";
+        require(what, factor, "positive", factor > 0.0)?;
         for radius in &mut self.grains.radius {
             *radius *= factor;
         }

@@ -185,28 +185,26 @@ impl Table {
 
 fn pairs(grains: &Grains, grid: &Grid, period: &Period, skin: f64) -> Vec<Slot> {
     let n = grains.len();
-    let tasks: Vec<Vec<Slot>> = (0..n.div_ceil(TASK))
-        .into_par_iter()
-        .map(|task| {
-            let mut slots = Vec::with_capacity(8 * TASK);
-            let mut partners = Vec::new();
-            for i in task * TASK..n.min((task + 1) * TASK) {
-                let (at, radius) = (grains.position[i], grains.radius[i] + skin);
-                partners.clear();
-                grid.around(&at, |j| {
-                    let reach = radius + grains.radius[j as usize];
-                    let apart = || separation(&at, &grains.position[j as usize], period);
-                    if j as usize > i && apart().norm_squared() < reach * reach {
-                        partners.push(j);
-                    }
-                });
-                partners.sort_unstable();
-                slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
-            }
-            slots
-        })
-        .collect();
-    tasks.concat()
+    let task = |task: usize| {
+        let mut slots = Vec::with_capacity(8 * TASK);
+        let mut partners = Vec::new();
+        for i in task * TASK..n.min((task + 1) * TASK) {
+            let (at, radius) = (grains.position[i], grains.radius[i] + skin);
+            partners.clear();
+            grid.around(&at, |j| {
+                let reach = radius + grains.radius[j as usize];
+                let apart = || separation(&at, &grains.position[j as usize], period);
+                if j as usize > i && apart().norm_squared() < reach * reach {
+                    partners.push(j);
+                }
+            });
+            partners.sort_unstable();
+            slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
+        }
+        slots
+    };
+    let tasks = (0..n.div_ceil(TASK)).into_par_iter().map(task);
+    tasks.collect::<Vec<_>>().concat()
 }
 
 fn triangles(

@@ -58,9 +58,8 @@ impl View<'_> {
 
     /// Forces at a mesh.
     pub fn mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
-        slots
-            .par_chunk_by_mut(|a, b| a.first == b.first)
-            .for_each(|group| self.at_triangles(group, mesh, law));
+        let groups = slots.par_chunk_by_mut(|a, b| a.first == b.first);
+        groups.for_each(|group| self.at_triangles(group, mesh, law));
     }
 
     fn pair(&self, slot: &Slot) -> Option<Contact> {

@@ -130,26 +130,22 @@ impl Wall {
     pub(crate) fn check(&self, wall: usize) -> Result<(), GrainError> {
         let problem = |problem| Err(GrainError::BadWall(wall, problem));
         let vectors = [self.point, self.normal, self.velocity, self.external_force];
-        if vectors.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
-            return problem(
-                "has a point, a normal, a velocity or a force that is not finite".into(),
-            );
+        if !vectors.iter().flatten().all(|x| x.is_finite()) {
+            let what = "has a point, a normal, a velocity or a force that is not finite";
+            return problem(what.into());
         }
         if (self.normal.norm() - 1.0).abs() > 1e-9 {
+            let normal = self.normal.as_slice();
             return problem(format!(
-                "has the normal {:?}, which is not of length 1",
-                self.normal.as_slice()
+                "has the normal {normal:?}, which is not of length 1"
             ));
         }
         let numbers: &[(&str, f64, bool)] = match self.control {
             Control::Velocity | Control::Volume => &[],
             Control::Stress {
                 stress,
-                largest_speed,
-            } => &[
-                ("stress", stress, true),
-                ("largest speed", largest_speed, largest_speed > 0.0),
-            ],
+                largest_speed: v,
+            } => &[("stress", stress, true), ("largest speed", v, v > 0.0)],
             Control::StrainRate { rate } => &[("rate of strain", rate, true)],
             Control::Piston { stress, mass } => {
                 &[("stress", stress, true), ("mass", mass, mass > 0.0)]
@@ -160,12 +156,9 @@ impl Wall {
                 return problem(format!("has the {what} {value}"));
             }
         }
-        match self.area {
-            Some(area) if !(area > 0.0 && area.is_finite()) => {
-                problem(format!("has the area {area} m²"))
-            }
-            _ => Ok(()),
-        }
+        let bad = |area: &f64| !(*area > 0.0 && area.is_finite());
+        let bad = self.area.filter(bad);
+        bad.map_or(Ok(()), |area| problem(format!("has the area {area} m²")))
     }
 
     /// Sets the velocity along the normal for the coming step (s): `area` in m², `height` to the facing wall in m.
@@ -179,10 +172,9 @@ impl Wall {
             } => {
                 let most = largest_speed * step;
                 let lack = stress * area - self.push();
-                let wanted = if self.stiffness > 0.0 {
-                    (lack / self.stiffness).clamp(-most, most)
-                } else {
-                    most * sign(lack)
+                let wanted = match self.stiffness > 0.0 {
+                    true => (lack / self.stiffness).clamp(-most, most),
+                    false => most * sign(lack),
                 };
                 let filtered = (1.0 - FILTER[0]) * wanted + FILTER[1] * self.filtered;
                 self.filtered = filtered.clamp(-most, most);
@@ -261,7 +253,7 @@ impl Mesh {
     pub(crate) fn check(&self, mesh: usize) -> Result<(), GrainError> {
         let problem = |triangle, problem| Err(GrainError::BadMesh(mesh, triangle, problem));
         let motion = [self.velocity, self.spin, self.centre];
-        if motion.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
+        if !motion.iter().flatten().all(|x| x.is_finite()) {
             return problem(0, "moves at a velocity that is not finite".into());
         }
         for (t, corners) in self.triangles.iter().enumerate() {

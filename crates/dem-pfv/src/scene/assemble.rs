@@ -7,10 +7,10 @@ use crate::grains::{GrainError, GrainSystem};
 use crate::scene::error::DemError;
 use crate::scene::fields::Origin;
 use crate::scene::laws::{Laws, throats};
-use crate::scene::model::{Load, Model};
+use crate::scene::model::Model;
 use crate::scene::prepare;
 use crate::scene::read::{Loaded, read_recorded};
-use crate::scene::tables::{self, Scene};
+use crate::scene::tables::{self, Piston, Scene};
 use crate::scene::walls::{BOX, FAR, control, planes, surfaces};
 
 /// A scene ready to run.
@@ -19,8 +19,8 @@ pub struct Assembled {
     pub model: Model,
     /// Reference values of measurements.
     pub origin: Origin,
-    /// Loads that change.
-    pub loads: Vec<Load>,
+    /// Pistons whose loads change, by the numbers of their walls.
+    pub loads: Vec<(usize, Piston)>,
 }
 
 /// Puts a scene together and prepares its grains; reports its steps.
@@ -53,11 +53,10 @@ pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled
             Model::Wet(Box::new(system))
         }
     };
-    let loads = loads(scene);
     Ok(Assembled {
         model,
         origin,
-        loads,
+        loads: loads(scene),
     })
 }
 
@@ -71,13 +70,13 @@ fn key_of(error: &CoupledError) -> &'static str {
 }
 
 /// Loads that change with time.
-pub fn loads(scene: &Scene) -> Vec<Load> {
+pub fn loads(scene: &Scene) -> Vec<(usize, Piston)> {
     let names = planes(scene);
     let all = names.iter().enumerate().filter_map(|(wall, name)| {
         let piston = scene.wall.get(name)?.piston?;
-        Some(Load { wall, piston })
+        (piston.ramp != 0.0 || piston.amplitude != 0.0).then_some((wall, piston))
     });
-    all.filter(Load::varies).collect()
+    all.collect()
 }
 
 /// Controls of the walls in the run.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Serialize;
+use sph_core::bounds;
 use sph_io::{Table, read_table};
 
 use crate::coupled::Terzaghi;
@@ -78,7 +79,9 @@ pub fn errors(
     references.iter().map(one).collect()
 }
 
-const ALL: [Option<f64>; 2] = [None; 2];
+/// Ends of a window, if it has any.
+type Window = [Option<f64>; 2];
+const ALL: Window = [None; 2];
 
 /// The rows of a run, and what they are measured from.
 struct RunSeries<'a> {
@@ -93,7 +96,7 @@ impl RunSeries<'_> {
     }
 
     /// Times (s) and values of a probe in a window (s), without rows in which there was nothing to measure.
-    fn rows(&self, probe: &str, [from, to]: [Option<f64>; 2]) -> Vec<(f64, f64)> {
+    fn rows(&self, probe: &str, [from, to]: Window) -> Vec<(f64, f64)> {
         let window = from.unwrap_or(f64::NEG_INFINITY)..=to.unwrap_or(f64::INFINITY);
         let column = |name: &str| self.table.column(name).unwrap_or(&[]);
         let pairs = column("time").iter().zip(column(probe));
@@ -105,43 +108,28 @@ impl RunSeries<'_> {
 
     fn compared(&self, name: &str, reference: &Reference) -> Result<Compared, DemError> {
         let key = format!("reference.{name}.file");
+        let (probe, window) = (reference.probe(), reference.window());
         match reference {
-            Reference::Terzaghi {
-                probe,
-                shorter_by,
-                from,
-                to,
-            } => Ok(self.terzaghi(probe, *shorter_by, [*from, *to])),
-            Reference::Value {
-                probe,
-                value,
-                of,
-                from,
-                to,
-            } => {
-                let rows = self.rows(probe, [*from, *to]);
+            Reference::Terzaghi { shorter_by, .. } => Ok(self.terzaghi(probe, *shorter_by, window)),
+            Reference::Value { value, of, .. } => {
+                let rows = self.rows(probe, window);
                 let unit = self.probe(probe).map_or("", unit);
                 let against = format!("{probe} = {value} {unit}").trim_end().to_string();
                 let found = statistic(&rows, *of);
                 Ok(Compared::number(found, *value, against, rows.len()))
             }
             Reference::Scaling {
-                probe,
                 file,
                 geometry,
                 quantity,
+                ..
             } => {
                 let law = read_scaling(&self.loaded.resolve(&key, file)?, geometry, quantity);
                 let law = law.map_err(|why| DemError::at(&key, why))?;
                 Ok(self.scaled(probe, &law, [geometry, quantity]))
             }
-            Reference::Line {
-                along,
-                probe,
-                from,
-                to,
-            } => {
-                let [along, values] = [along, probe].map(|name| self.rows(name, [*from, *to]));
+            Reference::Line { along, .. } => {
+                let [along, values] = [along, probe].map(|name| self.rows(name, window));
                 let beside = |(t, x): &(f64, f64)| {
                     let (_, y) = values.iter().find(|(u, _)| u == t)?;
                     Some((*x, *y))
@@ -151,11 +139,7 @@ impl RunSeries<'_> {
                 let against = format!("{probe} in a straight line");
                 Ok(Compared::new(error, "1 − R²", against, pairs.len()))
             }
-            Reference::Curve {
-                probe,
-                file,
-                column,
-            } => {
+            Reference::Curve { file, column, .. } => {
                 let table = read_table(self.loaded.resolve(&key, file)?)?;
                 let wanted = table.column(column).ok_or_else(|| {
                     let why = format!("there is no column `{column}`");
@@ -190,14 +174,13 @@ impl RunSeries<'_> {
         let pairs = times.iter().zip(wanted);
         let pairs = pairs.filter_map(|(t, x)| Some((at(&rows, *t)?, *x)));
         let pairs: Vec<_> = pairs.collect();
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = (wanted.iter()).fold(ends, |(l, h), x| (l.min(*x), h.max(*x)));
+        let [[low], [high]] = bounds(wanted.iter().map(|x| [*x]));
         let error = mean_square(&pairs).sqrt() / (high - low);
         Compared::new(Some(error), "rms over range", against, pairs.len())
     }
 
     /// Root mean square of the difference between a probe and Terzaghi, between two time factors.
-    fn terzaghi(&self, probe: &str, shorter_by: f64, factors: [f64; 2]) -> Compared {
+    fn terzaghi(&self, probe: &str, shorter_by: f64, factors: Window) -> Compared {
         let settles = matches!(self.probe(probe), Some(Probe::Consolidation {}));
         let plain = self.origin.terzaghi();
         let theory = Terzaghi {
@@ -208,7 +191,7 @@ impl RunSeries<'_> {
             true => theory.consolidation(t),
             false => theory.pressure(theory.drainage, t),
         };
-        let rows = self.rows(probe, factors.map(|factor| Some(plain.time(factor))));
+        let rows = self.rows(probe, factors.map(|all| all.map(|t| plain.time(t))));
         let pairs: Vec<_> = rows.iter().map(|(t, x)| (*x, wanted(*t))).collect();
         let what = if settles { "U" } else { "p in the middle" };
         let against = format!(
@@ -247,10 +230,9 @@ fn statistic(rows: &[(f64, f64)], of: Statistic) -> Option<f64> {
             [] => None,
             [(_, only)] => Some(*only),
             [first, .., last] => {
-                let areas = rows
-                    .windows(2)
-                    .map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0));
-                Some(areas.sum::<f64>() / (last.0 - first.0))
+                let area = |w: &[(f64, f64)]| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0);
+                let sum: f64 = rows.windows(2).map(area).sum();
+                Some(sum / (last.0 - first.0))
             }
         },
     }
@@ -261,13 +243,9 @@ fn determination(pairs: &[(f64, f64)]) -> Option<f64> {
     let n = pairs.len() as f64;
     let mean = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
     let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    let moment =
-        |f: &dyn Fn(f64, f64) -> f64| -> f64 { pairs.iter().map(|p| f(p.0 - x, p.1 - y)).sum() };
-    let (xx, yy, xy) = (
-        moment(&|a, _| a * a),
-        moment(&|_, b| b * b),
-        moment(&|a, b| a * b),
-    );
+    let moment = |f: fn(f64, f64) -> f64| pairs.iter().map(|p| f(p.0 - x, p.1 - y)).sum::<f64>();
+    let [xx, yy] = [moment(|a, _| a * a), moment(|_, b| b * b)];
+    let xy = moment(|a, b| a * b);
     (pairs.len() > 2 && xx > 0.0 && yy > 0.0).then(|| xy * xy / (xx * yy))
 }
 
@@ -362,10 +340,7 @@ mod tests {
         let law = read_scaling(&path, "channel", "run-out").unwrap();
         assert!((law.at(1.0).unwrap() - 1.2).abs() < 1e-12);
         assert!((law.at(8.0).unwrap() - 7.6).abs() < 1e-12);
-        assert!(
-            read_scaling(&path, "round", "run-out")
-                .unwrap_err()
-                .contains("no row")
-        );
+        let none = read_scaling(&path, "round", "run-out").unwrap_err();
+        assert!(none.contains("no row"));
     }
 }

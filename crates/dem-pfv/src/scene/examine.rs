@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use serde::Serialize;
+use sph_core::bounds;
 
 use crate::grains::{Grain, GrainSystem, Setup};
 use crate::scene::error::DemError;
@@ -86,7 +87,7 @@ fn count(scene: &Scene) -> Option<usize> {
         // Mean of r³ of radii that are even between two.
         let cube = 0.25 * (small + large) * (small * small + large * large);
         let area = (given.high[0] - given.low[0]) * (given.high[1] - given.low[1]);
-        let volume = 4.0 / 3.0 * std::f64::consts::PI * cube;
+        let volume = 4.0 / 3.0 * PI * cube;
         Some((0.6 * area * rained.height? / volume).round() as usize)
     };
     scene.grains.count.or(lattice).or_else(poured)
@@ -190,18 +191,15 @@ fn limits(coupled: bool) -> [&'static str; 2] {
 fn derived(scene: &Scene) -> Vec<(&'static str, f64, &'static str)> {
     let mut all = Vec::new();
     let density = scene.grains.density;
-    let gravity = scene
-        .grains
-        .gravity
-        .map(|g| g.iter().map(|x| x * x).sum::<f64>().sqrt());
+    let size = |g: [f64; 3]| g.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let gravity = scene.grains.gravity.map(size);
     if let (Some(fluid), Some(g)) = (&scene.fluid, gravity) {
         let weight = (density - fluid.given.density) * g;
         all.push(("buoyant weight of a solid volume", weight, "N/m³"));
     }
     if let (Some(fluid), Some([small, _])) = (&scene.fluid, scene.grains.radius) {
         // Catalano 2012, Eq. (4.20): about a third of it is stable for narrow gradings.
-        let step = std::f64::consts::PI * density * (2.0 * small).powi(2)
-            / (1200.0 * fluid.given.viscosity);
+        let step = PI * density * (2.0 * small).powi(2) / (1200.0 * fluid.given.viscosity);
         let name = "viscous step by (4.20), three to six times too long";
         all.push((name, step, "s"));
     }
@@ -235,9 +233,8 @@ pub fn foreseen(loaded: &Loaded, count: Option<usize>) -> Result<(Cost, Vec<Stri
     let (grains, [small, large]) = match &scene.start.file {
         Some(file) => {
             let grains = from_file(loaded, file)?;
-            let ends = |[low, high]: [f64; 2], g: &Grain| [low.min(g.radius), high.max(g.radius)];
-            let ends = grains.iter().fold([f64::INFINITY, 0.0], ends);
-            (grains.len(), ends)
+            let [[small], [large]] = bounds(grains.iter().map(|g| [g.radius]));
+            (grains.len(), [small, large.max(0.0)])
         }
         None => (count.unwrap_or(1), radii(scene)),
     };
@@ -252,10 +249,11 @@ pub fn foreseen(loaded: &Loaded, count: Option<usize>) -> Result<(Cost, Vec<Stri
         return Err(DemError::at("run.end", message));
     }
     let steps = (end / step).ceil();
-    let steps = scene
+    let most = scene
         .run
         .max_steps
-        .map_or(steps, |most| steps.min(most as f64));
+        .map_or(f64::INFINITY, |most| most as f64);
+    let steps = steps.min(most);
     let seconds = SECONDS * grains as f64 * steps;
     let days = seconds / 86400.0;
     let remark = format!(
@@ -296,11 +294,8 @@ fn stable(scene: &Scene, radius: f64) -> Result<f64, DemError> {
     let told = |e| DemError::at("grains", e);
     let contacts = GrainSystem::new(setup).map_err(told)?.critical_step();
     let drag = |viscosity: f64| PI * density * (2.0 * radius).powi(2) / (3600.0 * viscosity);
-    let drag = scene
-        .fluid
-        .as_ref()
-        .map_or(f64::INFINITY, |f| drag(f.given.viscosity));
-    Ok(contacts.min(drag))
+    let fluid = scene.fluid.as_ref();
+    Ok(contacts.min(fluid.map_or(f64::INFINITY, |f| drag(f.given.viscosity))))
 }
 
 /// Refuses a plane that a single grain of this radius (m) sinks into too deep by its buoyant weight:

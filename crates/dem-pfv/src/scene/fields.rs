@@ -83,13 +83,8 @@ pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
             }
         })
     };
-    system
-        .grains
-        .position
-        .iter()
-        .zip(&origin.positions)
-        .map(from)
-        .collect()
+    let now = system.grains.position.iter();
+    now.zip(&origin.positions).map(from).collect()
 }
 
 /// √(2/3 e : e) around each grain since the start, e the deviator of its strain: 1 per unit of axial strain at constant volume.
@@ -129,9 +124,8 @@ fn pore_pressures(model: &Model) -> Vec<f64> {
             }
         }
     }
-    sums.iter()
-        .map(|[pv, v]| if *v > 0.0 { pv / v } else { 0.0 })
-        .collect()
+    let mean = |[pv, v]: [f64; 2]| if v > 0.0 { pv / v } else { 0.0 };
+    sums.into_iter().map(mean).collect()
 }
 
 /// Sizes of the fluid's forces, buoyancy apart, N.

@@ -79,9 +79,8 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
         shear.push((touch.force - touch.normal * along).norm());
         wall.push(u32::from(!matches!(touch.partner, Partner::Grain(_))));
     }
-    let lines: Vec<[u32; 2]> = (0..ends.len() as u32 / 2)
-        .map(|k| [2 * k, 2 * k + 1])
-        .collect();
+    let lines = (0..ends.len() as u32 / 2).map(|k| [2 * k, 2 * k + 1]);
+    let lines: Vec<[u32; 2]> = lines.collect();
     Piece {
         name: "contacts".into(),
         points: ends.into(),

@@ -39,11 +39,12 @@ pub struct Laws {
     pub of_walls: BTreeMap<String, usize>,
 }
 
-/// A plugin with its path.
-type PluginAtPath<E> = (Box<<E as Makes<3>>::Made>, String);
-
-/// The only plugin of a table, built.
-fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<PluginAtPath<E>>, DemError> {
+/// The only plugin of a table, built and checked.
+fn chosen<E: Makes<3>, R: ToString>(
+    plugins: &Plugins,
+    path: &str,
+    check: impl Fn(&E::Made) -> Result<(), R>,
+) -> Result<Option<Box<E::Made>>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
     };
@@ -64,15 +65,13 @@ fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<PluginAtP
     let refused = |e: RegistryError| DemError::Scene(choice.scene_problems(&e));
     let registry = Registry::<E>::discovered().map_err(refused)?;
     let made = registry.find(name).and_then(|entry| entry.make(table));
-    Ok(Some((made.map_err(refused)?, inside)))
+    let made = made.map_err(refused)?;
+    check(&made).map_err(|e| DemError::at(inside, e))?;
+    Ok(Some(made))
 }
 
 fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>, DemError> {
-    let Some((law, inside)) = chosen::<ContactLawEntry>(plugins, path)? else {
-        return Ok(None);
-    };
-    law.check().map_err(|e| DemError::at(inside, e))?;
-    Ok(Some(law))
+    chosen::<ContactLawEntry, _>(plugins, path, |law| law.check())
 }
 
 impl Laws {
@@ -82,10 +81,8 @@ impl Laws {
     /// No law for the grains; unknown laws and parameters.
     pub fn from_scene(scene: &Scene) -> Result<Self, DemError> {
         let Some(between) = contact(&scene.grains.contact, "grains.contact")? else {
-            let names: Vec<_> = plugins_of::<ContactLawEntry>()
-                .iter()
-                .map(|p| p.name)
-                .collect();
+            let names = plugins_of::<ContactLawEntry>();
+            let names: Vec<_> = names.iter().map(|p| p.name).collect();
             let names = names.join(", ");
             let message =
                 format!("a contact law is missing: [grains.contact.LAW] with one of {names}");
@@ -135,9 +132,6 @@ impl Laws {
 pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
     let none = Plugins::new();
     let given = scene.fluid.as_ref().map_or(&none, |f| &f.conductance);
-    let Some((law, inside)) = chosen::<ConductanceEntry>(given, "fluid.conductance")? else {
-        return Ok(Box::new(HydraulicRadius::default()));
-    };
-    law.check().map_err(|e| DemError::at(inside, e))?;
-    Ok(law)
+    let law = chosen::<ConductanceEntry, _>(given, "fluid.conductance", |law| law.check())?;
+    Ok(law.unwrap_or_else(|| Box::new(HydraulicRadius::default())))
 }

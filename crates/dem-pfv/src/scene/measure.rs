@@ -69,13 +69,6 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             gradient(model, axis.number(), [*from, *to], [left, right])
         }
         Probe::EffectiveStress { axis, at } => grains.effective_stress(axis.number(), *at).ok(),
-        Probe::Strain { .. }
-        | Probe::VolumetricStrain {}
-        | Probe::Deviator { .. }
-        | Probe::MeanStress {}
-        | Probe::K0 { .. }
-        | Probe::Sliding {}
-        | Probe::StrainDeviator {} => packing(probe, grains, origin),
         Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
         Probe::Top {} => Some(grains.highest()),
         Probe::Level { axis, from, to } => {
@@ -108,6 +101,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let wave = scene.wall.get(name)?.wave.as_ref()?;
             Some(wave.amplitude + wave.ramp * grains.time)
         }
+        _ => packing(probe, grains, origin),
     }
 }
 
@@ -143,17 +137,13 @@ pub fn buoyant_weight(model: &Model) -> f64 {
 }
 
 /// Slope −dp/dx of the pores in a part of the box, by least squares and volumes, over (ρ_s − ρ_f) g (1 − n) of the layer.
-fn gradient(
-    model: &Model,
-    axis: usize,
-    [from, to]: [f64; 2],
-    [left, right]: [f64; 2],
-) -> Option<f64> {
+fn gradient(model: &Model, axis: usize, layer: [f64; 2], between: [f64; 2]) -> Option<f64> {
+    let ([from, to], [left, right]) = (layer, between);
     let system = model.wet()?;
     let inside = |x: &Vector| (from..to).contains(&x[axis]) && (left..=right).contains(&x.x);
     let grains = model.grains();
-    let weight =
-        buoyant_weight(model) / grains.grains.volume() * (1.0 - porosity(grains, axis, from, to)?);
+    let share = 1.0 - porosity(grains, axis, from, to)?;
+    let weight = buoyant_weight(model) / grains.grains.volume() * share;
     let slope = system.gradient(axis, inside)?;
     (weight > 0.0).then(|| slope / weight)
 }
@@ -192,11 +182,10 @@ fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64
     let lengths = grains.box_lengths()?;
     let area = lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3];
     let all = &grains.grains;
+    let below = |x: &Vector, r: f64, at: f64| cap_volume(r, at - x[axis]);
     let parts = all.position.iter().zip(&all.radius);
-    let solid: f64 = parts
-        .map(|(x, r)| cap_volume(*r, to - x[axis]) - cap_volume(*r, from - x[axis]))
-        .sum();
-    Some(1.0 - solid / (area * (to - from)))
+    let solid = parts.map(|(x, r)| below(x, *r, to) - below(x, *r, from));
+    Some(1.0 - solid.sum::<f64>() / (area * (to - from)))
 }
 
 /// Length of a deposit along an axis, m: from its start to the first slice of two diameters that holds less than a layer
@@ -221,14 +210,11 @@ fn deposit(grains: &GrainSystem, axis: usize) -> f64 {
     for (x, r) in all.position.iter().zip(&all.radius) {
         let place = (x[axis] - begin) / slice;
         // Beyond ten thousand slices nothing belongs to a deposit.
-        if !(0.0..1e4).contains(&place) {
-            continue;
+        if (0.0..1e4).contains(&place) {
+            let k = place as usize;
+            volumes.resize(volumes.len().max(k + 1), 0.0);
+            volumes[k] += sphere(*r);
         }
-        let k = place as usize;
-        if volumes.len() <= k {
-            volumes.resize(k + 1, 0.0);
-        }
-        volumes[k] += sphere(*r);
     }
     let layer = 0.6 * slice * width * diameter;
     let thin = volumes.iter().position(|v| *v < layer);
@@ -284,8 +270,8 @@ pub fn headings(scene: &Scene) -> Vec<(String, String)> {
 pub fn row(scene: &Scene, model: &Model, origin: &Origin, dt: f64) -> Vec<f64> {
     let own = common(scene).map(|(_, _, value)| value(model, dt));
     let probes = scene.probe.values();
-    own.chain(probes.map(|p| value(p, scene, model, origin)))
-        .collect()
+    let probes = probes.map(|p| value(p, scene, model, origin));
+    own.chain(probes).collect()
 }
 
 /// Points along and across a mean radius.

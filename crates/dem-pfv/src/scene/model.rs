@@ -33,39 +33,8 @@ pub enum Saved {
     Wet(Box<crate::coupled::State>),
 }
 
-/// A step that was made.
-#[derive(Clone, Copy, Debug)]
-pub struct StepOutcome {
-    /// Its length, s.
-    pub step: f64,
-    /// Its limiter.
-    pub limiter: &'static str,
-}
-
-/// The load of a piston that changes.
-#[derive(Clone, Debug)]
-pub struct Load {
-    /// Number of the wall.
-    pub wall: usize,
-    /// σ(t).
-    pub piston: Piston,
-}
-
-impl Load {
-    /// σ at a time (s), Pa.
-    fn stress(&self, time: f64) -> f64 {
-        let p = &self.piston;
-        let swing = p.period.map_or(0.0, |period| {
-            p.amplitude * (2.0 * std::f64::consts::PI * time / period).sin()
-        });
-        p.stress + p.ramp * time + swing
-    }
-
-    /// True if it changes at all.
-    pub fn varies(&self) -> bool {
-        self.piston.ramp != 0.0 || self.piston.amplitude != 0.0
-    }
-}
+/// Length of a step, s, and its limiter.
+type MadeStep = (f64, &'static str);
 
 impl Model {
     /// The grains.
@@ -98,11 +67,11 @@ impl Model {
         }
     }
 
-    /// Sets the loads of the time that is now.
-    pub fn apply(&mut self, loads: &[Load]) {
-        for load in loads {
-            let stress = load.stress(self.grains().time);
-            if let Some(wall) = self.grains_mut().walls.get_mut(load.wall)
+    /// Sets the loads of the time that is now: numbers of walls and their pistons.
+    pub fn apply(&mut self, loads: &[(usize, Piston)]) {
+        for (wall, piston) in loads {
+            let stress = piston.stress_at(self.grains().time);
+            if let Some(wall) = self.grains_mut().walls.get_mut(*wall)
                 && let Control::Piston { mass, .. } = wall.control
             {
                 wall.control = Control::Piston { stress, mass };
@@ -110,16 +79,16 @@ impl Model {
         }
     }
 
-    /// One step of a share `safety` of the largest stable one, but not beyond `end` (s).
+    /// One step of a share `safety` of the largest stable one, but not beyond `end` (s); returns its length, s, and limiter.
     ///
     /// # Errors
     /// The failure, with the grain, the wall or the cell.
-    pub fn advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, Box<Failure>> {
+    pub fn advance(&mut self, safety: f64, end: f64) -> Result<MadeStep, Box<Failure>> {
         let made = self.try_advance(safety, end);
         made.map_err(|error| Box::new(self.failure(error)))
     }
 
-    fn try_advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, CoupledError> {
+    fn try_advance(&mut self, safety: f64, end: f64) -> Result<MadeStep, CoupledError> {
         let left = (end - self.grains().time).max(0.0);
         let (stable, of) = match self {
             Self::Dry(system) => (system.current_limit(), "contacts"),
@@ -141,7 +110,7 @@ impl Model {
             Self::Wet(system) => system.step_unchecked(step)?,
         }
         let limiter = if motion < stable { "motion" } else { of };
-        Ok(StepOutcome { step, limiter })
+        Ok((step, limiter))
     }
 
     fn failure(&self, error: CoupledError) -> Failure {

@@ -1,8 +1,6 @@
 //! Grains at the start: placed, grown, rained, settled.
 
-use crate::grains::{
-    Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, step_to_rest, uniform_radii,
-};
+use crate::grains::{Cloud, Grain, GrainError, GrainSystem, rain, step_to_rest, uniform_radii};
 use crate::scene::error::{DemError, at_start, named, rows};
 use crate::scene::laws::Laws;
 use crate::scene::read::Loaded;
@@ -38,24 +36,11 @@ pub fn grains(
     let told = |e: GrainError| at_start(loaded, e);
     let mut system = GrainSystem::new(setup).map_err(told)?;
     if let Some(grown) = &scene.start.grown {
-        let target = match (grown.stress, grown.porosity) {
-            (Some(stress), _) => Target::Stress(stress),
-            (None, Some(porosity)) => Target::Porosity(porosity),
-            (None, None) => return Err(DemError::at("start.grown", "has no target")),
-        };
         tell("growing the grains");
-        let growth = Growth {
-            target,
-            fast: grown.fast,
-            slow: grown.slow,
-            safety: scene.start.safety,
-            tolerance: grown.tolerance,
-            most_steps: scene.start.most_steps,
-        };
         // Under its own weight a heap would press on the floor before there is a packing.
         let gravity = system.gravity;
         system.gravity = Default::default();
-        let steps = growth.run(&mut system);
+        let steps = grown.run(&mut system, scene.start.safety, scene.start.most_steps);
         system.gravity = gravity;
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
         tell(&format!("grown in {steps} steps{}", porosity(&system)));

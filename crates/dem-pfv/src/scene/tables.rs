@@ -6,7 +6,8 @@ mod wall;
 
 pub use crate::Axis;
 pub use crate::coupled::Wave;
-pub use grains::{Cloud, Grains, Grown, Lattice, Rained, Start, Weight};
+pub use crate::grains::Grown;
+pub use grains::{Cloud, Grains, Lattice, Rained, Start, Weight};
 pub use probe::{Probe, Reference, Statistic};
 pub use wall::{Box, Piston, RecordedLoad, Servo, Wall};
 

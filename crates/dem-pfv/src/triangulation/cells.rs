@@ -149,12 +149,11 @@ impl Triangulation {
             v => (v - spheres.len()) as u32 | WALL,
         };
         let kept = (0..vacant.len()).filter(|c| number[*c] != NONE);
-        let cells: Vec<_> = kept
-            .map(|c| Cell {
-                vertices: builder.cells[c].map(vertex),
-                neighbours: builder.neighbours[c].map(|n| number[n as usize]),
-            })
-            .collect();
+        let cell = |c: usize| Cell {
+            vertices: builder.cells[c].map(vertex),
+            neighbours: builder.neighbours[c].map(|n| number[n as usize]),
+        };
+        let cells: Vec<_> = kept.map(cell).collect();
         let place = |v: u32| match v & WALL {
             0 => v,
             _ => spheres.len() as u32 + (v & !WALL),

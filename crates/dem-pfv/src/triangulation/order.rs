@@ -90,9 +90,8 @@ mod tests {
 
     #[test]
     fn every_sphere_is_inserted_once() {
-        let spheres: Vec<_> = (0..1000)
-            .map(|i| Sphere::new([f64::from(i), 0.0, 0.0], 0.1))
-            .collect();
+        let sphere = |i| Sphere::new([f64::from(i), 0.0, 0.0], 0.1);
+        let spheres: Vec<_> = (0..1000).map(sphere).collect();
         let mut order = insertion_order(&spheres);
         assert_ne!(order, (0..1000).collect::<Vec<_>>());
         order.sort_unstable();

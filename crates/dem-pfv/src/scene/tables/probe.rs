@@ -227,6 +227,15 @@ pub enum Reference {
 }
 
 impl Reference {
+    /// First and last time, s, or time factor of the rows that are compared.
+    pub(crate) fn window(&self) -> [Option<f64>; 2] {
+        match self {
+            Self::Terzaghi { from, to, .. } => [*from, *to].map(Some),
+            Self::Value { from, to, .. } | Self::Line { from, to, .. } => [*from, *to],
+            Self::Scaling { .. } | Self::Curve { .. } => [None; 2],
+        }
+    }
+
     /// Name of the probe that is compared.
     pub(crate) fn probe(&self) -> &str {
         match self {

@@ -106,6 +106,17 @@ pub struct Piston {
     pub period: Option<f64>,
 }
 
+impl Piston {
+    /// σ at a time (s), Pa.
+    pub(crate) fn stress_at(&self, time: f64) -> f64 {
+        let turn = |period: f64| (2.0 * std::f64::consts::PI * time / period).sin();
+        let swing = self
+            .period
+            .map_or(0.0, |period| self.amplitude * turn(period));
+        self.stress + self.ramp * time + swing
+    }
+}
+
 /// A wall that is moved so that it bears a stress.
 #[parameters]
 pub struct Servo {

@@ -1,7 +1,7 @@
 //! Equilibria under weight and stress.
 
 use dem_pfv::grains::{
-    Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, step_to_rest,
+    Control, Grain, GrainSystem, Grown, LinearElastic, Setup, Vector, Wall, step_to_rest,
 };
 
 use crate::grains::{GRAVITY, RADIUS, STIFFNESS, close, grain, law, position, run};
@@ -47,12 +47,13 @@ fn sample(friction: f64) -> GrainSystem {
         .damping(0.2);
     let mut system = GrainSystem::new(setup).expect("a sample");
     // A hundred times faster than the custom, for a small sample.
-    let growth = Growth {
+    let growth = Grown {
         fast: 1.002,
         slow: 1.0002,
-        ..Growth::new(Target::Stress(5e4), modulus)
+        stress: Some(5e4),
+        ..Grown::default()
     };
-    growth.run(&mut system).expect("grown");
+    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
     system
 }
 
