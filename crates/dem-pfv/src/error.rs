@@ -5,7 +5,7 @@ use sph_core::RegistryError;
 use thiserror::Error;
 
 use crate::coupled::StepLimit;
-use crate::grains::Partner;
+use crate::grains::{GrainSystem, Partner};
 
 /// A number out of its range.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -100,16 +100,9 @@ pub enum FlowError {
     /// Two walls that are neither parallel nor at right angles.
     #[error("walls {0} and {1} meet at an angle that is not a right one")]
     ObliqueWalls(usize, usize),
-    /// A list that has not the length it should have.
-    #[error("there are {given} {what}; {needed} are needed")]
-    Length {
-        /// Name of the list.
-        what: &'static str,
-        /// Given.
-        given: usize,
-        /// Needed.
-        needed: usize,
-    },
+    /// A list that has not the length it should have: its name, its length, the length that it needs.
+    #[error("there are {1} {0}; {2} are needed")]
+    Length(&'static str, usize, usize),
     /// Two spheres that overlap deeply: the depth, and the allowed one in terms of the smaller radius.
     #[error("spheres {0} and {1} overlap by {2} m, more than {3} of the smaller radius")]
     Overlap(usize, usize, f64, f64),
@@ -158,41 +151,21 @@ pub enum GrainError {
     /// Two grains that overlap deeply, and the depth.
     #[error("grains {0} and {1} overlap by {2:.3e} m, more than a tenth of the smaller radius")]
     Overlap(usize, usize, f64),
-    /// A grain in a wall or beyond it.
+    /// A grain in a wall or beyond it: its number and the wall's, the depth, and the signed distance of its centre, negative
+    /// beyond the wall.
     #[error(
-        "grain {grain} reaches {overlap:.3e} m into wall {wall}, more than a tenth of its radius; \
-         its centre is {distance:.3e} m from the wall"
+        "grain {0} reaches {2:.3e} m into wall {1}, more than a tenth of its radius; \
+         its centre is {3:.3e} m from the wall"
     )]
-    InWall {
-        /// The grain.
-        grain: usize,
-        /// The wall.
-        wall: usize,
-        /// Depth, m.
-        overlap: f64,
-        /// Signed distance of its centre, negative beyond the wall, m.
-        distance: f64,
-    },
-    /// A grain in a triangle of a mesh.
-    #[error(
-        "grain {grain} reaches {overlap:.3e} m into triangle {triangle} of mesh {mesh}, \
-         more than a tenth of its radius"
-    )]
-    InMesh {
-        /// The grain.
-        grain: usize,
-        /// The mesh.
-        mesh: usize,
-        /// The triangle.
-        triangle: usize,
-        /// Depth, m.
-        overlap: f64,
-    },
+    InWall(usize, usize, f64, f64),
+    /// A grain in a triangle of a mesh, and the depth.
+    #[error("grain {0} reaches {2:.3e} m into {1}, more than a tenth of its radius")]
+    InMesh(usize, Partner, f64),
     /// A grain that overlaps another body too deep for a step.
     #[error(
         "grain {grain} at ({:.4e}, {:.4e}, {:.4e}) m overlaps {body} by {overlap:.3e} m, {share:.2} of its radius; \
          contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
-        at[0], at[1], at[2]
+        at[0], at[1], at[2], most = GrainSystem::DEEPEST
     )]
     TooDeep {
         /// The grain.
@@ -205,8 +178,6 @@ pub enum GrainError {
         overlap: f64,
         /// Depth over the radius of the grain.
         share: f64,
-        /// Depth over the smaller radius that a step may have.
-        most: f64,
     },
     /// A grain outside the periodic box: its number, the axis, its coordinate, the ends of the period.
     #[error("grain {0} is at {2} m on axis {1}, outside the period from {from} to {to} m", from = .3[0], to = .3[1])]
@@ -232,16 +203,10 @@ pub enum GrainError {
     /// A parameter of a law or a number of the whole system that is out of range.
     #[error(transparent)]
     Number(#[from] OutOfRange),
-    /// A step that the stiffest contacts do not bear.
-    #[error("the step {step} s is above the critical one, {critical} s, which grain {grain} sets")]
-    StepTooLarge {
-        /// Given, s.
-        step: f64,
-        /// Allowed, s.
-        critical: f64,
-        /// The grain with the largest ratio of stiffness to mass.
-        grain: usize,
-    },
+    /// A step that the stiffest contacts do not bear, the critical one, and the grain with the largest ratio of stiffness to
+    /// mass.
+    #[error("the step {0} s is above the critical one, {1} s, which grain {2} sets")]
+    StepTooLarge(f64, f64, usize),
     /// A wall that is pressed and whose area is not known.
     #[error(
         "the area of wall {0} is not known: give it, or close the box with walls along the axes"
@@ -268,11 +233,11 @@ impl GrainError {
             Self::Overlap(first, second, _) => vec![first, second],
             Self::NotPositive(grain, ..)
             | Self::NotFinite(grain, ..)
-            | Self::InWall { grain, .. }
-            | Self::InMesh { grain, .. }
+            | Self::InWall(grain, ..)
+            | Self::InMesh(grain, ..)
             | Self::TooDeep { grain, .. }
             | Self::OutsidePeriod(grain, ..)
-            | Self::StepTooLarge { grain, .. } => vec![grain],
+            | Self::StepTooLarge(.., grain) => vec![grain],
             _ => Vec::new(),
         }
     }

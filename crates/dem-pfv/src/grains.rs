@@ -31,11 +31,9 @@
 //! # Ok::<(), dem_pfv::grains::GrainError>(())
 //! ```
 
-mod grid;
 mod law;
 mod measure;
 mod motion;
-mod rest;
 mod samples;
 mod setup;
 mod springs;

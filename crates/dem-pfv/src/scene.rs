@@ -41,7 +41,6 @@
 //! # Ok::<(), dem_pfv::scene::DemError>(())
 //! ```
 
-mod assemble;
 mod check;
 mod compare;
 mod error;
@@ -58,12 +57,12 @@ mod summary;
 mod tables;
 mod walls;
 
-pub use assemble::{Assembled, assemble};
 pub use compare::Compared;
 pub use error::{DemError, Failure};
 pub use examine::Cost;
 pub use examine::{Examination, examine};
 pub use fields::Origin;
+pub use model::{Assembled, assemble};
 pub use model::{Model, Saved};
 pub use read::editor_schema;
 pub use read::{Loaded, is_grain_scene, read};

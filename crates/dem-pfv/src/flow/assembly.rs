@@ -1,8 +1,8 @@
 //! Boundary conditions, unknowns and entries of the system.
 
-use nalgebra::Vector3;
 use sparse::UpperTriangle;
 
+use crate::Vector;
 use crate::flow::{Conductance, FlowError, PoreGeometry};
 use crate::triangulation::Vertex;
 
@@ -143,7 +143,7 @@ impl Boundary {
         &mut self,
         geometry: &PoreGeometry,
         wall: usize,
-        value: impl Fn(Vector3<f64>) -> Option<f64>,
+        value: impl Fn(Vector) -> Option<f64>,
     ) {
         for &c in geometry.mesh.cells_around(Vertex::Wall(wall)) {
             if let Some(p) = value(geometry.centres[c as usize]) {
@@ -159,7 +159,7 @@ impl Boundary {
         geometry: &PoreGeometry,
         wall: usize,
         velocity: f64,
-        part: impl Fn(Vector3<f64>) -> bool,
+        part: impl Fn(Vector) -> bool,
     ) -> f64 {
         let mut total = 0.0;
         for &c in geometry.mesh.cells_around(Vertex::Wall(wall)) {

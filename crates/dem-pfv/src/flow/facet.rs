@@ -1,11 +1,12 @@
 //! Facets: vector areas, sectors of spheres, edges, solid angles, the circle between discs and walls.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
+use crate::Vector;
 use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
 /// From a sphere's centre to another vertex: to a centre, or to its own foot on a wall.
-pub fn edge(mesh: &Triangulation, k: usize, other: Vertex) -> Vector3<f64> {
+pub fn edge(mesh: &Triangulation, k: usize, other: Vertex) -> Vector {
     let x = mesh.spheres[k].centre;
     match other {
         Vertex::Sphere(l) => mesh.spheres[l].centre - x,
@@ -33,7 +34,7 @@ impl<'a> Facet<'a> {
 
     /// Vector area S (m²), of either sign: a triangle of three centres; a trapezoid of two and their feet on
     /// a wall; a rectangle of one, its feet on two walls, and the edge of the room.
-    pub fn area(&self) -> Vector3<f64> {
+    pub fn area(&self) -> Vector {
         let x = |k: usize| self.spheres[k].centre;
         match *self.walls {
             [] => 0.5 * (x(1) - x(0)).cross(&(x(2) - x(0))),
@@ -70,7 +71,7 @@ impl<'a> Facet<'a> {
 }
 
 /// Angle between two directions, rad, 0 to π.
-pub fn angle(a: Vector3<f64>, b: Vector3<f64>) -> f64 {
+pub fn angle(a: Vector, b: Vector) -> f64 {
     a.cross(&b).norm().atan2(a.dot(&b))
 }
 
@@ -83,7 +84,7 @@ pub fn angle(a: Vector3<f64>, b: Vector3<f64>) -> f64 {
 /// positive if a, b, c turn right-handed around a + b + c. The quadrant matters: where the denominator is
 /// negative, the plain arc tangent is wrong by up to 2π. Lengths of a, b, c do not matter. Source: Van Oosterom
 /// & Strackee 1983.
-pub fn solid_angle(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> f64 {
+pub fn solid_angle(a: Vector, b: Vector, c: Vector) -> f64 {
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(&c));
     let sum = la * lb * lc + a.dot(&b) * lc + a.dot(&c) * lb + b.dot(&c) * la;
@@ -98,7 +99,7 @@ pub fn solid_angle(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> f64 {
 /// ```
 ///
 /// c is linear in r, and r the least positive root of a quadratic equation. None if there is no such circle.
-pub fn inscribed_radius(facet: &Facet, normal: Vector3<f64>) -> Option<f64> {
+pub fn inscribed_radius(facet: &Facet, normal: Vector) -> Option<f64> {
     let first = facet.spheres[0];
     let discs = facet.spheres[1..].iter().map(|s| {
         let d = s.centre - first.centre;
@@ -118,8 +119,8 @@ pub fn inscribed_radius(facet: &Facet, normal: Vector3<f64>) -> Option<f64> {
     let matrix = Matrix3::from_rows(&[a.transpose(), b.transpose(), normal.transpose()]);
     let inverse = matrix.try_inverse()?;
     let (u, v) = (
-        inverse * Vector3::new(a0, b0, 0.0),
-        inverse * Vector3::new(a1, b1, 0.0),
+        inverse * Vector::new(a0, b0, 0.0),
+        inverse * Vector::new(a1, b1, 0.0),
     );
     let square = v.norm_squared() - 1.0;
     let linear = u.dot(&v) - first.radius;

@@ -1,9 +1,8 @@
 //! Forces of the fluid on spheres and walls.
 
-use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use crate::coupled::Vector;
+use crate::Vector;
 use crate::flow::PoreGeometry;
 use crate::triangulation::Vertex;
 
@@ -20,21 +19,21 @@ use crate::triangulation::Vertex;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forces {
     /// Pressure force on every sphere, N.
-    pub pressure: Vec<Vector3<f64>>,
+    pub pressure: Vec<Vector>,
     /// Viscous force on every sphere, N.
-    pub viscous: Vec<Vector3<f64>>,
+    pub viscous: Vec<Vector>,
     /// Pressure force on every wall, N, out of the room.
-    pub wall_pressure: Vec<Vector3<f64>>,
+    pub wall_pressure: Vec<Vector>,
     /// Viscous force on every wall with grip, N.
-    pub wall_viscous: Vec<Vector3<f64>>,
+    pub wall_viscous: Vec<Vector>,
 }
 
 impl Forces {
     /// Forces of the pressures of all cells, Pa.
     pub fn new(geometry: &PoreGeometry, pressures: &[f64]) -> Self {
         let mesh = &geometry.mesh;
-        let spheres = vec![Vector3::zeros(); mesh.spheres.len()];
-        let walls = vec![Vector3::zeros(); mesh.walls.len()];
+        let spheres = vec![Vector::zeros(); mesh.spheres.len()];
+        let walls = vec![Vector::zeros(); mesh.walls.len()];
         let mut forces = Self {
             pressure: spheres.clone(),
             viscous: spheres,
@@ -66,7 +65,7 @@ impl Forces {
     }
 
     /// Sum of both parts on a sphere, N.
-    pub fn on_sphere(&self, sphere: usize) -> Vector3<f64> {
+    pub fn on_sphere(&self, sphere: usize) -> Vector {
         self.pressure[sphere] + self.viscous[sphere]
     }
 }

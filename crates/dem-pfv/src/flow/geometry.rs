@@ -1,7 +1,6 @@
 //! Pores and throats of spheres in a box: volumes of cells, faces between neighbours.
 
-use nalgebra::Vector3;
-
+use crate::Vector;
 use crate::flow::facet::{Facet, edge};
 use crate::flow::throat::{Pores, SlipCondition, SolidAngles};
 use crate::flow::{FlowError, Throat, solid_angle};
@@ -16,7 +15,7 @@ pub struct PoreGeometry {
     /// The triangulation.
     pub mesh: Triangulation,
     /// Power centre of every cell, m.
-    pub centres: Vec<Vector3<f64>>,
+    pub centres: Vec<Vector>,
     /// Volume of every cell, m³; the sum is that of the room.
     pub volumes: Vec<f64>,
     /// Volume of fluid in every cell, m³.
@@ -51,11 +50,8 @@ impl PoreGeometry {
         deepest: f64,
     ) -> Result<Self, FlowError> {
         if grips.len() != mesh.walls.len() {
-            return Err(FlowError::Length {
-                what: "grips of walls",
-                given: grips.len(),
-                needed: mesh.walls.len(),
-            });
+            let (given, needed) = (grips.len(), mesh.walls.len());
+            return Err(FlowError::Length("grips of walls", given, needed));
         }
         check_walls(&mesh)?;
         check_overlaps(&mesh, deepest)?;
@@ -148,16 +144,16 @@ fn check_overlaps(mesh: &Triangulation, deepest: f64) -> Result<(), FlowError> {
 ///
 /// A volume is negative if the cell has turned inside out. Rates follow by differences in time, from
 /// volumes of the same mesh. Source: the exact limit of Catalano 2012, §3.1.
-pub fn cell_volumes(mesh: &Triangulation, centres: &[Vector3<f64>], walls: &[Wall]) -> Vec<f64> {
+pub fn cell_volumes(mesh: &Triangulation, centres: &[Vector], walls: &[Wall]) -> Vec<f64> {
     let volume = |cell: &Cell| volume(cell, centres, walls);
     mesh.cells.iter().map(volume).collect()
 }
 
-fn volume(cell: &Cell, centres: &[Vector3<f64>], walls: &[Wall]) -> f64 {
+fn volume(cell: &Cell, centres: &[Vector], walls: &[Wall]) -> f64 {
     let (vertices, sign) = spheres_first(cell.vertices());
     let x = |i: usize| match vertices[i] {
         Vertex::Sphere(k) => centres[k],
-        Vertex::Wall(_) => Vector3::zeros(),
+        Vertex::Wall(_) => Vector::zeros(),
     };
     let wall = |i: usize| match vertices[i] {
         Vertex::Wall(w) => Some(&walls[w]),
@@ -262,7 +258,7 @@ impl PoreGeometry {
         let [i, j] = throat.cells.map(|c| self.centres[c] - middle);
         let around = direction.cross(&edge(mesh, sphere, third));
         let turn = throat.normal.dot(&around);
-        let area: Vector3<f64> = 0.5 * i.cross(&j);
+        let area: Vector = 0.5 * i.cross(&j);
         area.dot(&direction) * turn.signum()
     }
 }

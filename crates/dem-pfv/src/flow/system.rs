@@ -180,11 +180,7 @@ impl FlowSystem {
         let needed = self.unknowns.len();
         match given == needed {
             true => Ok(()),
-            false => Err(FlowError::Length {
-                what,
-                given,
-                needed,
-            }),
+            false => Err(FlowError::Length(what, given, needed)),
         }
     }
 

@@ -1,8 +1,8 @@
 //! A throat: the space around a facet between the power centres of two cells.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::Vector;
 use crate::flow::facet::{Facet, angle, edge, inscribed_radius};
 use crate::flow::solid_angle;
 use crate::triangulation::{self as mesh, Triangulation, Vertex};
@@ -37,7 +37,7 @@ pub struct Throat {
     /// The vertices of its facet.
     pub vertices: [Vertex; 3],
     /// Unit normal n of the facet, from i to j.
-    pub normal: Vector3<f64>,
+    pub normal: Vector,
     /// Area of the facet, m².
     pub area: f64,
     /// Part of it outside the spheres, m²; negative only if spheres overlap all over it.
@@ -75,7 +75,7 @@ impl Throat {
 /// Input of throats.
 pub struct Pores<'a> {
     pub mesh: &'a Triangulation,
-    pub centres: &'a [Vector3<f64>],
+    pub centres: &'a [Vector],
     pub grips: &'a [SlipCondition],
     pub angles: SolidAngles,
 }
@@ -110,14 +110,14 @@ impl Pores<'_> {
     }
 
     /// Centres of a facet's spheres.
-    fn centres_of(&self, facet: &mesh::Facet) -> impl Iterator<Item = Vector3<f64>> {
+    fn centres_of(&self, facet: &mesh::Facet) -> impl Iterator<Item = Vector> {
         let spheres = facet.vertices.into_iter().filter_map(Vertex::sphere);
         spheres.map(|k| self.mesh.spheres[k].centre)
     }
 
     /// The area with its sign from cell i to j: as the power centres lie, or, where they are one point, away
     /// from the vertex opposite.
-    fn outward(&self, facet: &mesh::Facet, area: Vector3<f64>) -> Vector3<f64> {
+    fn outward(&self, facet: &mesh::Facet, area: Vector) -> Vector {
         let [i, j] = facet.cells;
         let along = self.centres[j] - self.centres[i];
         let far = along.norm() > NO_LENGTH * area.norm().sqrt();
@@ -138,7 +138,7 @@ impl Pores<'_> {
         &self,
         facet: &mesh::Facet,
         shape: &Facet,
-        area: Vector3<f64>,
+        area: Vector,
     ) -> ([f64; 3], f64, [f64; 3]) {
         let (mut sectors, mut solid, mut wetted) = ([0.0; 3], 0.0, [0.0; 3]);
         let mut among_spheres = 0;
@@ -157,14 +157,7 @@ impl Pores<'_> {
 
     /// Solid angle at sphere k of the two pyramids over the facet, two triangles that share the line between the
     /// power centres; each with the sign of its turn around the facet's normal.
-    fn solid_angle(
-        &self,
-        k: usize,
-        l: Vector3<f64>,
-        m: Vector3<f64>,
-        cells: [usize; 2],
-        area: Vector3<f64>,
-    ) -> f64 {
+    fn solid_angle(&self, k: usize, l: Vector, m: Vector, cells: [usize; 2], area: Vector) -> f64 {
         let x = self.mesh.spheres[k].centre;
         let [pi, pj] = cells.map(|c| self.centres[c] - x);
         let (first, second) = (solid_angle(l, pi, pj), solid_angle(m, pi, pj));

@@ -220,12 +220,7 @@ impl GrainSystem {
         require("the step is", step, "positive", step > 0.0)?;
         let limit = self.fresh_limit();
         if step > limit.step {
-            let (critical, grain) = (limit.step, limit.grain);
-            return Err(GrainError::StepTooLarge {
-                step,
-                critical,
-                grain,
-            });
+            return Err(GrainError::StepTooLarge(step, limit.step, limit.grain));
         }
         self.integrate_unchecked(step)
     }

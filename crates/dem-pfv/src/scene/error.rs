@@ -74,7 +74,7 @@ pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
 /// The names of the walls and the lines of the grains that an error numbers, in brackets; empty if it has none.
 pub fn named(loaded: &Loaded, error: &GrainError) -> String {
     let mut names = Vec::new();
-    if let GrainError::InWall { wall, .. }
+    if let GrainError::InWall(_, wall, ..)
     | GrainError::BadWall(wall, _)
     | GrainError::TooDeep {
         body: Partner::Wall(wall),

@@ -14,13 +14,14 @@ use sph_run::{
 use toml::Table;
 
 use crate::coupled::CoupledError;
-use crate::scene::assemble::{Assembled, assemble, loads};
 use crate::scene::error::{DemError, Failure, named};
 use crate::scene::examine::examine;
 use crate::scene::fields::values;
 use crate::scene::laws::{Laws, throats};
 use crate::scene::measure::{headings, row};
-use crate::scene::model::{CheckpointState, Model, Progress, load_checkpoint, save_checkpoint};
+use crate::scene::model::{
+    Assembled, CheckpointState, Model, Progress, assemble, load_checkpoint, loads, save_checkpoint,
+};
 use crate::scene::read::{Loaded, read};
 use crate::scene::summary::Summary;
 use crate::scene::tables::Probe;

@@ -6,11 +6,10 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use sph_run::{RunCounters, Status};
 
-use crate::scene::assemble::Assembled;
 use crate::scene::compare::Compared;
 use crate::scene::examine::plugins;
 use crate::scene::fields::Origin;
-use crate::scene::model::Progress;
+use crate::scene::model::{Assembled, Progress};
 use crate::scene::tables::Scene;
 
 /// Content of `summary.json`.

@@ -1,7 +1,6 @@
 //! The finished triangulation: cells, facets, neighbours, power centres.
 
-use nalgebra::Vector3;
-
+use crate::Vector;
 use crate::groups::Groups;
 use crate::triangulation::build::Builder;
 use crate::triangulation::order::insertion_order;
@@ -181,9 +180,9 @@ impl Triangulation {
     }
 
     /// Mean of the centres of a cell's spheres, m.
-    pub fn middle(&self, cell: &Cell) -> Vector3<f64> {
+    pub fn middle(&self, cell: &Cell) -> Vector {
         let spheres = cell.vertices().into_iter().filter_map(Vertex::sphere);
-        let sum: Vector3<f64> = spheres.map(|k| self.spheres[k].centre).sum();
+        let sum: Vector = spheres.map(|k| self.spheres[k].centre).sum();
         sum / (4 - cell.walls()) as f64
     }
 
@@ -210,12 +209,12 @@ impl Triangulation {
     ///
     /// solved by Cramer's rule. Source: Catalano 2012, §3.1; the wall's row is the limit of a tangent
     /// sphere of infinite radius.
-    pub fn power_centre(&self, cell: usize) -> Vector3<f64> {
+    pub fn power_centre(&self, cell: usize) -> Vector {
         let vertices = self.cells[cell].vertices();
         let spheres = vertices.iter().enumerate();
         let mut spheres = spheres.filter_map(|(i, v)| Some((i, &self.spheres[v.sphere()?])));
         let Some((base, s0)) = spheres.next() else {
-            return Vector3::repeat(f64::NAN);
+            return Vector::repeat(f64::NAN);
         };
         let row = |v: Vertex| match v {
             Vertex::Sphere(k) => {

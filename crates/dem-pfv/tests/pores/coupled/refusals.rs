@@ -54,10 +54,7 @@ fn grains_that_overlap_or_are_in_walls_are_named() {
     );
     let error = CoupledError::from(grains(vec![ball(1.5, 0.2)]).expect_err("beyond the wall"));
     assert!(
-        matches!(
-            error,
-            CoupledError::Grains(GrainError::InWall { grain: 0, .. })
-        ),
+        matches!(error, CoupledError::Grains(GrainError::InWall(0, ..))),
         "{error}"
     );
     assert!(matches!(grains(vec![]), Err(GrainError::NoGrains)));
