@@ -34,7 +34,6 @@
 //! ```
 
 mod assembly;
-mod conductance;
 mod facet;
 mod forces;
 mod geometry;
@@ -43,9 +42,6 @@ mod throat;
 
 pub use crate::error::FlowError;
 pub use assembly::Boundary;
-pub use conductance::{
-    Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance,
-};
 pub use facet::solid_angle;
 pub use forces::Forces;
 pub(crate) use forces::UnitForces;
@@ -53,4 +49,5 @@ pub use geometry::Edge;
 pub use geometry::PoreGeometry;
 pub use geometry::cell_volumes;
 pub use system::{FlowSystem, Solver, Storage};
+pub use throat::{Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance};
 pub use throat::{SlipCondition, SolidAngles, Throat};

@@ -92,9 +92,7 @@ impl ContactLaw for LinearElastic {
                 total -= sliding * (2.0 * self.damping * (mass * kt).sqrt());
             }
             slide(contact, normal, [shear, total], self.friction);
-            if let Some(rolling) = &self.rolling {
-                rolling.act(contact, 3, normal, kt);
-            }
+            roll(contact, normal, kt, self.rolling, 3);
         }
     }
 
@@ -105,12 +103,10 @@ impl ContactLaw for LinearElastic {
     fn stiffness(&self, radius: [f64; 2], _overlap: f64) -> Stiffness {
         let normal = self.normal_stiffness(radius);
         let tangential = self.stiffness_ratio * normal;
-        let radius = reduced(radius);
-        let rolling = self.rolling.map(|r| r.stiffness(tangential, radius));
         Stiffness {
             normal,
             tangential,
-            rolling: rolling.unwrap_or(0.0),
+            rolling: rolling(self.rolling, tangential, reduced(radius)),
             damping: self.damping,
         }
     }
@@ -211,9 +207,7 @@ impl ContactLaw for HertzMindlin {
             }
             slide(contact, normal, [shear, total], self.friction);
             contact.memory[3] = kt;
-            if let Some(rolling) = &self.rolling {
-                rolling.act(contact, 4, normal, kt);
-            }
+            roll(contact, normal, kt, self.rolling, 4);
         }
     }
 
@@ -225,11 +219,10 @@ impl ContactLaw for HertzMindlin {
         let radius = reduced(radius);
         let disc = (radius * overlap).sqrt();
         let tangential = self.tangential(disc);
-        let rolling = self.rolling.map(|r| r.stiffness(tangential, radius));
         Stiffness {
             normal: 2.0 * self.contact_modulus() * disc,
             tangential,
-            rolling: rolling.unwrap_or(0.0),
+            rolling: rolling(self.rolling, tangential, radius),
             damping: self.damping,
         }
     }
@@ -251,19 +244,25 @@ pub struct RollingResistance {
     pub stiffness: f64,
 }
 
-impl RollingResistance {
-    /// k_r, N m.
-    pub(crate) fn stiffness(&self, tangential: f64, reduced_radius: f64) -> f64 {
-        self.stiffness * tangential * reduced_radius * reduced_radius
-    }
+/// k_r, N m.
+fn rolling(of: Option<RollingResistance>, tangential: f64, radius: f64) -> f64 {
+    of.map_or(0.0, |of| of.stiffness * tangential * radius * radius)
+}
 
-    /// Writes the couple; the moment is remembered from `first` on.
-    pub(crate) fn act(&self, contact: &mut Contact, first: usize, normal: f64, tangential: f64) {
+/// Writes the couple of a resistance to rolling; the moment is remembered from `first` on.
+fn roll(
+    contact: &mut Contact,
+    normal: f64,
+    tangential: f64,
+    of: Option<RollingResistance>,
+    first: usize,
+) {
+    if let Some(RollingResistance { coefficient, .. }) = of {
         let radius = contact.reduced_radius();
         let turn = contact.tangential(contact.spin) * contact.step;
         let old = contact.carried(contact.remembered(first));
-        let mut moment = old - turn * self.stiffness(tangential, radius);
-        cut(&mut moment, self.coefficient * radius * normal.max(0.0));
+        let mut moment = old - turn * rolling(of, tangential, radius);
+        cut(&mut moment, coefficient * radius * normal.max(0.0));
         contact.remember(first, moment);
         contact.couple = moment;
     }

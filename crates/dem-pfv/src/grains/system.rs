@@ -163,13 +163,11 @@ impl GrainSystem {
             period,
             step,
         };
-        let (pairs, mut rest) = table.slots.split_at_mut(table.ends[0]);
-        view.pairs(pairs, &*laws[0]);
-        let mut taken = table.ends[0];
-        let mut ends = table.ends[1..].iter();
-        for (wall, &end) in walls.iter_mut().zip(ends.by_ref()) {
-            let (slots, after) = rest.split_at_mut(end - taken);
-            (rest, taken) = (after, end);
+        let mut parts = table.parts();
+        if let Some(pairs) = parts.next() {
+            view.pairs(pairs, &*laws[0]);
+        }
+        for (wall, slots) in walls.iter_mut().zip(parts.by_ref()) {
             view.wall(slots, wall, &*laws[wall.law]);
             let active = slots.iter().filter(|s| s.active);
             let zero = (Vector::zeros(), 0.0);
@@ -183,9 +181,7 @@ impl GrainSystem {
                 (force - s.force, stiffness + more)
             });
         }
-        for (mesh, &end) in meshes.iter_mut().zip(ends) {
-            let (slots, after) = rest.split_at_mut(end - taken);
-            (rest, taken) = (after, end);
+        for (mesh, slots) in meshes.iter_mut().zip(parts) {
             view.mesh(slots, mesh, &*laws[mesh.law]);
             (mesh.force, mesh.torque) = (Vector::zeros(), Vector::zeros());
             for slot in slots.iter().filter(|s| s.active) {

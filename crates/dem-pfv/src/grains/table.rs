@@ -91,6 +91,16 @@ impl Table {
         before.map_or(0, |before| self.ends[before])..self.ends[number]
     }
 
+    /// The slots of every part.
+    pub fn parts(&mut self) -> impl Iterator<Item = &mut [Slot]> {
+        let (mut rest, mut taken) = (&mut self.slots[..], 0);
+        self.ends.iter().map(move |&end| {
+            let (part, after) = std::mem::take(&mut rest).split_at_mut(end - taken);
+            (rest, taken) = (after, end);
+            part
+        })
+    }
+
     /// Slots of a grain with the side it has in each: 0 for the first body, 1 for the second.
     pub fn slots_of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
         let entries = self.entries.of(grain).iter();

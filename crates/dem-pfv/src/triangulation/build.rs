@@ -224,14 +224,13 @@ pub fn room(
 /// Triples of walls that meet in a corner of the room, with det(−n) > 0.
 fn corners(predicates: &Predicates, walls: usize) -> Result<Vec<[usize; 3]>, TriangulationError> {
     let mut found = Vec::new();
-    for i in 0..walls {
-        for j in i + 1..walls {
-            for k in j + 1..walls {
-                let turn = predicates.walls_orientation([i, j, k]);
-                if turn != Ordering::Equal && is_corner(predicates, [i, j, k], turn, walls)? {
-                    let right = turn == Ordering::Greater;
-                    found.push(if right { [i, j, k] } else { [j, i, k] });
-                }
+    for (i, j) in (0..walls).flat_map(|i| (i + 1..walls).map(move |j| (i, j))) {
+        for k in j + 1..walls {
+            match predicates.walls_orientation([i, j, k]) {
+                Ordering::Equal => {}
+                turn if !is_corner(predicates, [i, j, k], turn, walls)? => {}
+                Ordering::Greater => found.push([i, j, k]),
+                Ordering::Less => found.push([j, i, k]),
             }
         }
     }
@@ -243,23 +242,21 @@ fn corners(predicates: &Predicates, walls: usize) -> Result<Vec<[usize; 3]>, Tri
 /// point is inside if c < 0.
 fn is_corner(
     predicates: &Predicates,
-    three: [usize; 3],
+    [i, j, k]: [usize; 3],
     turn: Ordering,
     walls: usize,
 ) -> Result<bool, TriangulationError> {
-    let [i, j, k] = three;
     let mut meets = None;
-    for m in (0..walls).filter(|m| !three.contains(m)) {
+    for m in (0..walls).filter(|m| ![i, j, k].contains(m)) {
         match predicates.walls_lifted([i, j, k, m]) {
             Ordering::Equal => meets = Some([i, j, k, m]),
             side if side != turn => return Ok(false),
             _ => {}
         }
     }
-    match meets {
-        Some(walls) => Err(TriangulationError::FourWallsMeet(walls)),
-        None => Ok(true),
-    }
+    meets.map_or(Ok(true), |walls| {
+        Err(TriangulationError::FourWallsMeet(walls))
+    })
 }
 
 /// Refuses rooms of which an edge has not two ends, and walls without an edge.
@@ -277,10 +274,8 @@ fn closed(corners: &[[usize; 3]], walls: usize) -> Result<(), TriangulationError
     if corners.is_empty() {
         return Err(TriangulationError::Open(0, 1.min(walls - 1), 0));
     }
-    match (0..walls).find(|w| corners.iter().all(|c| !c.contains(w))) {
-        Some(wall) => Err(TriangulationError::IdleWall(wall)),
-        None => Ok(()),
-    }
+    let idle = (0..walls).find(|w| corners.iter().all(|c| !c.contains(w)));
+    idle.map_or(Ok(()), |wall| Err(TriangulationError::IdleWall(wall)))
 }
 
 /// Cells of four spheres that are not in one plane, far apart: one between them, four behind.

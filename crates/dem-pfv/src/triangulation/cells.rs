@@ -98,13 +98,9 @@ impl Triangulation {
         checked(spheres, &[], 4)?;
         let predicates = Predicates::new(spheres, &[]);
         let (done, cells) = build::four_spheres(&predicates, spheres)?;
-        let mut builder = Builder::new(&predicates, cells);
-        for e in insertion_order(spheres) {
-            if !done.contains(&e) {
-                builder.insert(e)?;
-            }
-        }
-        Self::finished(spheres, &[], &builder)
+        let order = insertion_order(spheres).into_iter();
+        let order = order.filter(|e| !done.contains(e));
+        Self::grown(spheres, &[], Builder::new(&predicates, cells), order)
     }
 
     /// Triangulates the room between walls that holds at least one sphere. Walls make a convex room,
@@ -119,21 +115,20 @@ impl Triangulation {
         }
         checked(spheres, walls, 1)?;
         let predicates = Predicates::new(spheres, walls);
-        let order = insertion_order(spheres);
-        let cells = build::room(&predicates, walls, spheres.len(), order[0])?;
-        let mut builder = Builder::new(&predicates, cells);
-        for e in &order[1..] {
-            builder.insert(*e)?;
-        }
-        Self::finished(spheres, walls, &builder)
+        let mut order = insertion_order(spheres).into_iter();
+        let first = order.next().unwrap_or_default();
+        let cells = build::room(&predicates, walls, spheres.len(), first)?;
+        Self::grown(spheres, walls, Builder::new(&predicates, cells), order)
     }
 
-    /// Leaves out vacant places and cells behind the hull.
-    fn finished(
+    /// Inserts further spheres, then leaves out vacant places and cells behind the hull.
+    fn grown(
         spheres: &[Sphere],
         walls: &[Wall],
-        builder: &Builder,
+        mut builder: Builder,
+        mut order: impl Iterator<Item = u32>,
     ) -> Result<Self, TriangulationError> {
+        order.try_for_each(|e| builder.insert(e))?;
         let vacant = builder.vacant();
         let mut number = vec![NONE; vacant.len()];
         let mut count = 0;
