@@ -36,13 +36,10 @@ mod pores;
 mod setup;
 mod system;
 
+pub use crate::Vector;
 pub use crate::error::CoupledError;
-pub use condition::Recorded;
-pub use condition::{FlowCondition, WallBoundary, Wave};
+pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
 pub use limit::StepLimit;
 pub use measure::Terzaghi;
-pub use setup::State;
-pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
+pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing, State};
 pub use system::CoupledSystem;
-
-pub use crate::Vector;

@@ -59,16 +59,23 @@ mod walls;
 
 pub use compare::Compared;
 pub use error::{DemError, Failure};
-pub use examine::Cost;
-pub use examine::{Examination, examine};
+pub(crate) use error::{at_start, named, rows};
+pub(crate) use examine::plugins;
+pub use examine::{Cost, Examination, examine};
 pub use fields::Origin;
-pub use model::{Assembled, assemble};
-pub use model::{Model, Saved};
-pub use read::editor_schema;
-pub use read::{Loaded, is_grain_scene, read};
+pub(crate) use fields::{displacements, names, strain_deviators, values};
+pub(crate) use laws::{Laws, throats};
+pub(crate) use measure::{headings, row};
+pub use model::{Assembled, Model, Saved, assemble};
+pub(crate) use model::{CheckpointState, Progress, load_checkpoint, loads, save_checkpoint};
+pub(crate) use prepare::{POURED, from_file, volume};
+pub(crate) use read::read_recorded;
+pub use read::{Loaded, editor_schema, is_grain_scene, read};
 pub use run::{DiscreteElements, identity, run};
 pub use summary::{PluginInForce, Summary};
+pub(crate) use tables::RecordedLoad;
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
     Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
+pub(crate) use walls::{BOX, FAR, FAR_ENOUGH, control, periodic, planes, setup, surfaces};

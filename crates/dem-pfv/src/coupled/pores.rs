@@ -113,8 +113,7 @@ impl Pores {
         &mut self,
         setup: &FlowSetup,
         law: &dyn Conductance,
-        time: f64,
-        step: f64,
+        [time, step]: [f64; 2],
     ) -> Result<(), CoupledError> {
         let boundary = condition::boundary(&setup.sides, &self.geometry, time);
         self.system = Self::assemble(&self.geometry, &boundary, setup, law, step)?;

@@ -329,9 +329,9 @@ impl CoupledSystem {
             self.pores.refresh(&self.setup, self.grains.time);
             Ok(())
         } else if old.sticks == side.sticks {
-            let (time, step) = (self.grains.time, self.clock.storage_step);
+            let now = [self.grains.time, self.clock.storage_step];
             self.clock.fresh = false;
-            self.pores.reassemble(&self.setup, &*self.law, time, step)
+            self.pores.reassemble(&self.setup, &*self.law, now)
         } else {
             self.remesh()
         };

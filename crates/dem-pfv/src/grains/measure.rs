@@ -2,8 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::grains::table::Slot;
-use crate::grains::{GrainError, GrainSystem, Vector};
+use crate::grains::{GrainError, GrainSystem, Slot, Vector};
 use crate::sphere;
 
 /// A contact as it was at the last evaluation.

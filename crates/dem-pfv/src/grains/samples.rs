@@ -3,9 +3,11 @@
 use sph_core::place_cells::{PlaceCells, offsets};
 use sph_core::{SplitMix, parameters};
 
-use crate::grains::setup::{Period, positive, separation};
-use crate::grains::{Grain, GrainError, GrainSystem, Unrest, Vector};
+use crate::grains::{Grain, GrainError, GrainSystem, Period, Unrest, Vector, positive, separation};
 use crate::{require, sphere};
+
+/// Random places that are tried for a sphere.
+const TRIES: usize = 20_000;
 
 /// A box in which spheres are put at random without overlap.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +15,6 @@ pub struct Cloud {
     low: Vector,
     high: Vector,
     period: Period,
-    tries: usize,
 }
 
 impl Cloud {
@@ -23,7 +24,6 @@ impl Cloud {
             low: low.into(),
             high: high.into(),
             period: [None; 3],
-            tries: 20_000,
         }
     }
 
@@ -64,7 +64,7 @@ impl Cloud {
             };
             let ranges = [inner(0), inner(1), inner(2)];
             let fits = ranges.iter().all(|(from, to)| from <= to);
-            let place = (0..if fits { self.tries } else { 0 }).find_map(|_| {
+            let place = (0..if fits { TRIES } else { 0 }).find_map(|_| {
                 let at = Vector::from(ranges.map(|(from, to)| from + (to - from) * draw.unit()));
                 let free = cells.around(at.into()).all(|&other: &usize| {
                     let reach = radius + radii[other];
@@ -73,7 +73,7 @@ impl Cloud {
                 free.then_some(at)
             });
             let Some(at) = place else {
-                return Err(GrainError::NoRoom(grain, radius, self.tries));
+                return Err(GrainError::NoRoom(grain, radius, TRIES));
             };
             places[grain] = at;
             for image in &images {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::grains::{ContactLaw, GrainError, Mesh, Vector, Wall};
 
 /// A sphere at the start.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Grain {
     /// Centre, m.
     pub position: Vector,
@@ -26,11 +26,9 @@ impl Grain {
     pub fn new(position: [f64; 3], radius: f64, density: f64) -> Self {
         Self {
             position: position.into(),
-            velocity: Vector::zeros(),
-            spin: Vector::zeros(),
             radius,
             density,
-            held: false,
+            ..Self::default()
         }
     }
 

@@ -3,8 +3,7 @@
 use serde::Serialize;
 use sph_core::{parameters, plugin};
 
-use crate::grains::law::reduced;
-use crate::grains::{Contact, ContactLaw, ContactLawEntry, GrainError, Stiffness, Vector};
+use crate::grains::{Contact, ContactLaw, ContactLawEntry, GrainError, Stiffness, Vector, reduced};
 use crate::{AT_LEAST_0, BELOW_1, require};
 
 /// F_n = k_n δ − c_n v_n and ΔF_s = −k_t Δu_s, |F_s| ≤ µ F_n.

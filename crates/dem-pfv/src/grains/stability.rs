@@ -3,9 +3,7 @@
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-use crate::grains::state::Limit;
-use crate::grains::table::Slot;
-use crate::grains::{Control, GrainError, GrainSystem, Partner, Unrest, Vector};
+use crate::grains::{Control, GrainError, GrainSystem, Limit, Partner, Slot, Unrest, Vector};
 
 /// Overlap over radius from which the stiffness of the first touch is guessed.
 const FIRST_TOUCH: f64 = 1e-3;

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::grains::setup::{Period, positive};
-use crate::grains::table::Table;
-use crate::grains::{ContactLaw, Grain, GrainError, GrainSystem, Mesh, Vector, Wall};
+use crate::grains::{
+    ContactLaw, Grain, GrainError, GrainSystem, Mesh, Period, Table, Vector, Wall, positive,
+};
 use crate::sphere;
 
 /// A step and the grain that sets it.

@@ -2,10 +2,10 @@
 
 use std::ops::{Deref, DerefMut};
 
-use crate::grains::setup::{check_period, finite};
-use crate::grains::state::Limit;
-use crate::grains::touch::View;
-use crate::grains::{ContactLaw, Control, GrainError, Grains, MEMORY, Setup, State, Vector};
+use crate::grains::{
+    ContactLaw, Control, GrainError, Grains, Limit, MEMORY, Setup, State, Vector, View,
+    check_period, finite,
+};
 use crate::{BELOW_1, require};
 
 /// Steps between two computations of the critical one.
@@ -149,25 +149,19 @@ impl GrainSystem {
         if self.table.expired(&self.state) {
             self.renew();
         }
-        let Self { state, laws } = self;
-        let State {
-            grains,
-            walls,
-            meshes,
-            table,
-            ..
-        } = state;
+        let (state, laws) = (&mut self.state, &self.laws);
+        let grains = &state.grains;
         let (period, step) = (&state.period, state.last_step);
         let view = View {
             grains,
             period,
             step,
         };
-        let mut parts = table.parts();
+        let mut parts = state.table.parts();
         if let Some(pairs) = parts.next() {
             view.pairs(pairs, &*laws[0]);
         }
-        for (wall, slots) in walls.iter_mut().zip(parts.by_ref()) {
+        for (wall, slots) in state.walls.iter_mut().zip(parts.by_ref()) {
             view.wall(slots, wall, &*laws[wall.law]);
             let active = slots.iter().filter(|s| s.active);
             let zero = (Vector::zeros(), 0.0);
@@ -181,7 +175,7 @@ impl GrainSystem {
                 (force - s.force, stiffness + more)
             });
         }
-        for (mesh, slots) in meshes.iter_mut().zip(parts) {
+        for (mesh, slots) in state.meshes.iter_mut().zip(parts) {
             view.mesh(slots, mesh, &*laws[mesh.law]);
             (mesh.force, mesh.torque) = (Vector::zeros(), Vector::zeros());
             for slot in slots.iter().filter(|s| s.active) {

@@ -5,14 +5,11 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::grains::law::MEMORY;
-use crate::grains::setup::{Period, separation};
-use crate::grains::wall::nearest;
-use crate::grains::{Grains, Mesh, State, Vector, Wall};
+use crate::grains::{Grains, MEMORY, Mesh, Period, State, Vector, Wall, nearest, separation};
 use crate::groups::Groups;
 
 /// Two bodies that are near each other.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub(crate) struct Slot {
     pub first: u32,
     /// A grain, or a triangle, or nothing at a wall.
@@ -33,12 +30,7 @@ impl Slot {
         Self {
             first,
             second,
-            active: false,
-            overlap: 0.0,
-            normal: Vector::zeros(),
-            memory: [0.0; MEMORY],
-            force: Vector::zeros(),
-            torque: [Vector::zeros(); 2],
+            ..Self::default()
         }
     }
 
@@ -136,25 +128,18 @@ impl Table {
 
     /// Makes the table anew; contacts keep their memory.
     pub fn renew(&mut self, state: &State) {
-        let State {
-            grains,
-            walls,
-            meshes,
-            period,
-            ..
-        } = state;
-        let skin = state.skin;
+        let (grains, period, skin) = (&state.grains, &state.period, state.skin);
         let largest = grains.largest_radius();
         let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
         let mut slots = pairs(grains, &grid, period, skin);
         let mut ends = vec![slots.len()];
-        for wall in walls {
+        for wall in &state.walls {
             let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
             let near = (0..grains.len()).filter(near);
             slots.extend(near.map(|i| Slot::new(i as u32, 0)));
             ends.push(slots.len());
         }
-        for mesh in meshes {
+        for mesh in &state.meshes {
             slots.extend(triangles(grains, &grid, mesh, largest, skin));
             ends.push(slots.len());
         }
@@ -170,8 +155,8 @@ impl Table {
         self.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
-            walls: walls.iter().map(|w| w.point).collect(),
-            vertices: meshes.iter().map(|m| m.vertices.clone()).collect(),
+            walls: state.walls.iter().map(|w| w.point).collect(),
+            vertices: state.meshes.iter().map(|m| m.vertices.clone()).collect(),
         };
     }
 

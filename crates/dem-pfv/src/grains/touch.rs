@@ -2,11 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::grains::law::Turn;
-use crate::grains::setup::{Period, separation};
-use crate::grains::table::Slot;
-use crate::grains::wall::nearest;
-use crate::grains::{Contact, ContactLaw, Grains, Mesh, Vector, Wall};
+use crate::grains::{
+    Contact, ContactLaw, Grains, Mesh, Period, Slot, Turn, Vector, Wall, nearest, separation,
+};
 
 /// Slots that one call of a law answers at most.
 const BATCH: usize = 128;

@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 use crate::grains::{GrainError, Vector};
 
 /// Control of a wall along its normal.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub enum Control {
     /// Nothing but its velocity, which may be zero.
+    #[default]
     Velocity,
     /// A servo that holds a normal stress: δ = (σ A − F) / k_w with the grains' stiffness k_w at the wall, limited to
     /// v_max Δt, filtered to D = (1 − s) δ + 0.8 D_old with s = 0.25. Source: the triaxial controller of YADE.
@@ -36,7 +37,7 @@ pub enum Control {
 }
 
 /// A plane with grains on the side of its normal.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Wall {
     /// A point of it, m.
     pub point: Vector,
@@ -69,14 +70,7 @@ impl Wall {
         Self {
             point: point.into(),
             normal: normal / normal.norm(),
-            velocity: Vector::zeros(),
-            law: 0,
-            control: Control::Velocity,
-            area: None,
-            external_force: Vector::zeros(),
-            force: Vector::zeros(),
-            stiffness: 0.0,
-            filtered: 0.0,
+            ..Self::default()
         }
     }
 
@@ -197,7 +191,7 @@ pub(crate) fn sign(x: f64) -> f64 {
 }
 
 /// A rigid surface of triangles, seen from both sides, with a given motion.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Mesh {
     /// Vertices, m.
     pub vertices: Vec<Vector>,
@@ -221,12 +215,7 @@ impl Mesh {
         Self {
             vertices: vertices.into_iter().map(Vector::from).collect(),
             triangles,
-            velocity: Vector::zeros(),
-            spin: Vector::zeros(),
-            centre: Vector::zeros(),
-            law: 0,
-            force: Vector::zeros(),
-            torque: Vector::zeros(),
+            ..Self::default()
         }
     }
 

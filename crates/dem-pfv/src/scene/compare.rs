@@ -8,11 +8,8 @@ use sph_core::bounds;
 use sph_io::{Table, read_table};
 
 use crate::coupled::Terzaghi;
-use crate::scene::error::DemError;
-use crate::scene::fields::Origin;
 use crate::scene::measure::unit;
-use crate::scene::read::Loaded;
-use crate::scene::tables::{Probe, Reference, Statistic};
+use crate::scene::{DemError, Loaded, Origin, Probe, Reference, Statistic};
 
 /// An error against a reference.
 #[derive(Clone, Debug, Serialize)]
@@ -155,13 +152,16 @@ impl RunSeries<'_> {
     }
 
     /// A run-out beside a scaling law.
-    fn scaled(&self, probe: &str, law: &Scaling, [geometry, quantity]: [&str; 2]) -> Compared {
+    fn scaled(&self, probe: &str, laws: &[Scaling], [geometry, quantity]: [&str; 2]) -> Compared {
         let length = match self.probe(probe) {
             Some(Probe::RunOut { length, .. }) => *length,
             _ => f64::NAN,
         };
         let aspect = self.origin.top / length;
-        let wanted = law.at(aspect).unwrap_or(f64::NAN);
+        let wanted = laws
+            .iter()
+            .find_map(|law| law.at(aspect))
+            .unwrap_or(f64::NAN);
         let rows = self.rows(probe, ALL);
         let found = statistic(&rows, Statistic::Last);
         let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
@@ -260,14 +260,9 @@ fn at(rows: &[(f64, f64)], time: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (time - t0) / (t1 - t0))
 }
 
-/// C aⁿ in ranges of a.
+/// C aⁿ in a range of a.
 #[derive(Debug)]
 pub struct Scaling {
-    rows: Vec<Row>,
-}
-
-#[derive(Debug)]
-struct Row {
     /// True for a bound from above, false for one from below.
     below: bool,
     bound: f64,
@@ -276,16 +271,15 @@ struct Row {
 }
 
 impl Scaling {
-    /// The law at an aspect ratio.
+    /// The law at an aspect ratio, if it is in the range.
     pub fn at(&self, aspect: f64) -> Option<f64> {
-        let fits = |row: &&Row| (aspect < row.bound) == row.below;
-        let row = self.rows.iter().find(fits)?;
-        Some(row.factor * aspect.powf(row.exponent))
+        let fits = (aspect < self.bound) == self.below;
+        fits.then(|| self.factor * aspect.powf(self.exponent))
     }
 }
 
 /// The rows of a geometry and a quantity in a table with the columns geometry, quantity, range (`a<2.3`), C, n (`2/3`).
-pub fn read_scaling(path: &Path, geometry: &str, quantity: &str) -> Result<Scaling, String> {
+pub fn read_scaling(path: &Path, geometry: &str, quantity: &str) -> Result<Vec<Scaling>, String> {
     let text = scene_text::read_text(path)?;
     let rows = text.lines().filter(|l| !l.starts_with('#')).skip(1);
     let mut found = Vec::new();
@@ -301,17 +295,17 @@ pub fn read_scaling(path: &Path, geometry: &str, quantity: &str) -> Result<Scali
     }
     match found.is_empty() {
         true => Err(format!("there is no row of `{quantity}` for `{geometry}`")),
-        false => Ok(Scaling { rows: found }),
+        false => Ok(found),
     }
 }
 
-fn row(range: &str, factor: &str, exponent: &str) -> Option<Row> {
+fn row(range: &str, factor: &str, exponent: &str) -> Option<Scaling> {
     let (below, bound) = match (range.strip_prefix("a<"), range.strip_prefix("a>")) {
         (Some(bound), _) => (true, bound),
         (_, Some(bound)) => (false, bound),
         _ => return None,
     };
-    Some(Row {
+    Some(Scaling {
         below,
         bound: bound.parse().ok()?,
         factor: factor.parse().ok()?,
@@ -337,9 +331,10 @@ mod tests {
         let path = folder.path().join("laws.csv");
         let text = "# a table\ngeometry,quantity,range,C,n,note\nchannel,run-out,a<2.3,1.2,1,x\nchannel,run-out,a>2.3,1.9,2/3,y\n";
         std::fs::write(&path, text).unwrap();
-        let law = read_scaling(&path, "channel", "run-out").unwrap();
-        assert!((law.at(1.0).unwrap() - 1.2).abs() < 1e-12);
-        assert!((law.at(8.0).unwrap() - 7.6).abs() < 1e-12);
+        let laws = read_scaling(&path, "channel", "run-out").unwrap();
+        let at = |aspect| laws.iter().find_map(|law| law.at(aspect)).unwrap();
+        assert!((at(1.0) - 1.2).abs() < 1e-12);
+        assert!((at(8.0) - 7.6).abs() < 1e-12);
         let none = read_scaling(&path, "round", "run-out").unwrap_err();
         assert!(none.contains("no row"));
     }

@@ -6,8 +6,7 @@ use thiserror::Error;
 
 use crate::coupled::CoupledError;
 use crate::grains::{GrainError, Partner};
-use crate::scene::read::Loaded;
-use crate::scene::walls::planes;
+use crate::scene::{Loaded, planes};
 
 /// Errors that keep a scene from its end.
 #[derive(Debug, Error)]

@@ -6,14 +6,10 @@ use serde::Serialize;
 use sph_core::bounds;
 
 use crate::grains::{Grain, GrainSystem, Setup};
-use crate::scene::error::DemError;
-use crate::scene::laws::Laws;
-use crate::scene::measure::headings;
-use crate::scene::prepare::{POURED, from_file, volume};
-use crate::scene::read::Loaded;
-use crate::scene::summary::PluginInForce;
-use crate::scene::tables::{Fluid, Plugins, Scene};
-use crate::scene::walls::{BOX, planes, setup, surfaces};
+use crate::scene::{
+    BOX, DemError, Fluid, Laws, Loaded, POURED, PluginInForce, Plugins, Scene, from_file, headings,
+    planes, setup, surfaces, volume,
+};
 
 /// Data of a scene before it runs.
 #[derive(Clone, Debug, Serialize)]

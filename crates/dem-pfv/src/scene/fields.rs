@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::coupled::Terzaghi;
 use crate::grains::{GrainSystem, Partner, Touch, Vector, strains};
-use crate::scene::model::Model;
-use crate::scene::tables::Scene;
+use crate::scene::{Model, Scene};
 use crate::sphere;
 use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 

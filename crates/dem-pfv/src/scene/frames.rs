@@ -7,10 +7,8 @@ use sph_io::{Cells, FieldData, Picture, Piece, View};
 
 use crate::Vector;
 use crate::grains::{GrainSystem, Partner, Wall};
-use crate::scene::error::DemError;
-use crate::scene::fields::{Origin, displacements, names, unit, values};
-use crate::scene::model::Model;
-use crate::scene::walls::FAR_ENOUGH;
+use crate::scene::fields::unit;
+use crate::scene::{DemError, FAR_ENOUGH, Model, Origin, displacements, names, values};
 use crate::triangulation::Vertex;
 
 /// Everything at one time: `spheres`, `contacts`, and with a fluid `pores` and `throats`.

@@ -8,19 +8,14 @@ use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of};
 
 use crate::flow::{Conductance, ConductanceEntry, HydraulicRadius};
 use crate::grains::{ContactLaw, ContactLawEntry};
-use crate::scene::error::DemError;
-use crate::scene::tables::{Plugins, Scene};
+use crate::scene::{DemError, Plugins, Scene};
 
 inventory::submit! {
     OnePlugin(|| {
-        vec![
-            vec!["grains", "contact"],
-            vec!["start", "contact"],
-            vec!["start", "wall_contact"],
-            vec!["box", "contact"],
-            vec!["wall", "*", "contact"],
-            vec!["fluid", "conductance"],
-        ]
+        let contacts = ["grains.contact", "start.contact", "start.wall_contact", "box.contact"];
+        let others = ["wall.*.contact", "fluid.conductance"];
+        let paths = contacts.into_iter().chain(others);
+        paths.map(|path| path.split('.').collect()).collect()
     })
 }
 

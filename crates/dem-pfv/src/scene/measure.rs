@@ -7,10 +7,9 @@ use nalgebra::Matrix3;
 use sph_core::bounds;
 
 use crate::grains::{GrainSystem, Vector, Wall};
-use crate::scene::fields::{Origin, displacements, strain_deviators};
-use crate::scene::model::Model;
-use crate::scene::tables::{Probe, Scene};
-use crate::scene::walls::{periodic, planes};
+use crate::scene::{
+    Model, Origin, Probe, Scene, displacements, periodic, planes, strain_deviators,
+};
 use crate::sphere;
 
 /// Unit of a probe's values.

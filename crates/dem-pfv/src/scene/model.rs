@@ -11,13 +11,11 @@ use crate::coupled::{
 };
 use crate::flow::Conductance;
 use crate::grains::{ContactLaw, Control, GrainError, GrainSystem};
-use crate::scene::error::{DemError, Failure};
-use crate::scene::fields::Origin;
-use crate::scene::laws::{Laws, throats};
-use crate::scene::prepare;
-use crate::scene::read::{Loaded, read_recorded};
-use crate::scene::tables::{self, Piston, Scene};
-use crate::scene::walls::{BOX, FAR, control, planes, surfaces};
+use crate::scene::tables::{self};
+use crate::scene::{
+    BOX, DemError, FAR, Failure, Laws, Loaded, Origin, Piston, Scene, control, planes, prepare,
+    read_recorded, surfaces, throats,
+};
 
 /// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
 const MOTION_SHARE: f64 = 0.1;

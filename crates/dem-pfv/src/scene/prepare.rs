@@ -1,11 +1,10 @@
 //! Grains at the start: placed, grown, rained, settled.
 
 use crate::grains::{Cloud, Grain, GrainError, GrainSystem, rain, step_to_rest, uniform_radii};
-use crate::scene::error::{DemError, at_start, named, rows};
-use crate::scene::laws::Laws;
-use crate::scene::read::Loaded;
-use crate::scene::tables::{Fluid, Lattice, Oedometer, Scene, Weight};
-use crate::scene::walls::{FAR, control, planes, setup};
+use crate::scene::{
+    DemError, FAR, Fluid, Lattice, Laws, Loaded, Oedometer, Scene, Weight, at_start, control,
+    named, planes, rows, setup,
+};
 use crate::sphere;
 
 /// Porosity at which a poured bed is expected to lie.

@@ -9,9 +9,7 @@ use sph_io::{Table, read_table};
 use toml::Value;
 
 use crate::coupled::Recorded;
-use crate::scene::check;
-use crate::scene::error::DemError;
-use crate::scene::tables::{RecordedLoad, Scene};
+use crate::scene::{DemError, RecordedLoad, Scene, check};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]

@@ -14,18 +14,11 @@ use sph_run::{
 use toml::Table;
 
 use crate::coupled::CoupledError;
-use crate::scene::error::{DemError, Failure, named};
-use crate::scene::examine::examine;
-use crate::scene::fields::values;
-use crate::scene::laws::{Laws, throats};
-use crate::scene::measure::{headings, row};
-use crate::scene::model::{
-    Assembled, CheckpointState, Model, Progress, assemble, load_checkpoint, loads, save_checkpoint,
+use crate::scene::{
+    Assembled, CheckpointState, DemError, Failure, Laws, Loaded, Model, Probe, Progress, Summary,
+    assemble, compare, examine, frames, headings, load_checkpoint, loads, named, read, row,
+    save_checkpoint, throats, values,
 };
-use crate::scene::read::{Loaded, read};
-use crate::scene::summary::Summary;
-use crate::scene::tables::Probe;
-use crate::scene::{compare, frames};
 
 /// Identity of the checkpoints of a scene.
 pub fn identity(loaded: &Loaded) -> Identity {

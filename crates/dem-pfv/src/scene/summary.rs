@@ -6,11 +6,7 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use sph_run::{RunCounters, Status};
 
-use crate::scene::compare::Compared;
-use crate::scene::examine::plugins;
-use crate::scene::fields::Origin;
-use crate::scene::model::{Assembled, Progress};
-use crate::scene::tables::Scene;
+use crate::scene::{Assembled, Compared, Origin, Progress, Scene, plugins};
 
 /// Content of `summary.json`.
 #[derive(Clone, Debug, Serialize)]

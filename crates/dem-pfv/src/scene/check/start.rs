@@ -3,8 +3,7 @@
 use scene_text::{Problems, given, suggestion, unit_factor};
 
 use super::refuse;
-use crate::scene::tables::{Scene, Wall, Weight};
-use crate::scene::walls::{BOX, periodic, planes};
+use crate::scene::{BOX, Scene, Wall, Weight, periodic, planes};
 
 /// Mistakes of the start.
 pub fn start(scene: &Scene, found: &mut Problems) {
