@@ -78,4 +78,6 @@ pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
     Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
-pub(crate) use walls::{BOX, FAR, FAR_ENOUGH, control, periodic, planes, setup, surfaces};
+pub(crate) use walls::{
+    BOX, FAR, FAR_ENOUGH, control, periodic, planes, planes_with_tables, setup, surfaces,
+};

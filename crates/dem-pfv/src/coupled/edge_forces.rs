@@ -58,6 +58,12 @@ impl EdgeForces {
         Some(Self { edges })
     }
 
+    /// The edges with a gap.
+    fn gaps(&self, grains: &GrainSystem, fluid: &Fluid) -> impl Iterator<Item = (&Edge, Gap)> {
+        let edges = self.edges.iter();
+        edges.filter_map(move |edge| Some((edge, gap(edge, grains, fluid)?)))
+    }
+
     /// Forces of the velocities of now; every body sums its edges in their order.
     pub fn apply(&self, grains: &GrainSystem, fluid: &Fluid) -> Loads {
         let g = &grains.grains;
@@ -67,10 +73,7 @@ impl EdgeForces {
             torques: zero,
             walls: vec![Vector::zeros(); grains.walls.len()],
         };
-        for edge in &self.edges {
-            let Some(gap) = gap(edge, grains, fluid) else {
-                continue;
-            };
+        for (edge, gap) in self.gaps(grains, fluid) {
             let k = edge.sphere;
             let there = |sphere: usize, lever: f64| {
                 g.velocity[sphere] + g.spin[sphere].cross(&(lever * gap.normal))
@@ -114,10 +117,7 @@ impl EdgeForces {
             let mass = 1.0 / g.mass[sphere];
             [mass + lever * lever / g.inertia(sphere), mass]
         };
-        for edge in &self.edges {
-            let Some(gap) = gap(edge, grains, fluid) else {
-                continue;
-            };
+        for (edge, gap) in self.gaps(grains, fluid) {
             let here = mobility(edge.sphere, gap.levers[0]);
             let there = match edge.other {
                 Vertex::Sphere(l) => mobility(l, gap.levers[1]),

@@ -105,28 +105,28 @@ fn check_walls(mesh: &Triangulation) -> Result<(), FlowError> {
 }
 
 fn check_overlaps(mesh: &Triangulation, deepest: f64) -> Result<(), FlowError> {
-    for cell in &mesh.cells {
-        for v in cell.vertices() {
-            let Vertex::Sphere(first) = v else { continue };
-            let a = &mesh.spheres[first];
-            for other in cell.vertices() {
-                match other {
-                    Vertex::Sphere(second) if second > first => {
-                        let b = &mesh.spheres[second];
-                        let overlap = a.radius + b.radius - (a.centre - b.centre).norm();
-                        if overlap > deepest * a.radius.min(b.radius) {
-                            return Err(FlowError::Overlap(first, second, overlap, deepest));
-                        }
-                    }
-                    Vertex::Wall(wall) => {
-                        let overlap = a.radius - mesh.walls[wall].distance(a.centre);
-                        if overlap > deepest * a.radius {
-                            return Err(FlowError::InWall(first, wall, overlap, deepest));
-                        }
-                    }
-                    Vertex::Sphere(_) => {}
+    let pairs = |cell: &Cell| {
+        let vertices = cell.vertices();
+        let spheres = vertices.into_iter().filter_map(Vertex::sphere);
+        spheres.flat_map(move |k| vertices.map(|other| (k, other)))
+    };
+    for (first, other) in mesh.cells.iter().flat_map(pairs) {
+        let a = &mesh.spheres[first];
+        match other {
+            Vertex::Sphere(second) if second > first => {
+                let b = &mesh.spheres[second];
+                let overlap = a.radius + b.radius - (a.centre - b.centre).norm();
+                if overlap > deepest * a.radius.min(b.radius) {
+                    return Err(FlowError::Overlap(first, second, overlap, deepest));
                 }
             }
+            Vertex::Wall(wall) => {
+                let overlap = a.radius - mesh.walls[wall].distance(a.centre);
+                if overlap > deepest * a.radius {
+                    return Err(FlowError::InWall(first, wall, overlap, deepest));
+                }
+            }
+            Vertex::Sphere(_) => {}
         }
     }
     Ok(())

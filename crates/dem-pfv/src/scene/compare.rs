@@ -55,9 +55,6 @@ impl Compared {
 }
 
 /// The errors against all references.
-///
-/// # Errors
-/// If the series or a table cannot be read.
 pub fn errors(
     loaded: &Loaded,
     origin: &Origin,

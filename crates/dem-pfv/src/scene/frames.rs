@@ -6,6 +6,7 @@ use sph_core::bounds;
 use sph_io::{Cells, FieldData, Picture, Piece, View};
 
 use crate::Vector;
+use crate::coupled::CoupledSystem;
 use crate::grains::{GrainSystem, Partner, Wall};
 use crate::scene::fields::unit;
 use crate::scene::{DemError, FAR_ENOUGH, Model, Origin, displacements, names, values};
@@ -14,8 +15,8 @@ use crate::triangulation::Vertex;
 /// Everything at one time: `spheres`, `contacts`, and with a fluid `pores` and `throats`.
 pub fn pieces(model: &Model, origin: &Origin) -> Vec<Piece<'static>> {
     let mut all = vec![spheres(model, origin), contacts(model.grains())];
-    if model.wet().is_some() {
-        all.extend([pores(model), throats(model)].into_iter().flatten());
+    if let Some(system) = model.wet() {
+        all.extend([pores(system), throats(system)]);
     }
     all
 }
@@ -92,10 +93,9 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
 }
 
 /// Tetrahedra between four grains; a vertex that is a wall is put on it, below the mean of the grains.
-fn pores(model: &Model) -> Option<Piece<'static>> {
-    let system = model.wet()?;
+fn pores(system: &CoupledSystem) -> Piece<'static> {
     let mesh = &system.pores().mesh;
-    let mut places = points(model.grains());
+    let mut places = points(system.grains());
     let mut cells = Vec::new();
     for cell in &mesh.cells {
         let mean = mesh.middle(cell);
@@ -110,7 +110,7 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
     }
     let rates = system.volume_rates().iter().zip(system.volumes());
     let rates = rates.map(|(rate, volume)| rate / volume);
-    Some(Piece {
+    Piece {
         name: "pores".into(),
         points: places.into(),
         cells: Cells::Tetrahedra(cells.into()),
@@ -120,12 +120,11 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
             at_cells("void", "m³", system.pores().void_volumes.to_vec()),
             at_cells("strain_rate", "1/s", rates.collect()),
         ],
-    })
+    }
 }
 
 /// A line between the places of two pores, with the conductance of the throat between them.
-fn throats(model: &Model) -> Option<Piece<'static>> {
-    let system = model.wet()?;
+fn throats(system: &CoupledSystem) -> Piece<'static> {
     let places = system.pore_places().into_iter().map(<[f64; 3]>::from);
     let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
@@ -136,7 +135,7 @@ fn throats(model: &Model) -> Option<Piece<'static>> {
     let radii = all.iter().map(|t| t.hydraulic_radius());
     let radii = radii.map(|r| if r.is_finite() { r } else { 0.0 });
     let areas = all.iter().map(|t| t.fluid_area);
-    Some(Piece {
+    Piece {
         name: "throats".into(),
         points: places.collect::<Vec<_>>().into(),
         cells: Cells::Segments(lines.into()),
@@ -145,13 +144,10 @@ fn throats(model: &Model) -> Option<Piece<'static>> {
             at_cells("hydraulic_radius", "m", radii.collect()),
             at_cells("fluid_area", "m²", areas.collect()),
         ],
-    })
+    }
 }
 
 /// A picture of the spheres seen along y, coloured by a field; a grain may be ringed.
-///
-/// # Errors
-/// If it cannot be written.
 pub fn picture(
     model: &Model,
     origin: &Origin,

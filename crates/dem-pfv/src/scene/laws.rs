@@ -71,9 +71,6 @@ fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>,
 
 impl Laws {
     /// All laws that a scene names.
-    ///
-    /// # Errors
-    /// No law for the grains; unknown laws and parameters.
     pub fn from_scene(scene: &Scene) -> Result<Self, DemError> {
         let Some(between) = contact(&scene.grains.contact, "grains.contact")? else {
             let names = plugins_of::<ContactLawEntry>();
@@ -121,9 +118,6 @@ impl Laws {
 }
 
 /// The law for the conductance of throats.
-///
-/// # Errors
-/// Unknown laws and parameters.
 pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
     let none = Plugins::new();
     let given = scene.fluid.as_ref().map_or(&none, |f| &f.conductance);

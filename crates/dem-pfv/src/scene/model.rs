@@ -13,8 +13,8 @@ use crate::flow::Conductance;
 use crate::grains::{ContactLaw, Control, GrainError, GrainSystem};
 use crate::scene::tables::{self};
 use crate::scene::{
-    BOX, DemError, FAR, Failure, Laws, Loaded, Origin, Piston, Scene, control, planes, prepare,
-    read_recorded, surfaces, throats,
+    BOX, DemError, FAR, Failure, Laws, Loaded, Origin, Piston, Scene, control, planes_with_tables,
+    prepare, read_recorded, surfaces, throats,
 };
 
 /// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
@@ -72,10 +72,10 @@ impl Model {
     }
 
     /// Sets the loads of the time that is now: numbers of walls and their pistons.
-    pub fn apply(&mut self, loads: &[(usize, Piston)]) {
+    pub fn apply<'a>(&mut self, loads: impl Iterator<Item = (usize, &'a Piston)>) {
         for (wall, piston) in loads {
             let stress = piston.stress_at(self.grains().time);
-            if let Some(wall) = self.grains_mut().walls.get_mut(*wall)
+            if let Some(wall) = self.grains_mut().walls.get_mut(wall)
                 && let Control::Piston { mass, .. } = wall.control
             {
                 wall.control = Control::Piston { stress, mass };
@@ -184,9 +184,6 @@ pub struct CheckpointState {
 }
 
 /// Writes a checkpoint; `scene` identifies the scene for a resume.
-///
-/// # Errors
-/// If it cannot be written.
 pub fn save_checkpoint(
     mut kept: CheckpointState,
     scene: &str,
@@ -202,9 +199,6 @@ pub fn save_checkpoint(
 }
 
 /// Reads a checkpoint; with `changed` also one of another scene.
-///
-/// # Errors
-/// A file that cannot be read; one of another scene or of particles.
 pub fn load_checkpoint(
     scene: &str,
     changed: bool,
@@ -233,8 +227,6 @@ pub struct Assembled {
     pub model: Model,
     /// Reference values of measurements.
     pub origin: Origin,
-    /// Pistons whose loads change, by the numbers of their walls.
-    pub loads: Vec<(usize, Piston)>,
 }
 
 /// Puts a scene together and prepares its grains; reports its steps.
@@ -267,11 +259,7 @@ pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled
             Model::Wet(Box::new(system))
         }
     };
-    Ok(Assembled {
-        model,
-        origin,
-        loads: loads(scene),
-    })
+    Ok(Assembled { model, origin })
 }
 
 /// The key that is most likely at fault.
@@ -284,22 +272,17 @@ fn key_of(error: &CoupledError) -> &'static str {
 }
 
 /// Loads that change with time.
-pub fn loads(scene: &Scene) -> Vec<(usize, Piston)> {
-    let names = planes(scene);
-    let all = names.iter().enumerate().filter_map(|(wall, name)| {
-        let piston = scene.wall.get(name)?.piston?;
+pub fn loads(scene: &Scene) -> impl Iterator<Item = (usize, &Piston)> {
+    planes_with_tables(scene).filter_map(|(wall, table)| {
+        let piston = table.piston.as_ref()?;
         (piston.ramp != 0.0 || piston.amplitude != 0.0).then_some((wall, piston))
-    });
-    all.collect()
+    })
 }
 
 /// Controls of the walls in the run.
 fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
     let mass: f64 = grains.grains.mass.iter().sum();
-    for (number, name) in planes(scene).iter().enumerate() {
-        let Some(table) = scene.wall.get(name) else {
-            continue;
-        };
+    for (number, table) in planes_with_tables(scene) {
         let wall = &mut grains.walls[number];
         if table.removed {
             // Out of reach: the system keeps its walls.

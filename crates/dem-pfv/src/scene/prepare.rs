@@ -3,7 +3,7 @@
 use crate::grains::{Cloud, Grain, GrainError, GrainSystem, rain, step_to_rest, uniform_radii};
 use crate::scene::{
     DemError, FAR, Fluid, Lattice, Laws, Loaded, Oedometer, Scene, Weight, at_start, control,
-    named, planes, rows, setup,
+    named, planes, planes_with_tables, rows, setup,
 };
 use crate::sphere;
 
@@ -13,9 +13,6 @@ pub(crate) const POURED: f64 = 0.4;
 const BEFORE_GROWTH: f64 = 0.25;
 
 /// The grains of a scene, prepared, with the laws of the run.
-///
-/// # Errors
-/// Grains that cannot be placed, grown or settled.
 pub fn grains(
     loaded: &Loaded,
     mut laws: Laws,
@@ -78,13 +75,9 @@ fn settled(
     }
     tell("letting the grains settle");
     let mass: f64 = system.grains.mass.iter().sum();
-    for (number, name) in planes(scene).iter().enumerate() {
-        if let Some(table) = scene.wall.get(name)
-            && table.piston.is_some()
-        {
-            let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
-            system.walls[number].control = before;
-        }
+    for (number, table) in planes_with_tables(scene).filter(|(_, w)| w.piston.is_some()) {
+        let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
+        system.walls[number].control = before;
     }
     let gravity = system.gravity;
     let lift = |fluid: &Fluid| fluid.given.density / scene.grains.density;
@@ -240,9 +233,6 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
 }
 
 /// Strain of the box along z under the load of an oedometer when it comes dry and in parts that settle.
-///
-/// # Errors
-/// Grains that do not settle.
 pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Result<f64, DemError> {
     let key = "oedometer";
     let told = |e: GrainError| DemError::at(key, e);

@@ -63,9 +63,6 @@ impl Loaded {
     }
 
     /// The path of a file that a key of the scene names.
-    ///
-    /// # Errors
-    /// A path that leads out of the folders of the scene.
     pub(crate) fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, DemError> {
         let path = self.source.resolve(key, file);
         path.map_err(|e| DemError::at(key, e))

@@ -78,21 +78,20 @@ impl<'a> Running<'a> {
         options: &'a RunOptions,
         observer: &mut Watch<'_>,
     ) -> Result<Self, DemError> {
-        let mut running = Running {
-            loaded,
-            options,
-            parts: None,
-            progress: Progress::default(),
-            limiter: "none",
-        };
+        let (mut parts, mut progress) = (None, Progress::default());
         if options.start == Start::Afresh {
             let begun = Instant::now();
-            running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
-            let seconds = begun.elapsed().as_secs_f64();
-            running.progress.preparation_seconds = seconds;
-            running.progress.books.wall_seconds = seconds;
+            parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
+            progress.preparation_seconds = begun.elapsed().as_secs_f64();
+            progress.books.wall_seconds = progress.preparation_seconds;
         }
-        Ok(running)
+        Ok(Running {
+            loaded,
+            options,
+            parts,
+            progress,
+            limiter: "none",
+        })
     }
 
     fn parts(&self) -> Result<&Assembled, DemError> {
@@ -109,7 +108,6 @@ impl<'a> Running<'a> {
         self.parts = Some(Assembled {
             model: model.map_err(|e| DemError::Resume(e.to_string()))?,
             origin: kept.origin,
-            loads: loads(scene),
         });
         self.progress = kept.progress;
         Ok(())
@@ -157,7 +155,7 @@ impl sph_run::Model for Running<'_> {
     fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, DemError> {
         let before = self.now()?;
         if let Some(parts) = self.parts.as_mut().filter(|_| before.time < limit) {
-            parts.model.apply(&parts.loads);
+            parts.model.apply(loads(&self.loaded.scene));
             let made = parts.model.advance(self.loaded.scene.run.safety, limit)?;
             (self.progress.dt, self.limiter) = made;
             let limited = self.progress.limited.entry(self.limiter.to_string());
@@ -171,7 +169,7 @@ impl sph_run::Model for Running<'_> {
     }
 
     fn row(&mut self, _: &mut Watch<'_>) -> Result<Vec<f64>, DemError> {
-        let Assembled { model, origin, .. } = self.parts()?;
+        let Assembled { model, origin } = self.parts()?;
         let dt = self.progress.dt;
         Ok(row(&self.loaded.scene, model, origin, dt))
     }
@@ -181,7 +179,7 @@ impl sph_run::Model for Running<'_> {
         frames: Option<&mut Frames>,
         observer: &mut Watch<'_>,
     ) -> Result<(), DemError> {
-        let Assembled { model, origin, .. } = self.parts()?;
+        let Assembled { model, origin } = self.parts()?;
         let (time, scene) = (model.grains().time, &self.loaded.scene);
         if let Some(frames) = frames {
             if frames.lists() {
@@ -252,7 +250,7 @@ impl Running<'_> {
         if let CoupledError::Grains(error) = &failure.error {
             failure.named = named(self.loaded, error);
         }
-        let Assembled { model, origin, .. } = self.parts()?;
+        let Assembled { model, origin } = self.parts()?;
         let out = &self.options.out;
         let title = format!("{}: failed", self.loaded.scene.title);
         let (at, path) = (failure.position, out.join(BAD_STATE_PICTURE));

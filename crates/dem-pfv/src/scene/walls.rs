@@ -123,6 +123,12 @@ pub fn planes(scene: &Scene) -> Vec<String> {
     boxed.chain(more.map(|(name, _)| name.clone())).collect()
 }
 
+/// Numbers, and tables in the scene, of the planes that have one.
+pub fn planes_with_tables(scene: &Scene) -> impl Iterator<Item = (usize, &tables::Wall)> {
+    let all = planes(scene).into_iter().enumerate();
+    all.filter_map(|(number, name)| Some((number, scene.wall.get(&name)?)))
+}
+
 /// Names of the surfaces of triangles.
 pub fn surfaces(scene: &Scene) -> Vec<String> {
     let surfaces = scene.wall.iter().filter(|(_, wall)| wall.file.is_some());

@@ -279,9 +279,6 @@ fn closed(corners: &[[usize; 3]], walls: usize) -> Result<(), TriangulationError
 }
 
 /// Cells of four spheres that are not in one plane, far apart: one between them, four behind.
-///
-/// # Errors
-/// All centres lie in one plane.
 pub fn four_spheres(
     predicates: &Predicates,
     spheres: &[Sphere],
