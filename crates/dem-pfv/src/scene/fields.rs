@@ -28,7 +28,7 @@ static FIELDS: [Field; 9] = [
     }),
     ("displacement", "m", |m, origin| {
         let all = displacements(m.grains(), origin);
-        all.into_iter().map(length).collect()
+        all.iter().map(Vector::norm).collect()
     }),
     ("contacts", "", |m, _| contacts(m.grains(), |_| true)),
     ("sliding_contacts", "", |m, _| {
@@ -66,15 +66,11 @@ pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
     }
 }
 
-fn length(u: [f64; 3]) -> f64 {
-    u.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 /// Displacements since the start, m; those across the ends of a periodic axis by the nearest image.
-pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
+pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<Vector> {
     let period = &system.period;
-    let from = |(x, start): (&Vector, &[f64; 3])| {
-        std::array::from_fn(|k| {
+    let from = |(x, start): (&Vector, &Vector)| {
+        Vector::from_fn(|k, _| {
             let shift = x[k] - start[k];
             match period[k] {
                 Some([low, high]) => shift - (shift / (high - low)).round() * (high - low),
@@ -88,14 +84,16 @@ pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
 
 /// √(2/3 e : e) around each grain since the start, e the deviator of its strain: 1 per unit of axial strain at constant volume.
 pub fn strain_deviators(system: &GrainSystem, origin: &Origin) -> Vec<f64> {
-    let places: Vec<Vector> = origin.positions.iter().map(|x| (*x).into()).collect();
     let moved = displacements(system, origin);
-    let moved: Vec<Vector> = moved.into_iter().map(Vector::from).collect();
     let size = |strain: Matrix3<f64>| {
         let deviator = strain - Matrix3::identity() * (strain.trace() / 3.0);
         (2.0 / 3.0_f64).sqrt() * deviator.norm()
     };
-    let all = strains(origin.tetrahedra(&system.grains.radius), &places, &moved);
+    let all = strains(
+        origin.tetrahedra(&system.grains.radius),
+        &origin.positions,
+        &moved,
+    );
     all.into_iter().map(size).collect()
 }
 
@@ -145,7 +143,7 @@ pub struct Origin {
     /// Lengths of the box, m, if it is closed.
     pub lengths: Option<[f64; 3]>,
     /// Centres, m.
-    pub positions: Vec<[f64; 3]>,
+    pub positions: Vec<Vector>,
     /// Highest point of a grain, m.
     pub top: f64,
     /// Mean diameter d₅₀, m.
@@ -169,7 +167,7 @@ impl Origin {
         let piston = test.and_then(|t| scene.wall.get(&t.wall)?.piston.as_ref());
         Self {
             lengths: grains.box_lengths(),
-            positions: all.position.iter().map(|x| [x.x, x.y, x.z]).collect(),
+            positions: all.position.clone(),
             top: grains.highest(),
             diameter: 2.0 * all.mean_radius(),
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
@@ -183,7 +181,7 @@ impl Origin {
     pub fn tetrahedra(&self, radii: &[f64]) -> &[[usize; 4]] {
         self.tetrahedra.get_or_init(|| {
             let spheres = self.positions.iter().zip(radii);
-            let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new(*x, *r)).collect();
+            let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
             let cells = Triangulation::of_spheres(&spheres).map(|mesh| mesh.cells);
             let corners = |cell: &Cell| {
                 let [a, b, c, d] = cell.vertices().map(Vertex::sphere);

@@ -34,17 +34,13 @@ fn at_cells(name: &'static str, unit: &'static str, values: Vec<f64>) -> FieldDa
 fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
     let system = model.grains();
     let vector = |name: &'static str, unit: &'static str, all: &[Vector]| {
-        FieldData::tensor(
-            name,
-            unit,
-            3,
-            all.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<_>>(),
-        )
+        let all: Vec<f64> = all.iter().flatten().copied().collect();
+        FieldData::tensor(name, unit, 3, all)
     };
     let mut fields = vec![
         vector("velocity", "m/s", &system.grains.velocity),
         vector("spin", "1/s", &system.grains.spin),
-        FieldData::tensor("shift", "m", 3, displacements(system, origin).concat()),
+        vector("shift", "m", &displacements(system, origin)),
     ];
     let names = names(model.wet().is_some());
     fields.extend(names.map(|n| FieldData::scalar(n, unit(n), values(n, model, origin))));
@@ -72,7 +68,7 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
             }
             _ => touch.point,
         };
-        ends.extend([[from.x, from.y, from.z], [to.x, to.y, to.z]]);
+        ends.extend([from, to].map(<[f64; 3]>::from));
         let along = touch.force.dot(&touch.normal);
         normal.push(along);
         shear.push((touch.force - touch.normal * along).norm());
@@ -102,8 +98,7 @@ fn pores(system: &CoupledSystem) -> Piece<'static> {
         cells.push(cell.vertices().map(|v| match v {
             Vertex::Sphere(k) => k as u32,
             Vertex::Wall(w) => {
-                let foot = mesh.walls[w].projection(mean);
-                places.push([foot.x, foot.y, foot.z]);
+                places.push(mesh.walls[w].projection(mean).into());
                 places.len() as u32 - 1
             }
         }));
@@ -128,10 +123,10 @@ fn throats(system: &CoupledSystem) -> Piece<'static> {
     let places = system.pore_places().into_iter().map(<[f64; 3]>::from);
     let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
-    let differences = all.iter().map(|t| {
-        let [i, j] = t.cells;
-        system.pressures()[i] - system.pressures()[j]
-    });
+    let pressure = |cell: usize| system.pressures()[cell];
+    let differences = all
+        .iter()
+        .map(|t| pressure(t.cells[0]) - pressure(t.cells[1]));
     let radii = all.iter().map(|t| t.hydraulic_radius());
     let radii = radii.map(|r| if r.is_finite() { r } else { 0.0 });
     let areas = all.iter().map(|t| t.fluid_area);
@@ -161,9 +156,10 @@ pub fn picture(
     let points = points(system);
     let values = values(field, model, origin);
     let diameters: Vec<f64> = system.grains.radius.iter().map(|r| 2.0 * r).collect();
+    let name = field.replace('_', " ");
     let label = match unit(field) {
-        "" => field.replace('_', " "),
-        unit => format!("{} [{unit}]", field.replace('_', " ")),
+        "" => name,
+        unit => format!("{name} [{unit}]"),
     };
     let walls = walls(system, &points);
     let picture = Picture {

@@ -85,7 +85,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
         }
         Probe::RunOut { axis, length } => Some((deposit(grains, axis.number()) - length) / length),
         Probe::Displacement { axis, low, high } => {
-            let inside = |x: &[f64; 3]| (0..3).all(|k| (low[k]..=high[k]).contains(&x[k]));
+            let inside = |x: &Vector| (0..3).all(|k| (low[k]..=high[k]).contains(&x[k]));
             let all = displacements(grains, origin);
             let moved = all.iter().zip(&origin.positions).filter(|(_, x)| inside(x));
             let (sum, count) = moved.fold((0.0, 0), |(s, n), (u, _)| (s + u[axis.number()], n + 1));
@@ -106,15 +106,11 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
 
 /// Stresses, strains and contacts of a packing.
 fn packing(probe: &Probe, grains: &GrainSystem, origin: &Origin) -> Option<f64> {
+    let (now, start) = (grains.box_lengths(), origin.lengths);
+    let stretch = |k: usize| Some((now?[k] / start?[k]).ln());
     match probe {
-        Probe::Strain { axis } => {
-            let (now, start) = (grains.box_lengths()?, origin.lengths?);
-            Some(-(now[axis.number()] / start[axis.number()]).ln())
-        }
-        Probe::VolumetricStrain {} => {
-            let (now, start) = (grains.box_lengths()?, origin.lengths?);
-            Some((0..3).map(|k| (now[k] / start[k]).ln()).sum())
-        }
+        Probe::Strain { axis } => Some(-stretch(axis.number())?),
+        Probe::VolumetricStrain {} => (0..3).map(stretch).sum(),
         Probe::Deviator { axis } => deviator(grains, axis.number()),
         Probe::MeanStress {} => grains.mean_stress().ok(),
         Probe::K0 { axis, from, to } => pressure_at_rest(grains, axis.number(), *from..*to),

@@ -41,12 +41,12 @@ pub fn run(
     let pool = pool.map_err(|e| DemError::Threads(threads, e.to_string()))?;
     let (run, output) = (&loaded.scene.run, &loaded.scene.output);
     let schedule = Schedule {
-        rows: output.series_interval(run.end),
+        rows: output.series_every.unwrap_or(run.end / 500.0),
         hits_outputs: false,
         checkpoints: run.checkpoint_every.unwrap_or(run.end / 10.0),
         max_steps: run.max_steps,
         capped: Status::Done,
-        ..Schedule::every(output.interval(run.end), run.end)
+        ..Schedule::every(output.every.unwrap_or(run.end / 20.0), run.end)
     };
     let outlay = Outlay {
         vtk: !output.no_vtk,

@@ -110,18 +110,6 @@ pub struct Output {
     pub no_vtk: bool,
 }
 
-impl Output {
-    /// Simulated time between outputs in force, s, for a run of `end` seconds.
-    pub fn interval(&self, end: f64) -> f64 {
-        self.every.unwrap_or(end / 20.0)
-    }
-
-    /// Simulated time between rows in force, s.
-    pub fn series_interval(&self, end: f64) -> f64 {
-        self.series_every.unwrap_or(end / 500.0)
-    }
-}
-
 /// The fluid that fills the pores of the box.
 #[parameters]
 pub struct Fluid {
