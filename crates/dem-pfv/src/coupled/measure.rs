@@ -97,9 +97,7 @@ impl CoupledSystem {
         let length = self.grains.box_lengths().ok_or(none)?[axis];
         Ok(system.inflow(geometry, high, &pressures) * length / self.grains.section(axis)?)
     }
-}
 
-impl CoupledSystem {
     /// The grains, their walls and contacts; the fluid's forces are the external ones.
     pub fn grains(&self) -> &GrainSystem {
         &self.grains

@@ -78,17 +78,7 @@ impl GrainSystem {
             grain: highest.1,
         }
     }
-}
 
-/// Largest eigenvalue of a symmetric matrix.
-fn largest(matrix: &Matrix3<f64>) -> f64 {
-    if matrix.iter().all(|x| *x == 0.0) {
-        return 0.0;
-    }
-    matrix.symmetric_eigenvalues().max()
-}
-
-impl GrainSystem {
     /// Largest step (s) for which the leap-frog is proven stable while nothing slides.
     ///
     /// Δt = 2 / √max_i (A_i + B_i), A and B the largest eigenvalues of K^x / m and K^r / J with
@@ -126,12 +116,7 @@ impl GrainSystem {
         });
         steps.reduce(|| f64::INFINITY, f64::min)
     }
-}
 
-/// Share of the smaller radius that an overlap may have at the start.
-const AT_START: f64 = 0.1;
-
-impl GrainSystem {
     /// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
     /// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
     pub const DEEPEST: f64 = 0.25;
@@ -182,12 +167,7 @@ impl GrainSystem {
             triangle => GrainError::InMesh(grain, triangle, overlap),
         })
     }
-}
 
-/// Resultant force of a carried grain at the most, over its weight and the contact forces on it.
-const CARRIED: f64 = 0.1;
-
-impl GrainSystem {
     /// The condition of rest that does not hold at the last evaluation; none for grains at rest to a `tolerance` below 1:
     ///
     /// ```text
@@ -260,6 +240,20 @@ impl GrainSystem {
         self.grains.spin.fill(Vector::zeros());
     }
 }
+
+/// Largest eigenvalue of a symmetric matrix.
+fn largest(matrix: &Matrix3<f64>) -> f64 {
+    if matrix.iter().all(|x| *x == 0.0) {
+        return 0.0;
+    }
+    matrix.symmetric_eigenvalues().max()
+}
+
+/// Share of the smaller radius that an overlap may have at the start.
+const AT_START: f64 = 0.1;
+
+/// Resultant force of a carried grain at the most, over its weight and the contact forces on it.
+const CARRIED: f64 = 0.1;
 
 /// Mean of some numbers; zero without any.
 fn mean(values: impl Iterator<Item = f64>) -> f64 {

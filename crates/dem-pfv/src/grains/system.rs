@@ -254,14 +254,7 @@ impl GrainSystem {
             }
         }
     }
-}
 
-pub(crate) fn check_damping(damping: f64) -> Result<(), GrainError> {
-    let fine = (0.0..1.0).contains(&damping);
-    Ok(require("the damping is", damping, BELOW_1, fine)?)
-}
-
-impl GrainSystem {
     /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
     ///
     /// # Errors
@@ -320,4 +313,9 @@ impl GrainSystem {
         self.grains.weigh();
         check_period(&self.period, 2.0 * self.grains.largest_radius() + self.skin)
     }
+}
+
+pub(crate) fn check_damping(damping: f64) -> Result<(), GrainError> {
+    let fine = (0.0..1.0).contains(&damping);
+    Ok(require("the damping is", damping, BELOW_1, fine)?)
 }

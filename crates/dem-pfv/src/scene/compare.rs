@@ -93,11 +93,9 @@ impl RunSeries<'_> {
     fn rows(&self, probe: &str, [from, to]: Window) -> Vec<(f64, f64)> {
         let window = from.unwrap_or(f64::NEG_INFINITY)..=to.unwrap_or(f64::INFINITY);
         let column = |name: &str| self.table.column(name).unwrap_or(&[]);
+        let measured = |(t, x): &(f64, f64)| x.is_finite() && window.contains(t);
         let pairs = column("time").iter().zip(column(probe));
-        let pairs = pairs.map(|(t, x)| (*t, *x));
-        pairs
-            .filter(|(t, x)| x.is_finite() && window.contains(t))
-            .collect()
+        pairs.map(|(t, x)| (*t, *x)).filter(measured).collect()
     }
 
     fn compared(&self, name: &str, reference: &Reference) -> Result<Compared, DemError> {

@@ -75,9 +75,8 @@ impl Laws {
         let Some(between) = contact(&scene.grains.contact, "grains.contact")? else {
             let names = plugins_of::<ContactLawEntry>();
             let names: Vec<_> = names.iter().map(|p| p.name).collect();
-            let names = names.join(", ");
-            let message =
-                format!("a contact law is missing: [grains.contact.LAW] with one of {names}");
+            let missing = "a contact law is missing: [grains.contact.LAW] with one of";
+            let message = format!("{missing} {}", names.join(", "));
             return Err(DemError::at("grains", message));
         };
         let mut all = vec![between];

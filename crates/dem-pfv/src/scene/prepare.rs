@@ -39,7 +39,11 @@ pub fn grains(
         let steps = grown.run(&mut system, scene.start.safety, scene.start.most_steps);
         system.gravity = gravity;
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
-        tell(&format!("grown in {steps} steps{}", porosity(&system)));
+        let porosity = system.porosity().map(|n| format!(", porosity {n:.4}"));
+        tell(&format!(
+            "grown in {steps} steps{}",
+            porosity.unwrap_or_default()
+        ));
     }
     settled(loaded, &mut system, tell)?;
     for (number, law) in run_laws {
@@ -47,13 +51,6 @@ pub fn grains(
     }
     lower_the_top(scene, &mut system, top)?;
     Ok(system)
-}
-
-fn porosity(system: &GrainSystem) -> String {
-    match system.porosity() {
-        Some(n) => format!(", porosity {n:.4}"),
-        None => String::new(),
-    }
 }
 
 /// Lets the grains come to rest under their `weight` and the prepared stress of pistons.

@@ -1,6 +1,6 @@
 //! Grains as a model that is run.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -222,10 +222,12 @@ impl sph_run::Model for Running<'_> {
         observer: &mut Watch<'_>,
     ) -> Result<Option<Summary>, DemError> {
         match ended {
-            Ok(status) => Ok(Some(Summary {
-                errors: compare::errors(self.loaded, &self.parts()?.origin, &self.series())?,
-                ..self.summary(status, books)?
-            })),
+            Ok(status) => {
+                let series = self.options.out.join(SERIES);
+                let errors = compare::errors(self.loaded, &self.parts()?.origin, &series)?;
+                let summary = self.summary(status, books)?;
+                Ok(Some(Summary { errors, ..summary }))
+            }
             Err(DemError::Failed(failure)) => {
                 self.draw_the_bad_state(failure, observer)?;
                 let warnings = vec![failure.to_string()];
@@ -265,10 +267,6 @@ impl Running<'_> {
             observer.message(&format!("note: {problem}"));
         }
         Ok(())
-    }
-
-    fn series(&self) -> PathBuf {
-        self.options.out.join(SERIES)
     }
 
     fn summary(&self, status: Status, books: &RunCounters) -> Result<Summary, DemError> {
