@@ -34,12 +34,13 @@ mod limit;
 mod measure;
 mod pores;
 mod setup;
+mod state;
 mod system;
 
 pub use crate::Vector;
-pub use crate::error::CoupledError;
+pub use crate::error::{CoupledError, StepLimit};
 pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
-pub use limit::StepLimit;
 pub use measure::Terzaghi;
-pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing, State};
+pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
+pub use state::State;
 pub use system::CoupledSystem;

@@ -1,11 +1,9 @@
 //! Errors, with their reasons.
 
+use serde::{Deserialize, Serialize};
 use sparse::SparseError;
 use sph_core::RegistryError;
 use thiserror::Error;
-
-use crate::coupled::StepLimit;
-use crate::grains::{GrainSystem, Partner};
 
 /// A number out of its range.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -165,7 +163,7 @@ pub enum GrainError {
     #[error(
         "grain {grain} at ({:.4e}, {:.4e}, {:.4e}) m overlaps {body} by {overlap:.3e} m, {share:.2} of its radius; \
          contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
-        at[0], at[1], at[2], most = GrainSystem::DEEPEST
+        at[0], at[1], at[2], most = DEEPEST
     )]
     TooDeep {
         /// The grain.
@@ -303,3 +301,45 @@ pub enum TriangulationError {
 pub(crate) const POSITIVE: &str = "positive and finite";
 pub(crate) const AT_LEAST_0: &str = "at least 0";
 pub(crate) const BELOW_1: &str = "at least 0 and below 1";
+
+/// The second body of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Partner {
+    /// A grain.
+    Grain(usize),
+    /// A wall.
+    Wall(usize),
+    /// A triangle of a mesh.
+    Triangle {
+        /// The mesh.
+        mesh: usize,
+        /// The triangle.
+        triangle: usize,
+    },
+}
+
+impl std::fmt::Display for Partner {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Grain(grain) => write!(f, "grain {grain}"),
+            Self::Wall(wall) => write!(f, "wall {wall}"),
+            Self::Triangle { mesh, triangle } => write!(f, "triangle {triangle} of mesh {mesh}"),
+        }
+    }
+}
+
+/// Limits of a step.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct StepLimit {
+    /// Largest stable step Δt, s.
+    pub step: f64,
+    /// 2/ω, the contacts alone, s.
+    pub elastic: f64,
+    /// 2/λ, the drag alone, s.
+    pub viscous: f64,
+    /// The grain that moves most in the mode of strongest drag.
+    pub grain: usize,
+}
+
+/// Share of the smaller radius that an overlap may have in a step.
+pub(crate) const DEEPEST: f64 = 0.25;

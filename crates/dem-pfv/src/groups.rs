@@ -27,7 +27,7 @@ impl Groups {
     }
 
     /// Members of a group.
-    pub fn of(&self, group: usize) -> &[u32] {
+    pub fn members(&self, group: usize) -> &[u32] {
         &self.members[self.starts[group] as usize..self.starts[group + 1] as usize]
     }
 }

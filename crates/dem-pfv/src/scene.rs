@@ -41,6 +41,7 @@
 //! # Ok::<(), dem_pfv::scene::DemError>(())
 //! ```
 
+mod assemble;
 mod check;
 mod compare;
 mod error;
@@ -50,6 +51,8 @@ mod frames;
 mod laws;
 mod measure;
 mod model;
+mod names;
+mod origin;
 mod prepare;
 mod read;
 mod run;
@@ -57,27 +60,27 @@ mod summary;
 mod tables;
 mod walls;
 
+pub(crate) use assemble::loads;
+pub use assemble::{Assembled, assemble};
 pub use compare::Compared;
 pub use error::{DemError, Failure};
-pub(crate) use error::{at_start, named, rows};
 pub(crate) use examine::plugins;
-pub use examine::{Cost, Examination, examine};
-pub use fields::Origin;
+pub use examine::{Cost, Examination, PluginInForce, examine};
 pub(crate) use fields::{displacements, names, strain_deviators, values};
 pub(crate) use laws::{Laws, throats};
 pub(crate) use measure::{headings, row};
-pub use model::{Assembled, Model, Saved, assemble};
-pub(crate) use model::{CheckpointState, Progress, load_checkpoint, loads, save_checkpoint};
-pub(crate) use prepare::{POURED, from_file, volume};
+pub(crate) use model::{CheckpointState, Progress, load_checkpoint, save_checkpoint};
+pub use model::{Model, Saved};
+pub(crate) use names::{BOX, FAR_ENOUGH, periodic, planes, planes_with_tables, surfaces};
+pub use origin::Origin;
+pub(crate) use prepare::{POURED, from_file, named, volume};
 pub(crate) use read::read_recorded;
 pub use read::{Loaded, editor_schema, is_grain_scene, read};
 pub use run::{DiscreteElements, identity, run};
-pub use summary::{PluginInForce, Summary};
+pub use summary::Summary;
 pub(crate) use tables::RecordedLoad;
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
     Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
-pub(crate) use walls::{
-    BOX, FAR, FAR_ENOUGH, control, periodic, planes, planes_with_tables, setup, surfaces,
-};
+pub(crate) use walls::{FAR, control, setup};

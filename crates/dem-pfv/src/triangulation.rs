@@ -41,8 +41,8 @@ mod order;
 mod predicates;
 
 pub use crate::error::TriangulationError;
-pub(crate) use cells::without;
 pub use cells::{Cell, Facet, Triangulation, Vertex};
+pub(crate) use predicates::except;
 
 /// A sphere: the weighted point (x, R²).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::pores::{Places, Pores};
-use crate::coupled::{CoupledError, Vector};
+use crate::coupled::{CoupledError, StepLimit, Vector};
 use crate::flow::Boundary;
 use crate::grains::{GrainSystem, Wall};
 
@@ -172,17 +172,4 @@ impl Bodies {
         }
         Ok(())
     }
-}
-
-/// Limits of a step.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-pub struct StepLimit {
-    /// Largest stable step Δt, s.
-    pub step: f64,
-    /// 2/ω, the contacts alone, s.
-    pub elastic: f64,
-    /// 2/λ, the drag alone, s.
-    pub viscous: f64,
-    /// The grain that moves most in the mode of strongest drag.
-    pub grain: usize,
 }

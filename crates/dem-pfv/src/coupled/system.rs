@@ -89,10 +89,10 @@ impl CoupledSystem {
             storage_step,
             ..Clock::default()
         };
-        Ok(Self::of(grains, setup, law, pores, clock))
+        Ok(Self::from_parts(grains, setup, law, pores, clock))
     }
 
-    pub(crate) fn of(
+    pub(crate) fn from_parts(
         grains: GrainSystem,
         setup: FlowSetup,
         law: Box<dyn Conductance>,

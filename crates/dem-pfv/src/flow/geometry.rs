@@ -4,7 +4,7 @@ use crate::Vector;
 use crate::flow::facet::{Facet, edge};
 use crate::flow::throat::{Pores, SlipCondition, SolidAngles};
 use crate::flow::{FlowError, Throat, solid_angle};
-use crate::triangulation::{Cell, Sphere, Triangulation, Vertex, Wall, without};
+use crate::triangulation::{Cell, Sphere, Triangulation, Vertex, Wall, except};
 
 /// Deepest overlap, in terms of the smaller radius.
 const DEEPEST: f64 = 0.1;
@@ -83,7 +83,7 @@ impl PoreGeometry {
         let Some(i) = v.iter().position(|v| *v == Vertex::Wall(wall)) else {
             return 0.0;
         };
-        let area = Facet::new(&self.mesh, &without(&v, i)).area();
+        let area = Facet::new(&self.mesh, &except(&v, i)).area();
         area.dot(&self.mesh.walls[wall].normal).abs()
     }
 
@@ -244,7 +244,7 @@ pub fn solid_volume(mesh: &Triangulation, cell: &Cell) -> f64 {
     let vertices = cell.vertices();
     let share = |(i, v): (usize, &Vertex)| {
         let Vertex::Sphere(k) = *v else { return 0.0 };
-        let [a, b, c] = without(&vertices, i).map(|o| edge(mesh, k, o));
+        let [a, b, c] = except(&vertices, i).map(|o| edge(mesh, k, o));
         mesh.spheres[k].radius.powi(3) / 3.0 * solid_angle(a, b, c).abs()
     };
     vertices.iter().enumerate().map(share).sum()

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::grains::{GrainError, GrainSystem, Slot, Vector};
+use crate::grains::{GrainError, GrainSystem, Partner, Slot, Vector};
 use crate::sphere;
 
 /// A contact as it was at the last evaluation.
@@ -238,32 +238,6 @@ impl GrainSystem {
         let stresses = (0..self.walls.len()).map(|w| self.wall_stress(w));
         let sum: f64 = stresses.sum::<Result<f64, _>>()?;
         Ok(sum / self.walls.len() as f64)
-    }
-}
-
-/// The second body of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Partner {
-    /// A grain.
-    Grain(usize),
-    /// A wall.
-    Wall(usize),
-    /// A triangle of a mesh.
-    Triangle {
-        /// The mesh.
-        mesh: usize,
-        /// The triangle.
-        triangle: usize,
-    },
-}
-
-impl std::fmt::Display for Partner {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Grain(grain) => write!(f, "grain {grain}"),
-            Self::Wall(wall) => write!(f, "wall {wall}"),
-            Self::Triangle { mesh, triangle } => write!(f, "triangle {triangle} of mesh {mesh}"),
-        }
     }
 }
 

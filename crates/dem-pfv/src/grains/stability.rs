@@ -119,7 +119,7 @@ impl GrainSystem {
 
     /// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
     /// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
-    pub const DEEPEST: f64 = 0.25;
+    pub const DEEPEST: f64 = crate::error::DEEPEST;
 
     /// The first contact that is deeper than a share of the smaller radius, with the number of its part of the table.
     fn deeper(&self, share: f64) -> Option<(usize, &Slot)> {

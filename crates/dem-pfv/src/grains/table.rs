@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::grains::{Grains, MEMORY, Mesh, Period, State, Vector, Wall, nearest, separation};
+use crate::grains::{Grains, MEMORY, Mesh, Period, Vector, Wall, nearest, separation};
 use crate::groups::Groups;
 
 /// Two bodies that are near each other.
@@ -74,6 +74,15 @@ struct PreviousState {
     vertices: Vec<Vec<Vector>>,
 }
 
+/// Input of the table.
+#[derive(Clone, Copy)]
+pub(crate) struct Bodies<'a> {
+    pub grains: &'a Grains,
+    pub walls: &'a [Wall],
+    pub meshes: &'a [Mesh],
+    pub period: &'a Period,
+}
+
 /// Grains per task when lists are made.
 const TASK: usize = 256;
 
@@ -95,23 +104,23 @@ impl Table {
 
     /// Slots of a grain with the side it has in each: 0 for the first body, 1 for the second.
     pub fn slots_of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
-        let entries = self.entries.of(grain).iter();
+        let entries = self.entries.members(grain).iter();
         entries.map(|&entry| (&self.slots[(entry >> 1) as usize], (entry & 1) as usize))
     }
 
     /// True if something may have come near that is not in the table.
-    pub fn expired(&self, state: &State) -> bool {
-        let (then, grains, skin) = (&self.then, &state.grains, state.skin);
-        if then.positions.len() != grains.len() || then.walls.len() != state.walls.len() {
+    pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
+        let (then, grains) = (&self.then, bodies.grains);
+        if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {
             return true;
         }
         let half = 0.5 * skin;
         let moved = |wall: &Wall, point: &Vector| (wall.point - point).dot(&wall.normal).abs();
-        let mut walls = state.walls.iter().zip(&then.walls);
+        let mut walls = bodies.walls.iter().zip(&then.walls);
         if walls.any(|(wall, point)| moved(wall, point) > half) {
             return true;
         }
-        for (mesh, old) in state.meshes.iter().zip(&then.vertices) {
+        for (mesh, old) in bodies.meshes.iter().zip(&then.vertices) {
             let mut vertices = mesh.vertices.iter().zip(old);
             if vertices.any(|(new, old)| (new - old).norm_squared() > half * half) {
                 return true;
@@ -119,7 +128,7 @@ impl Table {
         }
         let left = |i: usize| {
             let room = half - (grains.radius[i] - then.radii[i]);
-            let way = separation(&grains.position[i], &then.positions[i], &state.period);
+            let way = separation(&grains.position[i], &then.positions[i], bodies.period);
             room < 0.0 || way.norm_squared() > room * room
         };
         let all = (0..grains.len()).into_par_iter();
@@ -127,19 +136,19 @@ impl Table {
     }
 
     /// Makes the table anew; contacts keep their memory.
-    pub fn renew(&mut self, state: &State) {
-        let (grains, period, skin) = (&state.grains, &state.period, state.skin);
+    pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
+        let (grains, period) = (bodies.grains, bodies.period);
         let largest = grains.largest_radius();
         let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
         let mut slots = pairs(grains, &grid, period, skin);
         let mut ends = vec![slots.len()];
-        for wall in &state.walls {
+        for wall in bodies.walls {
             let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
             let near = (0..grains.len()).filter(near);
             slots.extend(near.map(|i| Slot::new(i as u32, 0)));
             ends.push(slots.len());
         }
-        for mesh in &state.meshes {
+        for mesh in bodies.meshes {
             slots.extend(triangles(grains, &grid, mesh, largest, skin));
             ends.push(slots.len());
         }
@@ -155,8 +164,8 @@ impl Table {
         self.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
-            walls: state.walls.iter().map(|w| w.point).collect(),
-            vertices: state.meshes.iter().map(|m| m.vertices.clone()).collect(),
+            walls: bodies.walls.iter().map(|w| w.point).collect(),
+            vertices: bodies.meshes.iter().map(|m| m.vertices.clone()).collect(),
         };
     }
 
@@ -291,7 +300,7 @@ impl Grid {
     }
 
     fn members(&self, cell: [usize; 3]) -> &[u32] {
-        self.members.of(self.number(cell))
+        self.members.members(self.number(cell))
     }
 
     /// Cells on an axis around one, each once.

@@ -9,7 +9,7 @@ use crate::scene::error::DemError;
 use crate::scene::fields;
 use crate::scene::laws::{Laws, throats};
 use crate::scene::tables::{Axis, Probe, Reference, Scene};
-use crate::scene::walls::{BOX, planes};
+use crate::scene::{BOX, planes};
 
 /// Everything that is wrong.
 pub fn scene(scene: &Scene, table: &Table, source: &Source) -> Vec<SceneProblem> {

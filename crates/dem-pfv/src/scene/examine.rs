@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use serde::Serialize;
+use serde_json::Value as Json;
 use sph_core::bounds;
 
 use crate::grains::{Grain, GrainSystem, Setup};
 use crate::scene::{
-    BOX, DemError, Fluid, Laws, Loaded, POURED, PluginInForce, Plugins, Scene, from_file, headings,
-    planes, setup, surfaces, volume,
+    BOX, DemError, Fluid, Laws, Loaded, POURED, Plugins, Scene, from_file, headings, planes, setup,
+    surfaces, volume,
 };
 
 /// Data of a scene before it runs.
@@ -334,4 +335,17 @@ fn law_of(scene: &Scene, name: &str) -> String {
         (None, Some(_)) if BOX.contains(&name) => "box.contact".into(),
         _ => "grains.contact".into(),
     }
+}
+
+/// A plugin and its parameters.
+#[derive(Clone, Debug, Serialize)]
+pub struct PluginInForce {
+    /// Kind: "contact-law" or "conductance".
+    pub kind: String,
+    /// Owner of the plugin: "grains", "box", "wall top".
+    pub of: String,
+    /// Name.
+    pub name: String,
+    /// Parameters as the scene gives them, SI.
+    pub parameters: Json,
 }

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_json::Value as Json;
 use sph_run::{RunCounters, Status};
 
-use crate::scene::{Assembled, Compared, Origin, Progress, Scene, plugins};
+use crate::scene::{Assembled, Compared, Origin, PluginInForce, Progress, Scene, plugins};
 
 /// Content of `summary.json`.
 #[derive(Clone, Debug, Serialize)]
@@ -55,19 +54,6 @@ pub struct Summary {
     pub errors: BTreeMap<String, Compared>,
     /// Warnings.
     pub warnings: Vec<String>,
-}
-
-/// A plugin and its parameters.
-#[derive(Clone, Debug, Serialize)]
-pub struct PluginInForce {
-    /// Kind: "contact-law" or "conductance".
-    pub kind: String,
-    /// Owner of the plugin: "grains", "box", "wall top".
-    pub of: String,
-    /// Name.
-    pub name: String,
-    /// Parameters as the scene gives them, SI.
-    pub parameters: Json,
 }
 
 /// Version of the form of the summary.

@@ -3,8 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
-use crate::triangulation::cells::without;
-use crate::triangulation::predicates::{GHOST, Predicates};
+use crate::triangulation::predicates::{GHOST, Predicates, except};
 use crate::triangulation::{Sphere, TriangulationError, Wall};
 
 /// No neighbour yet.
@@ -35,7 +34,7 @@ impl<'a> Builder<'a> {
         let mut open = HashMap::new();
         for (c, cell) in cells.iter().enumerate() {
             for i in 0..4 {
-                let mut facet: [u32; 3] = without(cell, i);
+                let mut facet: [u32; 3] = except(cell, i);
                 facet.sort_unstable();
                 if let Some((other, j)) = open.remove(&facet) {
                     neighbours[c][i] = other as u32;
@@ -99,7 +98,7 @@ impl<'a> Builder<'a> {
                 if neighbours[here][i] == from {
                     return false;
                 }
-                let side = self.predicates.side(without(&cell, i), e);
+                let side = self.predicates.side(except(&cell, i), e);
                 // With e in place of vertex i, O has the sign (−1)^(i + 3) of that of the others and e.
                 side == [Ordering::Greater, Ordering::Less][i % 2]
             });
@@ -166,8 +165,8 @@ impl<'a> Builder<'a> {
                 back[j] = new;
             }
             for j in (0..4).filter(|j| *j != i) {
-                let facet: [u32; 3] = without(&cell, j);
-                let [a, b] = without(&facet, if i < j { i } else { i - 1 });
+                let facet: [u32; 3] = except(&cell, j);
+                let [a, b] = except(&facet, if i < j { i } else { i - 1 });
                 self.edges.push(((a.min(b), a.max(b)), new, j));
             }
         }

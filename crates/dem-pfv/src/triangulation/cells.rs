@@ -4,7 +4,7 @@ use crate::Vector;
 use crate::groups::Groups;
 use crate::triangulation::build::Builder;
 use crate::triangulation::order::insertion_order;
-use crate::triangulation::predicates::{GHOST, Predicates};
+use crate::triangulation::predicates::{GHOST, Predicates, except};
 use crate::triangulation::{Sphere, TriangulationError, Wall, build};
 
 /// A vertex of a cell.
@@ -38,11 +38,6 @@ impl Vertex {
             Self::Wall(_) => None,
         }
     }
-}
-
-/// A list without the value at place `i`.
-pub(crate) fn without<T: Copy, const N: usize, const M: usize>(all: &[T; N], i: usize) -> [T; M] {
-    std::array::from_fn(|k| all[if k < i { k } else { k + 1 }])
 }
 
 impl Cell {
@@ -155,7 +150,7 @@ impl Triangulation {
         let corners = cells.iter().zip(0_u32..);
         let corners = corners.flat_map(|(cell, c)| cell.vertices.map(|v| (place(v), c)));
         let around = Groups::new(spheres.len() + walls.len(), corners);
-        if let Some(sphere) = (0..spheres.len()).find(|k| around.of(*k).is_empty()) {
+        if let Some(sphere) = (0..spheres.len()).find(|k| around.members(*k).is_empty()) {
             return Err(TriangulationError::Hidden(sphere));
         }
         Ok(Self {
@@ -168,7 +163,7 @@ impl Triangulation {
 
     /// The numbers of the cells around a vertex, ascending.
     pub fn cells_around(&self, vertex: Vertex) -> &[u32] {
-        self.around.of(match vertex {
+        self.around.members(match vertex {
             Vertex::Sphere(k) => k,
             Vertex::Wall(w) => self.spheres.len() + w,
         })
@@ -190,7 +185,7 @@ impl Triangulation {
                 Some(Facet {
                     cells: [c, n],
                     opposite: i,
-                    vertices: without(&cell.vertices(), i),
+                    vertices: except(&cell.vertices(), i),
                 })
             })
         })
@@ -223,7 +218,7 @@ impl Triangulation {
                 (wall.normal, -wall.distance(s0.centre))
             }
         };
-        let [(d1, b1), (d2, b2), (d3, b3)] = without(&vertices, base).map(row);
+        let [(d1, b1), (d2, b2), (d3, b3)] = except(&vertices, base).map(row);
         let c = d2.cross(&d3);
         s0.centre + (b1 * c + b2 * d3.cross(&d1) + b3 * d1.cross(&d2)) / d1.dot(&c)
     }

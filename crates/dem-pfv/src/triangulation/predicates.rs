@@ -18,7 +18,6 @@ use std::cmp::Ordering;
 
 use robust::{Coord3D, orient3d};
 
-use crate::triangulation::cells::without;
 use crate::triangulation::expansion::Expansion;
 use crate::triangulation::{Sphere, Wall};
 
@@ -100,7 +99,7 @@ impl Predicates {
     /// Sign of O of four rays, of which one at least is a sphere and none is the ghost.
     fn orientation(&self, rays: [u32; 4]) -> Ordering {
         let k = (0..4).rev().find(|k| self.is_point(rays[*k])).unwrap_or(3);
-        let sign = self.side(without(&rays, k), rays[k]);
+        let sign = self.side(except(&rays, k), rays[k]);
         if k % 2 == 1 { sign } else { sign.reverse() }
     }
 
@@ -108,7 +107,7 @@ impl Predicates {
     /// one of them is the ghost and `e` lies in the plane of the others.
     pub fn conflict(&self, cell: [u32; 4], e: u32) -> Option<bool> {
         if let Some(k) = cell.iter().position(|v| *v == GHOST) {
-            let sign = self.side(without(&cell, k), e);
+            let sign = self.side(except(&cell, k), e);
             let sign = if k % 2 == 1 { sign } else { sign.reverse() };
             return (sign != Ordering::Equal).then_some(sign == Ordering::Greater);
         }
@@ -146,7 +145,7 @@ impl Predicates {
         }
         let (mut value, mut total) = (0.0, 0.0);
         for i in 0..4 {
-            let (minor, bound) = determinant3(&without(&rows, i));
+            let (minor, bound) = determinant3(&except(&rows, i));
             value += if i % 2 == 1 { l[i] } else { -l[i] } * minor;
             total += size[i] * bound;
         }
@@ -187,7 +186,7 @@ impl Predicates {
         let mut order = [0, 1, 2, 3, 4];
         order.sort_by_key(|i| rays[*i]);
         for i in order {
-            let sign = self.orientation(without(&rays, i));
+            let sign = self.orientation(except(&rays, i));
             if sign != Ordering::Equal {
                 // The cofactor of l of ray i in column 3 has the sign (−1)^(i + 3).
                 return (sign == Ordering::Greater) == (i % 2 == 1);
@@ -249,7 +248,7 @@ fn exact_determinant3(r: [&[Expansion; 3]; 3]) -> Expansion {
 /// det of rows (x, y, z, l), expanded along l.
 fn exact_determinant4(r: &[[Expansion; 3]; 4], l: &[Expansion; 4]) -> Expansion {
     (0..4).fold(Expansion::default(), |sum, i| {
-        let rows: [&[Expansion; 3]; 3] = without(&r.each_ref(), i);
+        let rows: [&[Expansion; 3]; 3] = except(&r.each_ref(), i);
         let term = l[i].times(&exact_determinant3(rows));
         if i % 2 == 1 {
             sum.plus(&term)
@@ -257,4 +256,9 @@ fn exact_determinant4(r: &[[Expansion; 3]; 4], l: &[Expansion; 4]) -> Expansion 
             sum.minus(&term)
         }
     })
+}
+
+/// A list except the value at place `i`.
+pub(crate) fn except<T: Copy, const N: usize, const M: usize>(all: &[T; N], i: usize) -> [T; M] {
+    std::array::from_fn(|k| all[if k < i { k } else { k + 1 }])
 }
