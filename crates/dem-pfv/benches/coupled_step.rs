@@ -1,6 +1,6 @@
 //! A coupled step of a packing of 1000 spheres, and what is done once per mesh.
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, WallBoundary};
 use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
 fn main() {
@@ -18,7 +18,8 @@ fn system() -> CoupledSystem {
     });
     let setup = Setup::new(grains.collect(), LinearElastic::new(15e6, 0.5, 0.5));
     let grains = GrainSystem::new(setup.walls(Wall::cuboid([0.0; 3], [1.0; 3]))).expect("grains");
-    let setup = FlowSetup::new(Fluid::new(125.0, 0.0)).remeshing(Remeshing::never());
+    let mut setup = FlowSetup::new(Fluid::new(125.0, 0.0));
+    setup.remeshing.strain = None;
     let setup = setup
         .side(4, WallBoundary::drained(0.0))
         .side(5, WallBoundary::drained(0.0));

@@ -1,7 +1,7 @@
 //! Time of a step and of its parts: a dense packing at rest, and grains that flow.
 
 use dem_pfv::grains::{
-    Cloud, ContactLaw, Grain, GrainSystem, Growth, HertzMindlin, LinearElastic, Setup, Target, Wall,
+    Cloud, ContactLaw, Grain, GrainSystem, Grown, HertzMindlin, LinearElastic, Setup, Wall,
 };
 use divan::counter::ItemsCount;
 
@@ -23,12 +23,13 @@ fn packing(grains: usize, law: impl ContactLaw + 'static) -> GrainSystem {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
     let setup = Setup::new(grains.collect(), LinearElastic::new(MODULUS, 0.5, 0.1));
     let mut system = GrainSystem::new(setup.walls(walls).damping(0.4)).expect("a cloud");
-    let growth = Growth {
+    let growth = Grown {
         fast: 1.004,
         tolerance: 0.1,
-        ..Growth::new(Target::Porosity(0.39), MODULUS)
+        porosity: Some(0.39),
+        ..Grown::default()
     };
-    growth.run(&mut system).expect("grown");
+    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
     system.set_law(0, Box::new(law)).expect("a law");
     system
 }

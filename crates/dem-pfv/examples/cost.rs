@@ -6,7 +6,7 @@ mod common;
 
 use std::time::Instant;
 
-use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, Remeshing, WallBoundary};
+use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, WallBoundary};
 use dem_pfv::grains::Control;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         mass,
     };
     let setup = FlowSetup::new(Fluid::new(250.0, 0.0));
-    let setup = setup
+    let mut setup = setup
         .side(4, WallBoundary::drained(0.0))
         .side(5, WallBoundary::drained(0.0));
     let start = Instant::now();
@@ -55,7 +55,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         each(start),
         system.meshes() - 1
     );
-    let mut system = CoupledSystem::new(system.into_grains(), setup.remeshing(Remeshing::never()))?;
+    setup.remeshing.strain = None;
+    let mut system = CoupledSystem::new(system.into_grains(), setup)?;
     let start = Clock::now();
     for _ in 0..steps {
         system.step_unchecked(step)?;

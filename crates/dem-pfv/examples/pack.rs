@@ -3,8 +3,7 @@
 //! `cargo run --release -p dem-pfv --example pack [grains] [stress Pa] [friction degrees] [d_max/d_min] [seed]`
 
 use dem_pfv::grains::{
-    Cloud, Grain, GrainError, GrainSystem, Growth, LinearElastic, Setup, Target, Wall,
-    uniform_radii,
+    Cloud, Grain, GrainError, GrainSystem, Grown, LinearElastic, Setup, Wall, uniform_radii,
 };
 
 fn main() -> Result<(), GrainError> {
@@ -29,7 +28,11 @@ fn main() -> Result<(), GrainError> {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
     let setup = Setup::new(grains, law(0.5, degrees.to_radians().tan())).law(law(0.0, 0.0));
     let mut system = GrainSystem::new(setup.walls(walls).damping(0.2))?;
-    let steps = Growth::new(Target::Stress(stress), 15e6).run(&mut system)?;
+    let growth = Grown {
+        stress: Some(stress),
+        ..Grown::default()
+    };
+    let steps = growth.run(&mut system, 0.5, 1_000_000)?;
     let porosity = system.porosity().unwrap_or_default();
     println!(
         "# {count} spheres grown to {stress} Pa with E = 15 MPa, {degrees} degrees, in {steps} steps; n = {porosity:.4}"

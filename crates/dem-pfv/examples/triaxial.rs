@@ -4,7 +4,7 @@
 //! `cargo run --release -p dem-pfv --example triaxial [grains] [rate 1/s]`
 
 use dem_pfv::grains::{
-    Cloud, Control, Grain, GrainError, GrainSystem, Growth, LinearElastic, Setup, Target, Wall,
+    Cloud, Control, Grain, GrainError, GrainSystem, Grown, LinearElastic, Setup, Wall,
     uniform_radii,
 };
 
@@ -29,7 +29,11 @@ fn sample(grains: usize, degrees: f64) -> Result<GrainSystem, GrainError> {
         .law(LinearElastic::new(MODULUS, 0.0, 0.0))
         .walls(walls);
     let mut system = GrainSystem::new(setup.damping(0.2))?;
-    let steps = Growth::new(Target::Stress(STRESS), MODULUS).run(&mut system)?;
+    let growth = Grown {
+        stress: Some(STRESS),
+        ..Grown::default()
+    };
+    let steps = growth.run(&mut system, 0.5, 1_000_000)?;
     let porosity = system.porosity().unwrap_or_default();
     println!("# prepared at {degrees} degrees in {steps} steps: porosity {porosity:.4}");
     system.set_law(0, Box::new(law(30.0)))?;

@@ -28,30 +28,19 @@
 //! # Ok::<(), dem_pfv::coupled::CoupledError>(())
 //! ```
 
-mod access;
 mod condition;
 mod edge_forces;
-mod error;
 mod limit;
 mod measure;
 mod pores;
-mod recorded;
 mod setup;
 mod state;
-mod step_limit;
 mod system;
-mod terzaghi;
-mod transfer;
-mod unit_forces;
 
-pub use condition::{FlowCondition, WallBoundary, Wave};
-pub use error::CoupledError;
-pub use recorded::Recorded;
+pub use crate::Vector;
+pub use crate::error::{CoupledError, StepLimit};
+pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
+pub use measure::Terzaghi;
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
 pub use state::State;
-pub use step_limit::StepLimit;
 pub use system::CoupledSystem;
-pub use terzaghi::Terzaghi;
-
-/// A vector in space, SI units of its quantity.
-pub type Vector = nalgebra::Vector3<f64>;

@@ -34,28 +34,18 @@
 //! ```
 
 mod assembly;
-mod boundary;
-mod conductance;
-mod edges;
-mod error;
 mod facet;
 mod forces;
 mod geometry;
-mod inscribed;
-mod solid_angle;
 mod system;
 mod throat;
-mod volume;
 
-pub use boundary::Boundary;
-pub use conductance::{
-    Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance,
-};
-pub use edges::Edge;
-pub use error::FlowError;
+pub use crate::error::FlowError;
+pub use assembly::Boundary;
+pub use facet::solid_angle;
 pub use forces::Forces;
-pub use geometry::PoreGeometry;
-pub use solid_angle::solid_angle;
+pub(crate) use forces::UnitForces;
+pub use geometry::{Edge, PoreGeometry, cell_volumes};
 pub use system::{FlowSystem, Solver, Storage};
+pub use throat::{Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance};
 pub use throat::{SlipCondition, SolidAngles, Throat};
-pub use volume::cell_volumes;

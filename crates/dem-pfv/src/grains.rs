@@ -7,7 +7,7 @@
 //! * [`ContactLaw`]: [`LinearElastic`], [`HertzMindlin`], both with [`RollingResistance`], or a plugin of your own:
 //!   [`ContactLawEntry`], [`contact_law`].
 //! * [`Control`]: walls at a velocity, a stress or a rate of strain, and free pistons.
-//! * [`Cloud`], [`rain`], [`Growth`], [`step_to_rest`]: samples.
+//! * [`Cloud`], [`rain`], [`Grown`], [`step_to_rest`]: samples.
 //! * [`GrainSystem::stress`], [`GrainSystem::grain_stresses`], [`strains`], [`GrainSystem::unbalanced_force`]:
 //!   measures.
 //! * [`State`]: saved, and resumed to the same bits. [`GrainError`]: refusals, by the grain's number.
@@ -31,52 +31,32 @@
 //! # Ok::<(), dem_pfv::grains::GrainError>(())
 //! ```
 
-mod access;
-mod cloud;
-mod columns;
-mod error;
-mod grid;
-mod growth;
-mod hertz_mindlin;
 mod law;
-mod linear;
 mod measure;
-mod mesh;
 mod motion;
-mod overlaps;
-mod partner;
-mod rest;
-mod resume;
-mod rolling;
+mod samples;
 mod setup;
-mod space;
+mod springs;
 mod stability;
 mod state;
-mod step_limits;
-mod strain;
 mod system;
 mod table;
 mod touch;
-mod unrest;
 mod wall;
-
-pub use cloud::{Cloud, rain, uniform_radii};
-pub use columns::Grains;
-pub use error::GrainError;
-pub use growth::{Growth, Target, step_to_rest};
-pub use hertz_mindlin::HertzMindlin;
+pub use crate::Vector;
+pub use crate::error::{GrainError, Partner, Unrest};
 pub use law::{Contact, ContactLaw, ContactLawEntry, MEMORY, Stiffness, contact_law};
-pub use linear::LinearElastic;
-pub use measure::Touch;
-pub use mesh::Mesh;
-pub use partner::Partner;
-pub use rolling::RollingResistance;
-pub use setup::{Grain, Period, Setup};
+pub(crate) use law::{Turn, reduced};
+pub use measure::{Touch, strains};
+pub use samples::{Cloud, Grown, rain, step_to_rest, uniform_radii};
+pub(crate) use setup::INERTIA;
+pub use setup::{Grain, Grains, Period, Setup};
+pub(crate) use setup::{check_period, finite, positive, separation, wrap};
+pub use springs::{HertzMindlin, LinearElastic, RollingResistance};
+pub(crate) use state::Limit;
 pub use state::State;
-pub use strain::strains;
 pub use system::GrainSystem;
-pub use unrest::Unrest;
-pub use wall::{Control, Wall};
-
-/// A vector in space, SI units of its quantity.
-pub type Vector = nalgebra::Vector3<f64>;
+pub(crate) use table::{Bodies, Slot, Table};
+pub(crate) use touch::View;
+pub use wall::{Control, Mesh, Wall};
+pub(crate) use wall::{nearest, sign};

@@ -43,46 +43,44 @@
 
 mod assemble;
 mod check;
-mod checkpoint;
-mod columns;
 mod compare;
-mod culprits;
 mod error;
 mod examine;
 mod fields;
-mod forecast;
 mod frames;
 mod laws;
-mod level;
 mod measure;
 mod model;
 mod names;
 mod origin;
 mod prepare;
 mod read;
-mod recorded;
 mod run;
-mod scaling;
-mod schema;
-mod subject;
 mod summary;
 mod tables;
 mod walls;
 
+pub(crate) use assemble::loads;
 pub use assemble::{Assembled, assemble};
 pub use compare::Compared;
 pub use error::{DemError, Failure};
-pub use examine::{Examination, examine};
-pub use forecast::Cost;
-pub use model::{Load, Model, Saved, StepOutcome};
+pub(crate) use examine::plugins;
+pub use examine::{Cost, Examination, PluginInForce, examine};
+pub(crate) use fields::{displacements, names, strain_deviators, values};
+pub(crate) use laws::{Laws, throats};
+pub(crate) use measure::{headings, row};
+pub(crate) use model::{CheckpointState, Progress, load_checkpoint, save_checkpoint};
+pub use model::{Model, Saved};
+pub(crate) use names::{BOX, FAR_ENOUGH, periodic, planes, planes_with_tables, surfaces};
 pub use origin::Origin;
-pub use read::{Loaded, is_grain_scene, read};
-pub use run::{identity, run};
-pub use schema::editor_schema;
-pub use subject::DiscreteElements;
-pub use summary::{PluginInForce, Summary};
+pub(crate) use prepare::{POURED, from_file, named, volume};
+pub(crate) use read::read_recorded;
+pub use read::{Loaded, editor_schema, is_grain_scene, read};
+pub use run::{DiscreteElements, identity, run};
+pub use summary::Summary;
+pub(crate) use tables::RecordedLoad;
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
-    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Triple, Wall, Wave,
-    Weight,
+    Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
+pub(crate) use walls::{FAR, control, setup};

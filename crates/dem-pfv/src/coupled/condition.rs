@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use sph_core::parameters;
 
 use crate::Axis;
-use crate::coupled::{CoupledError, Recorded, Vector};
+use crate::coupled::{CoupledError, Vector};
 use crate::flow::{Boundary, PoreGeometry};
 use crate::triangulation::Vertex;
 
@@ -68,55 +68,61 @@ impl Wave {
         let swing = self.period.map_or(1.0, |t| (2.0 * PI * time / t).sin());
         (self.amplitude + self.ramp * time) * phase.cos() * swing
     }
+
+    fn problem(&self) -> Option<&'static str> {
+        let lengths = [self.half_length, self.period.unwrap_or(1.0)];
+        match () {
+            () if !finite(&[self.crest, self.amplitude, self.ramp]) || !finite(&lengths) => {
+                Some("has numbers that are not finite")
+            }
+            () if lengths.iter().any(|l| *l <= 0.0) => {
+                Some("has a length or a period that is not positive")
+            }
+            () => None,
+        }
+    }
+}
+
+fn finite(numbers: &[f64]) -> bool {
+    numbers.iter().all(|x| x.is_finite())
+}
+
+impl From<FlowCondition> for WallBoundary {
+    /// Without grip.
+    fn from(condition: FlowCondition) -> Self {
+        Self {
+            condition,
+            sticks: false,
+        }
+    }
 }
 
 impl WallBoundary {
     /// No flow, and no grip.
     pub fn closed() -> Self {
-        Self {
-            condition: FlowCondition::Closed,
-            sticks: false,
-        }
+        FlowCondition::Closed.into()
     }
 
     /// A given pressure (Pa) without grip.
     pub fn drained(pressure: f64) -> Self {
-        Self {
-            condition: FlowCondition::Pressure(pressure),
-            sticks: false,
-        }
+        FlowCondition::Pressure(pressure).into()
     }
 
     pub(crate) fn check(&self, wall: usize) -> Result<(), CoupledError> {
         let bad = |problem| Err(CoupledError::BadCondition(wall, problem));
-        let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         match &self.condition {
-            FlowCondition::Closed => Ok(()),
             FlowCondition::Pressure(p) if !p.is_finite() => bad("is a pressure that is not finite"),
             FlowCondition::Inflow(v) if !v.is_finite() => bad("is an inflow that is not finite"),
-            FlowCondition::Pressure(_) | FlowCondition::Inflow(_) => Ok(()),
             FlowCondition::Recorded(recorded) => recorded.problem().map_or(Ok(()), bad),
-            FlowCondition::Wave(w) => {
-                let lengths = [w.half_length, w.period.unwrap_or(1.0)];
-                match () {
-                    () if !finite(&[w.crest, w.amplitude, w.ramp]) || !finite(&lengths) => {
-                        bad("has numbers that are not finite")
-                    }
-                    () if lengths.iter().any(|l| *l <= 0.0) => {
-                        bad("has a length or a period that is not positive")
-                    }
-                    () => Ok(()),
-                }
-            }
+            FlowCondition::Wave(wave) => wave.problem().map_or(Ok(()), bad),
+            _ => Ok(()),
         }
     }
 
     /// True if its values change while the clock runs.
     pub(crate) fn varies(&self) -> bool {
-        matches!(
-            self.condition,
-            FlowCondition::Wave(_) | FlowCondition::Recorded(_)
-        )
+        use FlowCondition::{Recorded, Wave};
+        matches!(self.condition, Wave(_) | Recorded(_))
     }
 
     /// True if both give a pressure, or neither does: then a change needs no new matrix.
@@ -126,10 +132,8 @@ impl WallBoundary {
 
     /// True if it gives a pressure.
     fn presses(&self) -> bool {
-        !matches!(
-            self.condition,
-            FlowCondition::Closed | FlowCondition::Inflow(_)
-        )
+        use FlowCondition::{Closed, Inflow};
+        !matches!(self.condition, Closed | Inflow(_))
     }
 
     /// Sets the given values at a time (s) in the conditions of the flow.
@@ -167,13 +171,71 @@ pub(crate) fn inflows(sides: &[WallBoundary], pores: &PoreGeometry, influx: &[f6
         around(wall).for_each(|c| owners[*c as usize] = wall);
     }
     let through = |(wall, side): (usize, &WallBoundary)| match side.condition {
-        FlowCondition::Inflow(v) => around(wall)
-            .map(|c| v * pores.area_on_wall(*c as usize, wall))
-            .sum(),
-        _ => (owners.iter().zip(influx))
-            .filter(|(o, _)| **o == wall)
-            .map(|(_, q)| q)
-            .sum(),
+        FlowCondition::Inflow(v) => {
+            let rate = |c: &u32| v * pores.area_on_wall(*c as usize, wall);
+            around(wall).map(rate).sum()
+        }
+        _ => {
+            let own = owners.iter().zip(influx).filter(|(o, _)| **o == wall);
+            own.map(|(_, q)| q).sum()
+        }
     };
     sides.iter().enumerate().map(through).collect()
+}
+
+/// p(x, t) on a wall, linear between places and between times, constant beyond the first and the last of both: the
+/// load of a free surface on a bed, one way.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Recorded {
+    /// Axis of the places.
+    pub axis: Axis,
+    /// Places along it, ascending, m.
+    pub places: Vec<f64>,
+    /// Times, ascending, s.
+    pub times: Vec<f64>,
+    /// Pressures (Pa) at all places at the first time, then at the second, and so on.
+    pub pressures: Vec<f64>,
+}
+
+impl Recorded {
+    /// Pressure (Pa) at a place (m) and a time (s).
+    pub fn pressure(&self, place: f64, time: f64) -> f64 {
+        let width = self.places.len();
+        let (row, next, share) = bracket(&self.times, time);
+        let (left, right, part) = bracket(&self.places, place);
+        let at = |row: usize| {
+            let row = &self.pressures[row * width..][..width];
+            row[left] + part * (row[right] - row[left])
+        };
+        at(row) + share * (at(next) - at(row))
+    }
+
+    /// The fault of the record, if there is one.
+    pub fn problem(&self) -> Option<&'static str> {
+        let all = [&self.places, &self.times, &self.pressures];
+        let whole = self.places.len() * self.times.len();
+        match () {
+            () if whole == 0 || self.pressures.len() != whole => {
+                Some("needs one pressure for each place and time, and one at least")
+            }
+            () if !all.iter().all(|n| finite(n)) => Some("has numbers that are not finite"),
+            () if !self.places.is_sorted() => Some("has places that do not ascend"),
+            () if !self.times.is_sorted() => Some("has times that do not ascend"),
+            () => None,
+        }
+    }
+}
+
+/// The two of ascending numbers between which x lies, and how far it is from the first to the second.
+fn bracket(numbers: &[f64], x: f64) -> (usize, usize, f64) {
+    let after = numbers.partition_point(|n| *n <= x);
+    let last = numbers.len() - 1;
+    match after {
+        0 => (0, 0, 0.0),
+        after if after > last => (last, last, 0.0),
+        after => {
+            let [from, to] = [numbers[after - 1], numbers[after]];
+            (after - 1, after, (x - from) / (to - from))
+        }
+    }
 }

@@ -58,6 +58,12 @@ impl EdgeForces {
         Some(Self { edges })
     }
 
+    /// The edges with a gap.
+    fn gaps(&self, grains: &GrainSystem, fluid: &Fluid) -> impl Iterator<Item = (&Edge, Gap)> {
+        let edges = self.edges.iter();
+        edges.filter_map(move |edge| Some((edge, gap(edge, grains, fluid)?)))
+    }
+
     /// Forces of the velocities of now; every body sums its edges in their order.
     pub fn apply(&self, grains: &GrainSystem, fluid: &Fluid) -> Loads {
         let g = &grains.grains;
@@ -67,10 +73,7 @@ impl EdgeForces {
             torques: zero,
             walls: vec![Vector::zeros(); grains.walls.len()],
         };
-        for edge in &self.edges {
-            let Some(gap) = gap(edge, grains, fluid) else {
-                continue;
-            };
+        for (edge, gap) in self.gaps(grains, fluid) {
             let k = edge.sphere;
             let there = |sphere: usize, lever: f64| {
                 g.velocity[sphere] + g.spin[sphere].cross(&(lever * gap.normal))
@@ -114,36 +117,22 @@ impl EdgeForces {
             let mass = 1.0 / g.mass[sphere];
             [mass + lever * lever / g.inertia(sphere), mass]
         };
-        for edge in &self.edges {
-            let Some(gap) = gap(edge, grains, fluid) else {
-                continue;
-            };
+        for (edge, gap) in self.gaps(grains, fluid) {
             let here = mobility(edge.sphere, gap.levers[0]);
             let there = match edge.other {
                 Vertex::Sphere(l) => mobility(l, gap.levers[1]),
                 // A piston moves along its normal only.
-                Vertex::Wall(w) => [0.0, wall_mobility(grains, w)],
+                Vertex::Wall(w) => [0.0, 1.0 / grains.walls[w].mass()],
             };
-            let both: f64 = (0..2)
-                .map(|d| gap.resistances[d] * (here[d] + there[d]))
-                .sum();
+            let part = |d: usize| gap.resistances[d] * (here[d] + there[d]);
+            let both = part(0) + part(1);
             sums[edge.sphere] += both;
             if let Vertex::Sphere(l) = edge.other {
                 sums[l] += both;
             }
         }
-        let sums = sums.into_iter().enumerate();
-        sums.fold((0.0, 0), |most, (grain, sum)| match sum > most.0 {
-            true => (sum, grain),
-            false => most,
-        })
-    }
-}
-
-fn wall_mobility(grains: &GrainSystem, wall: usize) -> f64 {
-    match grains.walls[wall].control {
-        crate::grains::Control::Piston { mass, .. } => 1.0 / mass,
-        _ => 0.0,
+        let larger = |most: (f64, usize), (k, sum)| if sum > most.0 { (sum, k) } else { most };
+        sums.into_iter().enumerate().fold((0.0, 0), larger)
     }
 }
 
@@ -170,9 +159,8 @@ fn gap(edge: &Edge, grains: &GrainSystem, fluid: &Fluid) -> Option<Gap> {
         true => fluid.viscosity * edge.area.max(0.0) / (open.max(0.0) + HYDRAULIC * smaller),
         false => 0.0,
     };
-    let lubrication = fluid
-        .lubrication
-        .map_or(0.0, |l| fluid.viscosity * resistance(l, reduced, open));
+    let lubricated = |l| fluid.viscosity * resistance(l, reduced, open);
+    let lubrication = fluid.lubrication.map_or(0.0, lubricated);
     Some(Gap {
         normal,
         levers: [radius + 0.5 * open, far + 0.5 * open],

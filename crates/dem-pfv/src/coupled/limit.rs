@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::coupled::pores::{Places, Pores};
 use crate::coupled::{CoupledError, StepLimit, Vector};
 use crate::flow::Boundary;
-use crate::grains::{Control, GrainSystem};
+use crate::grains::{GrainSystem, Wall};
 
 /// The mode of strongest drag, kept as the start of the next search.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -61,11 +61,8 @@ pub(crate) fn strongest_drag(
         }
     }
     let speeds = mode.grains.iter().map(Vector::norm_squared).enumerate();
-    let fastest = speeds.fold(
-        (0, -1.0),
-        |best, (i, v)| if v > best.1 { (i, v) } else { best },
-    );
-    mode.grain = fastest.0;
+    let faster = |best: (usize, f64), (i, v)| if v > best.1 { (i, v) } else { best };
+    (mode.grain, _) = speeds.fold((0, -1.0), faster);
     Ok(mode)
 }
 
@@ -91,25 +88,18 @@ impl Bodies {
     fn new(system: &GrainSystem) -> Self {
         let grains = &system.grains;
         let held = grains.held.iter().zip(&grains.mass);
-        let wall = |w: &crate::grains::Wall| match w.control {
-            Control::Piston { mass, .. } => mass,
-            _ => f64::INFINITY,
-        };
+        let grain = |(held, m): (&bool, &f64)| if *held { f64::INFINITY } else { *m };
         Self {
-            grains: held
-                .map(|(held, m)| if *held { f64::INFINITY } else { *m })
-                .collect(),
-            walls: system.walls.iter().map(wall).collect(),
+            grains: held.map(grain).collect(),
+            walls: system.walls.iter().map(Wall::mass).collect(),
             smallest: grains.radius.iter().copied().fold(f64::INFINITY, f64::min),
         }
     }
 
     /// Alternating velocities that no symmetry of a packing shares, if there is no mode from before.
     fn started(&self, mode: Mode) -> Mode {
-        if mode.grains.len() == self.grains.len()
-            && mode.walls.len() == self.walls.len()
-            && mode.rate > 0.0
-        {
+        let fits = mode.grains.len() == self.grains.len() && mode.walls.len() == self.walls.len();
+        if fits && mode.rate > 0.0 {
             return mode;
         }
         let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
@@ -121,10 +111,8 @@ impl Bodies {
             (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
         let free = |mass: f64| if mass.is_finite() { 1.0 } else { 0.0 };
-        let grains = self
-            .grains
-            .iter()
-            .map(|m| Vector::from_fn(|_, _| draw()) * free(*m));
+        let grains = self.grains.iter();
+        let grains = grains.map(|m| Vector::from_fn(|_, _| draw()) * free(*m));
         Mode {
             grains: grains.collect(),
             walls: self.walls.iter().map(|m| free(*m)).collect(),
@@ -135,17 +123,11 @@ impl Bodies {
 
     /// Scales to Σ m v² = 1; returns the root before.
     fn normalise(&self, mode: &mut Mode) -> f64 {
-        let finite = |m: &f64| if m.is_finite() { *m } else { 0.0 };
-        let grains = mode
-            .grains
-            .iter()
-            .zip(&self.grains)
-            .map(|(v, m)| finite(m) * v.norm_squared());
-        let walls = mode
-            .walls
-            .iter()
-            .zip(&self.walls)
-            .map(|(v, m)| finite(m) * v * v);
+        let energy = |m: f64, square: f64| if m.is_finite() { m } else { 0.0 } * square;
+        let grains = mode.grains.iter().zip(&self.grains);
+        let grains = grains.map(|(v, m)| energy(*m, v.norm_squared()));
+        let walls = mode.walls.iter().zip(&self.walls);
+        let walls = walls.map(|(v, m)| energy(*m, 1.0) * v * v);
         let size = grains.chain(walls).sum::<f64>().sqrt();
         if size > 0.0 {
             mode.grains.iter_mut().for_each(|v| *v /= size);
@@ -177,26 +159,16 @@ impl Bodies {
             }
         };
         let (after, before) = (pores.volumes(&moved(time)), pores.volumes(&moved(-time)));
-        let rates = after
-            .iter()
-            .zip(&before)
-            .map(|(a, b)| (a - b) / (2.0 * time));
-        let rates: Vec<_> = rates.collect();
+        let rates = after.iter().zip(&before);
+        let rates: Vec<_> = rates.map(|(a, b)| (a - b) / (2.0 * time)).collect();
         let pressures = pores.system.solve(boundary, &rates)?;
         let forces = pores.forces.apply(&pressures);
         let (on_grains, on_walls) = forces.split_at(self.grains.len());
         for ((v, m), f) in mode.grains.iter_mut().zip(&self.grains).zip(on_grains) {
             *v = -f / *m;
         }
-        let normals = places.walls.iter().map(|(n, _)| n);
-        for (((v, m), f), n) in mode
-            .walls
-            .iter_mut()
-            .zip(&self.walls)
-            .zip(on_walls)
-            .zip(normals)
-        {
-            *v = -f.dot(n) / m;
+        for (wall, (n, _)) in places.walls.iter().enumerate() {
+            mode.walls[wall] = -on_walls[wall].dot(n) / self.walls[wall];
         }
         Ok(())
     }

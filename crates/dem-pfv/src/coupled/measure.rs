@@ -1,8 +1,10 @@
-//! Measurements: pressures and stresses of layers, mobility, outflow.
+//! Readings of a coupled system: pressures and stresses of layers, mobility, outflow; exact consolidation.
 
-use crate::coupled::system::sphere;
-use crate::coupled::{CoupledError, CoupledSystem, Vector, condition};
-use crate::flow::{FlowSystem, Solver};
+use std::f64::consts::PI;
+
+use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Vector, WallBoundary, condition};
+use crate::flow::{FlowSystem, PoreGeometry, Solver};
+use crate::grains::{GrainError, GrainSystem};
 
 impl CoupledSystem {
     /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
@@ -14,10 +16,9 @@ impl CoupledSystem {
     /// without such cells.
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
         let cells = self.cells(axis, |x| (from..to).contains(&x[axis]));
-        let sums = cells.iter().fold((0.0, 0.0), |(v, pv), (_, volume, p)| {
-            (v + volume, pv + p * volume)
-        });
-        (sums.0 > 0.0).then(|| sums.1 / sums.0)
+        let add = |(v, pv), (_, volume, p): (_, f64, f64)| (v + volume, pv + p * volume);
+        let (volume, sum) = cells.into_iter().fold((0.0, 0.0), add);
+        (volume > 0.0).then(|| sum / volume)
     }
 
     /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells whose places are inside.
@@ -26,9 +27,8 @@ impl CoupledSystem {
         let clock = &self.clock;
         let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
         let cells = cells.filter(|((x, _), _)| inside(x));
-        cells
-            .map(|((x, volume), p)| (x[axis], *volume, *p))
-            .collect()
+        let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));
+        cells.collect()
     }
 
     /// Slope −dp/dx of the pressure along an axis (Pa/m): least squares over the cells whose places (m) are inside, by
@@ -57,8 +57,7 @@ impl CoupledSystem {
     pub fn buoyant_weight(&self) -> Vector {
         let grains = &self.grains.grains;
         let solid: f64 = grains.mass.iter().sum();
-        let fluid: f64 = grains.radius.iter().map(|r| sphere(*r)).sum();
-        self.grains.gravity * (solid - self.setup.fluid.density * fluid)
+        self.grains.gravity * (solid - self.setup.fluid.density * grains.volume())
     }
 
     /// Makes every further step measure the flow through walls.
@@ -81,30 +80,117 @@ impl CoupledSystem {
     /// A system that cannot be solved.
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
-        let mut sides = vec![crate::coupled::WallBoundary::closed(); 6];
+        let mut sides = vec![WallBoundary::closed(); 6];
         let walls = self.grains.walls.iter().enumerate();
-        let facing = |sign: f64| {
-            let found = walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
-            found.map(|(number, _)| number)
-        };
-        let none = crate::grains::GrainError::NoArea(2 * axis);
-        let (Some(low), Some(high)) = (facing(1.0), facing(-1.0)) else {
+        let facing = |sign: f64| walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
+        let none = GrainError::NoArea(2 * axis);
+        let (Some((low, _)), Some((high, _))) = (facing(1.0), facing(-1.0)) else {
             return Err(none.into());
         };
-        sides[low] = crate::coupled::WallBoundary::drained(0.0);
-        sides[high] = crate::coupled::WallBoundary::drained(1.0);
+        sides[low] = WallBoundary::drained(0.0);
+        sides[high] = WallBoundary::drained(1.0);
         let boundary = condition::boundary(&sides, geometry, 0.0);
         let viscosity = self.setup.fluid.viscosity;
-        let mut system = FlowSystem::new(
-            geometry,
-            &boundary,
-            &*self.law,
-            viscosity,
-            None,
-            Solver::Automatic,
-        )?;
+        let (law, solver) = (&*self.law, Solver::Automatic);
+        let mut system = FlowSystem::new(geometry, &boundary, law, viscosity, None, solver)?;
         let pressures = system.solve(&boundary, &[])?;
         let length = self.grains.box_lengths().ok_or(none)?[axis];
         Ok(system.inflow(geometry, high, &pressures) * length / self.grains.section(axis)?)
     }
+
+    /// The grains, their walls and contacts; the fluid's forces are the external ones.
+    pub fn grains(&self) -> &GrainSystem {
+        &self.grains
+    }
+
+    /// The grains, to steer walls, to set gravity or another contact law. Code that moves or scales grains here makes
+    /// the mesh anew with [`CoupledSystem::remesh`].
+    pub fn grains_mut(&mut self) -> &mut GrainSystem {
+        self.evaluated = false;
+        &mut self.grains
+    }
+
+    /// The grains without the fluid and its forces.
+    pub fn into_grains(mut self) -> GrainSystem {
+        self.grains.grains.external_force.fill(Vector::zeros());
+        for wall in &mut self.grains.walls {
+            wall.external_force = Vector::zeros();
+        }
+        self.grains
+    }
+
+    /// The fluid, the conditions and the criterion for meshes.
+    pub fn setup(&self) -> &FlowSetup {
+        &self.setup
+    }
+
+    /// Cells and throats of the mesh; grains have moved a little since it was made.
+    pub fn pores(&self) -> &PoreGeometry {
+        &self.pores.geometry
+    }
+
+    /// Pressures of all cells at the last step, Pa.
+    pub fn pressures(&self) -> &[f64] {
+        &self.clock.pressures
+    }
+
+    /// Volumes of all cells where the grains are now, m³; they add up to the box.
+    pub fn volumes(&self) -> &[f64] {
+        &self.clock.volumes
+    }
+
+    /// Rates at which the volumes changed in the last step, m³/s.
+    pub fn volume_rates(&self) -> &[f64] {
+        &self.clock.rates
+    }
+
+    /// Number of meshes made, the first included.
+    pub fn meshes(&self) -> u64 {
+        self.clock.meshes
+    }
+}
+
+/// Exact consolidation of an elastic layer under a sudden load, drained at one face: dp/dt = C_v d²p/dz².
+///
+/// T_v = C_v t / L², L the longest way to a drained face; a layer drained at both faces is two of half its height.
+/// Source: Terzaghi 1923; Catalano 2012, Eqs. (4.29) to (4.31).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terzaghi {
+    /// C_v = K E_oed, m²/s.
+    pub coefficient: f64,
+    /// L, m.
+    pub drainage: f64,
+}
+
+impl Terzaghi {
+    /// Time factor T_v of a time, s.
+    pub fn factor(&self, time: f64) -> f64 {
+        self.coefficient * time / (self.drainage * self.drainage)
+    }
+
+    /// Time (s) of a time factor T_v.
+    pub fn time(&self, factor: f64) -> f64 {
+        factor * self.drainage * self.drainage / self.coefficient
+    }
+
+    /// p/Δσ at the distance `z` (m) from the drained face: Σ (2/M) sin(M z/L) exp(−M² T_v), M = π (2m + 1)/2.
+    pub fn pressure(&self, z: f64, time: f64) -> f64 {
+        let z = z / self.drainage;
+        series(self.factor(time), |m| 2.0 / m * (m * z).sin()).clamp(0.0, 1.0)
+    }
+
+    /// Degree of consolidation U = 1 − Σ (2/M²) exp(−M² T_v), the settlement over the final one.
+    pub fn consolidation(&self, time: f64) -> f64 {
+        1.0 - series(self.factor(time), |m| 2.0 / (m * m))
+    }
+}
+
+/// Σ f(M) exp(−M² T) until terms are below rounding, or 10⁵ of them.
+fn series(factor: f64, term: impl Fn(f64) -> f64) -> f64 {
+    if factor <= 0.0 {
+        return 1.0;
+    }
+    let modes = (0..100_000).map(|m| 0.5 * PI * f64::from(2 * m + 1));
+    let kept = modes.take_while(|m| m * m * factor < 40.0);
+    kept.map(|m| term(m) * (-m * m * factor).exp()).sum()
 }

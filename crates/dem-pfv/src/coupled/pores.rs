@@ -1,15 +1,15 @@
-//! The pores of one mesh: geometry, linear system, forces of unit pressures.
+//! The pores of one mesh: geometry, linear system, forces of unit pressures, pressures from the mesh before.
 
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::edge_forces::EdgeForces;
-use crate::coupled::unit_forces::UnitForces;
-use crate::coupled::{CoupledError, FlowSetup, Vector, condition};
+use crate::coupled::{CoupledError, FlowSetup, Fluid, Vector, condition};
 use crate::flow::{
-    Boundary, Conductance, FlowSystem, PoreGeometry, SlipCondition, Storage, cell_volumes,
+    Boundary, Conductance, FlowSystem, PoreGeometry, SlipCondition, Storage, UnitForces,
+    cell_volumes,
 };
 use crate::grains::GrainSystem;
-use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
+use crate::triangulation::{Cell, Sphere, Triangulation, Vertex, Wall};
 
 /// Places of grains and walls; with the radii it is all that a mesh follows from.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -64,14 +64,11 @@ impl Pores {
         let spheres = places.centres.iter().zip(radii);
         let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
         let mesh = Triangulation::within(&spheres, &places.planes())?;
-        let grip = |sticks: bool| {
-            if sticks {
-                SlipCondition::NoSlip
-            } else {
-                SlipCondition::Slip
-            }
-        };
-        let grips: Vec<_> = setup.sides.iter().map(|s| grip(s.sticks)).collect();
+        let grips = setup.sides.iter().map(|s| match s.sticks {
+            true => SlipCondition::NoSlip,
+            false => SlipCondition::Slip,
+        });
+        let grips: Vec<_> = grips.collect();
         let geometry = PoreGeometry::pressed(mesh, &grips, setup.angles, deepest)?;
         let boundary = condition::boundary(&setup.sides, &geometry, time);
         let system = Self::assemble(&geometry, &boundary, setup, law, step)?;
@@ -94,11 +91,16 @@ impl Pores {
         law: &dyn Conductance,
         step: f64,
     ) -> Result<FlowSystem, CoupledError> {
-        let (viscosity, solver) = (setup.fluid.viscosity, setup.solver);
-        let bulk_modulus = setup.fluid.bulk_modulus;
+        let Fluid {
+            viscosity,
+            bulk_modulus,
+            ..
+        } = setup.fluid;
         let storage = bulk_modulus.map(|bulk_modulus| Storage { bulk_modulus, step });
-        let system = FlowSystem::new(geometry, boundary, law, viscosity, storage, solver)?;
-        Ok(system)
+        let solver = setup.solver;
+        Ok(FlowSystem::new(
+            geometry, boundary, law, viscosity, storage, solver,
+        )?)
     }
 
     /// Values of the conditions at a time (s).
@@ -111,8 +113,7 @@ impl Pores {
         &mut self,
         setup: &FlowSetup,
         law: &dyn Conductance,
-        time: f64,
-        step: f64,
+        [time, step]: [f64; 2],
     ) -> Result<(), CoupledError> {
         let boundary = condition::boundary(&setup.sides, &self.geometry, time);
         self.system = Self::assemble(&self.geometry, &boundary, setup, law, step)?;
@@ -128,15 +129,9 @@ impl Pores {
     /// A place inside each cell (m): the mean of its centres, half-way to its walls.
     pub fn middles(&self) -> Vec<Vector> {
         let mesh = &self.geometry.mesh;
-        let middle = |cell: &crate::triangulation::Cell| {
-            let vertices = cell.vertices();
-            let spheres = vertices.iter().filter_map(|v| match v {
-                Vertex::Sphere(k) => Some(mesh.spheres[*k].centre),
-                Vertex::Wall(_) => None,
-            });
-            let count = 4 - cell.walls();
-            let mean = spheres.sum::<Vector>() / count as f64;
-            vertices.iter().fold(mean, |at, v| match v {
+        let middle = |cell: &Cell| {
+            let mean = mesh.middle(cell);
+            cell.vertices().iter().fold(mean, |at, v| match v {
                 Vertex::Wall(w) => {
                     let wall = &mesh.walls[*w];
                     at - 0.5 * wall.distance(mean) * wall.normal
@@ -146,4 +141,37 @@ impl Pores {
         };
         mesh.cells.iter().map(middle).collect()
     }
+}
+
+/// Pressure (Pa) of every new cell: that of the old cell of the same vertices, or where there is none, of the old cell
+/// around one of its spheres whose middle is nearest.
+///
+/// A fluid that gives way needs it, and conjugate gradients start from it; a factorisation of stiff fluid does not.
+pub(crate) fn transferred(old: &Pores, pressures: &[f64], new: &Pores) -> Vec<f64> {
+    let (before, after) = (&old.geometry.mesh, &new.geometry.mesh);
+    let (places, middles) = (old.middles(), new.middles());
+    let value = |cell: usize| {
+        let vertices = sorted(after, cell);
+        let mut nearest = (f64::INFINITY, 0.0);
+        for vertex in vertices.into_iter().filter(|v| v.sphere().is_some()) {
+            for &candidate in before.cells_around(vertex) {
+                let pressure = pressures[candidate as usize];
+                if sorted(before, candidate as usize) == vertices {
+                    return pressure;
+                }
+                let distance = (places[candidate as usize] - middles[cell]).norm_squared();
+                if distance < nearest.0 {
+                    nearest = (distance, pressure);
+                }
+            }
+        }
+        nearest.1
+    };
+    (0..after.cells.len()).map(value).collect()
+}
+
+fn sorted(mesh: &Triangulation, cell: usize) -> [Vertex; 4] {
+    let mut vertices = mesh.cells[cell].vertices();
+    vertices.sort_unstable();
+    vertices
 }

@@ -5,10 +5,7 @@ use sph_core::parameters;
 
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
-use crate::{OutOfRange, require};
-
-/// Valid values of most numbers.
-pub(crate) const POSITIVE: &str = "positive and finite";
+use crate::{OutOfRange, POSITIVE, require};
 
 /// The fluid in the pores.
 #[parameters]
@@ -63,49 +60,22 @@ impl Fluid {
         }
     }
 
-    /// The same that shears between neighbours.
-    #[must_use]
-    pub fn shearing(mut self) -> Self {
-        self.shear = true;
-        self
-    }
-
-    /// The same with lubrication of the gaps between neighbours.
-    #[must_use]
-    pub fn lubricated(mut self, lubrication: Lubrication) -> Self {
-        self.lubrication = Some(lubrication);
-        self
-    }
-
-    /// The same with a bulk modulus, Pa.
-    #[must_use]
-    pub fn compressible(mut self, bulk_modulus: f64) -> Self {
-        self.bulk_modulus = Some(bulk_modulus);
-        self
-    }
-
     fn check(&self) -> Result<(), CoupledError> {
-        let Self {
-            viscosity, density, ..
-        } = *self;
-        require("the viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
+        let (mu, rho) = (self.viscosity, self.density);
+        require("the viscosity is", mu, POSITIVE, mu > 0.0)?;
         let valid = "at least 0 and finite";
-        require("the fluid's density is", density, valid, density >= 0.0)?;
+        require("the fluid's density is", rho, valid, rho >= 0.0)?;
         if let Some(Lubrication { roughness, range }) = self.lubrication {
             let what = "the roughness of lubrication is";
             require(what, roughness, POSITIVE, roughness > 0.0)?;
-            let valid = "above the roughness and finite";
-            require(
+            let (what, valid) = (
                 "the range of lubrication is",
-                range,
-                valid,
-                range > roughness,
-            )?;
+                "above the roughness and finite",
+            );
+            require(what, range, valid, range > roughness)?;
         }
-        if let Some(k) = self.bulk_modulus {
-            require("the bulk modulus is", k, POSITIVE, k > 0.0)?;
-        }
-        Ok(())
+        let k = self.bulk_modulus.unwrap_or(1.0);
+        Ok(require("the bulk modulus is", k, POSITIVE, k > 0.0)?)
     }
 }
 
@@ -132,27 +102,6 @@ impl Default for Remeshing {
 }
 
 impl Remeshing {
-    /// At a strain.
-    pub fn at(strain: f64) -> Self {
-        Self {
-            strain: Some(strain),
-            most_steps: None,
-        }
-    }
-
-    /// At every step.
-    pub fn always() -> Self {
-        Self::at(0.0)
-    }
-
-    /// Never: for comparison, and for grains that are held.
-    pub fn never() -> Self {
-        Self {
-            strain: None,
-            most_steps: None,
-        }
-    }
-
     pub(crate) fn due(&self, strain: f64, steps: u64) -> bool {
         self.strain.is_some_and(|most| strain >= most)
             || self.most_steps.is_some_and(|n| steps >= n)
@@ -192,22 +141,6 @@ impl FlowSetup {
         if let Some(slot) = self.sides.get_mut(wall) {
             *slot = side;
         }
-        self
-    }
-
-    /// The same with walls to which fluid sticks.
-    #[must_use]
-    pub fn sticking(mut self) -> Self {
-        for side in &mut self.sides {
-            side.sticks = true;
-        }
-        self
-    }
-
-    /// The same with another criterion.
-    #[must_use]
-    pub fn remeshing(mut self, remeshing: Remeshing) -> Self {
-        self.remeshing = remeshing;
         self
     }
 

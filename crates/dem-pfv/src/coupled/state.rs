@@ -51,20 +51,10 @@ impl CoupledSystem {
         let radii = &grains.grains.radius;
         let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
         let cells = pores.geometry.volumes.len();
-        if [&clock.volumes, &clock.rates, &clock.pressures]
-            .iter()
-            .any(|c| c.len() != cells)
-        {
+        let columns = [&clock.volumes, &clock.rates, &clock.pressures];
+        if columns.iter().any(|c| c.len() != cells) {
             return bad("columns of the pores differ in length from the mesh");
         }
-        Ok(Self {
-            grains,
-            setup,
-            law,
-            pores,
-            clock,
-            evaluated: false,
-            inflows: None,
-        })
+        Ok(Self::from_parts(grains, setup, law, pores, clock))
     }
 }

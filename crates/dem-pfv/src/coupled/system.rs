@@ -1,13 +1,11 @@
 //! The coupled system: made, stepped, meshed anew.
 
 use crate::coupled::limit::{Mode, combined, strongest_drag};
-use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores};
-use crate::coupled::setup::POSITIVE;
-use crate::coupled::transfer::transferred;
-use crate::coupled::{CoupledError, FlowSetup, StepLimit, Vector, WallBoundary, condition};
+use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores, transferred};
+use crate::coupled::{CoupledError, FlowSetup, StepLimit, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
 use crate::grains::GrainSystem;
-use crate::require;
+use crate::{POSITIVE, require, sphere};
 
 /// Grains that move, and the fluid in the pores between them.
 ///
@@ -34,7 +32,7 @@ pub struct CoupledSystem {
 }
 
 /// State remembered from step to step.
-#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
+#[derive(Clone, Debug, Default, serde::Deserialize, serde::Serialize)]
 pub(crate) struct Clock {
     /// Volumes of the cells where grains are now, m³.
     pub volumes: Vec<f64>,
@@ -80,29 +78,28 @@ impl CoupledSystem {
         check(&grains, &setup)?;
         let places = Places::from_grains(&grains);
         let storage_step = 0.1 * grains.critical_step();
-        let radii = &grains.grains.radius;
-        let pores = Pores::new(
-            places,
-            radii,
-            &setup,
-            &*law,
-            [grains.time, storage_step],
-            GIVEN,
-        )?;
-        let cells = pores.geometry.volumes.len();
+        let (radii, now) = (&grains.grains.radius, [grains.time, storage_step]);
+        let pores = Pores::new(places, radii, &setup, &*law, now, GIVEN)?;
+        let volumes = pores.geometry.volumes.to_vec();
         let clock = Clock {
-            volumes: pores.geometry.volumes.to_vec(),
-            rates: vec![0.0; cells],
-            pressures: vec![0.0; cells],
-            strain: 0.0,
-            age: 0,
+            rates: vec![0.0; volumes.len()],
+            pressures: vec![0.0; volumes.len()],
+            volumes,
             meshes: 1,
-            last_step: None,
             storage_step,
-            mode: Mode::default(),
-            fresh: false,
+            ..Clock::default()
         };
-        Ok(Self {
+        Ok(Self::from_parts(grains, setup, law, pores, clock))
+    }
+
+    pub(crate) fn from_parts(
+        grains: GrainSystem,
+        setup: FlowSetup,
+        law: Box<dyn Conductance>,
+        pores: Pores,
+        clock: Clock,
+    ) -> Self {
+        Self {
             grains,
             setup,
             law,
@@ -110,7 +107,7 @@ impl CoupledSystem {
             clock,
             evaluated: false,
             inflows: None,
-        })
+        }
     }
 
     fn evaluate(&mut self) -> Result<(), CoupledError> {
@@ -198,12 +195,11 @@ impl CoupledSystem {
         if self.setup.fluid.bulk_modulus.is_some() {
             // A stiffer answer in a longer step: halve the distance to what holds for the last one.
             for _ in 0..6 {
-                if limit.step >= self.clock.storage_step
-                    && limit.step < 1.1 * self.clock.storage_step
-                {
+                let last = self.clock.storage_step;
+                if limit.step >= last && limit.step < 1.1 * last {
                     break;
                 }
-                self.store((limit.step * self.clock.storage_step).sqrt())?;
+                self.store((limit.step * last).sqrt())?;
                 limit = self.limit_here()?;
             }
             limit.step = limit.step.min(self.clock.storage_step);
@@ -237,37 +233,28 @@ impl CoupledSystem {
         let (boundary, rates) = (&pores.boundary, &clock.rates);
         let pressures = pores.system.step(boundary, rates, &clock.pressures)?;
         if let Some(inflows) = &mut self.inflows {
-            let influx = pores
-                .system
-                .influx(boundary, rates, &clock.pressures, &pressures);
+            let before = &clock.pressures;
+            let influx = pores.system.influx(boundary, rates, before, &pressures);
             *inflows = condition::inflows(&self.setup.sides, &pores.geometry, &influx);
         }
         clock.pressures = pressures;
         let forces = pores.forces.apply(&clock.pressures);
         let (on_grains, on_walls) = forces.split_at(self.grains.grains.len());
         let lift = -self.setup.fluid.density * self.grains.gravity;
-        let radii = &self.grains.grains.radius;
-        let buoyancy: Vec<_> = radii.iter().map(|r| lift * sphere(*r)).collect();
-        for ((external, f), b) in self
-            .grains
-            .grains
-            .external_force
-            .iter_mut()
-            .zip(on_grains)
-            .zip(buoyancy)
-        {
-            *external = f + b;
+        let grains = &mut self.grains.grains;
+        for (k, f) in on_grains.iter().enumerate() {
+            grains.external_force[k] = f + lift * sphere(grains.radius[k]);
         }
         for (wall, f) in self.grains.walls.iter_mut().zip(on_walls) {
             wall.external_force = *f;
         }
         if let Some(edges) = &pores.edges {
             let loads = edges.apply(&self.grains, &self.setup.fluid);
-            add(&mut self.grains.grains.external_force, &loads.forces);
-            self.grains
-                .grains
-                .external_torque
-                .copy_from_slice(&loads.torques);
+            let grains = &mut self.grains.grains;
+            for (external, f) in grains.external_force.iter_mut().zip(&loads.forces) {
+                *external += f;
+            }
+            grains.external_torque.copy_from_slice(&loads.torques);
             for (wall, f) in self.grains.walls.iter_mut().zip(&loads.walls) {
                 wall.external_force += f;
             }
@@ -280,9 +267,8 @@ impl CoupledSystem {
         if let Some(bulk_modulus) = self.setup.fluid.bulk_modulus
             && step != self.clock.storage_step
         {
-            self.pores
-                .system
-                .set_storage(Storage { bulk_modulus, step })?;
+            let storage = Storage { bulk_modulus, step };
+            self.pores.system.set_storage(storage)?;
             self.clock.storage_step = step;
             self.clock.fresh = false;
         }
@@ -343,9 +329,9 @@ impl CoupledSystem {
             self.pores.refresh(&self.setup, self.grains.time);
             Ok(())
         } else if old.sticks == side.sticks {
-            let (time, step) = (self.grains.time, self.clock.storage_step);
+            let now = [self.grains.time, self.clock.storage_step];
             self.clock.fresh = false;
-            self.pores.reassemble(&self.setup, &*self.law, time, step)
+            self.pores.reassemble(&self.setup, &*self.law, now)
         } else {
             self.remesh()
         };
@@ -359,17 +345,6 @@ impl CoupledSystem {
     pub fn time(&self) -> f64 {
         self.grains.time
     }
-}
-
-fn add(to: &mut [Vector], more: &[Vector]) {
-    for (to, more) in to.iter_mut().zip(more) {
-        *to += more;
-    }
-}
-
-/// Volume of a sphere, m³.
-pub(crate) fn sphere(radius: f64) -> f64 {
-    4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
 }
 
 pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {

@@ -1,8 +1,10 @@
-//! Pores, unknowns and entries of the system.
+//! Boundary conditions, unknowns and entries of the system.
 
 use sparse::UpperTriangle;
 
-use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
+use crate::Vector;
+use crate::flow::{Conductance, FlowError, PoreGeometry};
+use crate::triangulation::Vertex;
 
 /// A cell of a given pressure, in place of the number of an unknown.
 pub const GIVEN: u32 = u32::MAX;
@@ -75,28 +77,20 @@ pub fn reachable(
     for (pore, first) in first.iter().enumerate() {
         reached[regions[pore] as usize] |= *first != GIVEN;
     }
-    match pores
-        .iter()
-        .position(|p| !reached[regions[*p as usize] as usize])
-    {
-        Some(cell) => Err(FlowError::NoPressure(cell)),
-        None => Ok(()),
-    }
+    let cut_off = |p: &u32| !reached[regions[*p as usize] as usize];
+    let cut_off = pores.iter().position(cut_off);
+    cut_off.map_or(Ok(()), |cell| Err(FlowError::NoPressure(cell)))
 }
 
 /// Unknowns of all cells, in the order of the pores, and their count.
 pub fn numbered(pores: &[u32], first: &[u32]) -> (Vec<u32>, usize) {
-    let mut numbers = vec![GIVEN; pores.len()];
-    let mut count = 0;
+    let (mut numbers, mut count) = (vec![GIVEN; pores.len()], 0);
     for (c, &pore) in pores.iter().enumerate() {
-        if first[pore as usize] != GIVEN {
-            continue;
-        }
-        if pore as usize == c {
+        if pore as usize != c {
+            numbers[c] = numbers[pore as usize];
+        } else if first[c] == GIVEN {
             numbers[c] = count;
             count += 1;
-        } else {
-            numbers[c] = numbers[pore as usize];
         }
     }
     (numbers, count as usize)
@@ -124,4 +118,72 @@ pub fn assemble(
     }
     let matrix = UpperTriangle::new(&diagonal, entries);
     (diagonal, matrix)
+}
+
+/// Pressures and sources of cells. Walls without either are closed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    pub(crate) pressures: Vec<Option<f64>>,
+    pub(crate) sources: Vec<f64>,
+}
+
+impl Boundary {
+    /// All walls closed, no sources.
+    pub fn closed(geometry: &PoreGeometry) -> Self {
+        let cells = geometry.mesh.cells.len();
+        Self {
+            pressures: vec![None; cells],
+            sources: vec![0.0; cells],
+        }
+    }
+
+    /// Gives pressures (Pa) to the cells of a wall where `value` has one for the power centre (m), which lies on
+    /// the wall. Earlier values are replaced there.
+    pub fn pressure(
+        &mut self,
+        geometry: &PoreGeometry,
+        wall: usize,
+        value: impl Fn(Vector) -> Option<f64>,
+    ) {
+        for &c in geometry.mesh.cells_around(Vertex::Wall(wall)) {
+            if let Some(p) = value(geometry.centres[c as usize]) {
+                self.pressures[c as usize] = Some(p);
+            }
+        }
+    }
+
+    /// Lets fluid in (out if negative) through the part of a wall that `part` names by power centres, m/s, the
+    /// same everywhere: each cell takes its area on the wall times this. Returns the total, m³/s.
+    pub fn inflow(
+        &mut self,
+        geometry: &PoreGeometry,
+        wall: usize,
+        velocity: f64,
+        part: impl Fn(Vector) -> bool,
+    ) -> f64 {
+        let mut total = 0.0;
+        for &c in geometry.mesh.cells_around(Vertex::Wall(wall)) {
+            if part(geometry.centres[c as usize]) {
+                let rate = velocity * geometry.area_on_wall(c as usize, wall);
+                self.sources[c as usize] += rate;
+                total += rate;
+            }
+        }
+        total
+    }
+
+    /// Gives the pressure of one cell, Pa.
+    pub fn cell_pressure(&mut self, cell: usize, pressure: f64) {
+        self.pressures[cell] = Some(pressure);
+    }
+
+    /// Adds a source to one cell, m³/s; negative takes fluid out.
+    pub fn source(&mut self, cell: usize, rate: f64) {
+        self.sources[cell] += rate;
+    }
+
+    /// For every cell, whether it has a given pressure.
+    pub fn given(&self) -> impl Iterator<Item = bool> {
+        self.pressures.iter().map(Option::is_some)
+    }
 }

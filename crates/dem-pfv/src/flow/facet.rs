@@ -1,11 +1,12 @@
-//! Facets: vector areas, sectors of spheres, edges.
+//! Facets: vector areas, sectors of spheres, edges, solid angles, the circle between discs and walls.
 
-use nalgebra::Vector3;
+use nalgebra::Matrix3;
 
+use crate::Vector;
 use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
 /// From a sphere's centre to another vertex: to a centre, or to its own foot on a wall.
-pub fn edge(mesh: &Triangulation, k: usize, other: Vertex) -> Vector3<f64> {
+pub fn edge(mesh: &Triangulation, k: usize, other: Vertex) -> Vector {
     let x = mesh.spheres[k].centre;
     match other {
         Vertex::Sphere(l) => mesh.spheres[l].centre - x,
@@ -33,7 +34,7 @@ impl<'a> Facet<'a> {
 
     /// Vector area S (m²), of either sign: a triangle of three centres; a trapezoid of two and their feet on
     /// a wall; a rectangle of one, its feet on two walls, and the edge of the room.
-    pub fn area(&self) -> Vector3<f64> {
+    pub fn area(&self) -> Vector {
         let x = |k: usize| self.spheres[k].centre;
         match *self.walls {
             [] => 0.5 * (x(1) - x(0)).cross(&(x(2) - x(0))),
@@ -70,6 +71,64 @@ impl<'a> Facet<'a> {
 }
 
 /// Angle between two directions, rad, 0 to π.
-pub fn angle(a: Vector3<f64>, b: Vector3<f64>) -> f64 {
+pub fn angle(a: Vector, b: Vector) -> f64 {
     a.cross(&b).norm().atan2(a.dot(&b))
+}
+
+/// Signed solid angle ω (sr, −2π to 2π) under which a triangle a, b, c is seen from the origin:
+///
+/// ```text
+/// tan(ω/2) = a · (b × c) / (|a| |b| |c| + (a·b) |c| + (a·c) |b| + (b·c) |a|)
+/// ```
+///
+/// positive if a, b, c turn right-handed around a + b + c. The quadrant matters: where the denominator is
+/// negative, the plain arc tangent is wrong by up to 2π. Lengths of a, b, c do not matter. Source: Van Oosterom
+/// & Strackee 1983.
+pub fn solid_angle(a: Vector, b: Vector, c: Vector) -> f64 {
+    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+    let volume = a.dot(&b.cross(&c));
+    let sum = la * lb * lc + a.dot(&b) * lc + a.dot(&c) * lb + b.dot(&c) * la;
+    2.0 * volume.atan2(sum)
+}
+
+/// Radius r (m) of the circle in a facet's plane that touches its discs from outside and its walls: with c from
+/// the first centre, |c|² = (r + R₀)², and for each of the other two
+///
+/// ```text
+/// disc    2 d · c + 2 (R_k − R₀) r = |d|² − R_k² + R₀²,     wall    n · c − r = −(distance of x₀)
+/// ```
+///
+/// c is linear in r, and r the least positive root of a quadratic equation. None if there is no such circle.
+pub fn inscribed_radius(facet: &Facet, normal: Vector) -> Option<f64> {
+    let first = facet.spheres[0];
+    let discs = facet.spheres[1..].iter().map(|s| {
+        let d = s.centre - first.centre;
+        let weights = (first.radius - s.radius) * (first.radius + s.radius);
+        (
+            2.0 * d,
+            d.norm_squared() + weights,
+            -2.0 * (s.radius - first.radius),
+        )
+    });
+    let wall = |w: &&Wall| (w.normal, -w.distance(first.centre), 1.0);
+    let walls = facet.walls.iter().map(wall);
+    let rows: Vec<_> = discs.chain(walls).collect();
+    let [(a, a0, a1), (b, b0, b1)] = *rows else {
+        return None;
+    };
+    let matrix = Matrix3::from_rows(&[a.transpose(), b.transpose(), normal.transpose()]);
+    let inverse = matrix.try_inverse()?;
+    let (u, v) = (
+        inverse * Vector::new(a0, b0, 0.0),
+        inverse * Vector::new(a1, b1, 0.0),
+    );
+    let square = v.norm_squared() - 1.0;
+    let linear = u.dot(&v) - first.radius;
+    let constant = u.norm_squared() - first.radius * first.radius;
+    // Without cancellation, also where the square's factor vanishes.
+    let root = (linear * linear - square * constant).sqrt();
+    let sum = -(linear + root.copysign(linear));
+    let roots = [sum / square, constant / sum];
+    let positive = roots.into_iter().filter(|r| *r > 0.0 && r.is_finite());
+    positive.min_by(f64::total_cmp)
 }

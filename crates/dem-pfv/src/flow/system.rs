@@ -82,11 +82,8 @@ impl FlowSystem {
     ) -> Result<Self, FlowError> {
         positive("viscosity is", viscosity)?;
         let conductances = conductances(geometry, law, viscosity)?;
-        let ends: Vec<_> = geometry
-            .throats
-            .iter()
-            .map(|t| t.cells.map(|c| c as u32))
-            .collect();
+        let ends = geometry.throats.iter().map(|t| t.cells.map(|c| c as u32));
+        let ends: Vec<_> = ends.collect();
         let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
         let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
         let first = firsts(boundary, &pores);
@@ -169,21 +166,22 @@ impl FlowSystem {
     /// # Errors
     /// A list of another length than the cells.
     pub fn start_from(&mut self, pressures: &[f64]) -> Result<(), FlowError> {
-        let (given, needed) = (pressures.len(), self.unknowns.len());
-        if given != needed {
-            let what = "pressures to start from";
-            return Err(FlowError::Length {
-                what,
-                given,
-                needed,
-            });
-        }
+        self.fits("pressures to start from", pressures.len())?;
         for (&u, &p) in self.unknowns.iter().zip(pressures) {
             if u != GIVEN {
                 self.last[u as usize] = p;
             }
         }
         Ok(())
+    }
+
+    /// Checks that a list has a number for each cell.
+    fn fits(&self, what: &'static str, given: usize) -> Result<(), FlowError> {
+        let needed = self.unknowns.len();
+        match given == needed {
+            true => Ok(()),
+            false => Err(FlowError::Length(what, given, needed)),
+        }
     }
 
     /// Number of unknown pressures.
@@ -242,22 +240,11 @@ impl FlowSystem {
         before: &[f64],
     ) -> Result<Vec<f64>, FlowError> {
         let cells = self.unknowns.len();
-        for (what, given) in [
-            ("pressures", boundary.pressures.len()),
-            (
-                "rates of volumes",
-                if rates.is_empty() { cells } else { rates.len() },
-            ),
-            ("pressures before the step", before.len()),
-        ] {
-            if given != cells {
-                return Err(FlowError::Length {
-                    what,
-                    given,
-                    needed: cells,
-                });
-            }
+        self.fits("pressures", boundary.pressures.len())?;
+        if !rates.is_empty() {
+            self.fits("rates of volumes", rates.len())?;
         }
+        self.fits("pressures before the step", before.len())?;
         let changed = |c: &usize| boundary.pressures[*c].is_some() != self.given[*c];
         if let Some(cell) = (0..cells).find(changed) {
             return Err(FlowError::ConditionsChanged(cell));

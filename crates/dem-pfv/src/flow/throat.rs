@@ -1,12 +1,15 @@
-//! A throat: the space around a facet between the power centres of two cells.
+//! Throats, the space around facets between the power centres of two cells, and their conductances.
 
-use nalgebra::Vector3;
+use std::f64::consts::PI;
+
 use serde::{Deserialize, Serialize};
+use sph_core::{Registry, plugin};
+use toml::Table;
 
-use crate::flow::facet::{Facet, angle, edge};
-use crate::flow::inscribed::inscribed_radius;
-use crate::flow::solid_angle;
-use crate::triangulation::{Triangulation, Vertex};
+use crate::flow::facet::{Facet, angle, edge, inscribed_radius};
+use crate::flow::{FlowError, solid_angle};
+use crate::triangulation::{self as mesh, Triangulation, Vertex};
+use crate::{Vector, require};
 
 /// Condition of the fluid at a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +41,7 @@ pub struct Throat {
     /// The vertices of its facet.
     pub vertices: [Vertex; 3],
     /// Unit normal n of the facet, from i to j.
-    pub normal: Vector3<f64>,
+    pub normal: Vector,
     /// Area of the facet, m².
     pub area: f64,
     /// Part of it outside the spheres, m²; negative only if spheres overlap all over it.
@@ -76,13 +79,13 @@ impl Throat {
 /// Input of throats.
 pub struct Pores<'a> {
     pub mesh: &'a Triangulation,
-    pub centres: &'a [Vector3<f64>],
+    pub centres: &'a [Vector],
     pub grips: &'a [SlipCondition],
     pub angles: SolidAngles,
 }
 
 impl Pores<'_> {
-    pub fn throat(&self, facet: &crate::triangulation::Facet) -> Throat {
+    pub fn throat(&self, facet: &mesh::Facet) -> Throat {
         let [i, j] = facet.cells;
         let (pi, pj) = (self.centres[i], self.centres[j]);
         let shape = Facet::new(self.mesh, &facet.vertices);
@@ -110,34 +113,36 @@ impl Pores<'_> {
         }
     }
 
+    /// Centres of a facet's spheres.
+    fn centres_of(&self, facet: &mesh::Facet) -> impl Iterator<Item = Vector> {
+        let spheres = facet.vertices.into_iter().filter_map(Vertex::sphere);
+        spheres.map(|k| self.mesh.spheres[k].centre)
+    }
+
     /// The area with its sign from cell i to j: as the power centres lie, or, where they are one point, away
     /// from the vertex opposite.
-    fn outward(&self, facet: &crate::triangulation::Facet, area: Vector3<f64>) -> Vector3<f64> {
+    fn outward(&self, facet: &mesh::Facet, area: Vector) -> Vector {
         let [i, j] = facet.cells;
         let along = self.centres[j] - self.centres[i];
         let far = along.norm() > NO_LENGTH * area.norm().sqrt();
-        let base = facet.vertices.iter().find_map(|v| match v {
-            Vertex::Sphere(k) => Some(self.mesh.spheres[*k].centre),
-            Vertex::Wall(_) => None,
-        });
+        let base = self.centres_of(facet).next();
         let direction = match self.mesh.cells[i].vertices()[facet.opposite] {
             _ if far => along,
             Vertex::Sphere(k) => base.unwrap_or_default() - self.mesh.spheres[k].centre,
             Vertex::Wall(w) => self.mesh.walls[w].normal,
         };
-        if area.dot(&direction) < 0.0 {
-            -area
-        } else {
-            area
+        match area.dot(&direction) < 0.0 {
+            true => -area,
+            false => area,
         }
     }
 
     /// Sectors, volume and wetted areas of the spheres.
     fn spheres(
         &self,
-        facet: &crate::triangulation::Facet,
+        facet: &mesh::Facet,
         shape: &Facet,
-        area: Vector3<f64>,
+        area: Vector,
     ) -> ([f64; 3], f64, [f64; 3]) {
         let (mut sectors, mut solid, mut wetted) = ([0.0; 3], 0.0, [0.0; 3]);
         let mut among_spheres = 0;
@@ -156,14 +161,7 @@ impl Pores<'_> {
 
     /// Solid angle at sphere k of the two pyramids over the facet, two triangles that share the line between the
     /// power centres; each with the sign of its turn around the facet's normal.
-    fn solid_angle(
-        &self,
-        k: usize,
-        l: Vector3<f64>,
-        m: Vector3<f64>,
-        cells: [usize; 2],
-        area: Vector3<f64>,
-    ) -> f64 {
+    fn solid_angle(&self, k: usize, l: Vector, m: Vector, cells: [usize; 2], area: Vector) -> f64 {
         let x = self.mesh.spheres[k].centre;
         let [pi, pj] = cells.map(|c| self.centres[c] - x);
         let (first, second) = (solid_angle(l, pi, pj), solid_angle(m, pi, pj));
@@ -175,28 +173,122 @@ impl Pores<'_> {
     }
 
     /// Areas of walls with grip under the throat: of a triangle or a trapezoid in the wall.
-    fn walls(&self, facet: &crate::triangulation::Facet, wetted: &mut [f64; 3]) {
+    fn walls(&self, facet: &mesh::Facet, wetted: &mut [f64; 3]) {
         let [pi, pj] = facet.cells.map(|c| self.centres[c]);
-        let spheres = facet.vertices.iter().filter_map(|v| match v {
-            Vertex::Sphere(k) => Some(self.mesh.spheres[*k].centre),
-            Vertex::Wall(_) => None,
-        });
-        let spheres: Vec<_> = spheres.collect();
-        let across = match *spheres {
-            [k, m] => k - m,
-            [k] => k - pj,
+        let mut spheres = self.centres_of(facet);
+        let across = match [(); 3].map(|()| spheres.next()) {
+            [Some(k), m, None] => k - m.unwrap_or(pj),
             _ => return,
         };
         for (c, v) in facet.vertices.iter().enumerate() {
             if let Vertex::Wall(w) = *v
                 && self.grips[w] == SlipCondition::NoSlip
             {
-                wetted[c] = 0.5
-                    * (pi - pj)
-                        .cross(&across)
-                        .dot(&self.mesh.walls[w].normal)
-                        .abs();
+                let normal = self.mesh.walls[w].normal;
+                wetted[c] = 0.5 * (pi - pj).cross(&across).dot(&normal).abs();
             }
         }
+    }
+}
+
+/// A law for the conductance of throats.
+pub trait Conductance: Send + Sync {
+    /// g µ (m⁴) with the flux q = g (p_i − p_j) / L. Zero closes a throat.
+    fn conductance(&self, throat: &Throat) -> f64;
+
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// The parameter and its value: [`require`].
+    fn check(&self) -> Result<(), FlowError> {
+        Ok(())
+    }
+}
+
+sph_core::contract!(
+    /// A law for the conductance of throats by its name.
+    pub ConductanceEntry,
+    "conductance",
+    Elsewhere,
+    "the conductance of a throat between two pores, in [fluid.conductance.LAW]",
+    Conductance,
+    .in_space()
+);
+
+/// The conductance of that name with these parameters.
+///
+/// # Errors
+/// None or two of that name; an unknown parameter; a value out of range.
+///
+/// ```
+/// use dem_pfv::flow::conductance;
+///
+/// let with = |parameters: &str| conductance("hydraulic-radius", &parameters.parse().expect("TOML"));
+/// assert!(with("shape_factor = 0.5").is_ok());
+/// assert!(with("shape_factor = -1.0").err().is_some_and(|e| e.to_string().contains("shape_factor")));
+/// ```
+pub fn conductance(name: &str, parameters: &Table) -> Result<Box<dyn Conductance>, FlowError> {
+    let registry = Registry::<ConductanceEntry>::discovered()?;
+    let law = (registry.find(name)?.build)(parameters)?;
+    law.check()?;
+    Ok(law)
+}
+
+/// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
+/// a round tube of radius 2R. Source: Catalano 2012, Eqs. (3.4), (3.5).
+#[plugin(
+    ConductanceEntry,
+    "hydraulic-radius",
+    "a tube with the throat's ratio of fluid volume to wetted surface",
+    source: "Catalano 2012, Eqs. (3.4), (3.5)"
+)]
+#[derive(PartialEq)]
+pub struct HydraulicRadius {
+    /// Shape factor α.
+    #[parameter(default: 0.5, unit: "1", above: 0.0)]
+    pub shape_factor: f64,
+    /// Divides R by 2^¼ for each slip wall of a throat, as YADE 2023.02a does; not in the thesis, and it halves
+    /// the conductance beside walls of symmetry. For comparison with YADE.
+    #[parameter(default)]
+    pub reduced_at_slip_walls: bool,
+}
+
+impl Conductance for HydraulicRadius {
+    fn conductance(&self, throat: &Throat) -> f64 {
+        let mut radius = throat.hydraulic_radius();
+        if self.reduced_at_slip_walls {
+            radius *= 2.0_f64.powf(-0.25 * throat.slip_walls as f64);
+        }
+        self.shape_factor * throat.fluid_area.max(0.0) * radius * radius
+    }
+
+    fn check(&self) -> Result<(), FlowError> {
+        let what = "the shape factor of the conductance \"hydraulic-radius\" is";
+        let factor = self.shape_factor;
+        Ok(require(what, factor, "positive", factor > 0.0)?)
+    }
+}
+
+/// g = 2π R⁴ / µ with R = ¼ (√(A/π) + r), A the fluid area and r the radius of the inscribed circle.
+/// Source: Bryant & Blunt 1992; Catalano 2012, Eq. (3.6).
+#[plugin(
+    ConductanceEntry,
+    "effective-radius",
+    "a tube between the throat's inscribed circle and the circle of its area; about half as permeable",
+    source: "Bryant & Blunt 1992; Catalano 2012, Eq. (3.6)"
+)]
+#[derive(PartialEq)]
+pub struct EffectiveRadius {}
+
+impl EffectiveRadius {
+    /// R, m.
+    pub fn radius(throat: &Throat) -> f64 {
+        0.25 * ((throat.fluid_area.max(0.0) / PI).sqrt() + throat.inscribed_radius)
+    }
+}
+
+impl Conductance for EffectiveRadius {
+    fn conductance(&self, throat: &Throat) -> f64 {
+        2.0 * PI * Self::radius(throat).powi(4)
     }
 }

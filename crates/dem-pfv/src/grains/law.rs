@@ -6,7 +6,6 @@ use sph_core::Registry;
 use toml::Table;
 
 use crate::grains::{GrainError, Vector};
-use crate::require;
 
 /// Largest number of values in the memory of a contact.
 pub const MEMORY: usize = 8;
@@ -58,16 +57,15 @@ impl Contact {
             cosine,
             twist,
         } = self.turn;
-        let tilted = if cosine > -0.5 {
-            vector * cosine + axis.cross(&vector) + axis * (axis.dot(&vector) / (1.0 + cosine))
-        } else {
+        if cosine.is_nan() || cosine <= -0.5 {
             return Vector::zeros(); // it jumped to the other side
-        };
+        }
+        let along = axis.dot(&vector) / (1.0 + cosine);
+        let tilted = vector * cosine + axis.cross(&vector) + axis * along;
         let half = 0.5 * twist;
         let square = half * half;
-        let turned =
-            (tilted * (1.0 - square) + self.normal.cross(&tilted) * twist) / (1.0 + square);
-        self.tangential(turned)
+        let turned = tilted * (1.0 - square) + self.normal.cross(&tilted) * twist;
+        self.tangential(turned / (1.0 + square))
     }
 
     /// v − (v · n) n.
@@ -87,11 +85,7 @@ impl Contact {
 
     /// Three remembered numbers from `first` on.
     pub fn remembered(&self, first: usize) -> Vector {
-        Vector::new(
-            self.memory[first],
-            self.memory[first + 1],
-            self.memory[first + 2],
-        )
+        Vector::from_column_slice(&self.memory[first..first + 3])
     }
 
     /// Remembers three numbers from `first` on.
@@ -174,24 +168,4 @@ pub fn contact_law(name: &str, parameters: &Table) -> Result<Box<dyn ContactLaw>
     let law = (registry.find(name)?.build)(parameters)?;
     law.check()?;
     Ok(law)
-}
-
-/// Valid values of parameters.
-pub(crate) const AT_LEAST_0: &str = "at least 0";
-pub(crate) const BELOW_1: &str = "at least 0 and below 1";
-
-/// Checks parameters of a law: name, value, valid values, and whether it is one of them.
-pub(crate) fn check<const N: usize>(
-    law: &str,
-    parameters: [(&str, f64, &'static str, bool); N],
-) -> Result<(), GrainError> {
-    for (what, value, valid, fine) in parameters {
-        require(
-            format!("the contact law {law} has the {what}"),
-            value,
-            valid,
-            fine,
-        )?;
-    }
-    Ok(())
 }

@@ -1,9 +1,9 @@
-//! Measurements: energies, the unbalanced force ratio, stresses, porosity.
+//! Measurements: energies, the unbalanced force ratio, stresses, strains, porosity.
 
 use nalgebra::Matrix3;
 
-use crate::grains::table::Slot;
-use crate::grains::{GrainError, GrainSystem, Partner, Vector};
+use crate::grains::{GrainError, GrainSystem, Partner, Slot, Vector};
+use crate::sphere;
 
 /// A contact as it was at the last evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,19 +122,14 @@ impl GrainSystem {
     /// Mean stress in each grain, Pa, positive in compression: σ = −(1/V) Σ_c (x^C − x) ⊗ F^c with the grain's
     /// volume V. Source: Catalano 2012, Eqs. (2.17), (2.18), with the other sign.
     pub fn grain_stresses(&self) -> Vec<Matrix3<f64>> {
-        let volume = |i: usize| 4.0 / 3.0 * std::f64::consts::PI * self.grains.radius[i].powi(3);
-        (0..self.grains.len())
-            .map(|i| self.moment(i) / volume(i))
-            .collect()
+        let radii = self.grains.radius.iter().enumerate();
+        radii.map(|(i, r)| self.moment(i) / sphere(*r)).collect()
     }
 
     /// Love–Weber stress of all contacts in a volume (m³), Pa, positive in compression: (1/V) Σ_grains Σ_c l n ⊗ F.
     pub fn stress(&self, volume: f64) -> Matrix3<f64> {
-        let mut sum = Matrix3::zeros();
-        for grain in 0..self.grains.len() {
-            sum += self.moment(grain);
-        }
-        sum / volume
+        let moments = (0..self.grains.len()).map(|grain| self.moment(grain));
+        moments.sum::<Matrix3<f64>>() / volume
     }
 
     /// Length of the box along an axis, m: the period, or the distance of the two walls that face each other.
@@ -142,11 +137,8 @@ impl GrainSystem {
         if let Some([from, to]) = self.period[axis] {
             return Some(to - from);
         }
-        let facing = |sign: f64| {
-            let found = self.walls.iter().find(|w| w.axis() == Some((axis, sign)));
-            found.map(|w| w.point[axis])
-        };
-        Some(facing(-1.0)? - facing(1.0)?)
+        let facing = |sign| self.walls.iter().find(|w| w.axis() == Some((axis, sign)));
+        Some(facing(-1.0)?.point[axis] - facing(1.0)?.point[axis])
     }
 
     /// Lengths of the box between walls along the axes and periods, m, if it is closed.
@@ -186,11 +178,7 @@ impl GrainSystem {
                 Partner::Triangle { .. } => first,
             };
             if first != second {
-                force += if first {
-                    touch.force[axis]
-                } else {
-                    -touch.force[axis]
-                };
+                force += if first { 1.0 } else { -1.0 } * touch.force[axis];
             }
         }
         Ok(force / self.section(axis)?)
@@ -223,19 +211,11 @@ impl GrainSystem {
     /// # Errors
     /// If it is not given and the box is not closed along the other two axes.
     pub fn wall_area(&self, wall: usize) -> Result<f64, GrainError> {
-        let none = GrainError::NoArea(wall);
-        let Some(w) = self.walls.get(wall) else {
-            return Err(none);
-        };
-        if let Some(area) = w.area {
-            return Ok(area);
-        }
-        let (axis, _) = w.axis().ok_or_else(|| none.clone())?;
-        let sides = [(axis + 1) % 3, (axis + 2) % 3].map(|side| self.length(side));
-        match sides {
-            [Some(a), Some(b)] => Ok(a * b),
-            _ => Err(none),
-        }
+        let area = self.walls.get(wall).and_then(|w| {
+            let side = |k: usize| self.length((w.axis()?.0 + k) % 3);
+            w.area.or_else(|| Some(side(1)? * side(2)?))
+        });
+        area.ok_or(GrainError::NoArea(wall))
     }
 
     /// Normal stress at a wall, Pa, positive in compression: the push of grains and fluid over its area.
@@ -259,4 +239,41 @@ impl GrainSystem {
         let sum: f64 = stresses.sum::<Result<f64, _>>()?;
         Ok(sum / self.walls.len() as f64)
     }
+}
+
+/// Small strain ε = ½ (∇u + ∇uᵀ) around each grain from displacements u (m), positive in extension.
+///
+/// In each tetrahedron of grains, u is linear between the centres, so that ⟨∇u⟩ = (1/V) Σ_facets ū ⊗ S; a
+/// grain takes the mean of its tetrahedra, weighted by their volumes, and zero if it has none. Tetrahedra that
+/// name a grain that is not there or are flat are left out. Source: Catalano 2012, Eqs. (2.20), (2.21), in space; the
+/// printed factor 1/L there is 1/S.
+pub fn strains(
+    tetrahedra: &[[usize; 4]],
+    positions: &[Vector],
+    displacements: &[Vector],
+) -> Vec<Matrix3<f64>> {
+    let grains = positions.len().min(displacements.len());
+    let mut sums = vec![(Matrix3::zeros(), 0.0); positions.len()];
+    for corners in tetrahedra {
+        if corners.iter().any(|&c| c >= grains) {
+            continue;
+        }
+        let edge = |of: &[Vector], k: usize| of[corners[k]] - of[corners[0]];
+        let edges = |of| Matrix3::from_columns(&[1, 2, 3].map(|k| edge(of, k)));
+        let shape = edges(positions);
+        let Some(inverse) = shape.try_inverse() else {
+            continue;
+        };
+        let gradient = edges(displacements) * inverse;
+        let volume = shape.determinant().abs() / 6.0;
+        for &corner in corners {
+            sums[corner].0 += (gradient + gradient.transpose()) * (0.5 * volume);
+            sums[corner].1 += volume;
+        }
+    }
+    let mean = |(sum, volume): (Matrix3<f64>, f64)| match volume > 0.0 {
+        true => sum / volume,
+        false => Matrix3::zeros(),
+    };
+    sums.into_iter().map(mean).collect()
 }

@@ -2,9 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::grains::columns::INERTIA;
-use crate::grains::wall::sign;
-use crate::grains::{Control, GrainError, GrainSystem, State, Vector, Wall, space};
+use crate::grains::{Control, GrainError, GrainSystem, INERTIA, State, Vector, Wall, sign, wrap};
 use crate::require;
 
 /// Grains per task at least.
@@ -21,15 +19,9 @@ impl GrainSystem {
             .enumerate()
             .for_each(|(grain, (force, torque))| {
                 (*force, *torque) = (Vector::zeros(), Vector::zeros());
-                for (slot, side) in table.slots_of(grain) {
-                    if slot.active {
-                        if side == 0 {
-                            *force += slot.force;
-                        } else {
-                            *force -= slot.force;
-                        }
-                        *torque += slot.torque[side];
-                    }
+                for (slot, side) in table.slots_of(grain).filter(|(slot, _)| slot.active) {
+                    *force += if side == 0 { slot.force } else { -slot.force };
+                    *torque += slot.torque[side];
                 }
             });
     }
@@ -37,17 +29,12 @@ impl GrainSystem {
     /// v += F/m Δt, x += v Δt, and the same for the rotation, with the damping of Catalano 2012, Eq. (2.15),
     /// whose sign is taken from the velocity in the middle, v + ½ F/m Δt.
     pub(crate) fn advance_grains(&mut self, step: f64) {
-        let State {
-            grains: g,
-            gravity,
-            damping,
-            period,
-            ..
-        } = &mut self.state;
+        let (g, period) = (&mut self.state.grains, &self.state.period);
+        let (gravity, damping) = (self.state.gravity, self.state.damping);
         let damped = |load: Vector, velocity: Vector, inertia: f64| {
             load.zip_map(&velocity, |load, velocity| {
                 let middle = velocity + 0.5 * step * load / inertia;
-                load - *damping * load.abs() * sign(middle)
+                load - damping * load.abs() * sign(middle)
             })
         };
         let moving = (
@@ -67,13 +54,13 @@ impl GrainSystem {
                 let (&mass, &radius, &held) = given;
                 if !held {
                     let inertia = INERTIA * mass * radius * radius;
-                    let force = forces.0 + forces.1 + *gravity * mass;
+                    let force = forces.0 + forces.1 + gravity * mass;
                     let torque = torques.0 + torques.1;
                     *v += damped(force, *v, mass) * (step / mass);
                     *spin += damped(torque, *spin, inertia) * (step / inertia);
                 }
                 *x += *v * step;
-                space::wrap(x, period);
+                wrap(x, period);
                 turn(orientation, &(*spin * step));
             });
     }
@@ -125,7 +112,7 @@ impl GrainSystem {
         let State { grains, period, .. } = &mut self.state;
         for (x, v) in grains.position.iter_mut().zip(&grains.velocity) {
             *x += v * step;
-            space::wrap(x, period);
+            wrap(x, period);
         }
         self.last_step += step;
         Ok(())

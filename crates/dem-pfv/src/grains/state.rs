@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::grains::setup::Period;
-use crate::grains::table::Table;
-use crate::grains::{Grains, Mesh, Vector, Wall};
+use crate::grains::{Grains, Mesh, Period, Table, Vector, Wall};
 
 /// A step and the grain that sets it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -15,7 +13,7 @@ pub(crate) struct Limit {
 
 /// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
 /// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct State {
     /// The grains; the next evaluation finds the contacts of those that were moved.
     pub grains: Grains,

@@ -1,14 +1,12 @@
-//! The system: made, evaluated, integrated.
+//! The system: made, evaluated, integrated, steered, resumed.
 
 use std::ops::{Deref, DerefMut};
 
-use crate::grains::law::BELOW_1;
-use crate::grains::setup::finite;
-use crate::grains::state::Limit;
-use crate::grains::table::{Bodies, Table};
-use crate::grains::touch::View;
-use crate::grains::{ContactLaw, GrainError, Grains, MEMORY, Setup, State, Vector, space};
-use crate::require;
+use crate::grains::{
+    Bodies, ContactLaw, Control, GrainError, Grains, Limit, MEMORY, Setup, State, Vector, View,
+    check_period, finite, positive,
+};
+use crate::{BELOW_1, require};
 
 /// Steps between two computations of the critical one.
 const CHECKED_EVERY: u64 = 100;
@@ -60,18 +58,10 @@ impl GrainSystem {
             gravity: setup.gravity,
             damping: setup.damping,
             skin: setup.skin.unwrap_or(0.2 * mean),
-            time: 0.0,
-            steps: 0,
-            last_step: 0.0,
-            limit: None,
-            limit_due: 0,
-            table: Table::default(),
-            renewals: 0,
+            ..State::default()
         };
-        let mut system = Self {
-            state,
-            laws: setup.laws,
-        };
+        let laws = setup.laws;
+        let mut system = Self { state, laws };
         system.check()?;
         system.renew();
         system.check_overlaps()?;
@@ -92,8 +82,7 @@ impl GrainSystem {
         check_damping(self.damping)?;
         require("the gravity is", self.gravity.norm(), "finite", true)?;
         self.check_laws()?;
-        let largest = self.grains.radius.iter().copied().fold(0.0, f64::max);
-        space::check(&self.period, 2.0 * largest + self.skin)?;
+        check_period(&self.period, 2.0 * self.grains.largest_radius() + self.skin)?;
         for (w, wall) in self.walls.iter().enumerate() {
             wall.check(w)?;
             for (axis, ends) in self.period.iter().enumerate() {
@@ -169,43 +158,33 @@ impl GrainSystem {
         if self.table.expired(self.bodies(), self.skin) {
             self.renew();
         }
-        let Self { state, laws } = self;
-        let State {
-            grains,
-            walls,
-            meshes,
-            table,
-            ..
-        } = state;
+        let (state, laws) = (&mut self.state, &self.laws);
+        let grains = &state.grains;
+        let (period, step) = (&state.period, state.last_step);
         let view = View {
             grains,
-            period: &state.period,
-            step: state.last_step,
+            period,
+            step,
         };
-        let (pairs, mut rest) = table.slots.split_at_mut(table.ends[0]);
-        view.pairs(pairs, &*laws[0]);
-        let mut taken = table.ends[0];
-        let mut ends = table.ends[1..].iter();
-        for (wall, &end) in walls.iter_mut().zip(ends.by_ref()) {
-            let (slots, after) = rest.split_at_mut(end - taken);
-            (rest, taken) = (after, end);
+        let mut parts = state.table.parts();
+        if let Some(pairs) = parts.next() {
+            view.pairs(pairs, &*laws[0]);
+        }
+        for (wall, slots) in state.walls.iter_mut().zip(parts.by_ref()) {
             view.wall(slots, wall, &*laws[wall.law]);
             let active = slots.iter().filter(|s| s.active);
             let zero = (Vector::zeros(), 0.0);
             let law = &laws[wall.law];
             (wall.force, wall.stiffness) = active.fold(zero, |(force, stiffness), s| {
                 let radius = [grains.radius[s.first as usize], f64::INFINITY];
-                let more = if wall.is_servo() {
-                    law.stiffness(radius, s.overlap).normal
-                } else {
-                    0.0
+                let more = match wall.control {
+                    Control::Stress { .. } => law.stiffness(radius, s.overlap).normal,
+                    _ => 0.0,
                 };
                 (force - s.force, stiffness + more)
             });
         }
-        for (mesh, &end) in meshes.iter_mut().zip(ends) {
-            let (slots, after) = rest.split_at_mut(end - taken);
-            (rest, taken) = (after, end);
+        for (mesh, slots) in state.meshes.iter_mut().zip(parts) {
             view.mesh(slots, mesh, &*laws[mesh.law]);
             (mesh.force, mesh.torque) = (Vector::zeros(), Vector::zeros());
             for slot in slots.iter().filter(|s| s.active) {
@@ -240,11 +219,7 @@ impl GrainSystem {
         require("the step is", step, "positive", step > 0.0)?;
         let limit = self.fresh_limit();
         if step > limit.step {
-            return Err(GrainError::StepTooLarge {
-                step,
-                critical: limit.step,
-                grain: limit.grain,
-            });
+            return Err(GrainError::StepTooLarge(step, limit.step, limit.grain));
         }
         self.integrate_unchecked(step)
     }
@@ -278,15 +253,118 @@ impl GrainSystem {
     }
 
     fn fresh_limit(&mut self) -> Limit {
-        let limit = match self.limit {
-            Some(limit) if self.steps < self.limit_due => limit,
-            _ => {
+        let kept = self.limit.filter(|_| self.steps < self.limit_due);
+        *match kept {
+            Some(limit) => self.limit.insert(limit),
+            None => {
                 self.limit_due = self.steps + CHECKED_EVERY;
-                self.critical()
+                let limit = self.critical();
+                self.limit.insert(limit)
             }
-        };
-        self.limit = Some(limit);
-        limit
+        }
+    }
+
+    /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
+    ///
+    /// # Errors
+    /// If there is no such mesh or a number is not finite.
+    pub fn steer_mesh(
+        &mut self,
+        mesh: usize,
+        velocity: Vector,
+        spin: Vector,
+    ) -> Result<(), GrainError> {
+        let none = || GrainError::BadMesh(mesh, 0, "there is no such mesh".into());
+        let moved = self.meshes.get_mut(mesh).ok_or_else(none)?;
+        (moved.velocity, moved.spin) = (velocity, spin);
+        moved.check(mesh)
+    }
+
+    /// Sets the clock to zero, as when a preparation is over. Nothing else changes.
+    pub fn restart_clock(&mut self) {
+        (self.time, self.steps, self.limit_due) = (0.0, 0, 0);
+    }
+
+    /// Sets the coefficient of non-viscous damping; zero where a fluid damps.
+    ///
+    /// # Errors
+    /// Unless it is at least 0 and below 1.
+    pub fn set_damping(&mut self, damping: f64) -> Result<(), GrainError> {
+        check_damping(damping)?;
+        self.damping = damping;
+        Ok(())
+    }
+
+    /// Replaces a contact law, as when the friction of the preparation gives way to that of the test. The memory of
+    /// contacts stays.
+    ///
+    /// # Errors
+    /// Parameters out of range; no law of that number.
+    pub fn set_law(&mut self, number: usize, law: Box<dyn ContactLaw>) -> Result<(), GrainError> {
+        law.check()?;
+        let laws = self.laws.len();
+        let slot = self.laws.get_mut(number);
+        *slot.ok_or(GrainError::NoLaw("grain", 0, number, laws))? = law;
+        self.limit = None;
+        self.check()
+    }
+
+    /// Multiplies all radii; masses and moments of inertia follow with their third and fifth power.
+    ///
+    /// # Errors
+    /// A factor that is not positive and finite; a period that becomes too short.
+    pub fn scale_radii(&mut self, factor: f64) -> Result<(), GrainError> {
+        let what = "the factor of the radii is";
+        require(what, factor, "positive", factor > 0.0)?;
+        for radius in &mut self.grains.radius {
+            *radius *= factor;
+        }
+        self.grains.weigh();
+        check_period(&self.period, 2.0 * self.grains.largest_radius() + self.skin)
+    }
+
+    /// State to resume.
+    pub fn save(&self) -> State {
+        self.state.clone()
+    }
+
+    /// Goes on from a saved state with the same laws. The lists of neighbours are made anew, which changes no
+    /// bit of what follows: contacts are summed in the order of the grains' numbers, whatever else is in the lists.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together, and laws out of range.
+    pub fn resume(state: State, laws: Vec<Box<dyn ContactLaw>>) -> Result<Self, GrainError> {
+        let bad = |problem| Err(GrainError::BadState(problem));
+        let (table, n) = (&state.table, state.grains.len());
+        if !state.grains.fits() {
+            return bad("columns of the grains differ in length");
+        }
+        let parts = 1 + state.walls.len() + state.meshes.len();
+        let ordered = table.ends.is_sorted() && table.ends.last() == Some(&table.slots.len());
+        if table.ends.len() != parts || !ordered {
+            return bad("contacts do not fit the walls and meshes");
+        }
+        for part in 0..parts {
+            let most = match part.checked_sub(1 + state.walls.len()) {
+                Some(mesh) => state.meshes[mesh].triangles.len(),
+                None => n,
+            };
+            let known = |k: usize| {
+                let slot = &table.slots[k];
+                (slot.first as usize) < n && (slot.second as usize) < most
+            };
+            if !table.part(part).all(known) {
+                return bad("a contact names a body that is not there");
+            }
+        }
+        for i in 0..n {
+            positive(i, "radius", state.grains.radius[i])?;
+            positive(i, "mass", state.grains.mass[i])?;
+        }
+        let mut system = Self { state, laws };
+        system.check()?;
+        system.renew();
+        Ok(system)
     }
 }
 

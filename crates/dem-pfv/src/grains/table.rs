@@ -1,19 +1,15 @@
-//! The table of neighbours: pairs, grains at walls, grains at triangles, and the memory of contacts.
+//! The table of neighbours: a grid of grains, pairs, grains at walls, grains at triangles, the memory of contacts.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::grains::grid::Grid;
-use crate::grains::law::MEMORY;
-use crate::grains::mesh::nearest;
-use crate::grains::setup::Period;
-use crate::grains::space::separation;
-use crate::grains::{Grains, Mesh, Vector, Wall};
+use crate::grains::{Grains, MEMORY, Mesh, Period, Vector, Wall, nearest, separation};
+use crate::groups::Groups;
 
 /// Two bodies that are near each other.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub(crate) struct Slot {
     pub first: u32,
     /// A grain, or a triangle, or nothing at a wall.
@@ -34,12 +30,7 @@ impl Slot {
         Self {
             first,
             second,
-            active: false,
-            overlap: 0.0,
-            normal: Vector::zeros(),
-            memory: [0.0; MEMORY],
-            force: Vector::zeros(),
-            torque: [Vector::zeros(); 2],
+            ..Self::default()
         }
     }
 
@@ -54,12 +45,9 @@ pub(crate) struct Table {
     pub slots: Vec<Slot>,
     /// Ends of the parts.
     pub ends: Vec<usize>,
-    /// For each grain, where its entries start.
-    #[serde(skip)]
-    offsets: Vec<u32>,
     /// Slots of each grain, twice their number plus the side.
     #[serde(skip)]
-    entries: Vec<u32>,
+    entries: Groups,
     /// Positions and shapes at the time the table was made.
     #[serde(skip)]
     then: PreviousState,
@@ -100,21 +88,24 @@ const TASK: usize = 256;
 
 impl Table {
     pub fn part(&self, number: usize) -> Range<usize> {
-        let from = if number == 0 {
-            0
-        } else {
-            self.ends[number - 1]
-        };
-        from..self.ends[number]
+        let before = number.checked_sub(1);
+        before.map_or(0, |before| self.ends[before])..self.ends[number]
+    }
+
+    /// The slots of every part.
+    pub fn parts(&mut self) -> impl Iterator<Item = &mut [Slot]> {
+        let (mut rest, mut taken) = (&mut self.slots[..], 0);
+        self.ends.iter().map(move |&end| {
+            let (part, after) = std::mem::take(&mut rest).split_at_mut(end - taken);
+            (rest, taken) = (after, end);
+            part
+        })
     }
 
     /// Slots of a grain with the side it has in each: 0 for the first body, 1 for the second.
     pub fn slots_of(&self, grain: usize) -> impl Iterator<Item = (&Slot, usize)> {
-        let range = self.offsets[grain] as usize..self.offsets[grain + 1] as usize;
-        self.entries[range].iter().map(|&entry| {
-            let slot = &self.slots[(entry >> 1) as usize];
-            (slot, (entry & 1) as usize)
-        })
+        let entries = self.entries.members(grain).iter();
+        entries.map(|&entry| (&self.slots[(entry >> 1) as usize], (entry & 1) as usize))
     }
 
     /// True if something may have come near that is not in the table.
@@ -140,47 +131,41 @@ impl Table {
             let way = separation(&grains.position[i], &then.positions[i], bodies.period);
             room < 0.0 || way.norm_squared() > room * room
         };
-        (0..grains.len())
-            .into_par_iter()
-            .with_min_len(2048)
-            .any(left)
+        let all = (0..grains.len()).into_par_iter();
+        all.with_min_len(2048).any(left)
     }
 
     /// Makes the table anew; contacts keep their memory.
     pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
-        let Bodies {
-            grains,
-            walls,
-            meshes,
-            period,
-        } = bodies;
-        let largest = grains.radius.iter().copied().fold(0.0, f64::max);
+        let (grains, period) = (bodies.grains, bodies.period);
+        let largest = grains.largest_radius();
         let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
         let mut slots = pairs(grains, &grid, period, skin);
         let mut ends = vec![slots.len()];
-        for wall in walls {
+        for wall in bodies.walls {
             let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
-            slots.extend(
-                (0..grains.len())
-                    .filter(near)
-                    .map(|i| Slot::new(i as u32, 0)),
-            );
+            let near = (0..grains.len()).filter(near);
+            slots.extend(near.map(|i| Slot::new(i as u32, 0)));
             ends.push(slots.len());
         }
-        for mesh in meshes {
+        for mesh in bodies.meshes {
             slots.extend(triangles(grains, &grid, mesh, largest, skin));
             ends.push(slots.len());
         }
-        let old = std::mem::take(&mut self.slots);
+        let old = std::mem::replace(&mut self.slots, slots);
         let old_ends = std::mem::replace(&mut self.ends, ends);
-        self.slots = slots;
         self.carry(&old, &old_ends);
-        self.index(grains.len());
+        let pairs = self.part(0).end;
+        let entries = self.slots.iter().enumerate().flat_map(|(k, slot)| {
+            let second = (k < pairs).then_some((slot.second, 2 * k as u32 + 1));
+            [Some((slot.first, 2 * k as u32)), second]
+        });
+        self.entries = Groups::new(grains.len(), entries.flatten());
         self.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
-            walls: walls.iter().map(|w| w.point).collect(),
-            vertices: meshes.iter().map(|m| m.vertices.clone()).collect(),
+            walls: bodies.walls.iter().map(|w| w.point).collect(),
+            vertices: bodies.meshes.iter().map(|m| m.vertices.clone()).collect(),
         };
     }
 
@@ -199,61 +184,30 @@ impl Table {
             from = to;
         }
     }
-
-    fn index(&mut self, grains: usize) {
-        let pairs = self.part(0).end;
-        let mut offsets = vec![0_u32; grains + 1];
-        for (k, slot) in self.slots.iter().enumerate() {
-            offsets[slot.first as usize + 1] += 1;
-            if k < pairs {
-                offsets[slot.second as usize + 1] += 1;
-            }
-        }
-        for i in 0..grains {
-            offsets[i + 1] += offsets[i];
-        }
-        let mut next = offsets.clone();
-        let mut entries = vec![0; offsets[grains] as usize];
-        let mut put = |grain: u32, entry: usize| {
-            let at = &mut next[grain as usize];
-            entries[*at as usize] = entry as u32;
-            *at += 1;
-        };
-        for (k, slot) in self.slots.iter().enumerate() {
-            put(slot.first, 2 * k);
-            if k < pairs {
-                put(slot.second, 2 * k + 1);
-            }
-        }
-        self.offsets = offsets;
-        self.entries = entries;
-    }
 }
 
 fn pairs(grains: &Grains, grid: &Grid, period: &Period, skin: f64) -> Vec<Slot> {
     let n = grains.len();
-    let tasks: Vec<Vec<Slot>> = (0..n.div_ceil(TASK))
-        .into_par_iter()
-        .map(|task| {
-            let mut slots = Vec::with_capacity(8 * TASK);
-            let mut partners = Vec::new();
-            for i in task * TASK..n.min((task + 1) * TASK) {
-                let (at, radius) = (grains.position[i], grains.radius[i] + skin);
-                partners.clear();
-                grid.around(&at, |j| {
-                    let reach = radius + grains.radius[j as usize];
-                    let apart = || separation(&at, &grains.position[j as usize], period);
-                    if j as usize > i && apart().norm_squared() < reach * reach {
-                        partners.push(j);
-                    }
-                });
-                partners.sort_unstable();
-                slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
-            }
-            slots
-        })
-        .collect();
-    tasks.concat()
+    let task = |task: usize| {
+        let mut slots = Vec::with_capacity(8 * TASK);
+        let mut partners = Vec::new();
+        for i in task * TASK..n.min((task + 1) * TASK) {
+            let (at, radius) = (grains.position[i], grains.radius[i] + skin);
+            partners.clear();
+            grid.around(&at, |j| {
+                let reach = radius + grains.radius[j as usize];
+                let apart = || separation(&at, &grains.position[j as usize], period);
+                if j as usize > i && apart().norm_squared() < reach * reach {
+                    partners.push(j);
+                }
+            });
+            partners.sort_unstable();
+            slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
+        }
+        slots
+    };
+    let tasks = (0..n.div_ceil(TASK)).into_par_iter().map(task);
+    tasks.collect::<Vec<_>>().concat()
 }
 
 fn triangles(
@@ -281,4 +235,108 @@ fn triangles(
     let mut keys = found.collect::<Vec<_>>().concat();
     keys.sort_unstable();
     keys.into_iter().map(|(i, t)| Slot::new(i, t))
+}
+
+/// Grains by cell; a cell is at least as long as the reach of a pair.
+pub(crate) struct Grid {
+    low: Vector,
+    /// Cells per metre.
+    rate: Vector,
+    count: [usize; 3],
+    periodic: [bool; 3],
+    members: Groups,
+}
+
+impl Grid {
+    pub fn new(positions: &[Vector], period: &Period, reach: f64) -> Self {
+        let mut low = Vector::repeat(f64::INFINITY);
+        let mut high = Vector::repeat(f64::NEG_INFINITY);
+        for p in positions {
+            low = low.inf(p);
+            high = high.sup(p);
+        }
+        for (axis, ends) in period.iter().enumerate() {
+            if let Some(ends) = ends {
+                [low[axis], high[axis]] = *ends;
+            }
+        }
+        // A grain that flew away must not cost memory: cells grow until there are few.
+        let most = 8.0 * positions.len() as f64 + 64.0;
+        let mut size = reach;
+        let counts = loop {
+            let counts = (high - low).map(|length| (length / size).floor().max(1.0));
+            if counts.product() <= most {
+                break counts;
+            }
+            size *= 1.26;
+        };
+        let mut grid = Self {
+            low,
+            rate: counts.zip_map(&(high - low), |n, length| match length > 0.0 {
+                true => n / length,
+                false => 0.0,
+            }),
+            count: [counts.x as usize, counts.y as usize, counts.z as usize],
+            periodic: period.map(|p| p.is_some()),
+            members: Groups::default(),
+        };
+        let numbers = positions.iter().map(|p| grid.number(grid.cell(p)) as u32);
+        let cells: Vec<_> = numbers.zip(0..).collect();
+        let count = grid.count.iter().product();
+        grid.members = Groups::new(count, cells.into_iter());
+        grid
+    }
+
+    fn cell(&self, p: &Vector) -> [usize; 3] {
+        // A cast from a negative number or beyond the range saturates.
+        std::array::from_fn(|k| {
+            let along = ((p[k] - self.low[k]) * self.rate[k]) as usize;
+            along.min(self.count[k] - 1)
+        })
+    }
+
+    fn number(&self, [x, y, z]: [usize; 3]) -> usize {
+        (z * self.count[1] + y) * self.count[0] + x
+    }
+
+    fn members(&self, cell: [usize; 3]) -> &[u32] {
+        self.members.members(self.number(cell))
+    }
+
+    /// Cells on an axis around one, each once.
+    fn span(&self, axis: usize, at: usize) -> ([usize; 3], usize) {
+        let n = self.count[axis];
+        if self.periodic[axis] && n >= 3 {
+            return ([(at + n - 1) % n, at, (at + 1) % n], 3);
+        }
+        let from = at.saturating_sub(1);
+        let to = (at + 1).min(n - 1);
+        ([from, from + 1, from + 2], to - from + 1)
+    }
+
+    /// Calls `visit` for every grain in the cell of a point and in those around it.
+    pub fn around(&self, point: &Vector, mut visit: impl FnMut(u32)) {
+        let at = self.cell(point);
+        let spans: [_; 3] = std::array::from_fn(|axis| self.span(axis, at[axis]));
+        let [xs, ys, zs] = spans.each_ref().map(|(cells, count)| &cells[..*count]);
+        for &z in zs {
+            for &y in ys {
+                for &x in xs {
+                    self.members([x, y, z]).iter().copied().for_each(&mut visit);
+                }
+            }
+        }
+    }
+
+    /// Calls `visit` for every grain in the cells that a box touches.
+    pub fn within(&self, low: &Vector, high: &Vector, mut visit: impl FnMut(u32)) {
+        let (from, to) = (self.cell(low), self.cell(high));
+        for z in from[2]..=to[2] {
+            for y in from[1]..=to[1] {
+                for x in from[0]..=to[0] {
+                    self.members([x, y, z]).iter().copied().for_each(&mut visit);
+                }
+            }
+        }
+    }
 }

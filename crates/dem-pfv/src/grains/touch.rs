@@ -2,12 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::grains::law::Turn;
-use crate::grains::mesh::nearest;
-use crate::grains::setup::Period;
-use crate::grains::space::separation;
-use crate::grains::table::Slot;
-use crate::grains::{Contact, ContactLaw, Grains, Mesh, Vector, Wall};
+use crate::grains::{
+    Contact, ContactLaw, Grains, Mesh, Period, Slot, Turn, Vector, Wall, nearest, separation,
+};
 
 /// Slots that one call of a law answers at most.
 const BATCH: usize = 128;
@@ -21,12 +18,24 @@ pub(crate) struct View<'a> {
     pub step: f64,
 }
 
-/// The support of a grain: a plane or a point of a triangle.
-struct ContactSupport {
-    normal: Vector,
-    overlap: f64,
+/// The second body of a contact: a grain, a plane or a point of a triangle; the latter two of infinite radius and mass.
+struct Second {
     velocity: Vector,
     spin: Vector,
+    radius: f64,
+    mass: f64,
+}
+
+impl Second {
+    fn surface(velocity: Vector, spin: Vector) -> Self {
+        let [radius, mass] = [f64::INFINITY; 2];
+        Self {
+            velocity,
+            spin,
+            radius,
+            mass,
+        }
+    }
 }
 
 impl View<'_> {
@@ -40,21 +49,15 @@ impl View<'_> {
         sweep(slots, law, |slot| {
             let grain = slot.first as usize;
             let gap = wall.distance(&self.grains.position[grain]) - self.grains.radius[grain];
-            let surface = ContactSupport {
-                normal: wall.normal,
-                overlap: -gap,
-                velocity: wall.velocity,
-                spin: Vector::zeros(),
-            };
-            (gap < 0.0).then(|| self.against(slot, &surface))
+            let second = || Second::surface(wall.velocity, Vector::zeros());
+            (gap < 0.0).then(|| self.contact(slot, wall.normal, -gap, second()))
         });
     }
 
     /// Forces at a mesh.
     pub fn mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
-        slots
-            .par_chunk_by_mut(|a, b| a.first == b.first)
-            .for_each(|group| self.at_triangles(group, mesh, law));
+        let groups = slots.par_chunk_by_mut(|a, b| a.first == b.first);
+        groups.for_each(|group| self.at_triangles(group, mesh, law));
     }
 
     fn pair(&self, slot: &Slot) -> Option<Contact> {
@@ -68,77 +71,45 @@ impl View<'_> {
         }
         let distance = square.sqrt();
         // Equal centres have no direction; any one does.
-        let normal = if distance > 0.0 {
-            apart / distance
-        } else {
-            Vector::x()
+        let normal = match distance > 0.0 {
+            true => apart / distance,
+            false => Vector::x(),
         };
-        let overlap = reach - distance;
-        let lever = [g.radius[a], g.radius[b]].map(|r| r - 0.5 * overlap);
-        let rolling = g.spin[a] * lever[0] + g.spin[b] * lever[1];
-        let velocity = g.velocity[a] - g.velocity[b] - rolling.cross(&normal);
-        let twist = 0.5 * self.step * normal.dot(&(g.spin[a] + g.spin[b]));
-        Some(self.contact(
-            slot,
-            normal,
-            overlap,
-            velocity,
-            g.spin[a] - g.spin[b],
-            twist,
-            [g.radius[b], g.mass[b]],
-        ))
+        let second = Second {
+            velocity: g.velocity[b],
+            spin: g.spin[b],
+            radius: g.radius[b],
+            mass: g.mass[b],
+        };
+        Some(self.contact(slot, normal, reach - distance, second))
     }
 
-    fn against(&self, slot: &Slot, surface: &ContactSupport) -> Contact {
-        let a = slot.first as usize;
-        let g = self.grains;
-        let lever = g.radius[a] - 0.5 * surface.overlap;
-        let rolling = g.spin[a] * lever;
-        let velocity = g.velocity[a] - surface.velocity - rolling.cross(&surface.normal);
-        let twist = 0.5 * self.step * surface.normal.dot(&(g.spin[a] + surface.spin));
-        self.contact(
-            slot,
-            surface.normal,
-            surface.overlap,
-            velocity,
-            g.spin[a] - surface.spin,
-            twist,
-            [f64::INFINITY; 2],
-        )
-    }
-
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "they are the fields of a contact"
-    )]
-    fn contact(
-        &self,
-        slot: &Slot,
-        normal: Vector,
-        overlap: f64,
-        velocity: Vector,
-        spin: Vector,
-        twist: f64,
-        [radius, mass]: [f64; 2],
-    ) -> Contact {
-        let a = slot.first as usize;
-        let (memory, turn) = if slot.active {
-            let turn = Turn {
-                axis: slot.normal.cross(&normal),
-                cosine: slot.normal.dot(&normal),
-                twist,
-            };
-            (slot.memory, turn)
-        } else {
-            ([0.0; crate::grains::MEMORY], Turn::default())
+    fn contact(&self, slot: &Slot, normal: Vector, overlap: f64, second: Second) -> Contact {
+        let (g, a) = (self.grains, slot.first as usize);
+        let radius = [g.radius[a], second.radius];
+        let lever = radius.map(|r| r - 0.5 * overlap);
+        let mut rolling = g.spin[a] * lever[0];
+        if lever[1].is_finite() {
+            rolling += second.spin * lever[1];
+        }
+        let (memory, turn) = match slot.active {
+            true => {
+                let turn = Turn {
+                    axis: slot.normal.cross(&normal),
+                    cosine: slot.normal.dot(&normal),
+                    twist: 0.5 * self.step * normal.dot(&(g.spin[a] + second.spin)),
+                };
+                (slot.memory, turn)
+            }
+            false => Default::default(),
         };
         Contact {
             normal,
             overlap,
-            velocity,
-            spin,
-            radius: [self.grains.radius[a], radius],
-            mass: [self.grains.mass[a], mass],
+            velocity: g.velocity[a] - second.velocity - rolling.cross(&normal),
+            spin: g.spin[a] - second.spin,
+            radius,
+            mass: [g.mass[a], second.mass],
             step: self.step,
             memory,
             force: Vector::zeros(),
@@ -152,15 +123,12 @@ impl View<'_> {
     fn at_triangles(&self, group: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
         let grain = group[0].first as usize;
         let (at, radius) = (&self.grains.position[grain], self.grains.radius[grain]);
-        let near: Vec<(usize, Vector, f64)> = group
-            .iter()
-            .enumerate()
-            .filter_map(|(k, slot)| {
-                let point = nearest(at, mesh.corners(slot.second as usize));
-                let distance = (at - point).norm();
-                (distance < radius).then_some((k, point, distance))
-            })
-            .collect();
+        let near = group.iter().enumerate().filter_map(|(k, slot)| {
+            let point = nearest(at, mesh.corners(slot.second as usize));
+            let distance = (at - point).norm();
+            (distance < radius).then_some((k, point, distance))
+        });
+        let near: Vec<(usize, Vector, f64)> = near.collect();
         let same = 1e-7 * radius;
         let counts = |&(k, point, distance): &(usize, Vector, f64)| {
             !near.iter().any(|&(other, _, nearer)| {
@@ -172,24 +140,18 @@ impl View<'_> {
         };
         let kept: Vec<_> = near.iter().copied().filter(counts).collect();
         hand_over(group, &kept, at);
-        let mut batch: Vec<Contact> = kept
-            .iter()
-            .map(|&(k, point, distance)| {
-                let normal = if distance > 0.0 {
-                    (at - point) / distance
-                } else {
+        let batch = kept.iter().map(|&(k, point, distance)| {
+            let normal = match distance > 0.0 {
+                true => (at - point) / distance,
+                false => {
                     let [a, b, c] = mesh.corners(group[k].second as usize);
                     (b - a).cross(&(c - a)).normalize()
-                };
-                let surface = ContactSupport {
-                    normal,
-                    overlap: radius - distance,
-                    velocity: mesh.velocity_at(&point),
-                    spin: mesh.spin,
-                };
-                self.against(&group[k], &surface)
-            })
-            .collect();
+                }
+            };
+            let second = Second::surface(mesh.velocity_at(&point), mesh.spin);
+            self.contact(&group[k], normal, radius - distance, second)
+        });
+        let mut batch: Vec<Contact> = batch.collect();
         for slot in group.iter_mut() {
             slot.active = false;
         }
@@ -209,9 +171,8 @@ fn hand_over(group: &mut [Slot], kept: &[(usize, Vector, f64)], at: &Vector) {
         let normal = at - point;
         let left = |&j: &usize| group[j].active && !kept.iter().any(|&(other, ..)| other == j);
         let along = |j: usize| group[j].normal.dot(&normal);
-        let from = (0..group.len())
-            .filter(left)
-            .max_by(|&i, &j| along(i).total_cmp(&along(j)));
+        let from = (0..group.len()).filter(left);
+        let from = from.max_by(|&i, &j| along(i).total_cmp(&along(j)));
         if let Some(from) = from.filter(|&j| along(j) > 0.5 * normal.norm()) {
             group[k] = Slot {
                 first: group[k].first,
@@ -257,12 +218,9 @@ fn write_back(slot: &mut Slot, contact: &Contact) {
     slot.normal = contact.normal;
     slot.memory = contact.memory;
     slot.force = contact.force;
-    slot.torque = [
-        contact.couple - turning * lever[0],
-        if lever[1].is_finite() {
-            -turning * lever[1] - contact.couple
-        } else {
-            -contact.couple
-        },
-    ];
+    let second = match lever[1].is_finite() {
+        true => -turning * lever[1] - contact.couple,
+        false => -contact.couple,
+    };
+    slot.torque = [contact.couple - turning * lever[0], second];
 }

@@ -1,13 +1,14 @@
-//! Plane walls and their motion.
+//! Plane walls and surfaces of triangles, and their motion.
 
 use serde::{Deserialize, Serialize};
 
 use crate::grains::{GrainError, Vector};
 
 /// Control of a wall along its normal.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub enum Control {
     /// Nothing but its velocity, which may be zero.
+    #[default]
     Velocity,
     /// A servo that holds a normal stress: δ = (σ A − F) / k_w with the grains' stiffness k_w at the wall, limited to
     /// v_max Δt, filtered to D = (1 − s) δ + 0.8 D_old with s = 0.25. Source: the triaxial controller of YADE.
@@ -36,7 +37,7 @@ pub enum Control {
 }
 
 /// A plane with grains on the side of its normal.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Wall {
     /// A point of it, m.
     pub point: Vector,
@@ -69,14 +70,7 @@ impl Wall {
         Self {
             point: point.into(),
             normal: normal / normal.norm(),
-            velocity: Vector::zeros(),
-            law: 0,
-            control: Control::Velocity,
-            area: None,
-            external_force: Vector::zeros(),
-            force: Vector::zeros(),
-            stiffness: 0.0,
-            filtered: 0.0,
+            ..Self::default()
         }
     }
 
@@ -96,16 +90,17 @@ impl Wall {
         self
     }
 
-    /// The same with a control.
-    #[must_use]
-    pub fn with_control(mut self, control: Control) -> Self {
-        self.control = control;
-        self
-    }
-
     /// Force of the grains on it, N.
     pub fn force(&self) -> Vector {
         self.force
+    }
+
+    /// Mass as a body, kg: infinite unless it is a piston.
+    pub(crate) fn mass(&self) -> f64 {
+        match self.control {
+            Control::Piston { mass, .. } => mass,
+            _ => f64::INFINITY,
+        }
     }
 
     /// Signed distance of a point, m.
@@ -129,26 +124,22 @@ impl Wall {
     pub(crate) fn check(&self, wall: usize) -> Result<(), GrainError> {
         let problem = |problem| Err(GrainError::BadWall(wall, problem));
         let vectors = [self.point, self.normal, self.velocity, self.external_force];
-        if vectors.iter().any(|v| v.iter().any(|x| !x.is_finite())) {
-            return problem(
-                "has a point, a normal, a velocity or a force that is not finite".into(),
-            );
+        if !vectors.iter().flatten().all(|x| x.is_finite()) {
+            let what = "has a point, a normal, a velocity or a force that is not finite";
+            return problem(what.into());
         }
         if (self.normal.norm() - 1.0).abs() > 1e-9 {
+            let normal = self.normal.as_slice();
             return problem(format!(
-                "has the normal {:?}, which is not of length 1",
-                self.normal.as_slice()
+                "has the normal {normal:?}, which is not of length 1"
             ));
         }
         let numbers: &[(&str, f64, bool)] = match self.control {
             Control::Velocity | Control::Volume => &[],
             Control::Stress {
                 stress,
-                largest_speed,
-            } => &[
-                ("stress", stress, true),
-                ("largest speed", largest_speed, largest_speed > 0.0),
-            ],
+                largest_speed: v,
+            } => &[("stress", stress, true), ("largest speed", v, v > 0.0)],
             Control::StrainRate { rate } => &[("rate of strain", rate, true)],
             Control::Piston { stress, mass } => {
                 &[("stress", stress, true), ("mass", mass, mass > 0.0)]
@@ -159,17 +150,9 @@ impl Wall {
                 return problem(format!("has the {what} {value}"));
             }
         }
-        match self.area {
-            Some(area) if !(area > 0.0 && area.is_finite()) => {
-                problem(format!("has the area {area} m²"))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// True if its control needs the stiffness of its contacts.
-    pub(crate) fn is_servo(&self) -> bool {
-        matches!(self.control, Control::Stress { .. })
+        let bad = |area: &f64| !(*area > 0.0 && area.is_finite());
+        let bad = self.area.filter(bad);
+        bad.map_or(Ok(()), |area| problem(format!("has the area {area} m²")))
     }
 
     /// Sets the velocity along the normal for the coming step (s): `area` in m², `height` to the facing wall in m.
@@ -183,10 +166,9 @@ impl Wall {
             } => {
                 let most = largest_speed * step;
                 let lack = stress * area - self.push();
-                let wanted = if self.stiffness > 0.0 {
-                    (lack / self.stiffness).clamp(-most, most)
-                } else {
-                    most * sign(lack)
+                let wanted = match self.stiffness > 0.0 {
+                    true => (lack / self.stiffness).clamp(-most, most),
+                    false => most * sign(lack),
                 };
                 let filtered = (1.0 - FILTER[0]) * wanted + FILTER[1] * self.filtered;
                 self.filtered = filtered.clamp(-most, most);
@@ -206,4 +188,125 @@ impl Wall {
 /// −1, 0 or 1.
 pub(crate) fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
+}
+
+/// A rigid surface of triangles, seen from both sides, with a given motion.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub struct Mesh {
+    /// Vertices, m.
+    pub vertices: Vec<Vector>,
+    /// Three vertices each. Triangles need not share their vertices.
+    pub triangles: Vec<[u32; 3]>,
+    /// Velocity of its centre, m/s.
+    pub velocity: Vector,
+    /// Angular velocity about its centre, rad/s.
+    pub spin: Vector,
+    /// The point about which it turns, m.
+    pub centre: Vector,
+    /// Number of its contact law.
+    pub law: usize,
+    pub(crate) force: Vector,
+    pub(crate) torque: Vector,
+}
+
+impl Mesh {
+    /// At rest; vertices in m.
+    pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        Self {
+            vertices: vertices.into_iter().map(Vector::from).collect(),
+            triangles,
+            ..Self::default()
+        }
+    }
+
+    /// Force of the grains on it, N.
+    pub fn force(&self) -> Vector {
+        self.force
+    }
+
+    /// Moment of the grains' forces about its centre, N m.
+    pub fn torque(&self) -> Vector {
+        self.torque
+    }
+
+    /// Velocity of the point of it that is now there, m/s.
+    pub fn velocity_at(&self, point: &Vector) -> Vector {
+        self.velocity + self.spin.cross(&(point - self.centre))
+    }
+
+    /// Corners of a triangle; its number is below the number of triangles.
+    pub(crate) fn corners(&self, triangle: usize) -> [Vector; 3] {
+        self.triangles[triangle].map(|v| self.vertices[v as usize])
+    }
+
+    pub(crate) fn check(&self, mesh: usize) -> Result<(), GrainError> {
+        let problem = |triangle, problem| Err(GrainError::BadMesh(mesh, triangle, problem));
+        let motion = [self.velocity, self.spin, self.centre];
+        if !motion.iter().flatten().all(|x| x.is_finite()) {
+            return problem(0, "moves at a velocity that is not finite".into());
+        }
+        for (t, corners) in self.triangles.iter().enumerate() {
+            if let Some(v) = corners.iter().find(|&&v| v as usize >= self.vertices.len()) {
+                let n = self.vertices.len();
+                return problem(t, format!("names vertex {v}, but there are {n}"));
+            }
+            let [a, b, c] = self.corners(t);
+            let sides = [b - a, c - b, a - c];
+            let longest = sides.iter().map(|s| s.norm_squared()).fold(0.0, f64::max);
+            let area = sides[0].cross(&sides[1]).norm();
+            if !area.is_finite() {
+                return problem(t, "has a vertex that is not finite".into());
+            }
+            if area <= 1e-12 * longest {
+                return problem(t, format!("has the area {} m²", 0.5 * area));
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves it for a step, s.
+    pub(crate) fn advance(&mut self, step: f64) {
+        if self.velocity != Vector::zeros() || self.spin != Vector::zeros() {
+            let turn = nalgebra::Rotation3::from_scaled_axis(self.spin * step);
+            let to = self.centre + self.velocity * step;
+            for vertex in &mut self.vertices {
+                *vertex = to + turn * (*vertex - self.centre);
+            }
+            self.centre = to;
+        }
+    }
+}
+
+/// The point of a triangle nearest to a point. Source: Ericson 2005, §5.1.5.
+pub(crate) fn nearest(point: &Vector, [a, b, c]: [Vector; 3]) -> Vector {
+    let (ab, ac) = (b - a, c - a);
+    let ap = point - a;
+    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let bp = point - b;
+    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    let cp = point - c;
+    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let total = va + vb + vc;
+    a + ab * (vb / total) + ac * (vc / total)
 }

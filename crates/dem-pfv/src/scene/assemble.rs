@@ -4,16 +4,11 @@ use crate::coupled::{
     CoupledError, CoupledSystem, FlowCondition, FlowSetup, Remeshing, WallBoundary,
 };
 use crate::grains::{GrainError, GrainSystem};
-use crate::scene::error::DemError;
-use crate::scene::laws::{Laws, throats};
-use crate::scene::model::{Load, Model};
-use crate::scene::names::{BOX, planes};
-use crate::scene::origin::Origin;
-use crate::scene::prepare;
-use crate::scene::read::Loaded;
-use crate::scene::recorded;
-use crate::scene::tables::{self, Scene};
-use crate::scene::walls::{FAR, control};
+use crate::scene::tables::{self};
+use crate::scene::{
+    BOX, DemError, FAR, Laws, Loaded, Model, Origin, Piston, Scene, control, planes_with_tables,
+    prepare, read_recorded, surfaces, throats,
+};
 
 /// A scene ready to run.
 pub struct Assembled {
@@ -21,8 +16,6 @@ pub struct Assembled {
     pub model: Model,
     /// Reference values of measurements.
     pub origin: Origin,
-    /// Loads that change.
-    pub loads: Vec<Load>,
 }
 
 /// Puts a scene together and prepares its grains; reports its steps.
@@ -55,12 +48,7 @@ pub fn assemble(loaded: &Loaded, tell: &mut dyn FnMut(&str)) -> Result<Assembled
             Model::Wet(Box::new(system))
         }
     };
-    let loads = loads(scene);
-    Ok(Assembled {
-        model,
-        origin,
-        loads,
-    })
+    Ok(Assembled { model, origin })
 }
 
 /// The key that is most likely at fault.
@@ -73,22 +61,17 @@ fn key_of(error: &CoupledError) -> &'static str {
 }
 
 /// Loads that change with time.
-pub fn loads(scene: &Scene) -> Vec<Load> {
-    let names = planes(scene);
-    let all = names.iter().enumerate().filter_map(|(wall, name)| {
-        let piston = scene.wall.get(name)?.piston?;
-        Some(Load { wall, piston })
-    });
-    all.filter(Load::varies).collect()
+pub fn loads(scene: &Scene) -> impl Iterator<Item = (usize, &Piston)> {
+    planes_with_tables(scene).filter_map(|(wall, table)| {
+        let piston = table.piston.as_ref()?;
+        (piston.ramp != 0.0 || piston.amplitude != 0.0).then_some((wall, piston))
+    })
 }
 
 /// Controls of the walls in the run.
 fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
     let mass: f64 = grains.grains.mass.iter().sum();
-    for (number, name) in planes(scene).iter().enumerate() {
-        let Some(table) = scene.wall.get(name) else {
-            continue;
-        };
+    for (number, table) in planes_with_tables(scene) {
         let wall = &mut grains.walls[number];
         if table.removed {
             // Out of reach: the system keeps its walls.
@@ -98,7 +81,7 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
         wall.velocity = table.velocity.unwrap_or_default().into();
         wall.control = control(table, mass, |p| p.stress);
     }
-    for (number, name) in crate::scene::names::surfaces(scene).iter().enumerate() {
+    for (number, name) in surfaces(scene).iter().enumerate() {
         if let Some(table) = scene.wall.get(name) {
             let velocity = table.velocity.unwrap_or_default().into();
             let spin = table.spin.unwrap_or_default().into();
@@ -110,10 +93,11 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 
 /// The fluid and its conditions.
 fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
-    let mut setup = FlowSetup::new(fluid.given).remeshing(Remeshing {
+    let mut setup = FlowSetup::new(fluid.given);
+    setup.remeshing = Remeshing {
         strain: Some(fluid.remesh_strain),
         most_steps: fluid.remesh_steps,
-    });
+    };
     for (number, name) in BOX.iter().enumerate() {
         if let Some(table) = loaded.scene.wall.get(*name) {
             setup = setup.side(number, side(loaded, name, table)?);
@@ -128,7 +112,7 @@ fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<WallBoundar
         (_, Some(speed), _) => FlowCondition::Inflow(speed),
         (.., Some(load)) => FlowCondition::Wave(*load),
         _ => match &table.recorded {
-            Some(load) => FlowCondition::Recorded(recorded::read(&loaded.source, name, load)?),
+            Some(load) => FlowCondition::Recorded(read_recorded(&loaded.source, name, load)?),
             None => FlowCondition::Closed,
         },
     };

@@ -4,15 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Serialize;
+use sph_core::bounds;
 use sph_io::{Table, read_table};
 
 use crate::coupled::Terzaghi;
-use crate::scene::error::DemError;
-use crate::scene::measure;
-use crate::scene::origin::Origin;
-use crate::scene::read::Loaded;
-use crate::scene::scaling::{self, Scaling};
-use crate::scene::tables::{Probe, Reference, Statistic};
+use crate::scene::measure::unit;
+use crate::scene::{DemError, Loaded, Origin, Probe, Reference, Statistic};
 
 /// An error against a reference.
 #[derive(Clone, Debug, Serialize)]
@@ -58,9 +55,6 @@ impl Compared {
 }
 
 /// The errors against all references.
-///
-/// # Errors
-/// If the series or a table cannot be read.
 pub fn errors(
     loaded: &Loaded,
     origin: &Origin,
@@ -79,7 +73,9 @@ pub fn errors(
     references.iter().map(one).collect()
 }
 
-const ALL: [Option<f64>; 2] = [None; 2];
+/// Ends of a window, if it has any.
+type Window = [Option<f64>; 2];
+const ALL: Window = [None; 2];
 
 /// The rows of a run, and what they are measured from.
 struct RunSeries<'a> {
@@ -94,55 +90,38 @@ impl RunSeries<'_> {
     }
 
     /// Times (s) and values of a probe in a window (s), without rows in which there was nothing to measure.
-    fn rows(&self, probe: &str, [from, to]: [Option<f64>; 2]) -> Vec<(f64, f64)> {
+    fn rows(&self, probe: &str, [from, to]: Window) -> Vec<(f64, f64)> {
         let window = from.unwrap_or(f64::NEG_INFINITY)..=to.unwrap_or(f64::INFINITY);
         let column = |name: &str| self.table.column(name).unwrap_or(&[]);
+        let measured = |(t, x): &(f64, f64)| x.is_finite() && window.contains(t);
         let pairs = column("time").iter().zip(column(probe));
-        let pairs = pairs.map(|(t, x)| (*t, *x));
-        pairs
-            .filter(|(t, x)| x.is_finite() && window.contains(t))
-            .collect()
+        pairs.map(|(t, x)| (*t, *x)).filter(measured).collect()
     }
 
     fn compared(&self, name: &str, reference: &Reference) -> Result<Compared, DemError> {
         let key = format!("reference.{name}.file");
+        let (probe, window) = (reference.probe(), reference.window());
         match reference {
-            Reference::Terzaghi {
-                probe,
-                shorter_by,
-                from,
-                to,
-            } => Ok(self.terzaghi(probe, *shorter_by, [*from, *to])),
-            Reference::Value {
-                probe,
-                value,
-                of,
-                from,
-                to,
-            } => {
-                let rows = self.rows(probe, [*from, *to]);
-                let unit = self.probe(probe).map_or("", measure::unit);
+            Reference::Terzaghi { shorter_by, .. } => Ok(self.terzaghi(probe, *shorter_by, window)),
+            Reference::Value { value, of, .. } => {
+                let rows = self.rows(probe, window);
+                let unit = self.probe(probe).map_or("", unit);
                 let against = format!("{probe} = {value} {unit}").trim_end().to_string();
                 let found = statistic(&rows, *of);
                 Ok(Compared::number(found, *value, against, rows.len()))
             }
             Reference::Scaling {
-                probe,
                 file,
                 geometry,
                 quantity,
+                ..
             } => {
-                let law = scaling::read(&self.loaded.resolve(&key, file)?, geometry, quantity);
+                let law = read_scaling(&self.loaded.resolve(&key, file)?, geometry, quantity);
                 let law = law.map_err(|why| DemError::at(&key, why))?;
                 Ok(self.scaled(probe, &law, [geometry, quantity]))
             }
-            Reference::Line {
-                along,
-                probe,
-                from,
-                to,
-            } => {
-                let [along, values] = [along, probe].map(|name| self.rows(name, [*from, *to]));
+            Reference::Line { along, .. } => {
+                let [along, values] = [along, probe].map(|name| self.rows(name, window));
                 let beside = |(t, x): &(f64, f64)| {
                     let (_, y) = values.iter().find(|(u, _)| u == t)?;
                     Some((*x, *y))
@@ -152,11 +131,7 @@ impl RunSeries<'_> {
                 let against = format!("{probe} in a straight line");
                 Ok(Compared::new(error, "1 − R²", against, pairs.len()))
             }
-            Reference::Curve {
-                probe,
-                file,
-                column,
-            } => {
+            Reference::Curve { file, column, .. } => {
                 let table = read_table(self.loaded.resolve(&key, file)?)?;
                 let wanted = table.column(column).ok_or_else(|| {
                     let why = format!("there is no column `{column}`");
@@ -172,13 +147,16 @@ impl RunSeries<'_> {
     }
 
     /// A run-out beside a scaling law.
-    fn scaled(&self, probe: &str, law: &Scaling, [geometry, quantity]: [&str; 2]) -> Compared {
+    fn scaled(&self, probe: &str, laws: &[Scaling], [geometry, quantity]: [&str; 2]) -> Compared {
         let length = match self.probe(probe) {
             Some(Probe::RunOut { length, .. }) => *length,
             _ => f64::NAN,
         };
         let aspect = self.origin.top / length;
-        let wanted = law.at(aspect).unwrap_or(f64::NAN);
+        let wanted = laws
+            .iter()
+            .find_map(|law| law.at(aspect))
+            .unwrap_or(f64::NAN);
         let rows = self.rows(probe, ALL);
         let found = statistic(&rows, Statistic::Last);
         let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
@@ -191,14 +169,13 @@ impl RunSeries<'_> {
         let pairs = times.iter().zip(wanted);
         let pairs = pairs.filter_map(|(t, x)| Some((at(&rows, *t)?, *x)));
         let pairs: Vec<_> = pairs.collect();
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = (wanted.iter()).fold(ends, |(l, h), x| (l.min(*x), h.max(*x)));
+        let [[low], [high]] = bounds(wanted.iter().map(|x| [*x]));
         let error = mean_square(&pairs).sqrt() / (high - low);
         Compared::new(Some(error), "rms over range", against, pairs.len())
     }
 
     /// Root mean square of the difference between a probe and Terzaghi, between two time factors.
-    fn terzaghi(&self, probe: &str, shorter_by: f64, factors: [f64; 2]) -> Compared {
+    fn terzaghi(&self, probe: &str, shorter_by: f64, factors: Window) -> Compared {
         let settles = matches!(self.probe(probe), Some(Probe::Consolidation {}));
         let plain = self.origin.terzaghi();
         let theory = Terzaghi {
@@ -209,7 +186,7 @@ impl RunSeries<'_> {
             true => theory.consolidation(t),
             false => theory.pressure(theory.drainage, t),
         };
-        let rows = self.rows(probe, factors.map(|factor| Some(plain.time(factor))));
+        let rows = self.rows(probe, factors.map(|all| all.map(|t| plain.time(t))));
         let pairs: Vec<_> = rows.iter().map(|(t, x)| (*x, wanted(*t))).collect();
         let what = if settles { "U" } else { "p in the middle" };
         let against = format!(
@@ -248,10 +225,9 @@ fn statistic(rows: &[(f64, f64)], of: Statistic) -> Option<f64> {
             [] => None,
             [(_, only)] => Some(*only),
             [first, .., last] => {
-                let areas = rows
-                    .windows(2)
-                    .map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0));
-                Some(areas.sum::<f64>() / (last.0 - first.0))
+                let area = |w: &[(f64, f64)]| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0);
+                let sum: f64 = rows.windows(2).map(area).sum();
+                Some(sum / (last.0 - first.0))
             }
         },
     }
@@ -262,13 +238,9 @@ fn determination(pairs: &[(f64, f64)]) -> Option<f64> {
     let n = pairs.len() as f64;
     let mean = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
     let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    let moment =
-        |f: &dyn Fn(f64, f64) -> f64| -> f64 { pairs.iter().map(|p| f(p.0 - x, p.1 - y)).sum() };
-    let (xx, yy, xy) = (
-        moment(&|a, _| a * a),
-        moment(&|_, b| b * b),
-        moment(&|a, b| a * b),
-    );
+    let moment = |f: fn(f64, f64) -> f64| pairs.iter().map(|p| f(p.0 - x, p.1 - y)).sum::<f64>();
+    let [xx, yy] = [moment(|a, _| a * a), moment(|_, b| b * b)];
+    let xy = moment(|a, b| a * b);
     (pairs.len() > 2 && xx > 0.0 && yy > 0.0).then(|| xy * xy / (xx * yy))
 }
 
@@ -281,4 +253,84 @@ fn at(rows: &[(f64, f64)], time: f64) -> Option<f64> {
     }
     let (t0, x0) = rows[after.checked_sub(1)?];
     Some(x0 + (x1 - x0) * (time - t0) / (t1 - t0))
+}
+
+/// C aⁿ in a range of a.
+#[derive(Debug)]
+pub struct Scaling {
+    /// True for a bound from above, false for one from below.
+    below: bool,
+    bound: f64,
+    factor: f64,
+    exponent: f64,
+}
+
+impl Scaling {
+    /// The law at an aspect ratio, if it is in the range.
+    pub fn at(&self, aspect: f64) -> Option<f64> {
+        let fits = (aspect < self.bound) == self.below;
+        fits.then(|| self.factor * aspect.powf(self.exponent))
+    }
+}
+
+/// The rows of a geometry and a quantity in a table with the columns geometry, quantity, range (`a<2.3`), C, n (`2/3`).
+pub fn read_scaling(path: &Path, geometry: &str, quantity: &str) -> Result<Vec<Scaling>, String> {
+    let text = scene_text::read_text(path)?;
+    let rows = text.lines().filter(|l| !l.starts_with('#')).skip(1);
+    let mut found = Vec::new();
+    for line in rows {
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        if let [g, q, range, factor, exponent, ..] = cells.as_slice()
+            && *g == geometry
+            && *q == quantity
+        {
+            let row = row(range, factor, exponent);
+            found.push(row.ok_or_else(|| format!("cannot read the row `{line}`"))?);
+        }
+    }
+    match found.is_empty() {
+        true => Err(format!("there is no row of `{quantity}` for `{geometry}`")),
+        false => Ok(found),
+    }
+}
+
+fn row(range: &str, factor: &str, exponent: &str) -> Option<Scaling> {
+    let (below, bound) = match (range.strip_prefix("a<"), range.strip_prefix("a>")) {
+        (Some(bound), _) => (true, bound),
+        (_, Some(bound)) => (false, bound),
+        _ => return None,
+    };
+    Some(Scaling {
+        below,
+        bound: bound.parse().ok()?,
+        factor: factor.parse().ok()?,
+        exponent: fraction(exponent)?,
+    })
+}
+
+/// `0.65` or `2/3`.
+fn fraction(text: &str) -> Option<f64> {
+    match text.split_once('/') {
+        Some((over, under)) => Some(over.parse::<f64>().ok()? / under.parse::<f64>().ok()?),
+        None => text.parse().ok(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laws_hold_in_their_ranges() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("laws.csv");
+        let text = "# a table\ngeometry,quantity,range,C,n,note\nchannel,run-out,a<2.3,1.2,1,x\nchannel,run-out,a>2.3,1.9,2/3,y\n";
+        std::fs::write(&path, text).unwrap();
+        let laws = read_scaling(&path, "channel", "run-out").unwrap();
+        let at = |aspect| laws.iter().find_map(|law| law.at(aspect)).unwrap();
+        assert!((at(1.0) - 1.2).abs() < 1e-12);
+        assert!((at(8.0) - 7.6).abs() < 1e-12);
+        let none = read_scaling(&path, "round", "run-out").unwrap_err();
+        assert!(none.contains("no row"));
+    }
 }

@@ -3,8 +3,9 @@
 use nalgebra::Matrix3;
 
 use crate::grains::{GrainSystem, Partner, Touch, Vector, strains};
-use crate::scene::model::Model;
-use crate::scene::origin::Origin;
+use crate::scene::{Model, Origin};
+use crate::sphere;
+use crate::triangulation::Vertex;
 
 /// Name and unit of a field, and one number per grain.
 type Field = (&'static str, &'static str, fn(&Model, &Origin) -> Vec<f64>);
@@ -23,7 +24,7 @@ static FIELDS: [Field; 9] = [
     }),
     ("displacement", "m", |m, origin| {
         let all = displacements(m.grains(), origin);
-        all.into_iter().map(length).collect()
+        all.iter().map(Vector::norm).collect()
     }),
     ("contacts", "", |m, _| contacts(m.grains(), |_| true)),
     ("sliding_contacts", "", |m, _| {
@@ -61,15 +62,11 @@ pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
     }
 }
 
-fn length(u: [f64; 3]) -> f64 {
-    u.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 /// Displacements since the start, m; those across the ends of a periodic axis by the nearest image.
-pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
+pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<Vector> {
     let period = &system.period;
-    let from = |(x, start): (&crate::grains::Vector, &[f64; 3])| {
-        std::array::from_fn(|k| {
+    let from = |(x, start): (&Vector, &Vector)| {
+        Vector::from_fn(|k, _| {
             let shift = x[k] - start[k];
             match period[k] {
                 Some([low, high]) => shift - (shift / (high - low)).round() * (high - low),
@@ -77,25 +74,22 @@ pub fn displacements(system: &GrainSystem, origin: &Origin) -> Vec<[f64; 3]> {
             }
         })
     };
-    system
-        .grains
-        .position
-        .iter()
-        .zip(&origin.positions)
-        .map(from)
-        .collect()
+    let now = system.grains.position.iter();
+    now.zip(&origin.positions).map(from).collect()
 }
 
 /// √(2/3 e : e) around each grain since the start, e the deviator of its strain: 1 per unit of axial strain at constant volume.
 pub fn strain_deviators(system: &GrainSystem, origin: &Origin) -> Vec<f64> {
-    let places: Vec<Vector> = origin.positions.iter().map(|x| (*x).into()).collect();
     let moved = displacements(system, origin);
-    let moved: Vec<Vector> = moved.into_iter().map(Vector::from).collect();
     let size = |strain: Matrix3<f64>| {
         let deviator = strain - Matrix3::identity() * (strain.trace() / 3.0);
         (2.0 / 3.0_f64).sqrt() * deviator.norm()
     };
-    let all = strains(origin.tetrahedra(&system.grains.radius), &places, &moved);
+    let all = strains(
+        origin.tetrahedra(&system.grains.radius),
+        &origin.positions,
+        &moved,
+    );
     all.into_iter().map(size).collect()
 }
 
@@ -117,17 +111,14 @@ fn pore_pressures(model: &Model) -> Vec<f64> {
     if let Some(system) = model.wet() {
         let cells = system.pores().mesh.cells.iter();
         for ((cell, p), volume) in cells.zip(system.pressures()).zip(system.volumes()) {
-            for vertex in cell.vertices() {
-                if let crate::triangulation::Vertex::Sphere(k) = vertex {
-                    sums[k][0] += p * volume;
-                    sums[k][1] += volume;
-                }
+            for k in cell.vertices().into_iter().filter_map(Vertex::sphere) {
+                sums[k][0] += p * volume;
+                sums[k][1] += volume;
             }
         }
     }
-    sums.iter()
-        .map(|[pv, v]| if *v > 0.0 { pv / v } else { 0.0 })
-        .collect()
+    let mean = |[pv, v]: [f64; 2]| if v > 0.0 { pv / v } else { 0.0 };
+    sums.into_iter().map(mean).collect()
 }
 
 /// Sizes of the fluid's forces, buoyancy apart, N.
@@ -138,7 +129,6 @@ fn fluid_forces(model: &Model) -> Vec<f64> {
         return vec![0.0; grains.len()];
     };
     let lift = system.gravity * wet.setup().fluid.density;
-    let volume = |r: &f64| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
     let all = grains.external_force.iter().zip(&grains.radius);
-    all.map(|(f, r)| (f + lift * volume(r)).norm()).collect()
+    all.map(|(f, r)| (f + lift * sphere(*r)).norm()).collect()
 }

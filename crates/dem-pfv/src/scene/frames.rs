@@ -2,21 +2,21 @@
 
 use std::path::Path;
 
+use sph_core::bounds;
 use sph_io::{Cells, FieldData, Picture, Piece, View};
 
-use crate::grains::{GrainSystem, Partner};
-use crate::scene::error::DemError;
-use crate::scene::fields::{displacements, names, unit, values};
-use crate::scene::model::Model;
-use crate::scene::names::FAR_ENOUGH;
-use crate::scene::origin::Origin;
+use crate::Vector;
+use crate::coupled::CoupledSystem;
+use crate::grains::{GrainSystem, Partner, Wall};
+use crate::scene::fields::unit;
+use crate::scene::{DemError, FAR_ENOUGH, Model, Origin, displacements, names, values};
 use crate::triangulation::Vertex;
 
 /// Everything at one time: `spheres`, `contacts`, and with a fluid `pores` and `throats`.
 pub fn pieces(model: &Model, origin: &Origin) -> Vec<Piece<'static>> {
     let mut all = vec![spheres(model, origin), contacts(model.grains())];
-    if model.wet().is_some() {
-        all.extend([pores(model), throats(model)].into_iter().flatten());
+    if let Some(system) = model.wet() {
+        all.extend([pores(system), throats(system)]);
     }
     all
 }
@@ -33,24 +33,19 @@ fn at_cells(name: &'static str, unit: &'static str, values: Vec<f64>) -> FieldDa
 /// One point per grain; scale glyphs by `radius`.
 fn spheres(model: &Model, origin: &Origin) -> Piece<'static> {
     let system = model.grains();
-    let velocity = system.grains.velocity.iter().flat_map(|v| [v.x, v.y, v.z]);
-    let spin = system.grains.spin.iter().flat_map(|v| [v.x, v.y, v.z]);
+    let vector = |name: &'static str, unit: &'static str, all: &[Vector]| {
+        let all: Vec<f64> = all.iter().flatten().copied().collect();
+        FieldData::tensor(name, unit, 3, all)
+    };
     let mut fields = vec![
-        FieldData::tensor("velocity", "m/s", 3, velocity.collect::<Vec<_>>()),
-        FieldData::tensor("spin", "1/s", 3, spin.collect::<Vec<_>>()),
-        FieldData::tensor("shift", "m", 3, displacements(system, origin).concat()),
+        vector("velocity", "m/s", &system.grains.velocity),
+        vector("spin", "1/s", &system.grains.spin),
+        vector("shift", "m", &displacements(system, origin)),
     ];
-    for name in names(model.wet().is_some()) {
-        fields.push(FieldData::scalar(
-            name,
-            unit(name),
-            values(name, model, origin),
-        ));
-    }
-    fields.push(FieldData::integer(
-        "grain",
-        (0..system.grains.len() as u32).collect::<Vec<_>>(),
-    ));
+    let names = names(model.wet().is_some());
+    fields.extend(names.map(|n| FieldData::scalar(n, unit(n), values(n, model, origin))));
+    let numbers: Vec<_> = (0..system.grains.len() as u32).collect();
+    fields.push(FieldData::integer("grain", numbers));
     Piece {
         name: "spheres".into(),
         points: points(system).into(),
@@ -73,15 +68,14 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
             }
             _ => touch.point,
         };
-        ends.extend([[from.x, from.y, from.z], [to.x, to.y, to.z]]);
+        ends.extend([from, to].map(<[f64; 3]>::from));
         let along = touch.force.dot(&touch.normal);
         normal.push(along);
         shear.push((touch.force - touch.normal * along).norm());
         wall.push(u32::from(!matches!(touch.partner, Partner::Grain(_))));
     }
-    let lines: Vec<[u32; 2]> = (0..ends.len() as u32 / 2)
-        .map(|k| [2 * k, 2 * k + 1])
-        .collect();
+    let lines = (0..ends.len() as u32 / 2).map(|k| [2 * k, 2 * k + 1]);
+    let lines: Vec<[u32; 2]> = lines.collect();
     Piece {
         name: "contacts".into(),
         points: ends.into(),
@@ -95,32 +89,23 @@ fn contacts(system: &GrainSystem) -> Piece<'static> {
 }
 
 /// Tetrahedra between four grains; a vertex that is a wall is put on it, below the mean of the grains.
-fn pores(model: &Model) -> Option<Piece<'static>> {
-    let system = model.wet()?;
+fn pores(system: &CoupledSystem) -> Piece<'static> {
     let mesh = &system.pores().mesh;
-    let mut places = points(model.grains());
+    let mut places = points(system.grains());
     let mut cells = Vec::new();
     for cell in &mesh.cells {
-        let vertices = cell.vertices();
-        let centres = vertices.iter().filter_map(|v| match v {
-            Vertex::Sphere(k) => Some(mesh.spheres[*k].centre),
-            Vertex::Wall(_) => None,
-        });
-        let count = (4 - cell.walls()).max(1) as f64;
-        let mean = centres.sum::<crate::grains::Vector>() / count;
-        cells.push(vertices.map(|v| match v {
+        let mean = mesh.middle(cell);
+        cells.push(cell.vertices().map(|v| match v {
             Vertex::Sphere(k) => k as u32,
             Vertex::Wall(w) => {
-                let wall = &mesh.walls[w];
-                let foot = mean - wall.normal * wall.distance(mean);
-                places.push([foot.x, foot.y, foot.z]);
+                places.push(mesh.walls[w].projection(mean).into());
                 places.len() as u32 - 1
             }
         }));
     }
     let rates = system.volume_rates().iter().zip(system.volumes());
     let rates = rates.map(|(rate, volume)| rate / volume);
-    Some(Piece {
+    Piece {
         name: "pores".into(),
         points: places.into(),
         cells: Cells::Tetrahedra(cells.into()),
@@ -130,23 +115,22 @@ fn pores(model: &Model) -> Option<Piece<'static>> {
             at_cells("void", "m³", system.pores().void_volumes.to_vec()),
             at_cells("strain_rate", "1/s", rates.collect()),
         ],
-    })
+    }
 }
 
 /// A line between the places of two pores, with the conductance of the throat between them.
-fn throats(model: &Model) -> Option<Piece<'static>> {
-    let system = model.wet()?;
+fn throats(system: &CoupledSystem) -> Piece<'static> {
     let places = system.pore_places().into_iter().map(<[f64; 3]>::from);
     let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
-    let differences = all.iter().map(|t| {
-        let [i, j] = t.cells;
-        system.pressures()[i] - system.pressures()[j]
-    });
+    let pressure = |cell: usize| system.pressures()[cell];
+    let differences = all
+        .iter()
+        .map(|t| pressure(t.cells[0]) - pressure(t.cells[1]));
     let radii = all.iter().map(|t| t.hydraulic_radius());
     let radii = radii.map(|r| if r.is_finite() { r } else { 0.0 });
     let areas = all.iter().map(|t| t.fluid_area);
-    Some(Piece {
+    Piece {
         name: "throats".into(),
         points: places.collect::<Vec<_>>().into(),
         cells: Cells::Segments(lines.into()),
@@ -155,13 +139,10 @@ fn throats(model: &Model) -> Option<Piece<'static>> {
             at_cells("hydraulic_radius", "m", radii.collect()),
             at_cells("fluid_area", "m²", areas.collect()),
         ],
-    })
+    }
 }
 
 /// A picture of the spheres seen along y, coloured by a field; a grain may be ringed.
-///
-/// # Errors
-/// If it cannot be written.
 pub fn picture(
     model: &Model,
     origin: &Origin,
@@ -175,9 +156,10 @@ pub fn picture(
     let points = points(system);
     let values = values(field, model, origin);
     let diameters: Vec<f64> = system.grains.radius.iter().map(|r| 2.0 * r).collect();
+    let name = field.replace('_', " ");
     let label = match unit(field) {
-        "" => field.replace('_', " "),
-        unit => format!("{} [{unit}]", field.replace('_', " ")),
+        "" => name,
+        unit => format!("{name} [{unit}]"),
     };
     let walls = walls(system, &points);
     let picture = Picture {
@@ -197,24 +179,19 @@ pub fn picture(
 
 /// Walls across x and z as lines around the contents.
 fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
-    let largest = system.grains.radius.iter().copied().fold(0.0, f64::max);
+    let largest = system.grains.largest_radius();
+    let there = |x: &f64| x.abs() < FAR_ENOUGH;
     let ends = |axis: usize| {
         let all = points.iter().map(|p| p[axis]).filter(|x| x.is_finite());
-        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
-        let near = system
-            .walls
-            .iter()
-            .filter(|w| w.normal[axis].abs() > 0.99 && w.point[axis].abs() < FAR_ENOUGH);
-        near.map(|w| w.point[axis])
-            .fold((low - largest, high + largest), |(l, h), x| {
-                (l.min(x), h.max(x))
-            })
+        let [[low], [high]] = bounds(all.map(|x| [x]));
+        let across = system.walls.iter().filter(|w| w.normal[axis].abs() > 0.99);
+        let walls = across.map(|w| w.point[axis]).filter(there);
+        let [[from], [to]] = bounds(walls.chain([low - largest, high + largest]).map(|x| [x]));
+        (from, to)
     };
     let (x, z) = (ends(0), ends(2));
-    let standing = |w: &crate::grains::Wall| w.normal.y.abs() < 0.01 && w.point.amax() < FAR_ENOUGH;
-    let line = |w: &crate::grains::Wall| {
+    let standing = |w: &&Wall| w.normal.y.abs() < 0.01 && there(&w.point.amax());
+    let line = |w: &Wall| {
         let p = w.point;
         match w.normal.x.abs() > w.normal.z.abs() {
             // z = p.z + s n_x, x = p.x − s n_z: a point at each end of the picture.
@@ -222,10 +199,5 @@ fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
             false => [x.0, x.1].map(|at| [at, 0.0, p.z - (at - p.x) * w.normal.x / w.normal.z]),
         }
     };
-    system
-        .walls
-        .iter()
-        .filter(|w| standing(w))
-        .map(line)
-        .collect()
+    system.walls.iter().filter(standing).map(line).collect()
 }

@@ -3,23 +3,19 @@
 use std::collections::BTreeMap;
 
 use scene_text::OnePlugin;
-use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of, reexport::inventory};
+use sph_core::reexport::inventory;
+use sph_core::{Makes, PluginChoice, Registry, RegistryError, plugins_of};
 
 use crate::flow::{Conductance, ConductanceEntry, HydraulicRadius};
 use crate::grains::{ContactLaw, ContactLawEntry};
-use crate::scene::error::DemError;
-use crate::scene::tables::{Plugins, Scene};
+use crate::scene::{DemError, Plugins, Scene};
 
 inventory::submit! {
     OnePlugin(|| {
-        vec![
-            vec!["grains", "contact"],
-            vec!["start", "contact"],
-            vec!["start", "wall_contact"],
-            vec!["box", "contact"],
-            vec!["wall", "*", "contact"],
-            vec!["fluid", "conductance"],
-        ]
+        let contacts = ["grains.contact", "start.contact", "start.wall_contact", "box.contact"];
+        let others = ["wall.*.contact", "fluid.conductance"];
+        let paths = contacts.into_iter().chain(others);
+        paths.map(|path| path.split('.').collect()).collect()
     })
 }
 
@@ -38,11 +34,12 @@ pub struct Laws {
     pub of_walls: BTreeMap<String, usize>,
 }
 
-/// A plugin with its path.
-type PluginAtPath<E> = (Box<<E as Makes<3>>::Made>, String);
-
-/// The only plugin of a table, built.
-fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<PluginAtPath<E>>, DemError> {
+/// The only plugin of a table, built and checked.
+fn chosen<E: Makes<3>, R: ToString>(
+    plugins: &Plugins,
+    path: &str,
+    check: impl Fn(&E::Made) -> Result<(), R>,
+) -> Result<Option<Box<E::Made>>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
     };
@@ -63,31 +60,23 @@ fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<PluginAtP
     let refused = |e: RegistryError| DemError::Scene(choice.scene_problems(&e));
     let registry = Registry::<E>::discovered().map_err(refused)?;
     let made = registry.find(name).and_then(|entry| entry.make(table));
-    Ok(Some((made.map_err(refused)?, inside)))
+    let made = made.map_err(refused)?;
+    check(&made).map_err(|e| DemError::at(inside, e))?;
+    Ok(Some(made))
 }
 
 fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>, DemError> {
-    let Some((law, inside)) = chosen::<ContactLawEntry>(plugins, path)? else {
-        return Ok(None);
-    };
-    law.check().map_err(|e| DemError::at(inside, e))?;
-    Ok(Some(law))
+    chosen::<ContactLawEntry, _>(plugins, path, |law| law.check())
 }
 
 impl Laws {
     /// All laws that a scene names.
-    ///
-    /// # Errors
-    /// No law for the grains; unknown laws and parameters.
     pub fn from_scene(scene: &Scene) -> Result<Self, DemError> {
         let Some(between) = contact(&scene.grains.contact, "grains.contact")? else {
-            let names: Vec<_> = plugins_of::<ContactLawEntry>()
-                .iter()
-                .map(|p| p.name)
-                .collect();
-            let names = names.join(", ");
-            let message =
-                format!("a contact law is missing: [grains.contact.LAW] with one of {names}");
+            let names = plugins_of::<ContactLawEntry>();
+            let names: Vec<_> = names.iter().map(|p| p.name).collect();
+            let missing = "a contact law is missing: [grains.contact.LAW] with one of";
+            let message = format!("{missing} {}", names.join(", "));
             return Err(DemError::at("grains", message));
         };
         let mut all = vec![between];
@@ -128,15 +117,9 @@ impl Laws {
 }
 
 /// The law for the conductance of throats.
-///
-/// # Errors
-/// Unknown laws and parameters.
 pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
     let none = Plugins::new();
     let given = scene.fluid.as_ref().map_or(&none, |f| &f.conductance);
-    let Some((law, inside)) = chosen::<ConductanceEntry>(given, "fluid.conductance")? else {
-        return Ok(Box::new(HydraulicRadius::default()));
-    };
-    law.check().map_err(|e| DemError::at(inside, e))?;
-    Ok(law)
+    let law = chosen::<ConductanceEntry, _>(given, "fluid.conductance", |law| law.check())?;
+    Ok(law.unwrap_or_else(|| Box::new(HydraulicRadius::default())))
 }

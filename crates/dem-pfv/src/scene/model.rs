@@ -1,12 +1,15 @@
-//! The system of a scene: grains alone, or grains in a fluid.
+//! The system of a scene, grains alone or in a fluid, and its checkpoint.
+
+use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use sph_run::{RunCounters, SavedState, save_state};
 
 use crate::coupled::{CoupledError, CoupledSystem};
 use crate::flow::Conductance;
 use crate::grains::{ContactLaw, Control, GrainSystem};
-use crate::scene::error::Failure;
-use crate::scene::tables::Piston;
+use crate::scene::{DemError, Failure, Origin, Piston};
 
 /// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
 const MOTION_SHARE: f64 = 0.1;
@@ -28,39 +31,8 @@ pub enum Saved {
     Wet(Box<crate::coupled::State>),
 }
 
-/// A step that was made.
-#[derive(Clone, Copy, Debug)]
-pub struct StepOutcome {
-    /// Its length, s.
-    pub step: f64,
-    /// Its limiter.
-    pub limiter: &'static str,
-}
-
-/// The load of a piston that changes.
-#[derive(Clone, Debug)]
-pub struct Load {
-    /// Number of the wall.
-    pub wall: usize,
-    /// σ(t).
-    pub piston: Piston,
-}
-
-impl Load {
-    /// σ at a time (s), Pa.
-    fn stress(&self, time: f64) -> f64 {
-        let p = &self.piston;
-        let swing = p.period.map_or(0.0, |period| {
-            p.amplitude * (2.0 * std::f64::consts::PI * time / period).sin()
-        });
-        p.stress + p.ramp * time + swing
-    }
-
-    /// True if it changes at all.
-    pub fn varies(&self) -> bool {
-        self.piston.ramp != 0.0 || self.piston.amplitude != 0.0
-    }
-}
+/// Length of a step, s, and its limiter.
+type MadeStep = (f64, &'static str);
 
 impl Model {
     /// The grains.
@@ -93,11 +65,11 @@ impl Model {
         }
     }
 
-    /// Sets the loads of the time that is now.
-    pub fn apply(&mut self, loads: &[Load]) {
-        for load in loads {
-            let stress = load.stress(self.grains().time);
-            if let Some(wall) = self.grains_mut().walls.get_mut(load.wall)
+    /// Sets the loads of the time that is now: numbers of walls and their pistons.
+    pub fn apply<'a>(&mut self, loads: impl Iterator<Item = (usize, &'a Piston)>) {
+        for (wall, piston) in loads {
+            let stress = piston.stress_at(self.grains().time);
+            if let Some(wall) = self.grains_mut().walls.get_mut(wall)
                 && let Control::Piston { mass, .. } = wall.control
             {
                 wall.control = Control::Piston { stress, mass };
@@ -105,16 +77,16 @@ impl Model {
         }
     }
 
-    /// One step of a share `safety` of the largest stable one, but not beyond `end` (s).
+    /// One step of a share `safety` of the largest stable one, but not beyond `end` (s); returns its length, s, and limiter.
     ///
     /// # Errors
     /// The failure, with the grain, the wall or the cell.
-    pub fn advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, Box<Failure>> {
+    pub fn advance(&mut self, safety: f64, end: f64) -> Result<MadeStep, Box<Failure>> {
         let made = self.try_advance(safety, end);
         made.map_err(|error| Box::new(self.failure(error)))
     }
 
-    fn try_advance(&mut self, safety: f64, end: f64) -> Result<StepOutcome, CoupledError> {
+    fn try_advance(&mut self, safety: f64, end: f64) -> Result<MadeStep, CoupledError> {
         let left = (end - self.grains().time).max(0.0);
         let (stable, of) = match self {
             Self::Dry(system) => (system.current_limit(), "contacts"),
@@ -136,7 +108,7 @@ impl Model {
             Self::Wet(system) => system.step_unchecked(step)?,
         }
         let limiter = if motion < stable { "motion" } else { of };
-        Ok(StepOutcome { step, limiter })
+        Ok((step, limiter))
     }
 
     fn failure(&self, error: CoupledError) -> Failure {
@@ -178,4 +150,67 @@ impl Model {
             }
         })
     }
+}
+
+/// Progress of a run.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Progress {
+    /// Counts of the driver. Their wall-clock time is kept beside the state, which has the same bits in equal runs.
+    pub books: RunCounters,
+    /// The last step, s.
+    pub dt: f64,
+    /// Steps by their limits.
+    pub limited: BTreeMap<String, u64>,
+    /// Wall-clock time of the preparation, s; kept beside the state as well.
+    #[serde(skip)]
+    pub preparation_seconds: f64,
+}
+
+/// The state itself.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct CheckpointState {
+    /// The system.
+    pub model: Saved,
+    /// Reference values of measurements.
+    pub origin: Origin,
+    /// Its progress.
+    pub progress: Progress,
+}
+
+/// Writes a checkpoint; `scene` identifies the scene for a resume.
+pub fn save_checkpoint(
+    mut kept: CheckpointState,
+    scene: &str,
+    path: &Path,
+) -> Result<(), DemError> {
+    let meta = serde_json::json!({
+        "method": "grains",
+        "scene": scene,
+        "wall_seconds": std::mem::take(&mut kept.progress.books.wall_seconds),
+        "preparation_seconds": kept.progress.preparation_seconds,
+    });
+    Ok(save_state(path, meta, &kept)?)
+}
+
+/// Reads a checkpoint; with `changed` also one of another scene.
+pub fn load_checkpoint(
+    scene: &str,
+    changed: bool,
+    path: &Path,
+) -> Result<CheckpointState, DemError> {
+    let saved = SavedState::load(path)?;
+    let refused = |why: &str| DemError::Resume(format!("{}: {why}", path.display()));
+    if saved.meta["method"] != "grains" {
+        return Err(refused("it is the checkpoint of a scene of particles"));
+    }
+    if saved.meta["scene"] != scene && !changed {
+        return Err(refused(
+            "the scene has changed since; --changed goes on all the same, or start without --resume",
+        ));
+    }
+    let mut kept: CheckpointState = saved.state().map_err(|e| refused(&e))?;
+    let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
+    kept.progress.books.wall_seconds = seconds("wall_seconds");
+    kept.progress.preparation_seconds = seconds("preparation_seconds");
+    Ok(kept)
 }

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::Terzaghi;
-use crate::grains::GrainSystem;
-use crate::scene::tables::Scene;
+use crate::grains::{GrainSystem, Vector};
+use crate::scene::Scene;
 use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 
 /// The state at the start of the run, and the measurements before it.
@@ -15,7 +15,7 @@ pub struct Origin {
     /// Lengths of the box, m, if it is closed.
     pub lengths: Option<[f64; 3]>,
     /// Centres, m.
-    pub positions: Vec<[f64; 3]>,
+    pub positions: Vec<Vector>,
     /// Highest point of a grain, m.
     pub top: f64,
     /// Mean diameter d₅₀, m.
@@ -39,9 +39,9 @@ impl Origin {
         let piston = test.and_then(|t| scene.wall.get(&t.wall)?.piston.as_ref());
         Self {
             lengths: grains.box_lengths(),
-            positions: all.position.iter().map(|x| [x.x, x.y, x.z]).collect(),
+            positions: all.position.clone(),
             top: grains.highest(),
-            diameter: 2.0 * all.radius.iter().sum::<f64>() / all.len() as f64,
+            diameter: 2.0 * all.mean_radius(),
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
             dry_strain: None,
             mobility: None,
@@ -53,21 +53,14 @@ impl Origin {
     pub fn tetrahedra(&self, radii: &[f64]) -> &[[usize; 4]] {
         self.tetrahedra.get_or_init(|| {
             let spheres = self.positions.iter().zip(radii);
-            let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new(*x, *r)).collect();
+            let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
             let cells = Triangulation::of_spheres(&spheres).map(|mesh| mesh.cells);
-            let number = |v| match v {
-                Vertex::Sphere(k) => Some(k),
-                Vertex::Wall(_) => None,
-            };
             let corners = |cell: &Cell| {
-                let [a, b, c, d] = cell.vertices().map(number);
+                let [a, b, c, d] = cell.vertices().map(Vertex::sphere);
                 Some([a?, b?, c?, d?])
             };
-            cells
-                .unwrap_or_default()
-                .iter()
-                .filter_map(corners)
-                .collect()
+            let cells = cells.unwrap_or_default();
+            cells.iter().filter_map(corners).collect()
         })
     }
 

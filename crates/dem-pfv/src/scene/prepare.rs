@@ -1,17 +1,13 @@
-//! Grains at the start: placed, grown, rained, settled.
-
-use std::f64::consts::PI;
+//! Grains at the start: placed, grown, rained, settled; the names of those at fault.
 
 use crate::grains::{
-    Cloud, Grain, GrainError, GrainSystem, Growth, Target, rain, step_to_rest, uniform_radii,
+    Cloud, Grain, GrainError, GrainSystem, Partner, rain, step_to_rest, uniform_radii,
 };
-use crate::scene::culprits::{at_start, named, rows};
-use crate::scene::error::DemError;
-use crate::scene::laws::Laws;
-use crate::scene::names::planes;
-use crate::scene::read::Loaded;
-use crate::scene::tables::{Fluid, Lattice, Oedometer, Scene, Weight};
-use crate::scene::walls::{FAR, control, setup};
+use crate::scene::{
+    DemError, FAR, Fluid, Lattice, Laws, Loaded, Oedometer, Scene, Weight, control, planes,
+    planes_with_tables, setup,
+};
+use crate::sphere;
 
 /// Porosity at which a poured bed is expected to lie.
 pub(crate) const POURED: f64 = 0.4;
@@ -19,9 +15,6 @@ pub(crate) const POURED: f64 = 0.4;
 const BEFORE_GROWTH: f64 = 0.25;
 
 /// The grains of a scene, prepared, with the laws of the run.
-///
-/// # Errors
-/// Grains that cannot be placed, grown or settled.
 pub fn grains(
     loaded: &Loaded,
     mut laws: Laws,
@@ -36,34 +29,23 @@ pub fn grains(
     if let (true, Some(top)) = (poured, top) {
         setup.walls[top].point.z += FAR;
     }
-    let mut run_laws = Vec::new();
-    for (number, law) in prepared {
-        run_laws.push((number, std::mem::replace(&mut setup.laws[number], law)));
-    }
+    let mut swap = |(k, law)| (k, std::mem::replace(&mut setup.laws[k], law));
+    let run_laws: Vec<_> = prepared.into_iter().map(&mut swap).collect();
     let told = |e: GrainError| at_start(loaded, e);
     let mut system = GrainSystem::new(setup).map_err(told)?;
     if let Some(grown) = &scene.start.grown {
-        let target = match (grown.stress, grown.porosity) {
-            (Some(stress), _) => Target::Stress(stress),
-            (None, Some(porosity)) => Target::Porosity(porosity),
-            (None, None) => return Err(DemError::at("start.grown", "has no target")),
-        };
         tell("growing the grains");
-        let growth = Growth {
-            target,
-            fast: grown.fast,
-            slow: grown.slow,
-            safety: scene.start.safety,
-            tolerance: grown.tolerance,
-            most_steps: scene.start.most_steps,
-        };
         // Under its own weight a heap would press on the floor before there is a packing.
         let gravity = system.gravity;
         system.gravity = Default::default();
-        let steps = growth.run(&mut system);
+        let steps = grown.run(&mut system, scene.start.safety, scene.start.most_steps);
         system.gravity = gravity;
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
-        tell(&format!("grown in {steps} steps{}", porosity(&system)));
+        let porosity = system.porosity().map(|n| format!(", porosity {n:.4}"));
+        tell(&format!(
+            "grown in {steps} steps{}",
+            porosity.unwrap_or_default()
+        ));
     }
     settled(loaded, &mut system, tell)?;
     for (number, law) in run_laws {
@@ -71,13 +53,6 @@ pub fn grains(
     }
     lower_the_top(scene, &mut system, top)?;
     Ok(system)
-}
-
-fn porosity(system: &GrainSystem) -> String {
-    match system.porosity() {
-        Some(n) => format!(", porosity {n:.4}"),
-        None => String::new(),
-    }
 }
 
 /// Lets the grains come to rest under their `weight` and the prepared stress of pistons.
@@ -99,13 +74,9 @@ fn settled(
     }
     tell("letting the grains settle");
     let mass: f64 = system.grains.mass.iter().sum();
-    for (number, name) in planes(scene).iter().enumerate() {
-        if let Some(table) = scene.wall.get(name)
-            && table.piston.is_some()
-        {
-            let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
-            system.walls[number].control = before;
-        }
+    for (number, table) in planes_with_tables(scene).filter(|(_, w)| w.piston.is_some()) {
+        let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
+        system.walls[number].control = before;
     }
     let gravity = system.gravity;
     let lift = |fluid: &Fluid| fluid.given.density / scene.grains.density;
@@ -119,8 +90,8 @@ fn settled(
         let (safety, most) = (scene.start.safety, scene.start.most_steps);
         let steps = step_to_rest(system, safety, tolerance, most);
         system.gravity = gravity;
-        let steps =
-            steps.map_err(|e| DemError::at("start", format!("{e}{}", named(loaded, &e))))?;
+        let told = |e| DemError::at("start", format!("{e}{}", named(loaded, &e)));
+        let steps = steps.map_err(told)?;
         tell(&format!("settled in {steps} steps"));
     }
     Ok(())
@@ -142,9 +113,8 @@ fn lower_the_top(
         None => return Ok(()),
     };
     if highest > at {
-        let message = format!(
-            "the grains lie {highest} m high, above the top of the box: give `start.headroom`"
-        );
+        let above = "above the top of the box: give `start.headroom`";
+        let message = format!("the grains lie {highest} m high, {above}");
         return Err(DemError::at("box.high", message));
     }
     system.walls[top].point.z = at;
@@ -153,7 +123,7 @@ fn lower_the_top(
 
 /// Volume of spheres, m³.
 pub(crate) fn volume(radii: &[f64]) -> f64 {
-    radii.iter().map(|r| 4.0 / 3.0 * PI * r.powi(3)).sum()
+    radii.iter().map(|r| sphere(*r)).sum()
 }
 
 /// Grains at their first places.
@@ -167,10 +137,8 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
     }
     let [small, large] = scene.grains.radius.unwrap_or_default();
     let draw = |count: usize| uniform_radii(count, small, large, seed);
-    let (low, high) = match &scene.r#box {
-        Some(b) => (b.low, b.high),
-        None => Default::default(),
-    };
+    let given = scene.r#box.as_ref();
+    let (low, high) = given.map_or_else(Default::default, |b| (b.low, b.high));
     let size: [f64; 3] = std::array::from_fn(|k| high[k] - low[k]);
     let count = scene.grains.count.unwrap_or_default();
     if let Some(lattice) = &start.lattice {
@@ -178,21 +146,12 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
     }
     if let Some(rained) = &start.rained {
         let mean = volume(&draw(10_000)) / 1e4;
-        let wanted = rained.height.map(|height| {
-            ((1.0 - POURED) * size[0] * size[1] * height / mean)
-                .round()
-                .max(1.0) as usize
-        });
-        let radii = draw(wanted.unwrap_or(count));
-        return rain(
-            low,
-            [high[0], high[1]],
-            &radii,
-            density,
-            rained.porosity,
-            seed,
-        )
-        .map_err(told);
+        let solid = |height: f64| (1.0 - POURED) * size[0] * size[1] * height;
+        let wanted = |height| (solid(height) / mean).round().max(1.0) as usize;
+        let wanted = rained.height.map(wanted);
+        let (radii, porosity) = (draw(wanted.unwrap_or(count)), rained.porosity);
+        let grains = rain(low, [high[0], high[1]], &radii, density, porosity, seed);
+        return grains.map_err(told);
     }
     let mut radii = draw(count);
     let mut cloud = Cloud::new(low, high);
@@ -204,20 +163,16 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
             radii.iter_mut().for_each(|r| *r *= factor);
         }
     }
-    if let Some(b) = scene
+    let whole = start.cloud.as_ref().is_none_or(|c| c.low.is_none());
+    for axis in scene
         .r#box
-        .as_ref()
-        .filter(|_| start.cloud.as_ref().is_none_or(|c| c.low.is_none()))
+        .iter()
+        .filter(|_| whole)
+        .flat_map(|b| &b.periodic)
     {
-        for axis in &b.periodic {
-            cloud = cloud.periodic(axis.number());
-        }
+        cloud = cloud.periodic(axis.number());
     }
-    let places = cloud.place(&radii, seed).map_err(told)?;
-    let grains = places.iter().zip(&radii);
-    Ok(grains
-        .map(|(x, r)| Grain::new((*x).into(), *r, density))
-        .collect())
+    cloud.grains(&radii, density, seed).map_err(told)
 }
 
 fn lattice_of(
@@ -231,12 +186,8 @@ fn lattice_of(
     let (count, seed) = (nx * ny * nz, scene.grains.seed);
     let radii = uniform_radii(count, small, large, seed);
     // Even numbers, drawn as radii are.
-    let shifts = uniform_radii(
-        3 * count,
-        -lattice.jitter,
-        lattice.jitter,
-        seed.wrapping_add(1),
-    );
+    let (jitter, of_shifts) = (lattice.jitter, seed.wrapping_add(1));
+    let shifts = uniform_radii(3 * count, -jitter, jitter, of_shifts);
     let grain = |k: usize| {
         let cell = [k % nx, k / nx % ny, k / (nx * ny)];
         let at = std::array::from_fn(|axis| {
@@ -262,23 +213,17 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
             .split(|c: char| c == ',' || c.is_whitespace())
             .filter(|w| !w.is_empty());
         let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
-        match numbers.as_deref() {
+        let found = match numbers.as_deref() {
             Ok([x, y, z, r]) => {
                 let at = [x, y, z].map(|c| factor * c);
-                grains.push(Grain::new(at, factor * r, loaded.scene.grains.density))
+                grains.push(Grain::new(at, factor * r, loaded.scene.grains.density));
+                continue;
             }
-            Ok(other) => {
-                return Err(told(format!(
-                    "line {line}: expected x y z r, found {} numbers",
-                    other.len()
-                )));
-            }
-            Err(_) => {
-                return Err(told(format!(
-                    "line {line}: expected x y z r, found `{row}`"
-                )));
-            }
-        }
+            Ok(other) => format!("{} numbers", other.len()),
+            Err(_) => format!("`{row}`"),
+        };
+        let problem = format!("line {line}: expected x y z r, found {found}");
+        return Err(told(problem));
     }
     match grains.is_empty() {
         true => Err(told("holds no spheres".into())),
@@ -287,9 +232,6 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
 }
 
 /// Strain of the box along z under the load of an oedometer when it comes dry and in parts that settle.
-///
-/// # Errors
-/// Grains that do not settle.
 pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Result<f64, DemError> {
     let key = "oedometer";
     let told = |e: GrainError| DemError::at(key, e);
@@ -312,4 +254,52 @@ pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Resu
     }
     step_to_rest(&mut dry, safety, 1e-6, most).map_err(told)?;
     Ok((height(grains) - height(&dry)) / height(grains))
+}
+
+/// A refusal at the start with the names of its walls, and with the lines of its grains if they come from a file.
+pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
+    let file = loaded.scene.start.file.as_ref();
+    let message = format!("{error}{}", named(loaded, &error));
+    DemError::at(file.map_or("start", |_| "start.file"), message)
+}
+
+/// The names of the walls and the lines of the grains that an error numbers, in brackets; empty if it has none.
+pub fn named(loaded: &Loaded, error: &GrainError) -> String {
+    let mut names = Vec::new();
+    if let GrainError::InWall(_, wall, ..)
+    | GrainError::BadWall(wall, _)
+    | GrainError::TooDeep {
+        body: Partner::Wall(wall),
+        ..
+    } = error
+        && let Some(name) = planes(&loaded.scene).get(*wall)
+    {
+        names.push(format!("wall {wall} is `{name}`"));
+    }
+    if let Some(file) = &loaded.scene.start.file {
+        for grain in error.grains() {
+            if let Some(line) = line(loaded, file, grain) {
+                names.push(format!("grain {grain} is line {line} of `{file}`"));
+            }
+        }
+    }
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", names.join(", ")),
+    }
+}
+
+/// Line of the file in which a grain stands, from 1.
+fn line(loaded: &Loaded, file: &str, grain: usize) -> Option<usize> {
+    let path = loaded.source.resolve("start.file", file).ok()?;
+    let text = scene_text::read_text(&path).ok()?;
+    rows(&text).nth(grain).map(|(line, _)| line)
+}
+
+/// Rows of a file of spheres with the numbers of their lines, from 1; without comments and empty lines.
+pub fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().filter_map(|(line, row)| {
+        let row = row.split('#').next().unwrap_or_default().trim();
+        (!row.is_empty()).then_some((line + 1, row))
+    })
 }

@@ -1,14 +1,15 @@
-//! From a text to a scene of grains, or to all its mistakes.
+//! From a text to a scene of grains, or to all its mistakes; the schema and the files of a scene.
 
 use std::path::PathBuf;
 
-use scene_text::{Diagnostic, SceneProblem, Source, conform, named_files};
-use toml::{Table, Value};
+use scene_text::{Diagnostic, SceneProblem, Source, conform, named_files, suggestion, unit_factor};
+use serde_json::{Map, Value as Json, json};
+use sph_core::{editors, kind_of, schema_of};
+use sph_io::{Table, read_table};
+use toml::Value;
 
-use crate::scene::check;
-use crate::scene::error::DemError;
-use crate::scene::schema::of_scene;
-use crate::scene::tables::Scene;
+use crate::coupled::Recorded;
+use crate::scene::{DemError, RecordedLoad, Scene, check};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -18,11 +19,11 @@ pub struct Loaded {
     /// Its text, to show mistakes in that are found later.
     pub source: Source,
     /// Overrides applied, quantities in SI: two scenes with the same table are the same.
-    pub table: Table,
+    pub table: toml::Table,
 }
 
 /// True if a table is that of a scene of grains.
-pub fn is_grain_scene(table: &Table) -> bool {
+pub fn is_grain_scene(table: &toml::Table) -> bool {
     table.contains_key("grains")
 }
 
@@ -41,7 +42,7 @@ pub fn read(source: Source) -> Result<Loaded, (Source, Vec<Diagnostic>)> {
     }
 }
 
-fn loaded(source: &Source) -> Result<(Scene, Table), Vec<Diagnostic>> {
+fn loaded(source: &Source) -> Result<(Scene, toml::Table), Vec<Diagnostic>> {
     let keyed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
     let mut value = Value::Table(source.table()?);
     conform(&mut value, &of_scene()).map_err(keyed)?;
@@ -62,9 +63,6 @@ impl Loaded {
     }
 
     /// The path of a file that a key of the scene names.
-    ///
-    /// # Errors
-    /// A path that leads out of the folders of the scene.
     pub(crate) fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, DemError> {
         let path = self.source.resolve(key, file);
         path.map_err(|e| DemError::at(key, e))
@@ -85,7 +83,7 @@ impl Loaded {
         // Nothing is read from a file that is missing.
         let whole = problems.is_empty();
         for (name, wall) in self.scene.wall.iter().filter(|_| whole) {
-            let read = |load| crate::scene::recorded::read(&self.source, name, load).err();
+            let read = |load| read_recorded(&self.source, name, load).err();
             match wall.recorded.as_ref().and_then(read) {
                 Some(DemError::Scene(found)) => problems.extend(found),
                 Some(other) => return Err(other),
@@ -97,4 +95,89 @@ impl Loaded {
             false => Err(DemError::Scene(problems)),
         }
     }
+}
+
+/// The schema of the scene's own keys; tables of plugins are open in it.
+pub(crate) fn of_scene() -> Json {
+    schema_of::<Scene>()
+}
+
+/// Tables with one plugin at most, and the kind of it.
+const PLUGINS: [(&str, &str); 6] = [
+    ("/$defs/Grains/properties/contact", "contact-law"),
+    ("/$defs/Start/properties/contact", "contact-law"),
+    ("/$defs/Start/properties/wall_contact", "contact-law"),
+    ("/$defs/Box/properties/contact", "contact-law"),
+    ("/$defs/Wall/properties/contact", "contact-law"),
+    ("/$defs/Fluid/properties/conductance", "conductance"),
+];
+
+/// The schema for editors, with the plugins of this binary. Numbers may also be strings with a unit.
+pub fn editor_schema() -> Json {
+    let (mut root, mut shared) = (of_scene(), Map::new());
+    for (place, kind) in PLUGINS {
+        if let (Some(place), Some(kind)) = (root.pointer_mut(place), kind_of(kind)) {
+            place["maxProperties"] = json!(1);
+            editors::name_plugins(place, kind, &mut shared);
+        }
+    }
+    editors::finished(root, "Scene of grains", shared)
+}
+
+/// The load of a wall, from its file.
+///
+/// # Errors
+/// A file that is not there, holds no such columns, or does not reach as far as the run starts.
+pub fn read_recorded(
+    source: &Source,
+    wall: &str,
+    load: &RecordedLoad,
+) -> Result<Recorded, DemError> {
+    let key = |name: &str| format!("wall.{wall}.recorded.{name}");
+    if load.columns.len() != load.places.len() {
+        let counts = [load.columns.len(), load.places.len()];
+        let message = format!("{} columns for {} places", counts[0], counts[1]);
+        return Err(DemError::at(key("columns"), message));
+    }
+    let path = source.resolve(&key("file"), &load.file);
+    let path = path.map_err(|e| DemError::at(key("file"), e))?;
+    let table = read_table(&path).map_err(|e| DemError::at(key("file"), e))?;
+    let times = column(&table, "time", "s").map_err(|e| DemError::at(key("file"), e))?;
+    let columns = load.columns.iter().map(|name| column(&table, name, "Pa"));
+    let columns: Result<Vec<_>, _> = columns.collect();
+    let columns = columns.map_err(|e| DemError::at(key("columns"), e))?;
+    let rows = 0..times.len();
+    let pressures = rows.flat_map(|row| columns.iter().map(move |c| c[row] - load.less));
+    let recorded = Recorded {
+        axis: load.axis,
+        places: load.places.clone(),
+        times: times.iter().map(|t| t - load.start).collect(),
+        pressures: pressures.collect(),
+    };
+    if let Some(problem) = recorded.problem() {
+        return Err(DemError::at(format!("wall.{wall}.recorded"), problem));
+    }
+    match recorded.times.last() {
+        Some(last) if *last > 0.0 => Ok(recorded),
+        _ => {
+            let message = format!("the table has no row after {} s", load.start);
+            Err(DemError::at(key("start"), message))
+        }
+    }
+}
+
+/// A column in SI; its head may have a unit.
+fn column(table: &Table, name: &str, alike: &str) -> Result<Vec<f64>, String> {
+    let names = table.columns.iter().map(|c| c.name.as_str());
+    let near = || suggestion(name, names);
+    let values = table
+        .column(name)
+        .ok_or_else(|| format!("the table has no column `{name}`{}", near()))?;
+    let head = table.columns.iter().find(|c| c.name == name);
+    let unit = head.map_or("", |c| c.unit.as_str());
+    let factor = match unit {
+        "" => 1.0,
+        unit => unit_factor(unit, alike)?,
+    };
+    Ok(values.iter().map(|x| factor * x).collect())
 }

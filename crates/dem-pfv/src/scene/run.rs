@@ -1,32 +1,24 @@
 //! Grains as a model that is run.
 
-use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
+use scene_text::{Diagnostic, SceneProblem, Source};
+use serde_json::{Value as Json, json};
+use sph_io::IoError;
 use sph_run::{
-    BAD_STATE, BAD_STATE_PICTURE, Frames, Identity, ModelTime, Outlay, RunCounters, RunOptions,
-    SERIES, Schedule, Start, Status, Watch,
+    BAD_STATE, BAD_STATE_PICTURE, Ended, Frames, Identity, Method, ModelTime, Outlay, RunCounters,
+    RunOptions, SERIES, Schedule, Start, Status, Subject, Watch, unusable,
 };
+use toml::Table;
 
 use crate::coupled::CoupledError;
-use crate::scene::assemble::{Assembled, assemble, loads};
-use crate::scene::checkpoint::{self, CheckpointState, Progress};
-use crate::scene::columns::{headings, row};
-use crate::scene::compare;
-use crate::scene::culprits;
-use crate::scene::error::{DemError, Failure};
-use crate::scene::examine::plugins;
-use crate::scene::fields::values;
-use crate::scene::frames;
-use crate::scene::laws::{Laws, throats};
-use crate::scene::model::Model;
-use crate::scene::read::Loaded;
-use crate::scene::summary::Summary;
-use crate::scene::tables::Probe;
-
-/// Version of the form of the summary.
-const SCHEMA_VERSION: u32 = 1;
+use crate::scene::{
+    Assembled, CheckpointState, DemError, Failure, Laws, Loaded, Model, Probe, Progress, Summary,
+    assemble, compare, examine, frames, headings, load_checkpoint, loads, named, read, row,
+    save_checkpoint, throats, values,
+};
 
 /// Identity of the checkpoints of a scene.
 pub fn identity(loaded: &Loaded) -> Identity {
@@ -49,12 +41,12 @@ pub fn run(
     let pool = pool.map_err(|e| DemError::Threads(threads, e.to_string()))?;
     let (run, output) = (&loaded.scene.run, &loaded.scene.output);
     let schedule = Schedule {
-        rows: output.series_interval(run.end),
+        rows: output.series_every.unwrap_or(run.end / 500.0),
         hits_outputs: false,
         checkpoints: run.checkpoint_every.unwrap_or(run.end / 10.0),
         max_steps: run.max_steps,
         capped: Status::Done,
-        ..Schedule::every(output.interval(run.end), run.end)
+        ..Schedule::every(output.every.unwrap_or(run.end / 20.0), run.end)
     };
     let outlay = Outlay {
         vtk: !output.no_vtk,
@@ -86,21 +78,20 @@ impl<'a> Running<'a> {
         options: &'a RunOptions,
         observer: &mut Watch<'_>,
     ) -> Result<Self, DemError> {
-        let mut running = Running {
-            loaded,
-            options,
-            parts: None,
-            progress: Progress::default(),
-            limiter: "none",
-        };
+        let (mut parts, mut progress) = (None, Progress::default());
         if options.start == Start::Afresh {
             let begun = Instant::now();
-            running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
-            let seconds = begun.elapsed().as_secs_f64();
-            running.progress.preparation_seconds = seconds;
-            running.progress.books.wall_seconds = seconds;
+            parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
+            progress.preparation_seconds = begun.elapsed().as_secs_f64();
+            progress.books.wall_seconds = progress.preparation_seconds;
         }
-        Ok(running)
+        Ok(Running {
+            loaded,
+            options,
+            parts,
+            progress,
+            limiter: "none",
+        })
     }
 
     fn parts(&self) -> Result<&Assembled, DemError> {
@@ -111,13 +102,12 @@ impl<'a> Running<'a> {
     /// Grains of a checkpoint, with the laws of the scene.
     fn resume(&mut self, changed: bool, own: &Path) -> Result<(), DemError> {
         let scene = &self.loaded.scene;
-        let kept = checkpoint::load(&self.options.identity.scene, changed, own)?;
+        let kept = load_checkpoint(&self.options.identity.scene, changed, own)?;
         let laws = Laws::from_scene(scene)?.all;
         let model = Model::resume(kept.model, laws, throats(scene)?);
         self.parts = Some(Assembled {
             model: model.map_err(|e| DemError::Resume(e.to_string()))?,
             origin: kept.origin,
-            loads: loads(scene),
         });
         self.progress = kept.progress;
         Ok(())
@@ -165,11 +155,10 @@ impl sph_run::Model for Running<'_> {
     fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, DemError> {
         let before = self.now()?;
         if let Some(parts) = self.parts.as_mut().filter(|_| before.time < limit) {
-            parts.model.apply(&parts.loads);
+            parts.model.apply(loads(&self.loaded.scene));
             let made = parts.model.advance(self.loaded.scene.run.safety, limit)?;
-            self.progress.dt = made.step;
-            self.limiter = made.limiter;
-            let limited = self.progress.limited.entry(made.limiter.to_string());
+            (self.progress.dt, self.limiter) = made;
+            let limited = self.progress.limited.entry(self.limiter.to_string());
             *limited.or_default() += 1;
         }
         self.now()
@@ -180,7 +169,7 @@ impl sph_run::Model for Running<'_> {
     }
 
     fn row(&mut self, _: &mut Watch<'_>) -> Result<Vec<f64>, DemError> {
-        let Assembled { model, origin, .. } = self.parts()?;
+        let Assembled { model, origin } = self.parts()?;
         let dt = self.progress.dt;
         Ok(row(&self.loaded.scene, model, origin, dt))
     }
@@ -190,16 +179,15 @@ impl sph_run::Model for Running<'_> {
         frames: Option<&mut Frames>,
         observer: &mut Watch<'_>,
     ) -> Result<(), DemError> {
-        let Assembled { model, origin, .. } = self.parts()?;
+        let Assembled { model, origin } = self.parts()?;
         let (time, scene) = (model.grains().time, &self.loaded.scene);
         if let Some(frames) = frames {
             if frames.lists() {
                 frames.add(time, frames::pieces(model, origin), 1)?;
             }
             for field in &scene.output.picture {
-                let range = scene.output.picture_range.as_ref();
-                let given = range.and_then(|all| all.ends(field));
-                let range = given.or_else(|| {
+                let given = scene.output.picture_range.as_ref();
+                let range = given.and_then(|all| all.ends(field)).or_else(|| {
                     let seen = frames.colours.next(field, &values(field, model, origin))?;
                     if seen.1 {
                         observer.message(&format!(
@@ -224,7 +212,7 @@ impl sph_run::Model for Running<'_> {
             origin: parts.origin.clone(),
             progress: self.progress.clone(),
         };
-        checkpoint::save(kept, &self.options.identity.scene, own)
+        save_checkpoint(kept, &self.options.identity.scene, own)
     }
 
     fn conclude(
@@ -234,11 +222,20 @@ impl sph_run::Model for Running<'_> {
         observer: &mut Watch<'_>,
     ) -> Result<Option<Summary>, DemError> {
         match ended {
-            Ok(status) => self.summary(status, Vec::new(), books).map(Some),
+            Ok(status) => {
+                let series = self.options.out.join(SERIES);
+                let errors = compare::errors(self.loaded, &self.parts()?.origin, &series)?;
+                let summary = self.summary(status, books)?;
+                Ok(Some(Summary { errors, ..summary }))
+            }
             Err(DemError::Failed(failure)) => {
                 self.draw_the_bad_state(failure, observer)?;
                 let warnings = vec![failure.to_string()];
-                self.summary(Status::Failed, warnings, books).map(Some)
+                let summary = self.summary(Status::Failed, books)?;
+                Ok(Some(Summary {
+                    warnings,
+                    ..summary
+                }))
             }
             Err(_) => Ok(None),
         }
@@ -253,20 +250,13 @@ impl Running<'_> {
         observer: &mut Watch<'_>,
     ) -> Result<(), DemError> {
         if let CoupledError::Grains(error) = &failure.error {
-            failure.named = culprits::named(self.loaded, error);
+            failure.named = named(self.loaded, error);
         }
-        let Assembled { model, origin, .. } = self.parts()?;
+        let Assembled { model, origin } = self.parts()?;
         let out = &self.options.out;
         let title = format!("{}: failed", self.loaded.scene.title);
-        let drawn = frames::picture(
-            model,
-            origin,
-            "speed",
-            None,
-            &title,
-            failure.position,
-            &out.join(BAD_STATE_PICTURE),
-        );
+        let (at, path) = (failure.position, out.join(BAD_STATE_PICTURE));
+        let drawn = frames::picture(model, origin, "speed", None, &title, at, &path);
         let spheres = frames::pieces(model, origin).into_iter().next();
         let saved = spheres.map_or(Ok(()), |piece| {
             let time = model.grains().time;
@@ -279,75 +269,87 @@ impl Running<'_> {
         Ok(())
     }
 
-    fn summary(
-        &self,
-        status: Status,
-        warnings: Vec<String>,
-        books: &RunCounters,
-    ) -> Result<Summary, DemError> {
-        let parts = self.parts()?;
-        let model = &parts.model;
-        let grains = model.grains();
-        let steps = grains.steps;
-        let wall = books.wall_seconds;
-        let stepping = wall - self.progress.preparation_seconds;
-        let count = grains.grains.len();
-        let limited = self.progress.limited.iter();
-        let errors = match status {
-            Status::Failed => BTreeMap::new(),
-            _ => compare::errors(self.loaded, &parts.origin, &self.options.out.join(SERIES))?,
-        };
-        let finite = |x: f64| x.is_finite().then_some(x);
-        Ok(Summary {
-            schema_version: SCHEMA_VERSION,
-            scene: self.loaded.scene.title.clone(),
-            method: "grains",
-            status,
-            version: env!("CARGO_PKG_VERSION"),
-            plugins: plugins(&self.loaded.scene),
-            grains: count,
-            cells: model.wet().map(|w| w.pressures().len()),
-            meshes: model.wet().map(|w| w.meshes()),
-            coordination: grains.coordination(),
-            porosity: grains.porosity(),
-            unbalanced_force: finite(grains.unbalanced_force()),
-            steps,
-            simulated_seconds: grains.time,
-            wall_seconds: wall,
-            preparation_seconds: self.progress.preparation_seconds,
-            threads: rayon::current_num_threads(),
-            grain_steps_per_second: if stepping > 0.0 {
-                count as f64 * steps as f64 / stepping
-            } else {
-                0.0
-            },
-            dt_limiters: limited
-                .map(|(name, n)| (name.clone(), *n as f64 / steps.max(1) as f64))
-                .collect(),
-            derived: derived(parts),
-            errors,
-            warnings,
-        })
+    fn summary(&self, status: Status, books: &RunCounters) -> Result<Summary, DemError> {
+        let (scene, parts) = (&self.loaded.scene, self.parts()?);
+        Ok(Summary::new(scene, parts, &self.progress, status, books))
     }
 }
 
-/// Measurements before the run.
-fn derived(parts: &Assembled) -> BTreeMap<String, f64> {
-    let origin = &parts.origin;
-    let all = [
-        ("mean diameter [m]", Some(origin.diameter)),
-        ("highest grain at the start [m]", Some(origin.top)),
-        ("load [Pa]", origin.load),
-        ("dry strain", origin.dry_strain),
-        ("mobility [m²/(Pa s)]", origin.mobility),
-        (
-            "oedometric modulus [Pa]",
-            origin.load.zip(origin.dry_strain).map(|(l, e)| l / e),
-        ),
-        ("consolidation coefficient [m²/s]", origin.consolidation()),
-    ];
-    let known = all
-        .into_iter()
-        .filter_map(|(name, value)| Some((name.to_string(), value?)));
-    known.collect()
+/// Longest file that a scene may name, bytes.
+const LONGEST: u64 = 512 << 20;
+
+/// Discrete elements, with or without a fluid in their pores.
+#[derive(Clone, Copy, Debug)]
+pub struct DiscreteElements;
+
+impl Method for DiscreteElements {
+    fn quiet(&self) -> &[&str] {
+        &["output.no_vtk=true", "output.picture=[]"]
+    }
+
+    fn read(&self, source: Source) -> Result<Arc<dyn Subject>, (Source, Vec<Diagnostic>)> {
+        Ok(Arc::new(read(source)?))
+    }
+}
+
+impl Subject for Loaded {
+    fn source(&self) -> &Source {
+        &self.source
+    }
+
+    fn references(&self) -> Vec<String> {
+        self.scene.reference.keys().cloned().collect()
+    }
+
+    fn resolved(&self) -> Table {
+        self.table.clone()
+    }
+
+    fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
+        let mark = |(key, file): (String, String)| {
+            let told = |why: String| SceneProblem::new(key.clone(), why);
+            let path = self.source.resolve(&key, &file);
+            let path = path.map_err(|e| told(e.to_string()))?;
+            let content = sph_io::checksum(&path, LONGEST).map_err(|e| told(e.to_string()))?;
+            Ok((key, content.to_string()))
+        };
+        self.files().into_iter().map(mark).collect()
+    }
+
+    fn end(&self) -> f64 {
+        self.scene.run.end
+    }
+
+    /// Grains times simulated seconds.
+    fn assemble(&self) -> Result<f64, Vec<SceneProblem>> {
+        match examine(self) {
+            Ok(examined) => Ok(examined.grains.unwrap_or(1) as f64 * self.end()),
+            Err(DemError::Scene(problems)) => Err(problems),
+            Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
+        }
+    }
+
+    fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
+        // The identity that a study gives the run is added to the scene.
+        let mut known = self.table.clone();
+        known.insert("study".into(), options.identity.scene.clone().into());
+        let mut options = options.clone();
+        options.identity = Identity::of_text(known.to_string());
+        let resumed = options.start.goes_on();
+        match run(self, &options, observer) {
+            Ok(summary) => Ok(Ended::done(summary.status, &summary)),
+            Err(DemError::Resume(_)) if resumed => Ok(Ended::Unusable),
+            Err(DemError::Io(error)) if resumed && unusable(&error) => Ok(Ended::Unusable),
+            Err(DemError::Io(error)) => Err(error),
+            Err(error) => {
+                let known = match &error {
+                    DemError::Failed(failure) => {
+                        json!({ "steps": failure.step, "simulated_seconds": failure.time })
+                    }
+                    _ => Json::Null,
+                };
+                Ok(Ended::Failed(known, error.to_string()))
+            }
+        }
+    }
 }

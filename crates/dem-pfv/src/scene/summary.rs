@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_json::Value as Json;
-use sph_run::Status;
+use sph_run::{RunCounters, Status};
 
-use crate::scene::compare::Compared;
+use crate::scene::{Assembled, Compared, Origin, PluginInForce, Progress, Scene, plugins};
 
 /// Content of `summary.json`.
 #[derive(Clone, Debug, Serialize)]
@@ -57,15 +56,65 @@ pub struct Summary {
     pub warnings: Vec<String>,
 }
 
-/// A plugin and its parameters.
-#[derive(Clone, Debug, Serialize)]
-pub struct PluginInForce {
-    /// Kind: "contact-law" or "conductance".
-    pub kind: String,
-    /// Owner of the plugin: "grains", "box", "wall top".
-    pub of: String,
-    /// Name.
-    pub name: String,
-    /// Parameters as the scene gives them, SI.
-    pub parameters: Json,
+/// Version of the form of the summary.
+const SCHEMA_VERSION: u32 = 1;
+
+impl Summary {
+    /// Of a run that ended so, without errors against references and warnings.
+    pub(crate) fn new(
+        scene: &Scene,
+        parts: &Assembled,
+        progress: &Progress,
+        status: Status,
+        books: &RunCounters,
+    ) -> Self {
+        let (wet, grains) = (parts.model.wet(), parts.model.grains());
+        let (count, steps) = (grains.grains.len(), grains.steps);
+        let stepping = books.wall_seconds - progress.preparation_seconds;
+        let rate = count as f64 * steps as f64 / stepping;
+        let unbalanced = grains.unbalanced_force();
+        let share = |(name, n): (&String, &u64)| (name.clone(), *n as f64 / steps.max(1) as f64);
+        Self {
+            schema_version: SCHEMA_VERSION,
+            scene: scene.title.clone(),
+            method: "grains",
+            status,
+            version: env!("CARGO_PKG_VERSION"),
+            plugins: plugins(scene),
+            grains: count,
+            cells: wet.map(|w| w.pressures().len()),
+            meshes: wet.map(|w| w.meshes()),
+            coordination: grains.coordination(),
+            porosity: grains.porosity(),
+            unbalanced_force: unbalanced.is_finite().then_some(unbalanced),
+            steps,
+            simulated_seconds: grains.time,
+            wall_seconds: books.wall_seconds,
+            preparation_seconds: progress.preparation_seconds,
+            threads: rayon::current_num_threads(),
+            grain_steps_per_second: if stepping > 0.0 { rate } else { 0.0 },
+            dt_limiters: progress.limited.iter().map(share).collect(),
+            derived: derived(&parts.origin),
+            errors: BTreeMap::new(),
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// Measurements before the run.
+fn derived(origin: &Origin) -> BTreeMap<String, f64> {
+    let modulus = origin.load.zip(origin.dry_strain).map(|(l, e)| l / e);
+    let all = [
+        ("mean diameter [m]", Some(origin.diameter)),
+        ("highest grain at the start [m]", Some(origin.top)),
+        ("load [Pa]", origin.load),
+        ("dry strain", origin.dry_strain),
+        ("mobility [m²/(Pa s)]", origin.mobility),
+        ("oedometric modulus [Pa]", modulus),
+        ("consolidation coefficient [m²/s]", origin.consolidation()),
+    ];
+    let known = all.into_iter();
+    known
+        .filter_map(|(name, value)| Some((name.to_string(), value?)))
+        .collect()
 }

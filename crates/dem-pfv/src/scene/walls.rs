@@ -3,11 +3,7 @@
 use scene_text::unit_factor;
 
 use crate::grains::{Control, Mesh, Setup, Wall};
-use crate::scene::error::DemError;
-use crate::scene::laws::Laws;
-use crate::scene::names::{BOX, planes};
-use crate::scene::read::Loaded;
-use crate::scene::tables;
+use crate::scene::{BOX, DemError, Laws, Loaded, planes, tables};
 
 /// Distance of a wall that is not there, m.
 pub(crate) const FAR: f64 = 1e4;

@@ -1,11 +1,10 @@
-//! Insertion of spheres one by one: locate, carve, fill (Bowyer 1981, Watson 1981).
+//! The first cells, and the insertion of spheres one by one: locate, carve, fill (Bowyer 1981, Watson 1981).
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
-use crate::triangulation::TriangulationError;
-use crate::triangulation::bootstrap::Cells;
-use crate::triangulation::predicates::{GHOST, Predicates};
+use crate::triangulation::predicates::{GHOST, Predicates, except};
+use crate::triangulation::{Sphere, TriangulationError, Wall};
 
 /// No neighbour yet.
 const NONE: u32 = u32::MAX;
@@ -35,9 +34,7 @@ impl<'a> Builder<'a> {
         let mut open = HashMap::new();
         for (c, cell) in cells.iter().enumerate() {
             for i in 0..4 {
-                let mut facet = *cell;
-                facet[i] = cell[3];
-                let mut facet = [facet[0], facet[1], facet[2]];
+                let mut facet: [u32; 3] = except(cell, i);
                 facet.sort_unstable();
                 if let Some((other, j)) = open.remove(&facet) {
                     neighbours[c][i] = other as u32;
@@ -77,13 +74,43 @@ impl<'a> Builder<'a> {
     /// # Errors
     /// It is hidden by those that are there.
     pub fn insert(&mut self, e: u32) -> Result<(), TriangulationError> {
-        let start = walk(self.predicates, &self.cells, &self.neighbours, self.last, e);
+        let start = self.walk(e);
         if !self.conflict(start, e) {
             return Err(TriangulationError::Hidden(e as usize));
         }
         self.carve(start, e);
         self.fill(e);
         Ok(())
+    }
+
+    /// Walks from the last cell to one that holds the centre of `e`, or to one behind the hull that sees it.
+    /// Every step crosses a facet that separates; in a regular triangulation such walks end.
+    fn walk(&self, e: u32) -> u32 {
+        let (cells, neighbours) = (&self.cells, &self.neighbours);
+        let mut here = self.last as usize;
+        if let Some(ghost) = cells[here].iter().position(|v| *v == GHOST) {
+            here = neighbours[here][ghost] as usize;
+        }
+        let mut from = NONE;
+        loop {
+            let cell = cells[here];
+            let beyond = (0..4).find(|&i| {
+                if neighbours[here][i] == from {
+                    return false;
+                }
+                let side = self.predicates.side(except(&cell, i), e);
+                // With e in place of vertex i, O has the sign (−1)^(i + 3) of that of the others and e.
+                side == [Ordering::Greater, Ordering::Less][i % 2]
+            });
+            let Some(i) = beyond else {
+                return here as u32;
+            };
+            from = here as u32;
+            here = neighbours[here][i] as usize;
+            if cells[here].contains(&GHOST) {
+                return here as u32;
+            }
+        }
     }
 
     /// A sphere in the plane of a facet of the hull is in conflict with the cell behind it if it is
@@ -138,8 +165,8 @@ impl<'a> Builder<'a> {
                 back[j] = new;
             }
             for j in (0..4).filter(|j| *j != i) {
-                let mut rest = (0..4).filter(|k| *k != i && *k != j).map(|k| cell[k]);
-                let (a, b) = (rest.next().unwrap_or(NONE), rest.next().unwrap_or(NONE));
+                let facet: [u32; 3] = except(&cell, j);
+                let [a, b] = except(&facet, if i < j { i } else { i - 1 });
                 self.edges.push(((a.min(b), a.max(b)), new, j));
             }
         }
@@ -155,61 +182,132 @@ impl<'a> Builder<'a> {
     }
 
     fn place(&mut self, cell: [u32; 4]) -> u32 {
-        let place = match self.free.pop() {
-            Some(c) => {
-                self.cells[c as usize] = cell;
-                self.neighbours[c as usize] = [NONE; 4];
-                self.marks[c as usize] = 0;
-                c
-            }
-            None => {
-                self.cells.push(cell);
-                self.neighbours.push([NONE; 4]);
-                self.marks.push(0);
-                (self.cells.len() - 1) as u32
-            }
-        };
+        let place = self.free.pop().unwrap_or_else(|| {
+            self.cells.push(cell);
+            self.neighbours.push([NONE; 4]);
+            self.marks.push(0);
+            (self.cells.len() - 1) as u32
+        });
+        self.cells[place as usize] = cell;
+        self.neighbours[place as usize] = [NONE; 4];
+        self.marks[place as usize] = 0;
         self.last = place;
         place
     }
 }
 
-/// Walks from a cell to one that holds the centre of `e`, or to one behind the hull that sees it.
-/// Every step crosses a facet that separates; in a regular triangulation such walks end.
-fn walk(
+/// Cells with O > 0; those with the ghost are seen from below as the others are.
+pub type Cells = Vec<[u32; 4]>;
+
+/// Cells of one sphere in a room: one for every corner, and one behind each.
+///
+/// # Errors
+/// Walls that do not close a room, that have no part in it, or of which four meet.
+pub fn room(
     predicates: &Predicates,
-    cells: &[[u32; 4]],
-    neighbours: &[[u32; 4]],
-    start: u32,
-    e: u32,
-) -> u32 {
-    let mut here = start as usize;
-    if let Some(ghost) = cells[here].iter().position(|v| *v == GHOST) {
-        here = neighbours[here][ghost] as usize;
+    walls: &[Wall],
+    spheres: usize,
+    first: u32,
+) -> Result<Cells, TriangulationError> {
+    let corners = corners(predicates, walls.len())?;
+    closed(&corners, walls.len())?;
+    let mut cells = Cells::new();
+    for corner in corners {
+        let [a, b, c] = corner.map(|w| (spheres + w) as u32);
+        cells.push([a, b, c, first]);
+        cells.push([b, a, c, GHOST]);
     }
-    let mut from = NONE;
-    loop {
-        let cell = cells[here];
-        let beyond = (0..4).find(|&i| {
-            if neighbours[here][i] == from {
-                return false;
+    Ok(cells)
+}
+
+/// Triples of walls that meet in a corner of the room, with det(−n) > 0.
+fn corners(predicates: &Predicates, walls: usize) -> Result<Vec<[usize; 3]>, TriangulationError> {
+    let mut found = Vec::new();
+    for (i, j) in (0..walls).flat_map(|i| (i + 1..walls).map(move |j| (i, j))) {
+        for k in j + 1..walls {
+            match predicates.walls_orientation([i, j, k]) {
+                Ordering::Equal => {}
+                turn if !is_corner(predicates, [i, j, k], turn, walls)? => {}
+                Ordering::Greater => found.push([i, j, k]),
+                Ordering::Less => found.push([j, i, k]),
             }
-            let others = std::array::from_fn(|k| cell[if k < i { k } else { k + 1 }]);
-            let side = predicates.side(others, e);
-            // With e in place of vertex i, O has the sign (−1)^(i + 3) of that of the others and e.
-            side == if i % 2 == 1 {
-                Ordering::Less
-            } else {
-                Ordering::Greater
-            }
-        });
-        let Some(i) = beyond else {
-            return here as u32;
-        };
-        from = here as u32;
-        here = neighbours[here][i] as usize;
-        if cells[here].contains(&GHOST) {
-            return here as u32;
         }
     }
+    Ok(found)
+}
+
+/// True if the point in which three walls meet is inside all others. With it as the origin, the
+/// determinant of the four lifted walls is det(−n) of the three times −2c of the fourth, and the
+/// point is inside if c < 0.
+fn is_corner(
+    predicates: &Predicates,
+    [i, j, k]: [usize; 3],
+    turn: Ordering,
+    walls: usize,
+) -> Result<bool, TriangulationError> {
+    let mut meets = None;
+    for m in (0..walls).filter(|m| ![i, j, k].contains(m)) {
+        match predicates.walls_lifted([i, j, k, m]) {
+            Ordering::Equal => meets = Some([i, j, k, m]),
+            side if side != turn => return Ok(false),
+            _ => {}
+        }
+    }
+    meets.map_or(Ok(true), |walls| {
+        Err(TriangulationError::FourWallsMeet(walls))
+    })
+}
+
+/// Refuses rooms of which an edge has not two ends, and walls without an edge.
+fn closed(corners: &[[usize; 3]], walls: usize) -> Result<(), TriangulationError> {
+    let mut ends = BTreeMap::new();
+    for corner in corners {
+        for skip in 0..3 {
+            let [a, b] = [corner[(skip + 1) % 3], corner[(skip + 2) % 3]];
+            *ends.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+        }
+    }
+    if let Some(((first, second), corners)) = ends.iter().find(|(_, n)| **n != 2) {
+        return Err(TriangulationError::Open(*first, *second, *corners));
+    }
+    if corners.is_empty() {
+        return Err(TriangulationError::Open(0, 1.min(walls - 1), 0));
+    }
+    let idle = (0..walls).find(|w| corners.iter().all(|c| !c.contains(w)));
+    idle.map_or(Ok(()), |wall| Err(TriangulationError::IdleWall(wall)))
+}
+
+/// Cells of four spheres that are not in one plane, far apart: one between them, four behind.
+pub fn four_spheres(
+    predicates: &Predicates,
+    spheres: &[Sphere],
+) -> Result<([u32; 4], Cells), TriangulationError> {
+    let x = |i: usize| spheres[i].centre;
+    let largest = |measure: &dyn Fn(usize) -> f64| {
+        let all = (0..spheres.len()).map(|i| (measure(i), i));
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, i)| i)
+    };
+    let b = largest(&|i| (x(i) - x(0)).norm());
+    let c = largest(&|i| (x(b) - x(0)).cross(&(x(i) - x(0))).norm());
+    let normal = (x(b) - x(0)).cross(&(x(c) - x(0)));
+    let far = largest(&|i| normal.dot(&(x(i) - x(0))).abs());
+    let base = [0, b as u32, c as u32];
+    let side = |d: usize| predicates.side(base, d as u32);
+    let mut fourth = std::iter::once(far).chain(0..spheres.len());
+    let Some(d) = fourth.find(|d| side(*d) != Ordering::Equal) else {
+        return Err(TriangulationError::Flat);
+    };
+    let [p, q, r] = match side(d) {
+        Ordering::Greater => base,
+        _ => [base[1], base[0], base[2]],
+    };
+    let cell = [p, q, r, d as u32];
+    let mut cells = vec![cell];
+    for i in 0..4 {
+        let mut behind = cell;
+        behind[i] = GHOST;
+        behind.swap((i + 1) % 4, (i + 2) % 4);
+        cells.push(behind);
+    }
+    Ok((cell, cells))
 }

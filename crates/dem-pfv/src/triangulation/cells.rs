@@ -1,12 +1,11 @@
 //! The finished triangulation: cells, facets, neighbours, power centres.
 
-use nalgebra::Vector3;
-
-use crate::triangulation::bootstrap;
+use crate::Vector;
+use crate::groups::Groups;
 use crate::triangulation::build::Builder;
 use crate::triangulation::order::insertion_order;
-use crate::triangulation::predicates::{GHOST, Predicates};
-use crate::triangulation::{Sphere, TriangulationError, Wall};
+use crate::triangulation::predicates::{GHOST, Predicates, except};
+use crate::triangulation::{Sphere, TriangulationError, Wall, build};
 
 /// A vertex of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,15 +30,22 @@ pub struct Cell {
     neighbours: [u32; 4],
 }
 
+impl Vertex {
+    /// The number of the sphere, if it is one.
+    pub fn sphere(self) -> Option<usize> {
+        match self {
+            Self::Sphere(k) => Some(k),
+            Self::Wall(_) => None,
+        }
+    }
+}
+
 impl Cell {
     /// Its vertices.
     pub fn vertices(&self) -> [Vertex; 4] {
-        self.vertices.map(|v| {
-            if v & WALL == 0 {
-                Vertex::Sphere(v as usize)
-            } else {
-                Vertex::Wall((v & !WALL) as usize)
-            }
+        self.vertices.map(|v| match v & WALL {
+            0 => Vertex::Sphere(v as usize),
+            _ => Vertex::Wall((v & !WALL) as usize),
         })
     }
 
@@ -74,9 +80,8 @@ pub struct Triangulation {
     pub walls: Vec<Wall>,
     /// All cells.
     pub cells: Vec<Cell>,
-    /// Cells of sphere k: `incident[first[k]..first[k + 1]]`; walls follow the spheres.
-    first: Vec<usize>,
-    incident: Vec<u32>,
+    /// Cells around each sphere, then around each wall.
+    around: Groups,
 }
 
 impl Triangulation {
@@ -87,14 +92,10 @@ impl Triangulation {
     pub fn of_spheres(spheres: &[Sphere]) -> Result<Self, TriangulationError> {
         checked(spheres, &[], 4)?;
         let predicates = Predicates::new(spheres, &[]);
-        let (done, cells) = bootstrap::four_spheres(&predicates, spheres)?;
-        let mut builder = Builder::new(&predicates, cells);
-        for e in insertion_order(spheres) {
-            if !done.contains(&e) {
-                builder.insert(e)?;
-            }
-        }
-        Self::finished(spheres, &[], &builder)
+        let (done, cells) = build::four_spheres(&predicates, spheres)?;
+        let order = insertion_order(spheres).into_iter();
+        let order = order.filter(|e| !done.contains(e));
+        Self::grown(spheres, &[], Builder::new(&predicates, cells), order)
     }
 
     /// Triangulates the room between walls that holds at least one sphere. Walls make a convex room,
@@ -109,21 +110,20 @@ impl Triangulation {
         }
         checked(spheres, walls, 1)?;
         let predicates = Predicates::new(spheres, walls);
-        let order = insertion_order(spheres);
-        let cells = bootstrap::room(&predicates, walls, spheres.len(), order[0])?;
-        let mut builder = Builder::new(&predicates, cells);
-        for e in &order[1..] {
-            builder.insert(*e)?;
-        }
-        Self::finished(spheres, walls, &builder)
+        let mut order = insertion_order(spheres).into_iter();
+        let first = order.next().unwrap_or_default();
+        let cells = build::room(&predicates, walls, spheres.len(), first)?;
+        Self::grown(spheres, walls, Builder::new(&predicates, cells), order)
     }
 
-    /// Leaves out vacant places and cells behind the hull.
-    fn finished(
+    /// Inserts further spheres, then leaves out vacant places and cells behind the hull.
+    fn grown(
         spheres: &[Sphere],
         walls: &[Wall],
-        builder: &Builder,
+        mut builder: Builder,
+        mut order: impl Iterator<Item = u32>,
     ) -> Result<Self, TriangulationError> {
+        order.try_for_each(|e| builder.insert(e))?;
         let vacant = builder.vacant();
         let mut number = vec![NONE; vacant.len()];
         let mut count = 0;
@@ -138,32 +138,42 @@ impl Triangulation {
             v => (v - spheres.len()) as u32 | WALL,
         };
         let kept = (0..vacant.len()).filter(|c| number[*c] != NONE);
-        let cells: Vec<_> = kept
-            .map(|c| Cell {
-                vertices: builder.cells[c].map(vertex),
-                neighbours: builder.neighbours[c].map(|n| number[n as usize]),
-            })
-            .collect();
-        let (first, incident) = incidence(&cells, spheres.len(), walls.len());
-        if let Some(sphere) = (0..spheres.len()).find(|k| first[*k] == first[k + 1]) {
+        let cell = |c: usize| Cell {
+            vertices: builder.cells[c].map(vertex),
+            neighbours: builder.neighbours[c].map(|n| number[n as usize]),
+        };
+        let cells: Vec<_> = kept.map(cell).collect();
+        let place = |v: u32| match v & WALL {
+            0 => v,
+            _ => spheres.len() as u32 + (v & !WALL),
+        };
+        let corners = cells.iter().zip(0_u32..);
+        let corners = corners.flat_map(|(cell, c)| cell.vertices.map(|v| (place(v), c)));
+        let around = Groups::new(spheres.len() + walls.len(), corners);
+        if let Some(sphere) = (0..spheres.len()).find(|k| around.members(*k).is_empty()) {
             return Err(TriangulationError::Hidden(sphere));
         }
         Ok(Self {
             spheres: spheres.to_vec(),
             walls: walls.to_vec(),
             cells,
-            first,
-            incident,
+            around,
         })
     }
 
     /// The numbers of the cells around a vertex, ascending.
     pub fn cells_around(&self, vertex: Vertex) -> &[u32] {
-        let k = match vertex {
+        self.around.members(match vertex {
             Vertex::Sphere(k) => k,
             Vertex::Wall(w) => self.spheres.len() + w,
-        };
-        &self.incident[self.first[k]..self.first[k + 1]]
+        })
+    }
+
+    /// Mean of the centres of a cell's spheres, m.
+    pub fn middle(&self, cell: &Cell) -> Vector {
+        let spheres = cell.vertices().into_iter().filter_map(Vertex::sphere);
+        let sum: Vector = spheres.map(|k| self.spheres[k].centre).sum();
+        sum / (4 - cell.walls()) as f64
     }
 
     /// Facets between two cells, each once, in the order of their first cells.
@@ -172,11 +182,10 @@ impl Triangulation {
         cells.flat_map(|(c, cell)| {
             (0..4).filter_map(move |i| {
                 let n = cell.neighbour(i).filter(|n| *n > c)?;
-                let v = cell.vertices();
                 Some(Facet {
                     cells: [c, n],
                     opposite: i,
-                    vertices: std::array::from_fn(|k| v[if k < i { k } else { k + 1 }]),
+                    vertices: except(&cell.vertices(), i),
                 })
             })
         })
@@ -190,65 +199,29 @@ impl Triangulation {
     ///
     /// solved by Cramer's rule. Source: Catalano 2012, §3.1; the wall's row is the limit of a tangent
     /// sphere of infinite radius.
-    pub fn power_centre(&self, cell: usize) -> Vector3<f64> {
+    pub fn power_centre(&self, cell: usize) -> Vector {
         let vertices = self.cells[cell].vertices();
-        let sphere = |v: &Vertex| match v {
-            Vertex::Sphere(k) => Some(&self.spheres[*k]),
-            Vertex::Wall(_) => None,
+        let spheres = vertices.iter().enumerate();
+        let mut spheres = spheres.filter_map(|(i, v)| Some((i, &self.spheres[v.sphere()?])));
+        let Some((base, s0)) = spheres.next() else {
+            return Vector::repeat(f64::NAN);
         };
-        let base = vertices
-            .iter()
-            .position(|v| sphere(v).is_some())
-            .unwrap_or(0);
-        let Some(s0) = sphere(&vertices[base]) else {
-            return Vector3::repeat(f64::NAN);
-        };
-        let row = |v: &Vertex| match v {
+        let row = |v: Vertex| match v {
             Vertex::Sphere(k) => {
-                let s = &self.spheres[*k];
+                let s = &self.spheres[k];
                 let d = s.centre - s0.centre;
                 let weights = (s0.radius - s.radius) * (s0.radius + s.radius);
                 (d, 0.5 * (d.norm_squared() + weights))
             }
             Vertex::Wall(w) => {
-                let wall = &self.walls[*w];
+                let wall = &self.walls[w];
                 (wall.normal, -wall.distance(s0.centre))
             }
         };
-        let [(d1, b1), (d2, b2), (d3, b3)] = std::array::from_fn(|k| {
-            let k = if k < base { k } else { k + 1 };
-            row(&vertices[k])
-        });
+        let [(d1, b1), (d2, b2), (d3, b3)] = except(&vertices, base).map(row);
         let c = d2.cross(&d3);
         s0.centre + (b1 * c + b2 * d3.cross(&d1) + b3 * d1.cross(&d2)) / d1.dot(&c)
     }
-}
-
-/// Cells around each sphere and wall.
-fn incidence(cells: &[Cell], spheres: usize, walls: usize) -> (Vec<usize>, Vec<u32>) {
-    let place = |v: u32| {
-        if v & WALL == 0 {
-            v as usize
-        } else {
-            spheres + (v & !WALL) as usize
-        }
-    };
-    let mut first = vec![0; spheres + walls + 1];
-    for v in cells.iter().flat_map(|c| c.vertices) {
-        first[place(v) + 1] += 1;
-    }
-    for k in 0..spheres + walls {
-        first[k + 1] += first[k];
-    }
-    let mut next = first.clone();
-    let mut incident = vec![0; 4 * cells.len()];
-    for (c, cell) in cells.iter().enumerate() {
-        for v in cell.vertices {
-            incident[next[place(v)]] = c as u32;
-            next[place(v)] += 1;
-        }
-    }
-    (first, incident)
 }
 
 /// Refuses spheres without a triangulation, before it is tried.
@@ -265,11 +238,8 @@ fn checked(spheres: &[Sphere], walls: &[Wall], needed: usize) -> Result<(), Tria
     for (sphere, s) in spheres.iter().enumerate() {
         let finite = s.centre.iter().all(|x| x.is_finite()) && s.radius.is_finite();
         if !finite || s.radius < 0.0 {
-            return Err(TriangulationError::BadSphere(
-                sphere,
-                s.centre.into(),
-                s.radius,
-            ));
+            let (at, radius) = (s.centre.into(), s.radius);
+            return Err(TriangulationError::BadSphere(sphere, at, radius));
         }
         let distances = walls.iter().map(|w| w.distance(s.centre)).enumerate();
         if let Some((wall, distance)) = distances.into_iter().find(|(_, d)| *d <= 0.0) {

@@ -13,18 +13,10 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - virtual_a) + (b - virtual_b))
 }
 
-/// a b = product + error, exactly (Dekker, Veltkamp).
+/// a b = product + error, exactly.
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
-    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
-    let split = |x: f64| {
-        let c = SPLITTER * x;
-        let high = c - (c - x);
-        (high, x - high)
-    };
     let product = a * b;
-    let ((ah, al), (bh, bl)) = (split(a), split(b));
-    let error = al * bl - (((product - ah * bh) - al * bh) - ah * bl);
-    (product, error)
+    (product, a.mul_add(b, -product))
 }
 
 /// A sum of doubles in order of size, least first, none zero.
@@ -135,13 +127,8 @@ mod tests {
     /// a / 2³⁰ as an exact integer over 2⁶⁰ and so on: sums and products against i128.
     #[test]
     fn sums_and_products_are_those_of_integers() {
-        let mut state = 7_u64;
-        let mut draw = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 24) as i64 - (1 << 39)
-        };
+        let mut random = sph_core::SplitMix(7);
+        let mut draw = || (random.next() >> 24) as i64 - (1 << 39);
         for _ in 0..2000 {
             let (a, b, c, d) = (draw(), draw(), draw(), draw());
             let big = |x: i64| Expansion::new(x as f64);

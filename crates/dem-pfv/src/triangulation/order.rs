@@ -4,19 +4,15 @@
 //! so that walks are short and memory is near. Sources: Amenta, Choi & Rote 2003 (biased randomised
 //! insertion order); Skilling 2004 (Hilbert curve).
 
-use sph_core::SplitMix;
+use sph_core::{SplitMix, bounds};
 
 use crate::triangulation::Sphere;
 
 /// Spheres in the order of insertion.
 pub fn insertion_order(spheres: &[Sphere]) -> Vec<u32> {
-    let all = f64::INFINITY;
-    let low = spheres.iter().fold([all; 3], |low, s| {
-        std::array::from_fn(|k| low[k].min(s.centre[k]))
-    });
-    let size = spheres.iter().fold(f64::MIN_POSITIVE, |size, s| {
-        (0..3).fold(size, |size, k| size.max(s.centre[k] - low[k]))
-    });
+    let [low, high] = bounds(spheres.iter().map(|s| s.centre.into()));
+    let size = (0..3).map(|k| high[k] - low[k]);
+    let size = size.fold(f64::MIN_POSITIVE, f64::max);
     // A round of about 32 begins; each is twice the one before.
     let rounds = (spheres.len() / 32).max(1).ilog2();
     let key = |(i, s): (usize, &Sphere)| {
@@ -94,9 +90,8 @@ mod tests {
 
     #[test]
     fn every_sphere_is_inserted_once() {
-        let spheres: Vec<_> = (0..1000)
-            .map(|i| Sphere::new([f64::from(i), 0.0, 0.0], 0.1))
-            .collect();
+        let sphere = |i| Sphere::new([f64::from(i), 0.0, 0.0], 0.1);
+        let spheres: Vec<_> = (0..1000).map(sphere).collect();
         let mut order = insertion_order(&spheres);
         assert_ne!(order, (0..1000).collect::<Vec<_>>());
         order.sort_unstable();

@@ -83,28 +83,23 @@ impl Predicates {
             return sign(orient3d(a, b, c, coord(&o)));
         }
         let row = |v: u32| -> [f64; 3] {
-            if self.is_point(v) {
-                let p = &self.points[v as usize];
-                std::array::from_fn(|k| p[k] - o[k])
-            } else {
-                std::array::from_fn(|k| self.wall(v)[k])
-            }
+            std::array::from_fn(|k| match self.is_point(v) {
+                true => self.points[v as usize][k] - o[k],
+                false => self.wall(v)[k],
+            })
         };
-        let rows = rays.map(row);
-        let (value, size) = determinant3(&rows);
+        let (value, size) = determinant3(&rays.map(row));
         if value.abs() > FLAT * size {
             return value.total_cmp(&0.0);
         }
         let rows = rays.map(|v| self.exact_row(v, e));
-        exact_determinant3(&rows).sign()
+        exact_determinant3(rows.each_ref()).sign()
     }
 
     /// Sign of O of four rays, of which one at least is a sphere and none is the ghost.
     fn orientation(&self, rays: [u32; 4]) -> Ordering {
         let k = (0..4).rev().find(|k| self.is_point(rays[*k])).unwrap_or(3);
-        let mut others = rays.iter().enumerate().filter(|(i, _)| *i != k);
-        let others = [(); 3].map(|()| others.next().map_or(GHOST, |(_, v)| *v));
-        let sign = self.side(others, rays[k]);
+        let sign = self.side(except(&rays, k), rays[k]);
         if k % 2 == 1 { sign } else { sign.reverse() }
     }
 
@@ -112,8 +107,7 @@ impl Predicates {
     /// one of them is the ghost and `e` lies in the plane of the others.
     pub fn conflict(&self, cell: [u32; 4], e: u32) -> Option<bool> {
         if let Some(k) = cell.iter().position(|v| *v == GHOST) {
-            let others = std::array::from_fn(|i| cell[if i < k { i } else { i + 1 }]);
-            let sign = self.side(others, e);
+            let sign = self.side(except(&cell, k), e);
             let sign = if k % 2 == 1 { sign } else { sign.reverse() };
             return (sign != Ordering::Equal).then_some(sign == Ordering::Greater);
         }
@@ -151,12 +145,8 @@ impl Predicates {
         }
         let (mut value, mut total) = (0.0, 0.0);
         for i in 0..4 {
-            let (minor, bound) = determinant3(&minor(&rows, i));
-            value += if i % 2 == 1 {
-                l[i] * minor
-            } else {
-                -l[i] * minor
-            };
+            let (minor, bound) = determinant3(&except(&rows, i));
+            value += if i % 2 == 1 { l[i] } else { -l[i] } * minor;
             total += size[i] * bound;
         }
         (value, total)
@@ -170,12 +160,9 @@ impl Predicates {
 
     fn exact_row(&self, v: u32, e: u32) -> [Expansion; 3] {
         let o = &self.points[e as usize];
-        std::array::from_fn(|k| {
-            if self.is_point(v) {
-                Expansion::difference(self.points[v as usize][k], o[k])
-            } else {
-                Expansion::new(self.wall(v)[k])
-            }
+        std::array::from_fn(|k| match self.is_point(v) {
+            true => Expansion::difference(self.points[v as usize][k], o[k]),
+            false => Expansion::new(self.wall(v)[k]),
         })
     }
 
@@ -199,8 +186,7 @@ impl Predicates {
         let mut order = [0, 1, 2, 3, 4];
         order.sort_by_key(|i| rays[*i]);
         for i in order {
-            let sign =
-                self.orientation(std::array::from_fn(|k| rays[if k < i { k } else { k + 1 }]));
+            let sign = self.orientation(except(&rays, i));
             if sign != Ordering::Equal {
                 // The cofactor of l of ray i in column 3 has the sign (−1)^(i + 3).
                 return (sign == Ordering::Greater) == (i % 2 == 1);
@@ -212,7 +198,7 @@ impl Predicates {
 
     /// Sign of det(x, y, z) of three walls, counted among walls.
     pub fn walls_orientation(&self, walls: [usize; 3]) -> Ordering {
-        exact_determinant3(&walls.map(|w| self.exact_wall(w))).sign()
+        exact_determinant3(walls.map(|w| self.exact_wall(w)).each_ref()).sign()
     }
 
     /// Sign of det(x, y, z, l) of four walls, counted among walls.
@@ -239,10 +225,6 @@ fn coord(p: &[f64; 4]) -> Coord3D<f64> {
     }
 }
 
-fn minor(rows: &[[f64; 3]; 4], i: usize) -> [[f64; 3]; 3] {
-    std::array::from_fn(|k| rows[if k < i { k } else { k + 1 }])
-}
-
 /// Determinant and the sum of the absolute values of its products.
 fn determinant3(r: &[[f64; 3]; 3]) -> (f64, f64) {
     let (mut value, mut size) = (0.0, 0.0);
@@ -258,26 +240,25 @@ fn exact_minor(a: &[Expansion; 3], b: &[Expansion; 3]) -> Expansion {
     a[0].times(&b[1]).minus(&b[0].times(&a[1]))
 }
 
-fn exact_determinant3(r: &[[Expansion; 3]; 3]) -> Expansion {
-    let m = |i: usize, j: usize, k: usize| r[i][2].times(&exact_minor(&r[j], &r[k]));
+fn exact_determinant3(r: [&[Expansion; 3]; 3]) -> Expansion {
+    let m = |i: usize, j: usize, k: usize| r[i][2].times(&exact_minor(r[j], r[k]));
     m(0, 1, 2).plus(&m(1, 2, 0)).plus(&m(2, 0, 1))
 }
 
 /// det of rows (x, y, z, l), expanded along l.
 fn exact_determinant4(r: &[[Expansion; 3]; 4], l: &[Expansion; 4]) -> Expansion {
-    // Minors of columns x, y of rows i < j.
-    let m = |i: usize, j: usize| exact_minor(&r[i], &r[j]);
-    let (m01, m02, m03, m12, m13, m23) = (m(0, 1), m(0, 2), m(0, 3), m(1, 2), m(1, 3), m(2, 3));
-    let det = |(a, ma): (usize, &Expansion),
-               (b, mb): (usize, &Expansion),
-               (c, mc): (usize, &Expansion)| {
-        let ends = r[a][2].times(ma).plus(&r[c][2].times(mc));
-        ends.minus(&r[b][2].times(mb))
-    };
-    let d0 = det((1, &m23), (2, &m13), (3, &m12));
-    let d1 = det((0, &m23), (2, &m03), (3, &m02));
-    let d2 = det((0, &m13), (1, &m03), (3, &m01));
-    let d3 = det((0, &m12), (1, &m02), (2, &m01));
-    let odd = l[1].times(&d1).plus(&l[3].times(&d3));
-    odd.minus(&l[0].times(&d0)).minus(&l[2].times(&d2))
+    (0..4).fold(Expansion::default(), |sum, i| {
+        let rows: [&[Expansion; 3]; 3] = except(&r.each_ref(), i);
+        let term = l[i].times(&exact_determinant3(rows));
+        if i % 2 == 1 {
+            sum.plus(&term)
+        } else {
+            sum.minus(&term)
+        }
+    })
+}
+
+/// A list except the value at place `i`.
+pub(crate) fn except<T: Copy, const N: usize, const M: usize>(all: &[T; N], i: usize) -> [T; M] {
+    std::array::from_fn(|k| all[if k < i { k } else { k + 1 }])
 }

@@ -2,7 +2,7 @@
 
 use sph_core::parameters;
 
-use super::{AnyPlugins, Plugins, Triple};
+use super::{AnyPlugins, Grown, Plugins};
 
 /// The grains and the law of their contacts.
 #[parameters]
@@ -22,7 +22,7 @@ pub struct Grains {
     pub seed: u64,
     /// Gravity, m/s²; none if left out.
     #[parameter(unit: "m/s²")]
-    pub gravity: Option<Triple>,
+    pub gravity: Option<[f64; 3]>,
     /// The law of contacts, `[grains.contact.LAW]`.
     #[parameter(default)]
     #[schemars(with = "AnyPlugins")]
@@ -99,31 +99,10 @@ pub enum Weight {
 pub struct Cloud {
     /// Lower corner, m; that of the box if left out.
     #[parameter(unit: "m")]
-    pub low: Option<Triple>,
+    pub low: Option<[f64; 3]>,
     /// Upper corner, m.
     #[parameter(unit: "m")]
-    pub high: Option<Triple>,
-}
-
-/// Growth to a stress or to a porosity, without gravity. `radius` gives the proportions; at the start they fill a quarter
-/// of the box.
-#[parameters]
-pub struct Grown {
-    /// Mean stress of the walls, Pa.
-    #[parameter(unit: "Pa", above: 0.0)]
-    pub stress: Option<f64>,
-    /// Porosity.
-    #[parameter(unit: "1", above: 0.0, below: 1.0)]
-    pub porosity: Option<f64>,
-    /// Largest factor of the radii in ten steps before the stress was first reached.
-    #[parameter(default: 1.0 + 2e4 / 15e6, unit: "1", above: 1.0)]
-    pub fast: f64,
-    /// The same afterwards.
-    #[parameter(default: 1.0 + 2e3 / 15e6, unit: "1", above: 1.0)]
-    pub slow: f64,
-    /// Unbalanced force ratio and relative distance from the stress at which it ends.
-    #[parameter(default: 1e-3, unit: "1", above: 0.0)]
-    pub tolerance: f64,
+    pub high: Option<[f64; 3]>,
 }
 
 /// Dry pluviation.

@@ -5,7 +5,7 @@ use dem_pfv::coupled::{CoupledSystem, FlowCondition, FlowSetup, Fluid, State, Wa
 use dem_pfv::flow::HydraulicRadius;
 use dem_pfv::grains::{Control, GrainSystem};
 
-use crate::coupled::{BOX1000, MODULUS, box_of_laws, boxed, packing};
+use crate::coupled::{BOX1000, MODULUS, box_of_laws, boxed, packing, sticking};
 
 /// A packing under a piston with a wave on top, of a fluid that gives way: everything that is remembered.
 fn system() -> CoupledSystem {
@@ -27,7 +27,11 @@ fn system() -> CoupledSystem {
         condition: FlowCondition::Wave(wave),
         sticks: false,
     };
-    let setup = FlowSetup::new(Fluid::new(50.0, 1000.0).compressible(1e9)).sticking();
+    let fluid = Fluid {
+        bulk_modulus: Some(1e9),
+        ..Fluid::new(50.0, 1000.0)
+    };
+    let setup = sticking(FlowSetup::new(fluid));
     CoupledSystem::new(grains, setup.side(5, top)).expect("a system")
 }
 

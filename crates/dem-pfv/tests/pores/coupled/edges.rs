@@ -45,7 +45,7 @@ fn between(
     }
     let mut setup = FlowSetup::new(fluid).side(5, WallBoundary::drained(0.0));
     if sticking {
-        setup = setup.sticking();
+        setup = crate::coupled::sticking(setup);
     }
     let mut system = CoupledSystem::new(system, setup).expect("a system");
     system.step_unchecked(1e-9).expect("a step");
@@ -68,6 +68,19 @@ fn near(found: Vector, wanted: Vector) {
     assert!(error < 1e-12, "{found:?} for {wanted:?}: {error:e}");
 }
 
+fn sheared(fluid: Fluid) -> Fluid {
+    let shear = true;
+    Fluid { shear, ..fluid }
+}
+
+fn lubricated(fluid: Fluid) -> Fluid {
+    let lubrication = Some(LUBRICATION);
+    Fluid {
+        lubrication,
+        ..fluid
+    }
+}
+
 /// Two spheres of 0.1 m across the middle of a unit box: the face between them is the section, 1 m².
 #[test]
 fn two_spheres_feel_the_formulas() {
@@ -75,9 +88,7 @@ fn two_spheres_feel_the_formulas() {
     let pair = [0.35, 0.65].map(|x| Grain::new([x, 0.5, 0.5], radius, 2600.0));
     let moves = [Vector::new(0.3, 0.2, 0.0), Vector::new(-0.1, 0.0, 0.5)];
     let spins = [Vector::new(1.0, 0.0, 2.0), Vector::new(0.0, 3.0, 0.0)];
-    let fluid = Fluid::new(VISCOSITY, 0.0)
-        .shearing()
-        .lubricated(LUBRICATION);
+    let fluid = lubricated(sheared(Fluid::new(VISCOSITY, 0.0)));
     let found = between(&pair, fluid, false, |i, _| [moves[i], spins[i]]);
     let lever = Vector::new(radius + 0.5 * gap, 0.0, 0.0);
     let difference = moves[1] - spins[1].cross(&lever) - moves[0] - spins[0].cross(&lever);
@@ -98,8 +109,8 @@ fn neighbours_conserve_momentum_and_its_moment_and_take_energy() {
     let grains = packing(BOX200);
     let motion = |i: usize, _: &Grain| [noisy(i, 2_654_435_761), 30.0 * noisy(i, 2_246_822_519)];
     for fluid in [
-        Fluid::new(VISCOSITY, 0.0).shearing(),
-        Fluid::new(VISCOSITY, 0.0).lubricated(LUBRICATION),
+        sheared(Fluid::new(VISCOSITY, 0.0)),
+        lubricated(Fluid::new(VISCOSITY, 0.0)),
     ] {
         let free = between(&grains, fluid, false, motion);
         let size: f64 = free.forces.iter().map(|f| f.norm()).sum();
@@ -133,9 +144,7 @@ fn neighbours_conserve_momentum_and_its_moment_and_take_energy() {
 #[test]
 fn a_rigid_motion_gives_no_force() {
     let turn = Vector::new(1.0, -2.0, 3.0);
-    let fluid = Fluid::new(VISCOSITY, 0.0)
-        .shearing()
-        .lubricated(LUBRICATION);
+    let fluid = lubricated(sheared(Fluid::new(VISCOSITY, 0.0)));
     let grains = packing(BOX200);
     let rigid = between(&grains, fluid, false, |_, g| {
         [turn + turn.cross(&g.position), turn]
@@ -153,7 +162,7 @@ fn a_rigid_motion_gives_no_force() {
 #[test]
 fn a_step_below_the_limit_is_stable_with_shear_and_lubrication() {
     let plain = Fluid::new(1000.0, 0.0);
-    let limits = [plain, plain.shearing(), plain.lubricated(LUBRICATION)].map(|fluid| {
+    let limits = [plain, sheared(plain), lubricated(plain)].map(|fluid| {
         let mut found = between(&packing(BOX200), fluid, true, |i, _| {
             [
                 1e-4 * noisy(i, 2_654_435_761),
@@ -189,7 +198,11 @@ fn lubrication_without_roughness_or_range_is_refused() {
         (0.1, f64::INFINITY),
     ] {
         let grains = GrainSystem::new(boxed(packing(BOX200), MODULUS)).expect("grains");
-        let fluid = Fluid::new(1.0, 0.0).lubricated(Lubrication { roughness, range });
+        let lubrication = Some(Lubrication { roughness, range });
+        let fluid = Fluid {
+            lubrication,
+            ..Fluid::new(1.0, 0.0)
+        };
         let setup = FlowSetup::new(fluid).side(5, WallBoundary::drained(0.0));
         let told = CoupledSystem::new(grains, setup).err().expect("refused");
         assert!(told.to_string().contains("lubrication"), "{told}");

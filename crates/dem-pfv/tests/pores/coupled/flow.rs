@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use dem_pfv::Axis;
 use dem_pfv::coupled::{
-    CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, Remeshing, WallBoundary, Wave,
+    CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, WallBoundary, Wave,
 };
 use dem_pfv::flow::Forces;
 use dem_pfv::grains::{Control, GrainSystem, step_to_rest};
 
-use crate::coupled::{BOX200, BOX1000, MODULUS, boxed, packing};
+use crate::coupled::{BOX200, BOX1000, MODULUS, boxed, packing, sticking};
 
 fn held(text: &str) -> GrainSystem {
     let mut grains = packing(text);
@@ -20,7 +20,7 @@ fn held(text: &str) -> GrainSystem {
 /// Kept unit forces give what a sum over throats gives, on grains and walls.
 #[test]
 fn unit_forces_are_the_forces_of_the_flow() {
-    let setup = FlowSetup::new(Fluid::new(1.0, 0.0)).sticking();
+    let setup = sticking(FlowSetup::new(Fluid::new(1.0, 0.0)));
     let open = |p: f64| WallBoundary {
         sticks: true,
         ..WallBoundary::drained(p)
@@ -170,8 +170,12 @@ fn a_closed_box_shares_a_load_between_grains_and_fluid() {
         GrainSystem::resume(state, crate::coupled::box_of_laws(MODULUS)).expect("grains");
     let porosity = grains.porosity().expect("a box");
     press(&mut grains, confining + load);
-    let fluid = Fluid::new(1.0, 0.0).compressible(porosity * modulus);
-    let setup = FlowSetup::new(fluid).remeshing(Remeshing::at(0.002));
+    let bulk_modulus = Some(porosity * modulus);
+    let mut setup = FlowSetup::new(Fluid {
+        bulk_modulus,
+        ..Fluid::new(1.0, 0.0)
+    });
+    setup.remeshing.strain = Some(0.002);
     let mut system = CoupledSystem::new(grains, setup).expect("a system");
     let step = 0.5 * system.step_limit().expect("a limit").step;
     for _ in 0..1500 {
@@ -208,4 +212,26 @@ fn the_room_loses_what_flows_out() {
     println!("{through:.6e} m3/s through the floor, {total:.6e} lost by the pores");
     assert!((through / total - 1.0).abs() < 1e-9, "{through} {total}");
     assert_eq!(system.inflow(5), Some(0.0));
+}
+
+#[test]
+fn a_bilinear_load_comes_back_and_stays_beyond_the_ends() {
+    let (places, times) = (vec![0.0, 0.5, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
+    let load = |x: f64, t: f64| (3.0 - 2.0 * x) * (1.0 + 5.0 * t);
+    let rows = times
+        .iter()
+        .flat_map(|t| places.iter().map(|x| load(*x, *t)));
+    let recorded = Recorded {
+        axis: Axis::X,
+        pressures: rows.collect(),
+        places,
+        times,
+    };
+    assert_eq!(recorded.problem(), None);
+    for [x, t] in [[0.0, 0.0], [0.2, 0.05], [1.7, 0.39], [2.0, 1.0], [0.5, 0.4]] {
+        let off = (recorded.pressure(x, t) - load(x, t)).abs();
+        assert!(off < 1e-12, "{off} Pa at {x} m and {t} s");
+    }
+    assert_eq!(recorded.pressure(-1.0, -1.0), load(0.0, 0.0));
+    assert_eq!(recorded.pressure(9.0, 9.0), load(2.0, 1.0));
 }

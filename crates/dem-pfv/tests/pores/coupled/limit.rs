@@ -2,12 +2,10 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::coupled::{
-    CoupledError, CoupledSystem, FlowSetup, Fluid, Remeshing, StepLimit, WallBoundary,
-};
+use dem_pfv::coupled::{CoupledError, CoupledSystem, FlowSetup, Fluid, StepLimit, WallBoundary};
 use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, Setup, Wall};
 
-use crate::coupled::{BOX200, BOX1000, DENSITY, MODULUS, boxed, packing};
+use crate::coupled::{BOX200, BOX1000, DENSITY, MODULUS, boxed, packing, sticking};
 
 /// Drained at both ends of y, along which the page has its flow; all walls stick.
 fn drained(text: &str, viscosity: f64) -> CoupledSystem {
@@ -17,13 +15,14 @@ fn drained(text: &str, viscosity: f64) -> CoupledSystem {
             1e-6 * f64::from((i * 7919 + k * 104_729) as u32 % 97)
         });
     }
-    let setup = FlowSetup::new(Fluid::new(viscosity, 0.0)).sticking();
+    let setup = sticking(FlowSetup::new(Fluid::new(viscosity, 0.0)));
     let open = WallBoundary {
         sticks: true,
         ..WallBoundary::drained(0.0)
     };
-    let setup = setup.side(2, open.clone()).side(3, open);
-    CoupledSystem::new(grains, setup.remeshing(Remeshing::never())).expect("a system")
+    let mut setup = setup.side(2, open.clone()).side(3, open);
+    setup.remeshing.strain = None;
+    CoupledSystem::new(grains, setup).expect("a system")
 }
 
 /// Fastest kinetic energy of the last quarter of the steps over that of the first quarter.

@@ -8,6 +8,7 @@ mod oedometer;
 mod refusals;
 mod suspension;
 
+use dem_pfv::coupled::FlowSetup;
 use dem_pfv::grains::{ContactLaw, Grain, LinearElastic, Setup, Wall};
 
 const BOX200: &str = include_str!("../../packings/box200.txt");
@@ -38,6 +39,14 @@ fn laws(modulus: f64) -> [LinearElastic; 2] {
         LinearElastic::new(modulus, 0.5, friction),
         LinearElastic::new(modulus, 0.0, 0.0),
     ]
+}
+
+/// The same setup with walls to which fluid sticks.
+fn sticking(mut setup: FlowSetup) -> FlowSetup {
+    for side in &mut setup.sides {
+        side.sticks = true;
+    }
+    setup
 }
 
 /// Grains in the unit box.

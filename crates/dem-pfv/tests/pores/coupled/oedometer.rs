@@ -72,7 +72,10 @@ impl Sample {
         let mut grains = self.grains();
         grains.set_damping(damping).expect("damping");
         press(&mut grains, self.confining + load);
-        let setup = FlowSetup::new(Fluid::new(viscosity, 0.0)).remeshing(remeshing);
+        let setup = FlowSetup {
+            remeshing,
+            ..FlowSetup::new(Fluid::new(viscosity, 0.0))
+        };
         let setup = setup
             .side(4, WallBoundary::drained(0.0))
             .side(5, WallBoundary::drained(0.0));
@@ -280,7 +283,10 @@ fn one_percent_of_strain_is_as_good_as_a_mesh_at_every_step() {
         }
         (curve, system.meshes(), sample.strain(system.grains()))
     };
-    let (every, _, strain) = run(Remeshing::always());
+    let (every, _, strain) = run(Remeshing {
+        strain: Some(0.0),
+        ..Remeshing::default()
+    });
     let most = |other: &[f64]| {
         every
             .iter()
@@ -290,7 +296,10 @@ fn one_percent_of_strain_is_as_good_as_a_mesh_at_every_step() {
             / load
     };
     let (percent, meshes, _) = run(Remeshing::default());
-    let (never, _, _) = run(Remeshing::never());
+    let (never, _, _) = run(Remeshing {
+        strain: None,
+        ..Remeshing::default()
+    });
     println!(
         "strain {strain:.4}: 1 % differs by {:.2e} of the load ({meshes} meshes), never by {:.2e}",
         most(&percent),

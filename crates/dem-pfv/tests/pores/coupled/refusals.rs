@@ -2,7 +2,7 @@
 
 use dem_pfv::Axis;
 use dem_pfv::coupled::{
-    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, Remeshing, StepLimit,
+    CoupledError, CoupledSystem, FlowCondition, FlowSetup, Fluid, Recorded, StepLimit,
     WallBoundary, Wave,
 };
 use dem_pfv::flow::{FlowError, HydraulicRadius};
@@ -54,10 +54,7 @@ fn grains_that_overlap_or_are_in_walls_are_named() {
     );
     let error = CoupledError::from(grains(vec![ball(1.5, 0.2)]).expect_err("beyond the wall"));
     assert!(
-        matches!(
-            error,
-            CoupledError::Grains(GrainError::InWall { grain: 0, .. })
-        ),
+        matches!(error, CoupledError::Grains(GrainError::InWall(0, ..))),
         "{error}"
     );
     assert!(matches!(grains(vec![]), Err(GrainError::NoGrains)));
@@ -83,7 +80,10 @@ fn numbers_out_of_range_are_named() {
         (Fluid::new(f64::NAN, 1000.0), "the viscosity is NaN"),
         (Fluid::new(1.0, -1.0), "the fluid's density is -1"),
         (
-            Fluid::new(1.0, 1000.0).compressible(0.0),
+            Fluid {
+                bulk_modulus: Some(0.0),
+                ..Fluid::new(1.0, 1000.0)
+            },
             "the bulk modulus is 0",
         ),
     ] {
@@ -93,7 +93,9 @@ fn numbers_out_of_range_are_named() {
         );
         assert!(error.to_string().starts_with(what), "{error}");
     }
-    let error = refused(one(), drained().remeshing(Remeshing::at(-1.0)));
+    let mut setup = drained();
+    setup.remeshing.strain = Some(-1.0);
+    let error = refused(one(), setup);
     assert!(
         error.to_string().contains("strain for remeshing"),
         "{error}"
@@ -112,7 +114,10 @@ fn closed_walls_are_refused_unless_the_fluid_gives_way() {
         matches!(error, CoupledError::Flow(FlowError::NoPressure(0))),
         "{error}"
     );
-    let soft = FlowSetup::new(Fluid::new(10.0, 1000.0).compressible(1e6));
+    let soft = FlowSetup::new(Fluid {
+        bulk_modulus: Some(1e6),
+        ..Fluid::new(10.0, 1000.0)
+    });
     let mut system = CoupledSystem::new(one(), soft).expect("a system");
     system.run_to(0.02, 0.8).expect("a run");
     assert!(system.pressures().iter().all(|p| p.is_finite()));
@@ -232,4 +237,23 @@ fn a_state_of_other_grains_is_refused() {
         CoupledSystem::resume(state, laws, Box::new(HydraulicRadius::default())),
         Err(CoupledError::BadState(_))
     ));
+}
+
+#[test]
+fn tables_that_do_not_fit_are_named() {
+    let good = Recorded {
+        axis: Axis::X,
+        places: vec![0.0, 1.0],
+        times: vec![0.0],
+        pressures: vec![1.0, 2.0],
+    };
+    let with = |change: fn(&mut Recorded)| {
+        let mut recorded = good.clone();
+        change(&mut recorded);
+        recorded.problem().unwrap_or("nothing").to_string()
+    };
+    assert!(with(|r| r.pressures = vec![1.0]).contains("one pressure for each"));
+    assert!(with(|r| r.times = vec![]).contains("one at least"));
+    assert!(with(|r| r.places = vec![1.0, 0.0]).contains("places"));
+    assert!(with(|r| r.times = vec![f64::NAN]).contains("finite"));
 }

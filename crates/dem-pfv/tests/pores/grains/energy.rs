@@ -99,8 +99,9 @@ fn a_free_cloud_keeps_its_momentum_and_angular_momentum() {
             -place[1] + place[0],
             0.3 - place[2],
         ];
-        let ball = grain(place[0], place[1], place[2]);
-        grains.push(ball.moving(swirl).spinning([1.0, f64::from(i % 3), -1.0]));
+        let mut ball = grain(place[0], place[1], place[2]).moving(swirl);
+        ball.spin = [1.0, f64::from(i % 3), -1.0].into();
+        grains.push(ball);
     }
     let mut system = GrainSystem::new(Setup::new(grains, law(0.5, 0.4, 0.1))).expect("cloud");
     let momenta = |s: &GrainSystem| {

@@ -1,6 +1,6 @@
 //! Sliding and rolling on planes.
 
-use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, RollingResistance, Setup, Wall};
+use dem_pfv::grains::{Grain, GrainSystem, LinearElastic, RollingResistance, Setup, Vector, Wall};
 
 use crate::grains::{GRAVITY, MODULUS, RADIUS, STIFFNESS, close, grain, law, run, spin, velocity};
 
@@ -131,7 +131,10 @@ fn rolling_resistance_holds_up_to_its_angle() {
 /// A spinning top on a flat floor: spin about the normal meets no resistance.
 #[test]
 fn spin_about_the_normal_is_free() {
-    let mut system = on_slope(law(0.5, 0.3, 0.0), 0.0, |g| g.spinning([0.0, 0.0, 5.0]));
+    let mut system = on_slope(law(0.5, 0.3, 0.0), 0.0, |g| Grain {
+        spin: Vector::new(0.0, 0.0, 5.0),
+        ..g
+    });
     let step = 0.2 * system.critical_step();
     run(&mut system, step, 1000);
     assert_eq!(spin(&system, 0).z, 5.0);

@@ -1,8 +1,8 @@
 //! What is refused, with the grain and the value.
 
 use dem_pfv::grains::{
-    Cloud, Control, Grain, GrainError as Error, GrainSystem, LinearElastic, Mesh, Setup, Vector,
-    Wall,
+    Cloud, Control, Grain, GrainError as Error, GrainSystem, LinearElastic, Mesh, Partner, Setup,
+    Vector, Wall,
 };
 
 use crate::grains::{RADIUS, grain, kilogram, law};
@@ -81,17 +81,7 @@ fn grains_in_or_beyond_walls_and_meshes_are_named() {
             law(0.5, 0.3, 0.0),
         );
         let error = GrainSystem::new(setup.walls(walls())).expect_err("beyond");
-        assert!(
-            matches!(
-                error,
-                Error::InWall {
-                    grain: 1,
-                    wall: 1,
-                    ..
-                }
-            ),
-            "{error}"
-        );
+        assert!(matches!(error, Error::InWall(1, 1, ..)), "{error}");
     }
     let mesh = Mesh::new(
         vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -102,11 +92,7 @@ fn grains_in_or_beyond_walls_and_meshes_are_named() {
     assert!(
         matches!(
             error,
-            Error::InMesh {
-                grain: 0,
-                triangle: 0,
-                ..
-            }
+            Error::InMesh(0, Partner::Triangle { triangle: 0, .. }, _)
         ),
         "{error}"
     );
@@ -163,10 +149,9 @@ fn steps_and_runaways_are_refused() {
     let error = system.step(0.5 * limit).expect_err("gone");
     assert!(matches!(error, Error::NotFinite(0, ..)), "{error}");
 
-    let pressed = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).with_control(Control::Piston {
-        stress: 1.0,
-        mass: 1.0,
-    });
+    let mut pressed = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
+    let (stress, mass) = (1.0, 1.0);
+    pressed.control = Control::Piston { stress, mass };
     let mut open = GrainSystem::new(one().walls([pressed])).expect("open");
     assert!(matches!(open.step(0.5 * limit), Err(Error::NoArea(0))));
 }

@@ -1,7 +1,7 @@
 //! Generators.
 
 use dem_pfv::grains::{
-    Cloud, Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, rain,
+    Cloud, Control, Grain, GrainSystem, Grown, LinearElastic, Setup, Vector, Wall, rain,
     step_to_rest, uniform_radii,
 };
 
@@ -49,12 +49,13 @@ fn growth_ends_at_its_porosity() {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
     let setup = Setup::new(grains(200), smooth()).walls(walls).damping(0.3);
     let mut system = GrainSystem::new(setup).expect("a cloud");
-    let growth = Growth {
+    let growth = Grown {
         fast: 1.002,
         tolerance: 1e-2,
-        ..Growth::new(Target::Porosity(0.38), MODULUS)
+        porosity: Some(0.38),
+        ..Grown::default()
     };
-    growth.run(&mut system).expect("grown");
+    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
     close(system.porosity().expect("closed"), 0.38, 1e-12);
 }
 
@@ -65,12 +66,13 @@ fn growth_in_a_periodic_box_ends_at_its_stress() {
         setup = setup.periodic(axis, 0.0, 1.0);
     }
     let mut system = GrainSystem::new(setup).expect("a cloud");
-    let growth = Growth {
+    let growth = Grown {
         fast: 1.002,
         slow: 1.0002,
-        ..Growth::new(Target::Stress(5e4), MODULUS)
+        stress: Some(5e4),
+        ..Grown::default()
     };
-    growth.run(&mut system).expect("grown");
+    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
     close(system.mean_stress().expect("closed") / 5e4, 1.0, 1e-3);
     // Without walls nothing but the grains carries: each is in equilibrium, its stress symmetric.
     let stress = system.stress(1.0);

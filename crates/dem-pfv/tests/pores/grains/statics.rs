@@ -1,7 +1,7 @@
 //! Equilibria under weight and stress.
 
 use dem_pfv::grains::{
-    Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Vector, Wall, step_to_rest,
+    Control, Grain, GrainSystem, Grown, LinearElastic, Setup, Vector, Wall, step_to_rest,
 };
 
 use crate::grains::{GRAVITY, RADIUS, STIFFNESS, close, grain, law, position, run};
@@ -47,12 +47,13 @@ fn sample(friction: f64) -> GrainSystem {
         .damping(0.2);
     let mut system = GrainSystem::new(setup).expect("a sample");
     // A hundred times faster than the custom, for a small sample.
-    let growth = Growth {
+    let growth = Grown {
         fast: 1.002,
         slow: 1.0002,
-        ..Growth::new(Target::Stress(5e4), modulus)
+        stress: Some(5e4),
+        ..Grown::default()
     };
-    growth.run(&mut system).expect("grown");
+    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
     system
 }
 
@@ -115,8 +116,8 @@ fn a_piston_swings_as_its_mass_says() {
     let mut ball = grain(0.0, 0.0, 0.0);
     ball.held = true;
     let (mass, stress, area) = (2.0, 1e3, 0.04);
-    let mut piston = Wall::new([0.0, 0.0, RADIUS], [0.0, 0.0, -1.0])
-        .with_control(Control::Piston { stress, mass });
+    let mut piston = Wall::new([0.0, 0.0, RADIUS], [0.0, 0.0, -1.0]);
+    piston.control = Control::Piston { stress, mass };
     piston.area = Some(area);
     let setup = Setup::new(vec![ball], law(0.0, 0.0, 0.0)).walls([piston]);
     let mut system = GrainSystem::new(setup).expect("a ball");

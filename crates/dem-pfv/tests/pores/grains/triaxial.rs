@@ -2,7 +2,7 @@
 //! a = 0.5, ρ_s = 2600 kg/m³, 50 kPa, φ = 30° in the test; here 1000 grains instead of 5000.
 
 use dem_pfv::grains::{
-    Cloud, Control, Grain, GrainSystem, Growth, LinearElastic, Setup, Target, Wall, uniform_radii,
+    Cloud, Control, Grain, GrainSystem, Grown, LinearElastic, Setup, Wall, uniform_radii,
 };
 
 const MODULUS: f64 = 15e6;
@@ -27,13 +27,14 @@ fn sample(degrees: f64) -> GrainSystem {
         .law(LinearElastic::new(MODULUS, 0.0, 0.0))
         .walls(walls);
     let mut system = GrainSystem::new(setup.damping(0.2)).expect("a sample");
-    let growth = Growth {
+    let growth = Grown {
         fast: 1.001,
         slow: 1.0001,
         tolerance: 2e-3,
-        ..Growth::new(Target::Stress(STRESS), MODULUS)
+        stress: Some(STRESS),
+        ..Grown::default()
     };
-    growth.run(&mut system).expect("grown");
+    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
     system.set_law(0, Box::new(law(30.0))).expect("friction");
     system
 }
