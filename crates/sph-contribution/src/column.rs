@@ -37,9 +37,12 @@ pub struct OwnColumn<const D: usize> {
     pub field: AnyField,
     /// Its values at the start.
     pub initial: Initial<D>,
-    /// True if particles that come in may begin with positive values alone.
-    pub positive: bool,
+    /// Least and largest value with which particles may come in.
+    pub within: [f64; 2],
 }
+
+/// Any number.
+const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 impl<const D: usize> OwnColumn<D> {
     /// A scalar with its value at the start.
@@ -50,7 +53,7 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field: field.any(),
             initial: Initial::Scalar(Box::new(initial)),
-            positive: false,
+            within: ANY,
         }
     }
 
@@ -62,7 +65,7 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field: field.any(),
             initial: Initial::Vector(Box::new(initial)),
-            positive: false,
+            within: ANY,
         }
     }
 
@@ -71,14 +74,19 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field,
             initial: Initial::Zero,
-            positive: false,
+            within: ANY,
         }
     }
 
     /// The same column, whose values may not be zero or negative where particles come in.
     pub fn positive(self) -> Self {
+        self.within(f64::MIN_POSITIVE, f64::INFINITY)
+    }
+
+    /// The same column, whose values are from `least` to `most` where particles come in.
+    pub fn within(self, least: f64, most: f64) -> Self {
         OwnColumn {
-            positive: true,
+            within: [least, most],
             ..self
         }
     }

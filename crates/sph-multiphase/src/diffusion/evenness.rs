@@ -202,8 +202,8 @@ const FAINT: f64 = 1e-4;
 pub(crate) enum ShiftLimit<const D: usize> {
     /// Far from surfaces: nothing.
     No,
-    /// Leave its distance from a surface with this normal; with the largest speed of a neighbour against the particle, m/s.
-    Along(Vect<D>, f64),
+    /// Leave its distance from a surface with this normal.
+    Along(Vect<D>),
     /// Move at all.
     Still,
 }
@@ -213,17 +213,11 @@ impl<const D: usize> ShiftLimit<D> {
     pub fn held(&self, shift: Vect<D>) -> Vect<D> {
         match self {
             ShiftLimit::No => shift,
-            ShiftLimit::Along(normal, parting) => {
-                (shift - normal * normal.dot(&shift)).cap_magnitude(ALONG * parting)
-            }
+            ShiftLimit::Along(normal) => shift - normal * normal.dot(&shift),
             ShiftLimit::Still => Vect::zeros(),
         }
     }
 }
-
-/// Largest shift along a surface over the speed at which neighbours part: with ½ thin jets gain energy from shifts and
-/// burst (`rotating-square`, whose arms are five spacings thick).
-const ALONG: f64 = 0.2;
 
 /// Least length of the mean of the unit normals nearby; below it there is no single normal.
 const AGREE: f64 = 0.7;
@@ -240,8 +234,6 @@ pub(crate) fn held_normals<const D: usize>(
     }
     let normal = |e: &Evenness<D>| e.gradient.try_normalize(0.0).unwrap_or_else(Vect::zeros);
     let own = world.kernel.value_at_zero();
-    let velocity = world.free.get(fields::VELOCITY)?;
-    let phase = world.free.get(fields::PHASE).ok();
     let near_any = |i: usize| {
         let near = |j: &u32| at_surface(&all[*j as usize]);
         at_surface(&all[i]) || world.lists.free.candidates(i).iter().any(near)
@@ -257,14 +249,11 @@ pub(crate) fn held_normals<const D: usize>(
         |i| near[i],
         |around: &Around<'_, D>| {
             let i = around.rows.particle;
-            let (mut sum, mut weight, mut parting) = (Vect::<D>::zeros(), 0.0, 0.0);
+            let (mut sum, mut weight) = (Vect::<D>::zeros(), 0.0);
             let mut add = |k: usize, w: f64| {
                 if at_surface(&all[k]) {
                     sum += normal(&all[k]) * w;
                     weight += w;
-                }
-                if w > 0.0 && phase.is_none_or(|p| p[k] == p[i]) {
-                    parting = f64::max(parting, (velocity[k] - velocity[i]).norm_squared());
                 }
             };
             add(i, own);
@@ -272,7 +261,7 @@ pub(crate) fn held_normals<const D: usize>(
             free.for_each(|(&j, w)| add(j as usize, *w));
             match (weight > 0.0, sum.norm() >= AGREE * weight) {
                 (false, _) => ShiftLimit::No,
-                (true, true) => ShiftLimit::Along(sum.normalize(), parting.sqrt()),
+                (true, true) => ShiftLimit::Along(sum.normalize()),
                 (true, false) => ShiftLimit::Still,
             }
         },

@@ -30,13 +30,13 @@ use crate::diffusion::shifted_sum::ShiftedSum;
 ///
 /// Limits: where a support is less full than `surface`, and within a support of there, the
 /// component along the normal is left out, and all of it where there is no single normal (thin
-/// jets, corners); the rest is no faster than a fifth of the speed at which neighbours part. Left out are also the component
-/// across an interface between phases, that into a wall nearer than δr/2, and all of it within reach of
+/// jets, corners); so is the component across an interface between phases, that into a wall nearer than δr/2, and all of it within reach of
 /// wall points (`vertices` of semi-analytical walls, dummy particles). Where a wall moves, or with `along_walls`, so is all that
 /// leads along the normal of a wall within some 1.5 h: a shift towards a wall lets fluid flow through it, and a cylinder sank 1.6
 /// times too fast. Before plane walls at rest it does more harm than good: a channel at Re_τ = 180 misses its friction by 8 % with
 /// it and by 4 % without, a swinging drop its period by 1.3 and 0.3 %. (s·∇)u does not conserve momentum to rounding
-/// (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does).
+/// (1e-4 of Σm|u| in the vortices, 1.2e-3 in 1000 steps of a noisy box; `density` does). Jets of some five spacings gain energy
+/// from fast shifts and burst: arms of a rotating square need L = 0.1, where waves lose 3 % of their height.
 ///
 /// Source: Lind et al. 2012 (form, R, n); Sun et al. 2017 (limit,
 /// surfaces); Adami et al. 2013 (the scale: their background pressure ρc² shifts with B = 2cΔt/h); Sun et al. 2019 (transport). The walls'
@@ -134,7 +134,7 @@ impl<const D: usize> Declares for ShiftVelocity<D> {
             .both(fields::POSITION)
             .both(fields::VOLUME)
             .where_there(fields::PHASE)
-            .both(fields::VELOCITY)
+            .here(fields::VELOCITY)
             .here(fields::MASS)
             // Drifts may sort particles between their halves: the shift must be sorted, too.
             .remembers(fields::SHIFT_VELOCITY)

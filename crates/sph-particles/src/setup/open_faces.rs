@@ -155,7 +155,7 @@ pub(crate) fn check_values<const D: usize>(
 ) -> Result<(), SolverError> {
     let columns = parts.iter().flat_map(|(_, part)| part.columns());
     let known = columns.filter(|c| c.field.shape == Shape::Scalar);
-    let known: Vec<_> = known.map(|c| (c.field, c.positive)).collect();
+    let known: Vec<_> = known.map(|c| (c.field, c.within)).collect();
     let mut problems = Vec::new();
     for (wall, Entering { values, .. }) in entering {
         for (name, value) in values {
@@ -165,12 +165,19 @@ pub(crate) fn check_values<const D: usize>(
                     let near = sph_core::suggestion(name, known.iter().map(|(f, _)| f.name));
                     format!("no plugin of this scene has a column `{name}` of its own{near}")
                 }
-                Some((field, true)) if value.is_nan() || *value <= 0.0 => format!(
-                    "{} is positive, and what comes in here would have {value} {}: write a positive value, or take it \
-                     out for that of the start",
-                    field.meaning, field.unit
-                ),
-                Some(_) => continue,
+                Some((_, [least, most])) if (*least..=*most).contains(value) => continue,
+                Some((field, [least, most])) => {
+                    let range = match (*least, *most) {
+                        (f64::MIN_POSITIVE, _) => "positive".into(),
+                        (f64::NEG_INFINITY, _) => "a number".into(),
+                        (least, most) => format!("from {least} to {most}"),
+                    };
+                    format!(
+                        "{} is {range}, and {value} comes in here: write such a value, or take it out for that of the \
+                         start",
+                        field.meaning
+                    )
+                }
             };
             problems.push(SceneProblem::new(
                 path(scene, wall, &format!("values.{name}")),

@@ -169,7 +169,7 @@ fn energy_rise(name: &str, overrides: &[&str]) -> f64 {
     summary.drift.energy_rise
 }
 
-/// The arms of a square that turns are five rows thick at the end: shifts along surfaces must not feed them.
+/// The arms of a square that turns are five rows thick at the end: shifts must not feed them.
 #[test]
 fn arms_of_a_square_that_turns_gain_no_energy() {
     let coarse = [

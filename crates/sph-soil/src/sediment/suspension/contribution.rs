@@ -116,6 +116,12 @@ impl<const D: usize> SuspensionOfScene<D> {
         Ok(())
     }
 
+    /// Concentration of packed grains: that of the scene, of the bed, or 0.6.
+    fn packing(&self) -> f64 {
+        let bed = self.bed.map_or(PACKING, |bed| 1.0 - bed.porosity);
+        self.suspended.packing.unwrap_or(bed)
+    }
+
     /// Refuses concentrations above packing, and bodies that there are none of.
     fn check_start(&self, setting: &Setting<'_, D>, packing: f64) -> Result<(), Refusal> {
         for (k, one) in self.suspended.start.iter().enumerate() {
@@ -146,9 +152,8 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
             let found = start.iter().find(|one| one.body == body);
             found.map_or(0.0, |one| one.concentration)
         };
-        vec![OwnColumn::scalar(fields::CONCENTRATION, move |birth| {
-            of(birth.body)
-        })]
+        let column = OwnColumn::scalar(fields::CONCENTRATION, move |birth| of(birth.body));
+        vec![column.within(0.0, self.packing())]
     }
 
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
