@@ -281,6 +281,13 @@ fn suspensions_that_are_none_are_refused() {
         "concentration = 0.7 }",
         "start[0].concentration: 0.7 is above the packing of the grains: expected at most 0.6",
     );
+    for wrong in ["0.7", "-0.1"] {
+        let (from, to) = (
+            "concentration = 0.01 }",
+            format!("concentration = {wrong} }}"),
+        );
+        refused_of(OPEN, from, &to, "is from 0 to 0.6, and ");
+    }
     refused(
         "body = \"water\"",
         "body = \"watre\"",

@@ -121,11 +121,11 @@ fn inflow_has_eddies_or_is_refused() {
     let cases = [
         (
             entering("turbulent_energy = -1.0"),
-            "-1 m²/s²: write a positive value",
+            "is positive, and -1 m²/s² comes in here: write such a value",
         ),
         (
             entering("dissipation = 0.0"),
-            "0 m²/s³: write a positive value",
+            "is positive, and 0 m²/s³ comes in here: write such a value",
         ),
         (entering("disipation = 1.0"), "did you mean `dissipation`"),
         (entering("velocity = 1.0"), "no plugin of this scene"),
