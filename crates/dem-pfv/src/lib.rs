@@ -9,9 +9,6 @@
 //! Contact laws and conductances are plugins of `sph-core`: [`ContactLawEntry`](grains::ContactLawEntry),
 //! [`ConductanceEntry`](flow::ConductanceEntry).
 
-use serde::Serialize;
-use sph_core::parameters;
-
 pub mod coupled;
 pub mod flow;
 pub mod grains;
@@ -24,6 +21,7 @@ mod groups;
 
 pub(crate) use error::{AT_LEAST_0, BELOW_1, POSITIVE};
 pub use error::{OutOfRange, require};
+pub use sph_core::Axis;
 
 /// A vector in space, SI units of its quantity.
 pub type Vector = nalgebra::Vector3<f64>;
@@ -31,25 +29,4 @@ pub type Vector = nalgebra::Vector3<f64>;
 /// Volume of a sphere (m³) by its radius (m).
 pub(crate) fn sphere(radius: f64) -> f64 {
     4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
-}
-
-/// An axis.
-#[parameters]
-#[derive(PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// From left to right.
-    #[default]
-    X,
-    /// From front to back.
-    Y,
-    /// Upwards.
-    Z,
-}
-
-impl Axis {
-    /// 0, 1 or 2.
-    pub fn number(self) -> usize {
-        self as usize
-    }
 }

@@ -10,7 +10,6 @@ pub(crate) mod periodic;
 pub(crate) mod plane;
 pub(crate) mod plate;
 pub(crate) mod polyline;
-pub(crate) mod sets;
 pub(crate) mod shells;
 pub(crate) mod surface;
 pub(crate) mod touching;

@@ -14,3 +14,10 @@ pub enum Axis {
     /// The third.
     Z,
 }
+
+impl Axis {
+    /// 0, 1 or 2.
+    pub fn number(self) -> usize {
+        self as usize
+    }
+}

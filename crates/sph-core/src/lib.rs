@@ -60,6 +60,7 @@ mod registry;
 mod removal;
 #[cfg(feature = "plugins")]
 mod saved;
+mod sets;
 mod slots;
 #[cfg(feature = "plugins")]
 mod stage;
@@ -76,6 +77,7 @@ pub use boxes::{BoxTree, Corners, bounds};
 pub use duct::rectangular_duct;
 pub use pool::{Pool, PoolGuard};
 pub use random::SplitMix;
+pub use sets::Sets;
 pub use slots::Slots;
 pub use symmetric::Symmetric;
 pub use winding::Winding;

@@ -49,16 +49,9 @@ impl<const D: usize> Faces<D> {
                     let density = self.density(k, q);
                     let port = &mut self.memory.mass[k * phases + q];
                     let error = *port - density * lacking * part;
-                    let flux = density * -normal * wetted * dt * part;
-                    let mass = flux + error * faded;
+                    let mass = density * -normal * wetted * dt * part + error * faded;
                     *port -= mass;
                     volume -= mass / self.at_rest(q);
-                    if self.asked[face].is_some() {
-                        let held = self.held_back[face];
-                        let made_up = flux * held / (1.0 - held);
-                        self.memory.volumes[face].ahead +=
-                            (error * faded - made_up) / self.at_rest(q);
-                    }
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
             } else if dry {

@@ -64,7 +64,6 @@ pub fn open<const D: usize>(
         present: Vec::new(),
         outside: Vec::new(),
         asked: Vec::new(),
-        held_back: Vec::new(),
         rows: Vec::new(),
         mix: Vec::new(),
         full: Vec::new(),

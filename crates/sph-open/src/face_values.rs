@@ -16,9 +16,6 @@ const WET: f64 = 0.15;
 /// fewer.
 const FULL: f64 = 0.8;
 
-/// Largest share of the flux of a law that makes up for what ports have let go beyond it.
-const MOST: f64 = 0.5;
-
 /// Elements that one thread takes at least.
 const BATCH: usize = 16;
 
@@ -59,14 +56,9 @@ impl<const D: usize> Faces<D> {
             self.asked[f] = face.law.asked(places, world.time);
             self.outside[own.clone()].copy_from_slice(&outside);
             let Some(asked) = self.asked[f] else { continue };
-            self.held_back[f] = if asked < 0.0 {
-                self.share_held_back(f)
-            } else {
-                0.0
-            };
             for k in own.clone() {
-                let factor = self.expansion(k) * (1.0 - self.held_back[f]);
-                self.outside[k].velocity *= factor;
+                let expansion = self.expansion(k);
+                self.outside[k].velocity *= expansion;
             }
             if asked < 0.0 {
                 self.draw_air(own);
@@ -105,18 +97,6 @@ impl<const D: usize> Faces<D> {
         match inside.wet {
             true => self.laws[q].reference().density / self.density_at(inside.pressure, q),
             false => 1.0,
-        }
-    }
-
-    /// The volume that a face has let go beyond its flux, over that of a row before it.
-    fn share_held_back(&self, f: usize) -> f64 {
-        let own = self.faces[f].elements.clone();
-        let places = &self.places[own.clone()];
-        let full = self.inside[own].iter().zip(places);
-        let full: f64 = full.map(|(i, p)| i.filled * p.measure).sum();
-        match full > 0.0 {
-            true => (self.memory.volumes[f].ahead / (full * self.spacing)).clamp(-MOST, MOST),
-            false => 0.0,
         }
     }
 

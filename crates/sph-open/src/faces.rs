@@ -81,8 +81,6 @@ pub(crate) struct Faces<const D: usize> {
     pub outside: Vec<FaceValues<D>>,
     /// Volume per time that the law of every face [requests](OpenBoundary::asked), m³/s.
     pub asked: Vec<Option<f64>>,
-    /// Share of this flux that every face holds back, for what its ports have let go beyond it.
-    pub held_back: Vec<f64>,
     /// Velocity of the row of particles in front of every element, m/s.
     pub rows: Vec<Vect<D>>,
     /// Shares of the phases in front of every element, phases innermost.
@@ -158,7 +156,6 @@ impl<const D: usize> Faces<D> {
         self.present = vec![Vect::zeros(); ports];
         self.outside = vec![FaceValues::dry(); ports];
         self.asked = vec![None; self.faces.len()];
-        self.held_back = vec![0.0; self.faces.len()];
         self.rows = vec![Vect::zeros(); ports];
         self.lacks = vec![0.0; ports];
         self.nearest = vec![f64::INFINITY; ports];

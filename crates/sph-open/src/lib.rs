@@ -4,6 +4,11 @@
 //!   acts ([`FaceValues`]). Built in: [`VelocityInlet`], [`FlowRate`], [`Pressure`], [`Level`], [`Outflow`].
 //! * [`open`] puts the faces around the wall treatment of a scene, and gives the [`OpenBoundaries`] that let mass through.
 //! * [`waves`] makes waves by paddles and open faces, and measures reflected waves by gauges.
+// Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
+#![cfg_attr(
+    test,
+    allow(unused_imports, reason = "plugins are not registered in unit tests")
+)]
 #![doc = include_str!("../README.md")]
 
 mod adjacent_fluid;

@@ -39,9 +39,6 @@ pub(crate) struct Totals {
 pub(crate) struct Volumes {
     pub asked: Sum,
     pub passed: Sum,
-    /// Volume that ports have let go beyond the flux of the law and that the flux has yet to make up for, m³, out of the
-    /// fluid.
-    pub ahead: f64,
     /// When no fluid was before it first, s.
     pub dry: Option<f64>,
 }
@@ -75,7 +72,7 @@ pub(crate) struct Memory<const D: usize> {
 }
 
 const PER_TOTAL: usize = 8;
-const PER_FACE: usize = 6;
+const PER_FACE: usize = 5;
 /// In the place of a time that has not come.
 const NEVER: f64 = -1.0;
 
@@ -117,7 +114,7 @@ impl<const D: usize> Memory<D> {
             for sum in [v.asked, v.passed] {
                 to.extend([sum.sum, sum.lost]);
             }
-            to.extend([v.ahead, v.dry.unwrap_or(NEVER)]);
+            to.push(v.dry.unwrap_or(NEVER));
         }
         to.push(self.dt);
     }
@@ -158,8 +155,7 @@ impl<const D: usize> Memory<D> {
             *v = Volumes {
                 asked: sum(n, 0),
                 passed: sum(n, 2),
-                ahead: n[4],
-                dry: (n[5] >= 0.0).then_some(n[5]),
+                dry: (n[4] >= 0.0).then_some(n[4]),
             };
         }
         self.dt = from[from.len() - 1];
@@ -181,7 +177,6 @@ mod tests {
         memory.current[0] = 13.0;
         memory.totals[1].left.add(7.0);
         memory.volumes[0].passed.add(14.0);
-        memory.volumes[0].ahead = -16.0;
         memory.volumes[0].dry = Some(15.0);
         memory.dt = 8.0;
         let mut numbers = Vec::new();

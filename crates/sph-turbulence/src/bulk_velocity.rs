@@ -24,7 +24,7 @@ contribution_kind!(
 /// velocity = "1.35 m/s"
 /// ```
 #[plugin(FlowControlEntry [2, 3], "bulk-velocity", "holds the mean velocity over mass",
-    source: "Issa 2004, Eq. 3.14–3.16")]
+    source: "Issa 2004, Eq. 3.14–3.16", cfg(not(test)))]
 #[derive(Copy)]
 pub struct BulkVelocity {
     /// Mean velocity U₀ over mass.

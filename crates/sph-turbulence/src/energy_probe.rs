@@ -13,7 +13,7 @@ use crate::columns::{DISSIPATION, TURBULENT_ENERGY};
 /// [probe.eddies]
 /// kind = "turbulent-energy"
 /// ```
-#[plugin(ProbeEntry [2, 3], "turbulent-energy", "energy of the eddies that a closure transports", source: "Σ m k")]
+#[plugin(ProbeEntry [2, 3], "turbulent-energy", "energy of the eddies that a closure transports", source: "Σ m k", cfg(not(test)))]
 pub struct TurbulentEnergyProbe {}
 
 impl<const D: usize> Probe<D> for TurbulentEnergyProbe {

@@ -7,6 +7,11 @@
 //!   over a flat bed.
 //! * [`TurbulentEnergyProbe`] measures k.
 //! * [`BulkVelocity`] holds the flow rate of a periodic channel.
+// Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
+#![cfg_attr(
+    test,
+    allow(unused_imports, reason = "plugins are not registered in unit tests")
+)]
 #![doc = include_str!("../README.md")]
 
 mod bed;

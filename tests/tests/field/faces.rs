@@ -63,8 +63,8 @@ impl Field {
     }
 }
 
-/// A column of water goes down with the velocity of a pump. The probe counts the mass that was asked for, in space but for what
-/// ports hold, half a row; the particles that have gone are the same but for a row, and so is the level.
+/// A column of water goes down with the velocity of a pump. What the probe counts is the mass that was asked for; the particles
+/// that have gone are the same but for a row, and so is the level.
 fn drained(input: &str, section: f64, spacing: f64, rate: f64, end: f64, more: &str) {
     let field = Field::new();
     let down = -rate / section;
@@ -88,20 +88,18 @@ fn drained(input: &str, section: f64, spacing: f64, rate: f64, end: f64, more: &
     println!(
         "{input} {rate} {spacing} {more}: {left} and {gone} kg for {asked}, by the level {sunk}"
     );
+    assert!((left / asked - 1.0).abs() < 0.005, "{left} kg for {asked}");
     let row = WATER * section * spacing;
-    let held = match input.ends_with("3d") {
-        true => 0.5 * row,
-        false => 0.005 * asked,
-    };
-    assert!((left - asked).abs() < held, "{left} kg for {asked}");
     assert!((gone - asked).abs() < 0.8 * row, "{gone} kg for {asked}");
     assert!(
         (sunk - asked).abs() < 0.5 * row,
         "{sunk} kg by the level for {asked}"
     );
-    let remarks = field.remarks("pump");
-    let off = (left / asked - 1.0).abs() > 0.005;
-    assert_eq!(remarks.is_empty(), !off, "{remarks:?}");
+    assert!(
+        field.remarks("pump").is_empty(),
+        "{:?}",
+        field.remarks("pump")
+    );
 }
 
 #[test]
@@ -125,10 +123,7 @@ fn a_pump_takes_out_what_it_is_asked_for_at_any_speed_of_sound() {
 
 #[test]
 fn a_pump_takes_out_what_it_is_asked_for_in_space() {
-    for (rate, smoother) in [(0.003, 0.1), (0.004, 0.04), (0.005, 0.2), (0.006, 0.04)] {
-        let smoother = format!("--set smoother.brezzi-pitkaranta.strength={smoother}");
-        drained("drain-duct-3d", 0.01, 0.02, rate, 0.003 / rate, &smoother);
-    }
+    drained("drain-duct-3d", 0.01, 0.02, 0.005, 0.6, "");
 }
 
 /// The rate comes in through what has fluid before it, and goes out below the level. What the flume stores is less than half a

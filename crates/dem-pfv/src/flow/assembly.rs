@@ -1,6 +1,7 @@
 //! Boundary conditions, unknowns and entries of the system.
 
 use sparse::UpperTriangle;
+use sph_core::Sets;
 
 use crate::Vector;
 use crate::flow::{Conductance, FlowError, PoreGeometry};
@@ -29,19 +30,11 @@ pub fn conductances(
 
 /// The lowest cell of every group that pairs join.
 pub fn joined(cells: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Vec<u32> {
-    let mut first: Vec<u32> = (0..cells as u32).collect();
-    let root = |first: &mut Vec<u32>, mut c: u32| {
-        while first[c as usize] != c {
-            first[c as usize] = first[first[c as usize] as usize];
-            c = first[c as usize];
-        }
-        c
-    };
-    for [a, b] in pairs {
-        let (a, b) = (root(&mut first, a), root(&mut first, b));
-        first[a.max(b) as usize] = a.min(b);
+    let mut groups = Sets::new(cells);
+    for pair in pairs {
+        groups.join(pair.map(|cell| cell as usize));
     }
-    (0..cells as u32).map(|c| root(&mut first, c)).collect()
+    (0..cells).map(|cell| groups.root(cell) as u32).collect()
 }
 
 /// For every pore, the first of its cells that has a given pressure.

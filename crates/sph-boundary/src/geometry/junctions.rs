@@ -3,10 +3,10 @@
 use sph_core::BoxTree;
 
 use crate::geometry::polyline::Polyline;
-use crate::geometry::sets::Sets;
 use crate::geometry::vector::widened;
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 use crate::warning::WallWarning;
+use sph_core::Sets;
 
 /// A line with the number of its wall.
 type Piece = (usize, Polyline);

@@ -5,7 +5,7 @@ use sph_neighbours::ContactBlock;
 
 #[cfg(feature = "plugins")]
 use crate::GammaSum;
-use crate::geometry::sets::Sets;
+use sph_core::Sets;
 
 /// A sum of Γ below this puts a point behind a shell; rounding does not reach it.
 const BEHIND: f64 = 1e-9;

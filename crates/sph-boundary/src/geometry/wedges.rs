@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use crate::geometry::sets::Sets;
+use sph_core::Sets;
 
 /// A face at an edge, or a line at a corner.
 pub(crate) struct AdjacentFace {

@@ -19,7 +19,7 @@ use crate::{
 /// [wall.inlet.open-boundary.flow-rate]
 /// rate = 0.05                      # m³/s, here m²/s
 /// ```
-#[plugin(OpenBoundaryEntry [2, 3], "flow-rate", "a volume per time passes", source: "Ferrand et al. 2017")]
+#[plugin(OpenBoundaryEntry [2, 3], "flow-rate", "a volume per time passes", source: "Ferrand et al. 2017", cfg(not(test)))]
 pub struct FlowRate {
     /// Volume into the fluid per time: m³/s, in two dimensions m²/s.
     pub rate: f64,

@@ -17,7 +17,7 @@ use crate::{
 /// [wall.tail.open-boundary.level]
 /// level = "0.2 m"
 /// ```
-#[plugin(OpenBoundaryEntry [2, 3], "level", "a still water level behind the face", source: "Ferrand et al. 2017")]
+#[plugin(OpenBoundaryEntry [2, 3], "level", "a still water level behind the face", source: "Ferrand et al. 2017", cfg(not(test)))]
 pub struct Level {
     /// Height of the level against gravity, m, from the origin.
     #[parameter(unit: "m")]

@@ -18,7 +18,7 @@ use crate::{
 /// pressure = "0 Pa"
 /// ```
 #[plugin(OpenBoundaryEntry [2, 3], "pressure", "a given pressure; the velocity follows",
-    source: "Ferrand et al. 2017; Leroy 2014")]
+    source: "Ferrand et al. 2017; Leroy 2014", cfg(not(test)))]
 pub struct Pressure {
     /// Pressure over that of the reference density, Pa.
     #[parameter(unit: "Pa")]

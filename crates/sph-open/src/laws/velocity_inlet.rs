@@ -25,7 +25,7 @@ use crate::{
 /// profile = "parabola"
 /// ```
 #[plugin(OpenBoundaryEntry [2, 3], "velocity-inlet", "fluid passes with a given velocity",
-    source: "Ferrand et al. 2017; Leroy 2014")]
+    source: "Ferrand et al. 2017; Leroy 2014", cfg(not(test)))]
 pub struct VelocityInlet {
     /// Velocity into the fluid, m/s; a `profile` and `over_time` are factors of it.
     #[parameter(unit: "m/s")]

@@ -40,7 +40,7 @@ use crate::waves::superposition::{Component, Waves};
 /// ```
 #[plugin(MoverEntry [2 => WaveMaker<2>, 3 => WaveMaker<3>], "wave-maker",
     "a piston or a flap that makes waves: regular, irregular, focused; it may absorb waves that come back",
-    source: "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003")]
+    source: "Biesel 1951; Madsen 1971; Schäffer & Jakobsen 2003", cfg(not(test)))]
 #[derive(Debug)]
 #[serde(bound = "")]
 #[schemars(rename = "WaveMaker", bound = "")]

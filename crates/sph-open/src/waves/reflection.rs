@@ -34,7 +34,7 @@ use crate::waves::separation::{Separated, separated};
 /// highest = "1 Hz"
 /// ```
 #[plugin(ProbeEntry [2, 3], "reflection", "waves that run down a flume and that come back, from three gauges",
-    source: "Mansard & Funke 1980")]
+    source: "Mansard & Funke 1980", cfg(not(test)))]
 pub struct ReflectionProbe {
     /// Places along the first axis: three or more, with unequal distances.
     #[parameter(unit: "m", min_items: 2)]

@@ -35,6 +35,7 @@ struct Pores {
     seeps: bool,
 }
 
+#[cfg(not(test))]
 contributes!("pore-pressure", PoresOf);
 
 /// [`Pores`] in D dimensions.

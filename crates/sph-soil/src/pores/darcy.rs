@@ -28,7 +28,7 @@ use super::contract::{Permeability, PoreModel, PorePressureEntry, PoreSettings, 
 /// viscosity = "96 mPa s"
 /// ```
 #[plugin(PorePressureEntry, "darcy", "packing as a state, excess pore pressure by Darcy's law",
-    source: "Terzaghi 1943; Pailha and Pouliquen 2009")]
+    source: "Terzaghi 1943; Pailha and Pouliquen 2009", cfg(not(test)))]
 pub struct Darcy {
     /// Name of the phase with the pores.
     pub soil: String,

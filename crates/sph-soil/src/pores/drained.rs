@@ -16,7 +16,7 @@ use super::contract::{PoreModel, PorePressureEntry, PoreSettings};
 /// porosity = 0.42
 /// ```
 #[plugin(PorePressureEntry, "drained", "packing as a state, pores without excess pressure",
-    source: "Roux and Radjai 1998")]
+    source: "Roux and Radjai 1998", cfg(not(test)))]
 pub struct Drained {
     /// Name of the phase with the pores.
     pub soil: String,

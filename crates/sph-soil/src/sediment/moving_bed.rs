@@ -27,6 +27,7 @@ contract!(
     pub BedLoadEntry, "bed-load", One, "how a flow carries grains along walls that are beds", BedLoadLaw,
     .works(Work::Others)
 );
+#[cfg(not(test))]
 contributes!("bed-load", BedLoadOfScene);
 
 const KIND: &str = "bed-load";

@@ -34,7 +34,7 @@ use crate::seepage::pore_water::{PoreWater, Seeps};
 /// ```
 #[plugin(SeepageEntry [2, 3], "darcy-forchheimer",
     "water seeps through a soil of constant porosity, driven by its pressure, gravity and acceleration",
-    source: "Ergun 1952; van Gent 1995")]
+    source: "Ergun 1952; van Gent 1995", cfg(not(test)))]
 pub struct DarcyForchheimer {
     /// Name of the phase with the pores.
     pub soil: String,

@@ -18,7 +18,7 @@ use crate::stress::{Isotropic, NeighbourSums, VelocityGradient, VelocityGradient
 /// adjoint = true
 /// ```
 #[plugin(VelocityGradientEntry [2, 3], "renormalised", "exact for linear velocities, at free surfaces as well",
-    source: "Randles & Libersky 1996")]
+    source: "Randles & Libersky 1996", cfg(not(test)))]
 pub struct Renormalised {
     /// True if the force of an elastic stress does the work of this gradient: stiffer at free surfaces, and the energy
     /// is kept. Not for walls that slip.

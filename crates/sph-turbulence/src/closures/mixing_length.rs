@@ -27,7 +27,7 @@ use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
 /// ```
 #[plugin(EddyViscosityEntry [2, 3], "mixing-length",
     "a length by the distance from walls, squared, times the strain rate",
-    source: "Prandtl 1925; Issa 2004, Eq. 5.57, 6.14, 6.19")]
+    source: "Prandtl 1925; Issa 2004, Eq. 5.57, 6.14, 6.19", cfg(not(test)))]
 pub struct MixingLength {
     /// Von Kármán's κ.
     #[parameter(default: 0.41, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.14")]

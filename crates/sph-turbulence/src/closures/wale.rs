@@ -25,7 +25,7 @@ use crate::bed::RoughBed;
 /// ```
 #[plugin(EddyViscosityEntry [2, 3], "wale",
     "large eddies without those of pure shear: falls with the third power of the distance from a wall",
-    source: "Nicoud and Ducros 1999, Eq. 13")]
+    source: "Nicoud and Ducros 1999, Eq. 13", cfg(not(test)))]
 pub struct Wale {
     /// C_w.
     #[parameter(default: 0.5, unit: "1", min: 0.0, source: "Nicoud and Ducros 1999, §3")]

@@ -37,7 +37,7 @@ use crate::kind::KIND;
 /// ```
 #[plugin(EddyViscosityEntry [2, 3], "k-length",
     "one transported scalar, the energy of eddies, and a length by the distance from walls",
-    source: "Prandtl 1945; Issa 2004, Eq. 5.60–5.64")]
+    source: "Prandtl 1945; Issa 2004, Eq. 5.60–5.64", cfg(not(test)))]
 pub struct KLength {
     /// k at the start.
     #[parameter(unit: "m²/s²", above: 0.0)]

@@ -43,7 +43,7 @@ use crate::kind::KIND;
 /// dissipation = "1e-4 m²/s³"
 /// ```
 #[plugin(EddyViscosityEntry [2, 3], "k-epsilon", "two transported scalars: the energy of eddies and its dissipation",
-    source: "Launder and Spalding 1974; Issa 2004, Eq. 5.28–5.33")]
+    source: "Launder and Spalding 1974; Issa 2004, Eq. 5.28–5.33", cfg(not(test)))]
 pub struct KEpsilon {
     /// k at the start, everywhere; with `dissipation`.
     #[parameter(default, unit: "m²/s²", above: 0.0)]

@@ -15,7 +15,7 @@ use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 /// wall = "bed"
 /// ```
 #[plugin(ProbeEntry [2, 3], "friction-velocity", "friction velocity and z+ of a wall with a wall function",
-    source: "Issa 2004, Eq. 6.34–6.36")]
+    source: "Issa 2004, Eq. 6.34–6.36", cfg(not(test)))]
 pub struct FrictionVelocityProbe {
     /// Name of the wall.
     pub wall: String,

@@ -7,8 +7,8 @@ use sph_core::BoxTree;
 
 use crate::error::BoundaryError;
 use crate::geometry::mesh::{FreeEdge, Mesh, Opening};
-use crate::geometry::sets::Sets;
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
+use sph_core::Sets;
 
 impl Mesh<3> {
     /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces

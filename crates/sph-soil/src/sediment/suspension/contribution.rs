@@ -18,6 +18,7 @@ contract!(
     /// A law of suspension that a scene may name.
     pub SuspensionEntry, "suspension", One, "grains that a flow carries within it", PickUp, .works(Work::Others)
 );
+#[cfg(not(test))]
 contributes!("suspension", SuspensionOfScene);
 
 const KIND: &str = "suspension";

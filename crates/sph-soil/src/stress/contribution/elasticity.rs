@@ -16,6 +16,7 @@ use crate::stress::{
 /// Remembered stresses of the laws of a scene, and the force that they make.
 struct Elasticity<const D: usize>(Materials<D>);
 
+#[cfg(not(test))]
 contributes!("elastic-force", Elasticity);
 
 impl<const D: usize> FromPlugins<D> for Elasticity<D> {

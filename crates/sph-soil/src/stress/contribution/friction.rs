@@ -16,6 +16,7 @@ struct Friction<const D: usize> {
     implicit: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
 }
 
+#[cfg(not(test))]
 contributes!("viscous-operator", Friction);
 
 impl<const D: usize> FromPlugins<D> for Friction<D> {

@@ -9,6 +9,7 @@ use crate::stress::{StrainRate, StrainRateTerm};
 /// Velocity gradients and strain rates, where a law or a stage needs them.
 struct Straining<const D: usize>(Materials<D>);
 
+#[cfg(not(test))]
 contributes!("velocity-gradient", Straining);
 
 impl<const D: usize> FromPlugins<D> for Straining<D> {

@@ -9,6 +9,7 @@ use crate::stress::CoulombFriction;
 /// Coulomb's friction, where a wall has a coefficient.
 struct WallFriction<const D: usize>(Materials<D>);
 
+#[cfg(not(test))]
 contributes!("walls", WallFriction);
 
 impl<const D: usize> FromPlugins<D> for WallFriction<D> {

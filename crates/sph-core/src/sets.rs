@@ -1,15 +1,15 @@
-//! Things that hang together.
+//! Groups of numbers that pairs join.
 
-/// Numbers that hang together, each set by its lowest.
-pub(crate) struct Sets(Vec<u32>);
+/// Groups of numbers that pairs join, each named by its lowest number.
+pub struct Sets(Vec<u32>);
 
 impl Sets {
-    /// So many numbers, each by itself.
+    /// As many groups of one number.
     pub fn new(numbers: usize) -> Self {
         Sets((0..numbers as u32).collect())
     }
 
-    /// The lowest number of the set of one.
+    /// The lowest number of a number's group.
     pub fn root(&mut self, number: usize) -> usize {
         let mut at = number;
         while self.0[at] as usize != at {
@@ -19,6 +19,7 @@ impl Sets {
         at
     }
 
+    /// Makes the groups of two numbers one.
     pub fn join(&mut self, [a, b]: [usize; 2]) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;
