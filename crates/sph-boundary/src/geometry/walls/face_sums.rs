@@ -111,7 +111,9 @@ impl Walls<3> {
             sum.add(&whole, first.normal);
             let shell = self.shells.shell_of(part[0].index());
             sides.add(shell, whole.gamma);
-            if whole.kernel == 0.0 || hidden.contains(&shell) {
+            // At the end of the support rounding may have any sign, and a mean place needs a weight.
+            let unseen = whole.kernel == 0.0 || map.is_some() && whole.kernel < 0.0;
+            if unseen || hidden.contains(&shell) {
                 continue;
             }
             if let Some(map) = map {
