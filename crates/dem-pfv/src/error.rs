@@ -186,7 +186,7 @@ pub enum GrainError {
     /// A wall without a direction or a place, or that is turned towards a periodic axis.
     #[error("wall {0} {1}")]
     BadWall(usize, String),
-    /// A mesh with a triangle that is none.
+    /// A mesh or a triangle out of order: the numbers of both, and the reason.
     #[error("triangle {1} of mesh {0} {2}")]
     BadMesh(usize, usize, String),
     /// A contact law that cannot be found by name, or built.

@@ -230,6 +230,14 @@ pub struct AnyField {
     pub shape: Shape,
 }
 
+/// A unit behind a number: with a space before it, and nothing for pure numbers.
+pub fn unit_suffix(unit: &str) -> String {
+    match unit {
+        "" | "1" => String::new(),
+        unit => format!(" {unit}"),
+    }
+}
+
 impl AnyField {
     /// As a scalar field; a store refuses it if its column is none.
     pub fn scalar(self) -> Field<Scalar> {

@@ -87,7 +87,9 @@ pub use crate::{
     axis::Axis,
     error::{FieldError, PlanError, RegistryError, StepError},
     evolve::{Evolved, Recall, System},
-    field::{AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector},
+    field::{
+        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, unit_suffix,
+    },
     kinds::{
         FlowNature, LawNature, LawNatures, Place, PluginKind, SuitedPlugin, Suits, Work, kind_of,
         kinds,

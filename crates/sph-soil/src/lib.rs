@@ -5,6 +5,7 @@
 //! * [`pores`]: packing of soils, and the excess pressure in their pores.
 //! * [`sediment`]: bed load, and the beds that it moves.
 //! * [`seepage`]: water that moves through the pores of a soil.
+
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
     test,

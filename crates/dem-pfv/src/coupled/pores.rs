@@ -143,7 +143,7 @@ impl Pores {
     }
 }
 
-/// Pressure (Pa) of every new cell: that of the old cell of the same vertices, or where there is none, of the old cell
+/// Pressure (Pa) of every new cell: that of the old cell of the same vertices, else that of the old cell
 /// around one of its spheres whose middle is nearest.
 ///
 /// A fluid that gives way needs it, and conjugate gradients start from it; a factorisation of stiff fluid does not.

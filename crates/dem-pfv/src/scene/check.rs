@@ -83,7 +83,7 @@ fn fluid(scene: &Scene, found: &mut Problems) {
     let mut walls = scene.wall.values();
     let pressed = walls.any(|w| w.pressure.is_some() || w.wave.is_some() || w.recorded.is_some());
     let floats = !pressed && fluid.given.bulk_modulus.is_none();
-    let message = "no wall has a `pressure`, a `wave` or what was `recorded`: pressures would be known but for a constant; give one, \
+    let message = "no wall has a `pressure`, a `wave` or a `recorded` pressure: pressures would be known but for a constant; give one, \
                    or a `bulk_modulus`";
     refuse(found, "fluid", [(floats, "", message)]);
 }

@@ -1,12 +1,11 @@
 //! Corners of the plane where more than two lines meet.
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, Sets};
 
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::widened;
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 use crate::warning::WallWarning;
-use sph_core::Sets;
 
 /// A line with the number of its wall.
 type Piece = (usize, Polyline);

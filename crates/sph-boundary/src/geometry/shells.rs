@@ -1,11 +1,11 @@
 //! Pieces of wall that end freely, and on which side of them a point is.
 
 #[cfg(feature = "plugins")]
+use sph_core::Sets;
 use sph_neighbours::ContactBlock;
 
 #[cfg(feature = "plugins")]
 use crate::GammaSum;
-use sph_core::Sets;
 
 /// A sum of Γ below this puts a point behind a shell; rounding does not reach it.
 const BEHIND: f64 = 1e-9;

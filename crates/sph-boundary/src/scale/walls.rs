@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use sph_core::{Vect, bounds};
+use sph_core::{Sets, Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
@@ -11,7 +11,6 @@ use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
 use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
-use sph_core::Sets;
 
 /// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.
 const ELEMENT: f64 = 4.0;

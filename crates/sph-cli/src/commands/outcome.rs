@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use sph_core::unit_suffix;
 use sph_particles::Summary;
 use sph_run::Status;
 
@@ -95,10 +96,7 @@ fn errors(summary: &Summary) -> String {
         return String::new();
     }
     let rows = summary.errors.iter().map(|(name, error)| {
-        let unit = match error.unit.as_str() {
-            "" | "1" => String::new(),
-            unit => format!(" {unit}"),
-        };
+        let unit = unit_suffix(&error.unit);
         let value = error.value.map_or("none".to_string(), number::plain);
         vec![
             name.clone(),

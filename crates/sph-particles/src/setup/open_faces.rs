@@ -144,14 +144,6 @@ fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<Str
     )]
 }
 
-/// A unit behind a number; none of numbers alone.
-fn unit(of: &str) -> String {
-    match of {
-        "1" => String::new(),
-        of => format!(" {of}"),
-    }
-}
-
 /// Refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
 ///
 /// # Errors
@@ -184,7 +176,7 @@ pub(crate) fn check_values<const D: usize>(
                         "{} is {range}, and {value}{} comes in here: write such a value, or take it out for that of \
                          the start",
                         field.meaning,
-                        unit(field.unit)
+                        sph_core::unit_suffix(field.unit)
                     )
                 }
             };

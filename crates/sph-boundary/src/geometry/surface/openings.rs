@@ -3,12 +3,11 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, Sets};
 
 use crate::error::BoundaryError;
 use crate::geometry::mesh::{FreeEdge, Mesh, Opening};
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
-use sph_core::Sets;
 
 impl Mesh<3> {
     /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces

@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
+use sph_core::Sets;
+
 use super::places::{HalfEdge, Site, half_edges};
 use crate::geometry::mesh::{FreeEdge, Mesh};
 use crate::geometry::vector::{Point, cross, dot, norm, sub};
-use sph_core::Sets;
 
 /// Two triangles folded onto each other within this angle leave the fluid all around their edge.
 const FOLD: f64 = 1e-9;

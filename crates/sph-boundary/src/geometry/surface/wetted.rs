@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use sph_core::Sets;
+
 use super::edges::Cuts;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, edge_key};
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
-use sph_core::Sets;
 
 /// Contacts of walls face to face.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! γ and ∇γ of particles next to a plane and in the corner of a box, against closed forms.
 
 use sph_boundary::WallSpec;
-use sph_core::Vect;
+use sph_core::{Vect, fields};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::Domain;
 
@@ -163,4 +163,28 @@ fn the_contact_of_a_face_is_the_integral_over_it() {
                 .all(|c| (c.distance - place[k]).abs() < 1e-14)
         );
     }
+}
+
+/// Where rounding is all that is left of a face, its contact is at the foot of the particle or nowhere.
+#[test]
+fn at_the_end_of_the_support_contacts_are_below_the_particle() {
+    let support = 2.0;
+    let place = |k: i32| {
+        let height = support * (1.0 - 10f64.powi(-3 - k % 14));
+        Vect::from([3.0 + 0.05 * f64::from(k), 7.0 - 0.04 * f64::from(k), height])
+    };
+    let places: Vec<_> = (0..60).map(place).collect();
+    let walls = [WallSpec::at_rest(wall(tank([0.0; 3], [10.0, 10.0, 8.0])))];
+    let bench = Bench::new("usaw", &walls, SPACING, wide(), places);
+    let (walls, mut seen) = (&bench.world.walls, 0);
+    let places = bench.world.free.get(fields::POSITION).unwrap();
+    for (i, place) in places.iter().enumerate() {
+        for contact in walls.contacts.of_particle(i) {
+            let centre = walls.elements.centre[contact.element as usize];
+            let apart = (centre - place).xy().norm();
+            assert!(apart < SPACING, "{apart} m from {place:?}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 0);
 }

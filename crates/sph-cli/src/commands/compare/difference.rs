@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use serde::Serialize;
+use sph_core::unit_suffix;
 
 use super::tables::{Column, Table};
 use crate::number;
@@ -165,10 +166,7 @@ impl Difference {
 
     /// A row of the table for people.
     pub fn row(&self) -> Vec<String> {
-        let unit = match self.unit.as_str() {
-            "" | "1" => String::new(),
-            unit => format!(" {unit}"),
-        };
+        let unit = unit_suffix(&self.unit);
         vec![
             self.file.clone(),
             self.column.clone(),

@@ -117,10 +117,9 @@ impl<const D: usize> SuspensionOfScene<D> {
         Ok(())
     }
 
-    /// Concentration of packed grains: that of the scene, of the bed, or 0.6.
-    fn packing(&self) -> f64 {
-        let bed = self.bed.map_or(PACKING, |bed| 1.0 - bed.porosity);
-        self.suspended.packing.unwrap_or(bed)
+    /// Concentration of grains that lie: 1 − n of the bed, or 0.6.
+    fn solid(&self) -> f64 {
+        self.bed.map_or(PACKING, |bed| 1.0 - bed.porosity)
     }
 
     /// Refuses concentrations above packing, and bodies that there are none of.
@@ -154,7 +153,7 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
             found.map_or(0.0, |one| one.concentration)
         };
         let column = OwnColumn::scalar(fields::CONCENTRATION, move |birth| of(birth.body));
-        vec![column.within(0.0, self.packing())]
+        vec![column.within(0.0, self.suspended.packed(self.solid()))]
     }
 
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
@@ -171,7 +170,7 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
         self.check_lifting(law.lifts())?;
         let (water, viscosity, density) = carrier(setting, KIND)?;
         let grains = self.grains(viscosity, density, gravity)?;
-        let solid = self.bed.map_or(PACKING, |bed| 1.0 - bed.porosity);
+        let solid = self.solid();
         let settling = self.suspended.settles(&grains, solid);
         self.check_start(setting, settling.packing)?;
         let transport = Transport {

@@ -61,6 +61,11 @@ pub struct Suspended {
 }
 
 impl Suspended {
+    /// Concentration of packed grains: that of the scene, else `packing`.
+    pub fn packed(&self, packing: f64) -> f64 {
+        self.packing.unwrap_or(packing)
+    }
+
     /// Settling of the grains; `packing` is the concentration of packed grains unless the scene gives it.
     #[must_use]
     pub fn settles(&self, grains: &Grains, packing: f64) -> HinderedSettling {
@@ -74,7 +79,7 @@ impl Suspended {
         HinderedSettling {
             speed,
             exponent: exponent.unwrap_or_else(|| HinderedSettling::exponent_of(reynolds)),
-            packing: self.packing.unwrap_or(packing),
+            packing: self.packed(packing),
         }
     }
 }
