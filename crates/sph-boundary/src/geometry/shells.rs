@@ -1,7 +1,7 @@
 //! Pieces of wall that end freely, and on which side of them a point is.
 
-#[cfg(feature = "plugins")]
 use sph_core::Sets;
+#[cfg(feature = "plugins")]
 use sph_neighbours::ContactBlock;
 
 #[cfg(feature = "plugins")]
