@@ -29,6 +29,7 @@ mod newborn;
 mod offer;
 mod plugins;
 mod refusal;
+mod report;
 mod step_hook;
 mod terms;
 
@@ -43,7 +44,8 @@ pub use newborn::Newborn;
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
 pub use refusal::Refusal;
-pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
+pub use report::Report;
+pub use step_hook::{Forces, Kick, OutsideForce, StepHook, StepMoment, StepPhase};
 
 /// Stages of an evaluation.
 pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;

@@ -1,9 +1,10 @@
 //! Everything that a piece of physics offers a flow.
 
-use sph_core::{AnyField, Evolved, Field, Scalar, Stage};
+use sph_core::{Access, AnyField, Evolved, Field, Scalar, Stage};
 use sph_neighbours::{Interaction, Terms, World};
 
-use crate::{Gate, Limiter, OutsideForce, Stages, StepHook};
+use crate::report::Reporting;
+use crate::{Gate, Limiter, OutsideForce, Report, Stages, StepHook};
 
 /// An energy that single particles store, J, by their index.
 pub type ParticleEnergy<'a> = Box<dyn Fn(usize) -> f64 + Sync + 'a>;
@@ -106,6 +107,20 @@ impl<const D: usize> Offer<D> {
     /// Adds a hook.
     pub fn hook(&mut self, hook: impl StepHook<D> + 'static) {
         self.hooks.push(Box::new(hook));
+    }
+
+    /// Adds remarks on the state at the end of a run, for which the columns of `access` are computed.
+    pub fn report(
+        &mut self,
+        access: Access,
+        report: impl Fn(&World<D>) -> Report + Send + 'static,
+    ) {
+        let name = self.path.clone();
+        self.hook(Reporting {
+            name,
+            access,
+            report,
+        });
     }
 
     /// Adds a gate.

@@ -6,6 +6,8 @@ use serde_json::Value as Json;
 use sph_core::{Access, StepError};
 use sph_neighbours::{Interaction, WallForce, World};
 
+use crate::Report;
+
 /// A force that acts outside of the interaction sweep.
 pub type OutsideForce<const D: usize> = Arc<dyn Interaction<D>>;
 
@@ -112,23 +114,6 @@ pub trait StepHook<const D: usize>: Send {
     }
     /// Goes on with the counts of a run that is resumed.
     fn resume(&mut self, _counts: Json) {}
-}
-
-/// Counts of a hook since the start, and its remarks at the end of a run.
-#[derive(Debug, Default)]
-pub struct Report {
-    /// Counts, for checkpoints.
-    pub counts: Option<Json>,
-    /// Key of the counts in the summary; `None` leaves them out.
-    pub summary: Option<&'static str>,
-    /// The error that leaves the run without a result.
-    pub verdict: Option<StepError>,
-    /// Reasons to doubt the results.
-    pub warnings: Vec<String>,
-    /// Changes that a person may try next time.
-    pub advice: Vec<String>,
-    /// Most bytes that the hook has held beside columns.
-    pub most_bytes: usize,
 }
 
 /// A kick in the place of that with the acceleration alone.

@@ -152,6 +152,16 @@ pub struct Entering {
     pub values: BTreeMap<String, f64>,
 }
 
+impl Entering {
+    /// Particles of a phase that begin with the values of the fluid in front of the face.
+    pub fn of(phase: &Option<String>) -> Self {
+        Entering {
+            phase: phase.clone(),
+            ..Entering::default()
+        }
+    }
+}
+
 /// The law of an open face. It has no memory: the past of the flow is in [`FluidMean::mean`].
 pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Checks its table against the scene.

@@ -1,8 +1,7 @@
 //! A kind of plugin from outside: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
 use sph_contribution::{
-    Contribution, Limiter, Offer, OwnColumn, Refusal, Report, Setting, StepHook, StepPhase,
-    contribution_kind,
+    Contribution, Limiter, Offer, OwnColumn, Refusal, Report, Setting, contribution_kind,
 };
 use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
 use sph_neighbours::{
@@ -90,39 +89,16 @@ impl<const D: usize> Contribution<D> for HeatAndSalt {
         offer.term(Diffusion::<0>(self.heat));
         offer.term(Diffusion::<1>(self.salt));
         offer.limiter(*self);
-        offer.hook(Stirring);
+        offer.report(Access::none(), |_| Report::advice("stir it"));
         Ok(())
-    }
-}
-
-/// No work at all, but something to say at the end.
-struct Stirring;
-
-impl<const D: usize> StepHook<D> for Stirring {
-    fn name(&self) -> String {
-        "stirring".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[]
-    }
-    fn report(&self, _: &World<D>) -> Report {
-        Report {
-            advice: vec!["stir it".into()],
-            ..Report::default()
-        }
     }
 }
 
 impl<const D: usize> Limiter<D> for HeatAndSalt {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new(
-            "tracer",
-            self.limit * h * h / self.heat.max(self.salt),
-        ))
+        let dt = self.limit * h * h / self.heat.max(self.salt);
+        Ok(StepLimit::new("tracer", dt))
     }
     fn formula(&self) -> String {
         "tracer: limit · h²/κ".into()

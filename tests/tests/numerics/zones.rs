@@ -217,3 +217,68 @@ fn zones_that_do_not_fit_are_refused() {
     let other = "[integrator.leap-frog]\n[body.column]";
     refused("[body.column]", other, "", "evaluates once a step");
 }
+
+/// A tube of 160 rows with a piston that makes a pulse of sound of 40 rows; the end answers after the run.
+const TUBE: &str = r#"
+title = "A pulse of sound in a tube"
+dimension = 2
+[run]
+end = 0.24
+[numerics]
+spacing = 0.01
+periodic = { y = [0.0, 0.16] }
+relax = { steps = 0 }
+[phase.fluid]
+density = 1000.0
+speed_of_sound = 10.0
+[phase.fluid.equation-of-state.tait]
+[phase.fluid.rheology.newtonian]
+viscosity = 1e-6
+[wall.piston]
+polyline = [[0.0, 0.16], [0.0, 0.0]]
+condition = "free-slip"
+[wall.piston.motion]
+translate = { along = [1.0, 0.0], file = "piston.csv" }
+[wall.end]
+polyline = [[1.6, 0.0], [1.6, 0.16]]
+condition = "free-slip"
+[body.box]
+phase = "fluid"
+box = [[0.0, 0.0], [1.6, 0.16]]
+[probe.before]
+kind = "pressure"
+at = [0.45, 0.08]
+[output]
+every = 1.0
+vtk = false
+"#;
+
+/// Sound meets both bands of a zone; 0.8 % of its peak comes back.
+#[test]
+fn a_pulse_of_sound_returns_from_a_zone_by_less_than_a_hundredth() {
+    let pressure = |zone: &str| {
+        let bench = Bench::with(PROGRAM, &format!("{TUBE}{zone}"));
+        // u = U sin²(πt/T) with U = 1 cm/s, T = 40 ms.
+        let (speed, time) = (0.01, 0.04);
+        let way = |t: f64| {
+            let turn = std::f64::consts::TAU / time;
+            speed * 0.5 * (t.min(time) - (turn * t.min(time)).sin() / turn)
+        };
+        let rows = (0..600).map(|k| 5e-4 * f64::from(k));
+        let rows: String = rows.map(|t| format!("{t},{}\n", way(t))).collect();
+        bench.write("piston.csv", &format!("time [s],x [m]\n{rows}"));
+        bench.done("run scene.toml --quiet --out out");
+        let series = sph_io::read_table(bench.path("out/series.csv")).expect("a series");
+        let column = |name| series.column(name).expect("a column").to_vec();
+        (column("time"), column("before"))
+    };
+    let (times, alone) = pressure("");
+    let (same, with) = pressure("[zone.middle]\nbox = [[0.8, -1.0], [1.2, 1.0]]\n");
+    assert_eq!(times, same, "the steps are those of sound");
+    let peak = alone.iter().copied().fold(0.0, f64::max);
+    // ρ c U is 100 Pa; the smoother takes a part.
+    assert!((60.0..100.0).contains(&peak), "{peak} Pa");
+    let back = alone.iter().zip(&with).map(|(a, b)| (a - b).abs());
+    let back = back.fold(0.0, f64::max);
+    assert!(back < 0.01 * peak, "{back} Pa of {peak} Pa");
+}

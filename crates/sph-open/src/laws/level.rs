@@ -41,10 +41,7 @@ impl<const D: usize> OpenBoundary<D> for Level {
         check_course(&self.over_time, setting)
     }
     fn entering(&self) -> Entering {
-        Entering {
-            phase: self.phase.clone(),
-            ..Entering::default()
-        }
+        Entering::of(&self.phase)
     }
     fn lets_out(&self) -> bool {
         true

@@ -179,10 +179,7 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
         Ok(())
     }
     fn entering(&self) -> Entering {
-        Entering {
-            phase: self.phase.clone(),
-            ..Entering::default()
-        }
+        Entering::of(&self.phase)
     }
     fn lets_out(&self) -> bool {
         true

@@ -1,6 +1,6 @@
 //! Common refusals, needs and remarks of all closures.
 
-use sph_contribution::{Offer, Refusal, Report, Setting, StepHook, StepPhase};
+use sph_contribution::{Offer, Refusal, Report, Setting};
 use sph_core::{Access, Stage, suggestion};
 use sph_neighbours::World;
 
@@ -92,33 +92,13 @@ impl ClosureCommon {
             offer.stage(BedShear::new(number, own, bed.law()));
         }
         if self.eddies_in_space && D == 2 {
-            offer.hook(Flat(self.name));
-        }
-        Ok(())
-    }
-}
-
-/// Large eddies in the plane.
-struct Flat(&'static str);
-
-impl<const D: usize> StepHook<D> for Flat {
-    fn name(&self) -> String {
-        self.0.into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[]
-    }
-    fn report(&self, _: &World<D>) -> Report {
-        Report {
-            warnings: vec![format!(
+            let warning = format!(
                 "`{}` is a model of eddies below the spacing of a flow whose larger ones are resolved, and they are of \
                  three dimensions: in two its results are not those of a turbulent flow (Issa 2004, §5.2.3)",
-                self.0
-            )],
-            ..Report::default()
+                self.name
+            );
+            offer.report(Access::none(), move |_| Report::warning(&warning));
         }
+        Ok(())
     }
 }

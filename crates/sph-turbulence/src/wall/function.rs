@@ -1,9 +1,7 @@
 //! Walls whose boundary layer is finer than the particles.
 
-use sph_contribution::{
-    Contribution, Offer, Refusal, Report, Setting, StepHook, StepPhase, contribution_kind,
-};
-use sph_core::{Access, Work, fields, plugin, suggestion};
+use sph_contribution::{Contribution, Offer, Refusal, Report, Setting, contribution_kind};
+use sph_core::{Access, StepError, Work, fields, plugin, suggestion};
 use sph_neighbours::World;
 
 use super::law::WallLaw;
@@ -145,7 +143,8 @@ impl<const D: usize> Contribution<D> for LogLaw {
             walls: self.walls.clone(),
             viscosities: setting.viscosities.iter().map(viscous).collect(),
         });
-        offer.hook(Range);
+        let read = Access::none().here(WALL_UNITS).here(FRICTION_VELOCITY);
+        offer.report(read, |world| range(world).unwrap_or_default());
         Ok(())
     }
 }
@@ -155,43 +154,22 @@ fn is_viscous(viscosity: &Option<f64>) -> bool {
     viscosity.is_some_and(|nu| nu > 0.0)
 }
 
-/// No work, but a word about z⁺ at the end.
-struct Range;
-
 /// Range of the logarithmic law of a boundary layer: Issa 2004, Table 6.1, and the issue's upper end.
 const VALID: [f64; 2] = [1.0, 1000.0];
 
-impl<const D: usize> StepHook<D> for Range {
-    fn name(&self) -> String {
-        KIND.into()
+/// Advice on the spacing where z⁺ of the particles at the walls is out of the range.
+fn range<const D: usize>(world: &World<D>) -> Result<Report, StepError> {
+    let units = world.free.get(WALL_UNITS)?;
+    let friction = world.free.get(FRICTION_VELOCITY)?;
+    // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
+    let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
+    let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);
+    if !least.is_finite() || (VALID[0]..=VALID[1]).contains(&least) {
+        return Ok(Report::default());
     }
-    fn access(&self) -> Access {
-        Access::none().here(WALL_UNITS).here(FRICTION_VELOCITY)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[]
-    }
-    fn report(&self, world: &World<D>) -> Report {
-        let (Ok(units), Ok(friction)) = (
-            world.free.get(WALL_UNITS),
-            world.free.get(FRICTION_VELOCITY),
-        ) else {
-            return Report::default();
-        };
-        // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
-        let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
-        let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);
-        let advice = match least.is_finite() && !(VALID[0]..=VALID[1]).contains(&least) {
-            true => vec![format!(
-                "the particles nearest to the walls with a wall function are at z+ = {least:.3}: the law of the wall is \
-                 meant for {} to {}, so change the spacing",
-                VALID[0], VALID[1]
-            )],
-            false => Vec::new(),
-        };
-        Report {
-            advice,
-            ..Report::default()
-        }
-    }
+    Ok(Report::advice(format!(
+        "the particles nearest to the walls with a wall function are at z+ = {least:.3}: the law of the wall is meant for \
+         {} to {}, so change the spacing",
+        VALID[0], VALID[1]
+    )))
 }
