@@ -47,6 +47,7 @@ impl<const D: usize> NearLists<D> {
             outline,
             spacing: world.spacing,
             least: least * world.spacing,
+            fastest,
             dt,
         };
         let mut changed: Vec<(usize, StoppedVelocity<D>)> = self
@@ -62,7 +63,7 @@ impl<const D: usize> NearLists<D> {
                     return None;
                 }
                 let here = (&position[p], self.behind(place));
-                let u = impact.corrected(here, u, self.row(place));
+                let u = impact.stopped(here, u, self.row(place));
                 u.map(|u| (p, u))
             })
             .collect();
@@ -174,6 +175,8 @@ fn blows<const D: usize, M: WallMesh<D>>(
 /// the wall.
 struct StoppedVelocity<const D: usize> {
     velocity: Vect<D>,
+    /// Largest speed after any of the changes, m/s.
+    fastest: f64,
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
 
@@ -183,20 +186,44 @@ struct Impact<'a, const D: usize, M: WallMesh<D>> {
     spacing: f64,
     /// Distance from a wall to which a particle may come, m.
     least: f64,
+    /// Largest speed of a wall, m/s.
+    fastest: f64,
     dt: f64,
 }
 
 impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
     /// The velocity that no element objects to; none if that is the present one.
-    fn corrected(
+    ///
+    /// Up to a speed v, only places within the least distance + Δt v hinder. Walls at rest make no particle faster; where
+    /// moving ones do, farther places are searched as well.
+    fn stopped(
         &self,
         here: (&Vect<D>, &[(u32, u32)]),
         u: Vect<D>,
         row: &[NearElement<D>],
     ) -> Option<StoppedVelocity<D>> {
+        let all = 4.0 * self.spacing;
+        let speed = 1.000_001 * (u.norm() + self.fastest);
+        let reach = self.least + self.dt * speed;
+        match self.corrected(here, u, row, reach.min(all)) {
+            Some(stopped) if reach < all && stopped.fastest > speed => {
+                self.corrected(here, u, row, all)
+            }
+            other => other,
+        }
+    }
+
+    /// The velocity that no element within `reach` objects to.
+    fn corrected(
+        &self,
+        here: (&Vect<D>, &[(u32, u32)]),
+        u: Vect<D>,
+        row: &[NearElement<D>],
+        reach: f64,
+    ) -> Option<StoppedVelocity<D>> {
         let mesh = &self.outline.mesh;
         let mut hindrances = Vec::new();
-        mesh.hindrances(here, row, 4.0 * self.spacing, &mut hindrances);
+        mesh.hindrances(here, row, reach, &mut hindrances);
         hindrances.retain(|h| !self.outline.specs[h.wall].open);
         if hindrances.is_empty() {
             return None;
@@ -204,6 +231,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
         let mut new = StoppedVelocity {
             velocity: u,
+            fastest: 0.0,
             pushes: Vec::new(),
         };
         for turn in 0..=TURNS {
@@ -211,6 +239,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
             for (hindrance, wall) in hindrances.iter().zip(&walls) {
                 if let Some(push) = self.push(&new.velocity, hindrance, wall) {
                     new.velocity += push;
+                    new.fastest = new.fastest.max(new.velocity.norm());
                     new.pushes.push((hindrance.wall, push, hindrance.image));
                     held = Some((hindrance, *wall));
                 }

@@ -4,6 +4,7 @@ use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{WallSet, World};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
+use crate::scale::walls::element_size;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::outline::shaped_by_outline;
@@ -46,6 +47,20 @@ pub struct Usaw<const D: usize, M: WallMesh<D>> {
     set_up: Option<SetUp<D, M>>,
 }
 
+/// Size of elements over the spacing, where a face is one contact and its corners bear no fluid.
+const ELEMENT: f64 = 2.0;
+
+impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
+    /// Size of elements, m. Faces of a wall in space that keeps its shape hold the state at corners alone.
+    fn element_size(&self, setup: &WallSetup<'_, D>) -> f64 {
+        let by_element = setup.walls.iter().any(|w| w.open || w.motion.bends());
+        match D == 2 || self.vertices || by_element {
+            true => setup.spacing,
+            false => element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing),
+        }
+    }
+}
+
 shaped_by_outline!(Usaw);
 
 impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
@@ -54,7 +69,8 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
-        let (set_up, walls) = SetUp::build(setup, self.vertices, setup.spacing)?;
+        let size = self.element_size(setup);
+        let (set_up, walls) = SetUp::build(setup, self.vertices, size)?;
         self.set_up = Some(set_up);
         Ok(walls)
     }
