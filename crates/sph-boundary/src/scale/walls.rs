@@ -52,14 +52,18 @@ fn joined<const D: usize, M: WallMesh<D>>(mesh: &M, walls: usize) -> Vec<Vec<usi
     all.into_values().collect()
 }
 
-/// Size of elements, m: `most`, a quarter of the smallest piece of a wall if that is less, the spacing at least.
-pub(crate) fn element_size<const D: usize>(walls: &[WallSpec<D>], spacing: f64, most: f64) -> f64 {
+/// Size of elements, m: `most`, `share` of the smallest piece of a wall if that is less, the spacing at least.
+pub(crate) fn element_size<const D: usize>(
+    walls: &[WallSpec<D>],
+    spacing: f64,
+    (most, share): (f64, f64),
+) -> f64 {
     let of_wall = |wall: &WallSpec<D>| {
         let [low, high] = bounds(wall.drawing.points::<D>());
         (0..D).map(|k| high[k] - low[k]).fold(0.0, f64::max)
     };
     let least = walls.iter().map(of_wall).fold(f64::INFINITY, f64::min);
-    (0.25 * least).min(most).max(spacing)
+    (share * least).min(most).max(spacing)
 }
 
 /// s and ∇ ln s at a particle.
@@ -84,7 +88,7 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
         let domain = PeriodicBox::from_domain(setup.domain);
         let build = |own: &[usize]| {
             let specs: Vec<WallSpec<D>> = own.iter().map(|k| setup.walls[*k].clone()).collect();
-            let size = element_size(&specs, setup.spacing, ELEMENT * h);
+            let size = element_size(&specs, setup.spacing, (ELEMENT * h, 0.25));
             M::build(&specs, size, reach, &domain)
         };
         let mut pieces: Vec<(Vec<usize>, M)> = Vec::new();

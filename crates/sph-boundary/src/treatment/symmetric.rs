@@ -125,7 +125,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
             };
             return Err(BoundaryError::unfit(spec.drawing.name(), why));
         }
-        let size = element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing);
+        let size = element_size(setup.walls, setup.spacing, (ELEMENT * setup.spacing, 0.25));
         let (set_up, mut walls) = SetUp::<D, M>::build(setup, false, size)?;
         self.scales = Some(Scales {
             walls: WallScales::new(setup, &set_up.outline.groups)?,

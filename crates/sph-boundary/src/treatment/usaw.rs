@@ -49,6 +49,8 @@ pub struct Usaw<const D: usize, M: WallMesh<D>> {
 
 /// Size of elements over the spacing, where a face is one contact and its corners bear no fluid.
 const ELEMENT: f64 = 2.0;
+/// Largest size of elements over that of the smallest piece of a wall: loads on bodies of a few spacings need finer ones.
+const SHARE: f64 = 0.125;
 
 impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
     /// Size of elements, m. Faces of a wall in space that keeps its shape hold the state at corners alone.
@@ -56,7 +58,7 @@ impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
         let by_element = setup.walls.iter().any(|w| w.open || w.motion.bends());
         match D == 2 || self.vertices || by_element {
             true => setup.spacing,
-            false => element_size(setup.walls, setup.spacing, ELEMENT * setup.spacing),
+            false => element_size(setup.walls, setup.spacing, (ELEMENT * setup.spacing, SHARE)),
         }
     }
 }
