@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 use sph_core::{Vect, parameters};
 
-use crate::bodies::spatial_vector::{parts, six};
+use crate::bodies::spatial_vector::{padded, parts, six};
 use crate::{MoverRefusal, RigidState};
 
 /// A time in which the body moves as given: it keeps the velocities that it had, or takes those of a course.
@@ -53,10 +53,8 @@ pub(crate) fn check<const D: usize>(
                 0 => "the body is free from `start` on",
                 _ => "the time before it ends",
             };
-            return refused(
-                "from",
-                format!("{} s is before {before} s, when {what}", one.from),
-            );
+            let why = format!("{} s is before {before} s, when {what}", one.from);
+            return refused("from", why);
         }
         if one.to <= one.from {
             return refused("to", format!("{} s is not after {} s", one.to, one.from));
@@ -116,12 +114,12 @@ impl Prescribed {
         let next = place.clamp(1, last);
         let [a, b] = [next - 1, next].map(|k| &self.course[k][..]);
         let of = |row: &[f64]| {
-            let about = match row.len() {
-                4 => Vector3::new(0.0, 0.0, row[3]),
-                _ => Vector3::from_column_slice(&row[4..]),
+            let (along, about) = row[1..].split_at(row.len() / 2);
+            let about = match about {
+                [turn] => Vector3::new(0.0, 0.0, *turn),
+                _ => padded(about),
             };
-            let along = Vector3::new(row[1], row[2], if row.len() == 4 { 0.0 } else { row[3] });
-            six(along, about)
+            six(padded(along), about)
         };
         let (from, to) = (of(a), of(b));
         let slope = (to - from) / (b[0] - a[0]);

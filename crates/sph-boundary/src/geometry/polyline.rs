@@ -22,9 +22,8 @@ impl Polyline {
     /// A wall that returns to its first point, which is not repeated at the end.
     pub fn closed(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
         Self {
-            name: name.into(),
-            points,
             closed: true,
+            ..Self::open(name, points)
         }
     }
 
@@ -39,11 +38,8 @@ impl Polyline {
 
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
-        if self.closed {
-            self.points.len()
-        } else {
-            self.points.len().saturating_sub(1)
-        }
+        let open = usize::from(!self.closed);
+        self.points.len().saturating_sub(open)
     }
 
     /// End points of edge `edge`, in the order of travel.
@@ -51,10 +47,8 @@ impl Polyline {
     /// # Panics
     /// When there is no such edge.
     pub fn edge(&self, edge: usize) -> [[f64; 2]; 2] {
-        [
-            self.points[edge],
-            self.points[(edge + 1) % self.points.len()],
-        ]
+        let next = (edge + 1) % self.points.len();
+        [self.points[edge], self.points[next]]
     }
 
     /// All edges in the order of travel.

@@ -41,6 +41,13 @@ pub(crate) fn steps(shape: &PiecewisePolynomial) -> Vec<(f64, Vec<f64>)> {
     steps
 }
 
+/// One end of a clipped segment or edge: abscissa y on its line and distance q, over h.
+#[derive(Clone, Copy)]
+pub(crate) struct End<L> {
+    pub y: L,
+    pub q: L,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

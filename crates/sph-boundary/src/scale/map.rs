@@ -324,13 +324,13 @@ fn near_node<const D: usize, M: WallMesh<D>>(
         true => curved.clone().map(|n| of.mesh.wall_of(*n)).collect(),
         false => Vec::new(),
     };
-    let curved: Vec<_> = curved.map(|n| of.mesh.seen(&place, *n)).collect();
+    let curved = of.mesh.seen(&place, curved);
     let distance = |k: usize| {
         let only = std::slice::from_ref(&curved[k]);
         SeenElement::signed_distance(only, [0.0; D], reach).map_or(f64::INFINITY, f64::abs)
     };
     let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-    let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(&place, *n)).collect();
+    let seen = of.mesh.seen(&place, &near);
     let from_curved = SeenElement::signed_distance(&curved, [0.0; D], reach);
     let height = SeenElement::signed_distance(&seen, [0.0; D], reach);
     let height = height.unwrap_or_else(|| match of.mesh.contains(&place) {

@@ -31,7 +31,10 @@ pub(crate) struct PlaneScale {
 impl PlaneScale {
     /// Of a kernel in `dimension` dimensions.
     pub fn new(kernel: &dyn Kernel, dimension: usize) -> Self {
-        let line = AlongWall::new(kernel, dimension);
+        let line = AlongWall {
+            sampler: kernel.sampler(dimension, 1.0),
+            support: kernel.support(),
+        };
         let panels = (END * line.support * PANELS as f64).ceil() as usize;
         let nodes: Vec<[f64; 2]> = gauss_points(0.0, END * line.support, panels).collect();
         let end = END * line.support;
@@ -108,13 +111,6 @@ struct AlongWall {
 }
 
 impl AlongWall {
-    fn new(kernel: &dyn Kernel, dimension: usize) -> Self {
-        AlongWall {
-            sampler: kernel.sampler(dimension, 1.0),
-            support: kernel.support(),
-        }
-    }
-
     /// w₁ and its slope at a distance from the plane of integration.
     fn at(&self, u: f64) -> [f64; 2] {
         let square = self.support * self.support - u * u;

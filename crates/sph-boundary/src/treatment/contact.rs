@@ -56,7 +56,7 @@ impl<const D: usize> SurfacePair<D> {
     }
 }
 
-fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
+pub(crate) fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 

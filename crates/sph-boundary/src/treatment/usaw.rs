@@ -4,9 +4,9 @@ use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{WallSet, World};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
+use crate::treatment::contract::shaped_by_outline;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
-use crate::treatment::outline::shaped_by_outline;
 use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
@@ -64,8 +64,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.geometry(world)
+        self.set_up.as_mut().ok_or_else(not_built)?.geometry(world)
     }
 
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
@@ -74,7 +73,6 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.state(world)
+        self.set_up.as_mut().ok_or_else(not_built)?.state(world)
     }
 }

@@ -4,14 +4,13 @@ use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use super::near_element::NearElement;
-use super::sides::Sides;
+use super::inside::Sides;
+use super::near::NearElement;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, sub};
 use crate::geometry::wall_end::FreeEnd;
 use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
-use crate::warning::WallWarning;
 
 /// A node of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,7 +153,7 @@ pub struct Mesh<const D: usize> {
     /// Of space: the openings that free edges surround.
     pub openings: Vec<Opening>,
     /// Remarks on the walls.
-    pub warnings: Vec<WallWarning>,
+    pub warnings: Vec<String>,
     /// Positions of the nodes before any motion, m.
     pub(crate) reference: Vec<[f64; D]>,
     /// Normals of the faces before any motion.

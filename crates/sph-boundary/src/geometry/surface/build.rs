@@ -1,19 +1,21 @@
 //! From surfaces to the mesh.
 
 use super::crossing::contacts;
-use super::drawn::{Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, neighbours, weld};
+use super::drawn::{
+    Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, neighbours, too_many, weld,
+};
 use super::edges::{Cuts, Nodes, free_pieces};
 use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, Site};
 use super::removal::remove_contacts;
 use super::wetted::{FaceContacts, wetted_pieces};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
+use crate::geometry::checks::unseen;
 use crate::geometry::mesh::{Element, ElementMeasures, Face, FaceEdge, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{double_area, norm};
 use crate::parallel::*;
-use crate::warning::WallWarning;
 
 /// Elements with shorter sides than this part of the spacing are fine.
 const FINE: f64 = 0.25;
@@ -34,7 +36,13 @@ impl Mesh<3> {
         spacing: f64,
         domain: &PeriodicBox<3>,
     ) -> Result<Self, BoundaryError> {
-        check_arguments(surfaces, groups, spacing, domain)?;
+        BoundaryError::check_positive("wall spacing", spacing)?;
+        domain.check()?;
+        if groups.len() != surfaces.len() {
+            let (given, walls) = (groups.len(), surfaces.len());
+            let why = format!("{given} group(s) given for {walls} wall(s)");
+            return Err(BoundaryError::Refused(why));
+        }
         let tolerance = SAME_PLACE * spacing;
         let mut places = Places::new(tolerance, domain);
         let (mut patches, touched) = planar_pieces(surfaces, groups, spacing, &mut places)?;
@@ -43,7 +51,14 @@ impl Mesh<3> {
         let unseen = unseen_faces(surfaces, &patches, &seen);
         let mut kept = seen.iter();
         patches.retain(|_| kept.next() == Some(&true));
-        check_left(surfaces, &patches)?;
+        let covered = |(wall, _): &(usize, &Surface)| !patches.iter().any(|p| p.wall == *wall);
+        if let Some((_, surface)) = surfaces.iter().enumerate().find(covered) {
+            return Err(BoundaryError::Refused(format!(
+                "nothing is left of wall `{}`: other walls cover all of it, or face away from its edges: turn the one \
+                 that faces the other way, leave the wall out, or give a plate of two sides a thickness",
+                surface.name
+            )));
+        }
         let free = free_pieces(surfaces, &patches, &cuts, &places)?;
 
         let mut nodes = Nodes::default();
@@ -66,10 +81,12 @@ impl Mesh<3> {
         let triangles = filled.iter().flatten().map(|f| f.triangles.len());
         mesh.elements.reserve_exact(triangles.sum());
         for (patch, filling) in patches.iter().zip(filled) {
-            let filling = filling.map_err(|reason| BoundaryError::NotMeshed {
-                wall: surfaces[patch.wall].name.clone(),
-                at: places.at(patch.boundary[0][0]).into(),
-                reason,
+            let filling = filling.map_err(|reason| {
+                let (wall, at) = (&surfaces[patch.wall].name, places.at(patch.boundary[0][0]));
+                BoundaryError::Refused(format!(
+                    "the planar piece of wall `{wall}` at {} cannot be cut into triangles: {reason}",
+                    Place::from(at)
+                ))
             })?;
             mesh.append(patch, filling, &mut nodes, &places);
         }
@@ -89,48 +106,14 @@ impl Mesh<3> {
     }
 }
 
-/// A spacing and a box that walls can be cut with, and a group for every wall.
-fn check_arguments(
-    surfaces: &[Surface],
-    groups: &[usize],
-    spacing: f64,
-    domain: &PeriodicBox<3>,
-) -> Result<(), BoundaryError> {
-    BoundaryError::check_positive("wall spacing", spacing)?;
-    domain.check()?;
-    if groups.len() != surfaces.len() {
-        let (given, walls) = (groups.len(), surfaces.len());
-        return Err(BoundaryError::Count {
-            what: "group",
-            given,
-            walls,
-        });
-    }
-    Ok(())
-}
-
-/// Refuses a wall of which nothing is left.
-fn check_left(surfaces: &[Surface], pieces: &[Patch]) -> Result<(), BoundaryError> {
-    for (wall, surface) in surfaces.iter().enumerate() {
-        if !pieces.iter().any(|p| p.wall == wall) {
-            let wall = surface.name.clone();
-            return Err(BoundaryError::Covered { wall });
-        }
-    }
-    Ok(())
-}
-
 /// A remark for every wall with faces that bound no fluid.
-fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<WallWarning> {
-    let unseen = |wall: usize| {
+fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<String> {
+    let remark = |(wall, surface): (usize, &Surface)| {
         let all = pieces.iter().zip(seen);
-        all.filter(|(p, seen)| p.wall == wall && !**seen).count()
+        let faces = all.filter(|(p, seen)| p.wall == wall && !**seen).count();
+        (faces > 0).then(|| unseen(&surface.name, faces))
     };
-    let walls = surfaces.iter().map(|s| s.name.clone()).enumerate();
-    let counted = walls.map(|(k, wall)| (wall, unseen(k)));
-    let some = counted.filter(|(_, faces)| *faces > 0);
-    some.map(|(wall, faces)| WallWarning::Unseen { wall, faces })
-        .collect()
+    surfaces.iter().enumerate().filter_map(remark).collect()
 }
 
 /// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
@@ -217,16 +200,11 @@ impl Mesh<3> {
             return Ok(());
         }
         let most = (0..self.walls.len()).max_by_key(|w| count(*w)).unwrap_or(0);
-        Err(BoundaryError::TooManyElements {
-            wall: self.walls[most].clone(),
-            own: count(most),
-            estimate,
-            limit: MOST_ELEMENTS,
-        })
+        Err(too_many(&self.walls[most], count(most), estimate))
     }
 
-    /// Walls most of whose triangles are far smaller than the spacing.
-    fn fine_walls(&self) -> Vec<WallWarning> {
+    /// Remarks on walls most of whose triangles are far smaller than the spacing: they stay so.
+    fn fine_walls(&self) -> Vec<String> {
         let mut counts = vec![[0usize; 2]; self.walls.len()];
         for triangle in &self.elements {
             // Half a square of side s has the area s²/2.
@@ -235,15 +213,14 @@ impl Mesh<3> {
             counts[triangle.wall][1] += 1;
         }
         let walls = self.walls.iter().zip(counts);
-        walls
-            .filter(|(_, [fine, all])| 2 * fine > *all)
-            .map(|(wall, [fine, all])| WallWarning::FineSurface {
-                wall: wall.clone(),
-                fine,
-                all,
-                spacing: self.spacing,
-            })
-            .collect()
+        let fine = walls.filter(|(_, [fine, all])| 2 * fine > *all);
+        let remark = |(wall, [fine, all]): (&String, [usize; 2])| {
+            format!(
+                "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing {} m: draw it coarser",
+                self.spacing
+            )
+        };
+        fine.map(remark).collect()
     }
 }
 

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sph_core::BoxTree;
 
-use super::drawn::{Drawn, Surface};
-use crate::error::{BoundaryError, MOST_PAIRS};
+use super::drawn::{Drawn, Surface, no_thickness};
+use crate::error::{BoundaryError, MOST_PAIRS, Place};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::parallel::*;
@@ -125,22 +125,15 @@ fn touch(
             opposite: false,
             at,
         } if together => {
-            let [wall, other] = names();
-            Err(BoundaryError::DrawnTwice {
-                wall,
-                triangle: a.index,
-                other,
-                other_triangle: b.index,
-                at: at.into(),
-            })
+            let ([wall, other], at) = (names(), Place::from(at));
+            Err(BoundaryError::Refused(format!(
+                "triangle {} of wall `{wall}` and triangle {} of wall `{other}` cover each other near {at}: that piece \
+                 is drawn twice",
+                a.index, b.index
+            )))
         }
         Intersection::Cover { opposite: true, at } if a.wall == b.wall => {
-            Err(BoundaryError::NoThickness {
-                wall: surfaces[a.wall].name.clone(),
-                triangle: a.index,
-                other: b.index,
-                at: at.into(),
-            })
+            Err(no_thickness(&surfaces[a.wall].name, [a, b], at))
         }
         Intersection::Cover { .. } => Ok(together),
         _ => Ok(false),

@@ -7,7 +7,7 @@ use sph_core::BoxTree;
 use super::drawn::Surface;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, Site, edge_key};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
@@ -237,11 +237,13 @@ pub(super) fn free_pieces(
             1 => free.push(more[0].1),
             _ => {
                 let [a, b] = more[0].1.map(|c| places.at(c));
-                return Err(BoundaryError::Opposed {
-                    wall: surfaces[more[0].0].name.clone(),
-                    other: surfaces[more[1].0].name.clone(),
-                    at: along(a, 0.5, sub(b, a)).into(),
-                });
+                return Err(BoundaryError::Refused(format!(
+                    "walls `{}` and `{}` meet in an edge at {} but put the fluid on opposite sides: reverse the \
+                     triangles of one of them",
+                    surfaces[more[0].0].name,
+                    surfaces[more[1].0].name,
+                    Place::from(along(a, 0.5, sub(b, a)))
+                )));
             }
         }
     }

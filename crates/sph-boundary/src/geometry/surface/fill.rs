@@ -11,7 +11,7 @@ use super::places::Site;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::plane::Plane;
-use crate::geometry::vector::{Point, add, norm, sub};
+use crate::geometry::vector::{Point, add, norm, perp, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
 const CLEARANCE: f64 = 0.6;
@@ -228,9 +228,7 @@ fn check_area(
     points: &[[f64; 2]],
     edges: &[[[f64; 2]; 2]],
 ) -> Result<(), String> {
-    let double = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
+    let double = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| perp(sub(b, a), sub(c, a));
     let filled: f64 = triangles
         .iter()
         .map(|t| double(points[t[0]], points[t[1]], points[t[2]]))
@@ -238,11 +236,10 @@ fn check_area(
     let origin = points[0];
     let whole: f64 = edges.iter().map(|[a, b]| double(origin, *a, *b)).sum();
     if (filled - whole).abs() <= ROUNDING * whole.abs() {
-        Ok(())
-    } else {
-        let [filled, whole] = [0.5 * filled, 0.5 * whole];
-        Err(format!("its triangles cover {filled} m² of {whole} m²"))
+        return Ok(());
     }
+    let [filled, whole] = [0.5 * filled, 0.5 * whole];
+    Err(format!("its triangles cover {filled} m² of {whole} m²"))
 }
 
 /// A rectangle whose sides are cut into equal parts gets a lattice that meets all their nodes, and is its own mirror image

@@ -130,8 +130,7 @@ impl Places {
             let mut next = self.cells.get(&cell).copied();
             while let Some(id) = next {
                 let apart = sub(point, self.positions[id as usize]);
-                let image = self.domain.nearest_image(apart);
-                let rest = sub(apart, self.domain.shift(image));
+                let (image, rest) = self.domain.nearest(apart);
                 let near = dot(rest, rest) <= self.tolerance * self.tolerance;
                 if near && self.groups[id as usize] == group {
                     return Some(Site { id, image });

@@ -1,10 +1,12 @@
 //! Walls in space: triangles for the wall treatments.
 
+use rayon::prelude::*;
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
 use crate::geometry::shells::Gammas;
+use crate::geometry::vector::bounds;
 use crate::geometry::walls::beds::laid;
 use crate::geometry::walls::faces::{Corner, Planes};
 use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
@@ -19,6 +21,9 @@ use crate::{
 const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
 /// A place is in a plane if it is this near to it, relatively.
 const SAME_PLANE: f64 = 1e-6;
+
+/// A place of a dummy particle nearer to the fluid's side than this share of the spacing is left out.
+const TOO_NEAR: f64 = 0.25;
 
 /// A triangle with its closest place, the vector there and its length.
 type NearTriangle<'a> = (&'a NearElement<3>, Closest<3>, Vect<3>, f64);
@@ -56,14 +61,6 @@ impl WallMesh<3> for Walls<3> {
 
     fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d, BoundaryError> {
         Renormalisation3d::new(shape, h)
-    }
-
-    fn walls(&self) -> &Walls<3> {
-        self
-    }
-
-    fn walls_mut(&mut self) -> &mut Walls<3> {
-        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
@@ -216,7 +213,40 @@ impl WallMesh<3> for Walls<3> {
         self.mesh.check_free_edges(&points, radius)
     }
 
+    /// Nodes of the cubic lattice of half spacings, counted from the lower corner of the box around all
+    /// walls, that are outside the fluid and within the support of a wall.
+    ///
+    /// Faces along the axes at whole spacings get rows at ½, 1½, … spacings; slanted and curved ones
+    /// get steps.
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
-        crate::geometry::walls::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
+        let domain = &self.mesh.domain;
+        let [low, high] = bounds(self.nodes().iter().map(|n| n.position));
+        let axis = |k: usize| -> Vec<f64> {
+            if domain.periodic[k] {
+                let period = domain.upper[k] - domain.lower[k];
+                let count = (period / spacing).round().max(1.0);
+                let node = |i: usize| domain.lower[k] + (i as f64 + 0.5) * (period / count);
+                return (0..count as usize).map(node).collect();
+            }
+            let beyond = (support / spacing).ceil();
+            let count = ((high[k] - low[k]) / spacing).ceil() + 2.0 * beyond;
+            let node = |i: usize| low[k] + (i as f64 + 0.5 - beyond) * spacing;
+            (0..count as usize).map(node).collect()
+        };
+        let [xs, ys, zs] = [axis(0), axis(1), axis(2)];
+        let column = |(x, y): (f64, f64)| -> Vec<(usize, Vect<3>)> {
+            let place = |z: &f64| {
+                let place = Vect::from([x, y, *z]);
+                let (distance, wall) = self.nearest(&place, support)?;
+                let kept = distance >= TOO_NEAR * spacing && !self.contains(&place);
+                kept.then_some((wall, place))
+            };
+            zs.iter().filter_map(place).collect()
+        };
+        let columns: Vec<_> = xs
+            .iter()
+            .flat_map(|x| ys.iter().map(|y| (*x, *y)))
+            .collect();
+        columns.into_par_iter().flat_map_iter(column).collect()
     }
 }

@@ -4,7 +4,7 @@ use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
 use super::plane::{Circle, Foot, Patch};
-use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six, six};
+use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six};
 
 /// The triangles of a plane that a point sees, and their weights; buffers for reuse.
 #[derive(Debug, Default)]
@@ -75,11 +75,10 @@ impl Weights {
         }
         for (&triangle, weight) in near.iter().zip(weights) {
             let patch = &patches[triangle as usize];
-            match of.rule(patch.distance2(foot), patch.area) {
+            let seen = patch.squared_distances(foot);
+            match of.rule(seen.centre, patch.area) {
                 Rule::Six => {}
-                Rule::Twelve => {
-                    *weight = patch.area * of.mean_of_twelve(&patch.squared_distances(foot))
-                }
+                Rule::Twelve => *weight = patch.area * of.mean_of_twelve(&seen),
                 Rule::Exact => {
                     *weight = of.triangle(patch.corners(foot), [0.0, 0.0, 1.0]).kernel;
                 }
@@ -131,18 +130,13 @@ impl Body for Squares<'_> {
                 }
                 area.set(lane, patch.area);
             }
-            let (x, y) = (centre[0] - x, centre[1] - y);
-            let distance2 = x * x + y * y + height2;
-            let two = L::splat(2.0);
-            let first = two * (x * arms[0][0] + y * arms[0][1]);
-            let second = two * (x * arms[1][0] + y * arms[1][1]);
-            let slopes = [first, second, -(first + second)];
-            let six = six(distance2, slopes, sizes);
+            let seen = SquaredDistances::new([centre[0] - x, centre[1] - y], height2, arms, sizes);
+            let six = seen.six();
             for k in 0..POINTS {
                 six[k].store(&mut squares[k * L::N..]);
             }
             area.store(areas);
-            all_far &= is_far(distance2, area, self.per_h2);
+            all_far &= is_far(seen.centre, area, self.per_h2);
             used += L::N;
         }
         (used, all_far)
@@ -172,23 +166,11 @@ impl Body for Means<'_> {
 }
 
 impl Patch {
-    /// Squared distance of the centre from the point over the foot, m².
+    /// Squared distances from the point over the foot, m².
     #[inline(always)]
-    fn distance2(&self, foot: &Foot) -> f64 {
-        let [x, y] = foot.to(self.centre);
-        x * x + y * y + foot.height * foot.height
-    }
-
-    #[inline(always)]
-    fn squared_distances(&self, foot: &Foot) -> SquaredDistances {
-        let ([x, y], [a, b]) = (foot.to(self.centre), self.arms);
-        let first = 2.0 * (x * a[0] + y * a[1]);
-        let second = 2.0 * (x * b[0] + y * b[1]);
-        SquaredDistances {
-            centre: self.distance2(foot),
-            slopes: [first, second, -(first + second)],
-            arms: self.squares,
-        }
+    fn squared_distances(&self, foot: &Foot) -> SquaredDistances<f64> {
+        let height2 = foot.height * foot.height;
+        SquaredDistances::new(foot.to(self.centre), height2, self.arms, self.squares)
     }
 
     /// Corners relative to the point over the foot, m, with the plane's normal along the third axis.
