@@ -89,12 +89,10 @@ fn vector<const D: usize>(
     key: &str,
     given: &Option<Vec<f64>>,
 ) -> MoverResult<Option<Vector3<f64>>> {
-    let Some(given) = given else {
-        return Ok(None);
-    };
-    match given.len() == D {
-        true => Ok(Some(padded(given))),
-        false => wrong_count(key, given.len(), &D.to_string()),
+    match given {
+        None => Ok(None),
+        Some(given) if given.len() == D => Ok(Some(padded(given))),
+        Some(given) => wrong_count(key, given.len(), &D.to_string()),
     }
 }
 

@@ -74,10 +74,8 @@ impl Dynamics {
         state.angular_velocity = omega_next.into();
 
         // The acceleration in the pressure at the wall follows that of the body.
-        let felt = six(
-            padded(now.acceleration.as_slice()),
-            now.angular_acceleration.into(),
-        );
+        let turning = now.angular_acceleration.into();
+        let felt = six(padded(now.acceleration.as_slice()), turning);
         let whole = six(along, (omega_next - omega) / dt);
         let frame = blocks(turn, turn);
         let layer = frame * self.layer * frame.transpose();

@@ -51,9 +51,8 @@ impl Moments {
         let whole = corners[1..].iter().fold(corners[0], |sum, c| sum + c);
         self.first += whole * (volume / (n + 1.0));
         let square = |c: &Vector3<f64>| c * c.transpose();
-        let own = corners[1..]
-            .iter()
-            .fold(square(&corners[0]), |sum, c| sum + square(c));
+        let more = corners[1..].iter();
+        let own = more.fold(square(&corners[0]), |sum, c| sum + square(c));
         self.second += (own + square(&whole)) * (volume / ((n + 1.0) * (n + 2.0)));
     }
 }
@@ -138,12 +137,8 @@ fn add_line(sum: &mut Moments, line: &Polyline) -> Result<(), NoSolid> {
 fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
     let edges = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let bits = |c: u32| surface.points[c as usize].map(|x| (x + 0.0).to_bits());
-    let directed: BTreeSet<_> = surface
-        .triangles
-        .iter()
-        .flat_map(edges)
-        .map(|e| e.map(bits))
-        .collect();
+    let all = surface.triangles.iter().flat_map(edges);
+    let directed: BTreeSet<_> = all.map(|e| e.map(bits)).collect();
     if directed.iter().any(|[a, b]| !directed.contains(&[*b, *a])) {
         return Err(NoSolid::Open);
     }
@@ -224,12 +219,8 @@ mod tests {
         assert!((solid.centre - Vector3::new(2.0, 2.5, 0.0)).norm() < 1e-14);
         // A (a² + b²)/12
         assert!((solid.inertia[(2, 2)] - 2.0 * 5.0 / 12.0).abs() < 1e-13);
-        let solid = Solid::from_pieces([&Drawing::Surface(boxed(
-            "box",
-            [1.0, 2.0, -1.0],
-            [3.0, 5.0, 3.0],
-        ))])
-        .unwrap();
+        let cuboid = boxed("box", [1.0, 2.0, -1.0], [3.0, 5.0, 3.0]);
+        let solid = Solid::from_pieces([&Drawing::Surface(cuboid)]).unwrap();
         assert!((solid.volume - 24.0).abs() < 1e-12);
         assert!((solid.centre - Vector3::new(2.0, 3.5, 1.0)).norm() < 1e-13);
         let expected = Vector3::new(9.0 + 16.0, 4.0 + 16.0, 4.0 + 9.0) * 2.0;

@@ -2,8 +2,6 @@
 
 mod crossing;
 
-use std::ops::ControlFlow;
-
 use sph_core::BoxTree;
 
 pub(crate) use crossing::check_crossings;
@@ -97,11 +95,8 @@ fn unretraced_edge(line: &Polyline, tolerance: f64) -> Option<usize> {
             let opposite = dot(sub(b, a), sub(d, c)) < 0.0;
             opposite && distance_to_segment(middle, [c, d]) <= tolerance
         };
-        let near = widened([middle; 2], tolerance);
-        let found = tree.overlapping(near, &mut |k| match retraces(k) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        });
-        found.is_continue()
+        let mut found = false;
+        tree.each(widened([middle; 2], tolerance), |k| found |= retraces(k));
+        !found
     })
 }

@@ -90,19 +90,14 @@ fn cut(line: &Polyline, ends_at: impl Fn([f64; 2]) -> bool) -> Vec<Polyline> {
         false => 1..count.saturating_sub(1),
     };
     let cuts: Vec<usize> = inner.filter(|k| ends_at(line.points[*k])).collect();
-    let (Some(first), Some(last)) = (cuts.first(), cuts.last()) else {
+    let Some(first) = cuts.first() else {
         return vec![line.clone()];
     };
     // From corner to corner, of a closed line around.
-    let mut bounds = cuts.clone();
-    match line.closed {
-        true => bounds.push(first + count),
-        false => {
-            bounds.insert(0, 0);
-            bounds.push(count - 1);
-        }
-    }
-    debug_assert!(last >= first, "ascending");
+    let bounds = match line.closed {
+        true => [&cuts[..], &[first + count][..]].concat(),
+        false => [&[0][..], &cuts[..], &[count - 1][..]].concat(),
+    };
     let piece = |pair: &[usize]| {
         let points = (pair[0]..=pair[1]).map(|k| line.points[k % count]);
         Polyline::open(line.name.clone(), points.collect())
@@ -167,10 +162,8 @@ mod tests {
             (3, Polyline::open("outlet", vec![[4.0, 0.0], [4.0, 2.0]])),
         ];
         let (kept, remarks) = bounding(pieces.clone(), &[0; 4], 1e-6);
-        let points: Vec<_> = kept
-            .iter()
-            .map(|(wall, l)| (*wall, l.points.clone()))
-            .collect();
+        let points = kept.into_iter().map(|(wall, line)| (wall, line.points));
+        let points: Vec<_> = points.collect();
         let within = [
             (0, vec![[0.0, 0.0], [4.0, 0.0]]),
             (1, vec![[4.0, 2.0], [0.0, 2.0]]),

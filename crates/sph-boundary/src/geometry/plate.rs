@@ -71,10 +71,8 @@ mod tests {
     fn plate_is_clockwise_and_as_thick_as_asked() {
         let plate = thin_plate("plate", &[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]], 0.1).unwrap();
         assert_eq!(plate.points.len(), 6);
-        assert!(
-            (plate.signed_area() + 0.3).abs() < 1e-15,
-            "middle line times thickness"
-        );
+        // Middle line times thickness.
+        assert!((plate.signed_area() + 0.3).abs() < 1e-15);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A wall as it is drawn.
 
+use crate::geometry::vector::{perp, sub};
+
 /// A wall of straight edges with the fluid on the left of the direction of travel.
 ///
 /// The inward unit normal of an edge with unit tangent t is n = (−t_y, t_x): a closed polyline runs
@@ -74,12 +76,9 @@ impl Polyline {
         let Some(&[x0, y0]) = self.points.first() else {
             return 0.0;
         };
-        let moved = |[x, y]: [f64; 2]| [x - x0, y - y0];
-        let twice: f64 = (0..self.points.len())
-            .map(|i| [self.points[i], self.points[(i + 1) % self.points.len()]].map(moved))
-            .map(|[a, b]| a[0] * b[1] - b[0] * a[1])
-            .sum();
-        0.5 * twice
+        let moved = |i: usize| sub(self.points[i % self.points.len()], [x0, y0]);
+        let twice = (0..self.points.len()).map(|i| perp(moved(i), moved(i + 1)));
+        0.5 * twice.sum::<f64>()
     }
 }
 

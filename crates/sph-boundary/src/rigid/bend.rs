@@ -79,11 +79,10 @@ mod tests {
 
     #[test]
     fn a_lift_is_linear_between_places_and_keeps_what_it_has_beyond() {
+        let lifts = [1.0, 3.0, -1.0].map(|speed| Course::Steady { speed });
         let bend = Bend {
             places: vec![1.0, 2.0, 4.0],
-            lifts: [1.0, 3.0, -1.0]
-                .map(|speed| Course::Steady { speed })
-                .into(),
+            lifts: lifts.into(),
         };
         assert!(bend.is_sound());
         for (x, rate) in [

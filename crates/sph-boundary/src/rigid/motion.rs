@@ -200,14 +200,8 @@ mod tests {
             let rate = (at(t + h) - at(t - h)) / (2.0 * h);
             let velocity = |t: f64| motion.movement(at(t).into(), t).velocity;
             let second = (velocity(t + h) - velocity(t - h)) / (2.0 * h);
-            assert!(
-                (rate - now.velocity).norm() < 1e-8,
-                "t = {t}: {rate} {now:?}"
-            );
-            assert!(
-                (second - now.acceleration).norm() < 1e-6,
-                "t = {t}: {second} {now:?}"
-            );
+            let off = [rate - now.velocity, second - now.acceleration].map(|v| v.norm());
+            assert!(off[0] < 1e-8 && off[1] < 1e-6, "t = {t}: {off:?} {now:?}");
         }
     }
 

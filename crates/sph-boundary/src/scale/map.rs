@@ -230,22 +230,17 @@ impl<const D: usize> Cells<D> {
         interpolate(grid, &mut coefficients);
         let cell = grid.step.powi(D as i32);
         let nodes = self.flat.par_iter().zip(correction).zip(&self.whole);
-        let in_cells: Vec<f64> = nodes
-            .map(|((flat, more), whole)| {
-                if *whole {
-                    cell * (flat + more).exp()
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+        let in_cell = |((flat, more), whole): ((&f64, &f64), &bool)| match whole {
+            true => cell * (flat + more).exp(),
+            false => 0.0,
+        };
+        let in_cells: Vec<f64> = nodes.map(in_cell).collect();
         let lumps = self.lumps.par_iter().zip(&self.flat_at_lumps);
-        let in_lumps: Vec<f64> = lumps
-            .map(|(lump, flat)| {
-                let more = value(grid, &coefficients, &lump.place).map_or(0.0, |(v, _)| v);
-                lump.volume * (flat + more).exp()
-            })
-            .collect();
+        let in_lump = |(lump, flat): (&Lump<D>, &f64)| {
+            let more = value(grid, &coefficients, &lump.place).map_or(0.0, |(v, _)| v);
+            lump.volume * (flat + more).exp()
+        };
+        let in_lumps: Vec<f64> = lumps.map(in_lump).collect();
         let rows = rows(grid, kernel);
         let one = |[distances, values]: &mut [Vec<f64>; 2], (node, _): &(usize, f64)| {
             let x = grid.place(*node);

@@ -164,24 +164,20 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             self.clearance[*place as usize] = 0.0;
         }
     }
-}
 
-impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Meshes the walls at time 0 by elements of a size, m.
     pub fn build(
         setup: &WallSetup<'_, D>,
         vertices: bool,
         size: f64,
     ) -> Result<(Self, WallSet<D>), BoundaryError> {
-        let shape = setup
-            .kernel
-            .polynomial()
-            .ok_or_else(|| BoundaryError::Kernel {
-                reason: format!(
-                    "`{}` gives no radial moments, and semi-analytical walls integrate them",
-                    setup.kernel.name()
-                ),
-            })?;
+        let shape = setup.kernel.polynomial().ok_or_else(|| {
+            let name = setup.kernel.name();
+            let reason = format!(
+                "`{name}` gives no radial moments, and semi-analytical walls integrate them"
+            );
+            BoundaryError::Kernel { reason }
+        })?;
         let integrals = M::integrals(shape, setup.smoothing_length)?;
         let support = setup.kernel.support() * setup.smoothing_length;
         let outline = Outline::<D, M>::new(setup, support, size)?;
@@ -277,24 +273,14 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
                 true => lists.of_corners(points),
                 false => &lists.of_points,
             };
-            wall_means(
-                world,
-                &points.position[..nodes],
-                &points.acceleration,
-                (list, &lists.hidden.at_points),
-                whole,
-                at_points,
-            )?;
+            let list = (list, &lists.hidden.at_points);
+            let targets = (&points.position[..nodes], &points.acceleration[..]);
+            wall_means(world, targets, list, whole, at_points)?;
         }
         if !at_corners {
-            wall_means(
-                world,
-                &elements.centre,
-                &elements.acceleration,
-                (&lists.of_elements, &lists.hidden.at_elements),
-                whole,
-                at_elements,
-            )?;
+            let list = (&lists.of_elements, &lists.hidden.at_elements);
+            let targets = (&elements.centre[..], &elements.acceleration[..]);
+            wall_means(world, targets, list, whole, at_elements)?;
         }
         let walls = &mut world.walls;
         for (v, mean) in at_points.iter().enumerate() {

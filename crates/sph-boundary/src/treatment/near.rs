@@ -184,16 +184,13 @@ impl<const D: usize> NearLists<D> {
             .resize_with(tasks.max(room.found.len()), TaskResults::default);
         let found = &mut room.found[..tasks];
         batches.zip(&mut *found).for_each(|(batch, found)| {
-            let TaskResults {
-                places,
-                counts,
-                elements,
-            } = found;
-            places.clear();
-            places.extend(batch.iter().map(|&i| positions[i as usize]));
-            counts.clear();
-            elements.clear();
-            mesh.near_all(places, radius, counts, elements);
+            found.places.clear();
+            let places = batch.iter().map(|&i| positions[i as usize]);
+            found.places.extend(places);
+            found.counts.clear();
+            found.elements.clear();
+            let (counts, elements) = (&mut found.counts, &mut found.elements);
+            mesh.near_all(&found.places, radius, counts, elements);
             // Elements at free ends are looked at one by one.
             if !mesh.shells().any() {
                 mesh.merge(counts, elements);
@@ -227,11 +224,8 @@ impl<const D: usize> NearLists<D> {
         }
         self.room = room;
         self.particles.clear();
-        let near = self
-            .rows
-            .iter()
-            .zip(0u32..)
-            .filter(|(row, _)| row.count > 0);
+        let rows = self.rows.iter().zip(0u32..);
+        let near = rows.filter(|(row, _)| row.count > 0);
         self.particles.extend(near.map(|(_, i)| i));
     }
 

@@ -137,9 +137,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// True if any wall ever moves.
     pub fn moves(&self) -> bool {
-        self.specs
-            .iter()
-            .any(|s| s.motion.moves() || s.mover.is_some())
+        let moves = |s: &WallSpec<D>| s.motion.moves() || s.mover.is_some();
+        self.specs.iter().any(moves)
     }
 
     /// Shares of the nodes of which walls that move otherwise may take a part.

@@ -23,7 +23,7 @@ const SINKS: f64 = 0.025;
 const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
 /// Contact law of two walls.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Law {
     /// k, Pa/m.
     stiffness: f64,
@@ -53,12 +53,7 @@ impl Law {
                 ..a
             }),
             [Some(one), None] | [None, Some(one)] => law(one),
-            [None, None] => Law {
-                stiffness: 0.0,
-                mass: 0.0,
-                left: 0.0,
-                friction: 0.0,
-            },
+            [None, None] => Law::default(),
         }
     }
 

@@ -78,49 +78,6 @@ impl Mesh<2> {
         mesh.size_nodes();
         Ok(mesh)
     }
-}
-
-/// Number of equal parts of an edge.
-fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
-    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-    ((length / spacing).round() as usize).max(1)
-}
-
-/// Index of the first node of every piece.
-fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
-    let mut next = 0;
-    polylines
-        .iter()
-        .zip(&joints.after)
-        .map(|(line, after)| {
-            let first = next;
-            next += line.edges().map(|edge| parts(edge, spacing)).sum::<usize>();
-            next += usize::from(after.is_none());
-            first
-        })
-        .collect()
-}
-
-impl ElementMeasures for Mesh<2> {
-    fn measure(&mut self, segment: usize) {
-        let [a, b] = self.corners(segment);
-        let [x, y] = sub(b, a);
-        let length = x.hypot(y);
-        let segment = &mut self.elements[segment];
-        segment.measure = length;
-        segment.centre = [a[0] + 0.5 * x, a[1] + 0.5 * y];
-        segment.normal = [-y / length, x / length];
-    }
-
-    fn follow(&mut self, _: &[bool]) {
-        if self.motions.iter().any(|motion| motion.bends()) {
-            self.find_angles();
-        }
-        self.size_nodes();
-    }
-}
-
-impl Mesh<2> {
     fn cut(&mut self, wall: usize, line: &Polyline, after: Continuation, first_nodes: &[usize]) {
         let first_face = self.elements.last().map_or(0, |segment| segment.face + 1);
         for (edge, [a, b]) in line.edges().enumerate() {
@@ -198,11 +155,8 @@ impl Mesh<2> {
                 let (_, [x, y]) = self.domain.nearest(sub(*point, position));
                 x.hypot(y)
             };
-            let nearest = points
-                .iter()
-                .map(distance)
-                .enumerate()
-                .min_by(|a, b| a.1.total_cmp(&b.1));
+            let distances = points.iter().map(distance).enumerate();
+            let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((particle, distance)) = nearest.filter(|(_, d)| *d < kernel_radius) {
                 return Err(BoundaryError::FreeEndInReach {
                     wall: self.walls[free.wall].clone(),
@@ -215,6 +169,43 @@ impl Mesh<2> {
             }
         }
         Ok(())
+    }
+}
+
+/// Number of equal parts of an edge.
+fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    ((length / spacing).round() as usize).max(1)
+}
+
+/// Index of the first node of every piece.
+fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
+    let mut next = 0;
+    let first = |(line, after): (&Polyline, &Continuation)| {
+        let first = next;
+        next += line.edges().map(|edge| parts(edge, spacing)).sum::<usize>();
+        next += usize::from(after.is_none());
+        first
+    };
+    polylines.iter().zip(&joints.after).map(first).collect()
+}
+
+impl ElementMeasures for Mesh<2> {
+    fn measure(&mut self, segment: usize) {
+        let [a, b] = self.corners(segment);
+        let [x, y] = sub(b, a);
+        let length = x.hypot(y);
+        let segment = &mut self.elements[segment];
+        segment.measure = length;
+        segment.centre = [a[0] + 0.5 * x, a[1] + 0.5 * y];
+        segment.normal = [-y / length, x / length];
+    }
+
+    fn follow(&mut self, _: &[bool]) {
+        if self.motions.iter().any(|motion| motion.bends()) {
+            self.find_angles();
+        }
+        self.size_nodes();
     }
 }
 

@@ -37,13 +37,14 @@ pub(super) fn joints(
     let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
     let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
     for (i, end) in ends.iter().enumerate() {
-        let images = |other: &OpenEnd| same_place(end.position, other.position, tolerance, domain);
+        let met = |j: &usize| {
+            let other = &ends[*j];
+            let image = same_place(end.position, other.position, tolerance, domain)?;
+            Some((other, image))
+        };
         let mut near = near(&tree, wrapped(end), tolerance, domain);
         near.retain(|j| *j != i);
-        let met: Vec<(&OpenEnd, [i32; 2])> = near
-            .iter()
-            .filter_map(|j| Some((&ends[*j], images(&ends[*j])?)))
-            .collect();
+        let met: Vec<(&OpenEnd, [i32; 2])> = near.iter().filter_map(met).collect();
         let name = |end: &OpenEnd| &polylines[end.wall].name;
         let at = Place::from(end.position);
         match met.as_slice() {

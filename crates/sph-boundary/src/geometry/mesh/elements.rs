@@ -200,11 +200,8 @@ impl<const D: usize> Mesh<D> {
 
     /// Corners of an element, m.
     pub fn corners(&self, element: usize) -> [[f64; D]; D] {
-        let near = NearElement {
-            element: element as u32,
-            image: [0; D],
-        };
-        self.corners_from([0.0; D], near)
+        let Element { nodes, images, .. } = &self.elements[element];
+        std::array::from_fn(|k| self.node_from([0.0; D], nodes[k], images[k]))
     }
 
     /// Corners of an image of an element relative to a point, m.

@@ -54,11 +54,9 @@ impl<const D: usize> Grid<D> {
         let (mut margin, mut radii) = ([0.0; D], Vec::with_capacity(mesh.elements.len()));
         for (e, element) in mesh.elements.iter().enumerate() {
             let arms = mesh.corners(e).map(|corner| sub(corner, element.centre));
-            let reached = |k: usize| {
-                arms.iter()
-                    .fold(margin[k], |m: f64, arm| m.max(arm[k].abs()))
-            };
-            margin = std::array::from_fn(reached);
+            for (k, margin) in margin.iter_mut().enumerate() {
+                *margin = arms.iter().fold(*margin, |m: f64, arm| m.max(arm[k].abs()));
+            }
             let radius = arms.into_iter().map(norm).fold(0.0, f64::max);
             // Rounding loses nothing.
             radii.push(radius * (1.0 + ROUNDING));
@@ -134,21 +132,19 @@ impl<const D: usize> Grid<D> {
         let half = sub(upper, lower).map(|x| 0.5 * x);
         let centre: [f64; D] = std::array::from_fn(|k| lower[k] + half[k]);
         let spread = norm(half) * (1.0 + ROUNDING) + ROUNDING * radius;
-        let Candidates {
-            found,
-            spheres,
-            keys,
-        } = candidates;
-        keys.clear();
+        candidates.keys.clear();
         self.visit(centre, radius + spread, |place, _| {
-            keys.push((key(&self.entries[place]), place as u32));
+            let key = key(&self.entries[place]);
+            candidates.keys.push((key, place as u32));
         });
-        keys.sort_unstable();
-        let places = || keys.iter().map(|(_, place)| *place as usize);
-        found.clear();
-        found.extend(places().map(|place| self.entries[place]));
-        spheres.clear();
-        spheres.extend(places().map(|place| self.spheres[place]));
+        candidates.keys.sort_unstable();
+        let places = || candidates.keys.iter().map(|(_, place)| *place as usize);
+        candidates.found.clear();
+        let found = places().map(|place| self.entries[place]);
+        candidates.found.extend(found);
+        candidates.spheres.clear();
+        let spheres = places().map(|place| self.spheres[place]);
+        candidates.spheres.extend(spheres);
     }
 }
 
@@ -183,10 +179,8 @@ fn count_within<const D: usize>(points: &[[f64; D]], diagonal: f64) -> usize {
 /// Ascending by image, then element.
 fn key<const D: usize>(near: &NearElement<D>) -> u64 {
     let place = |periods: i8| u64::from((i16::from(periods) + 128) as u16);
-    let image = near
-        .image
-        .iter()
-        .fold(0, |all, periods| (all << 8) | place(*periods));
+    let images = near.image.into_iter();
+    let image = images.fold(0, |all, periods| (all << 8) | place(periods));
     (image << 32) | u64::from(near.element)
 }
 

@@ -69,11 +69,9 @@ impl Mesh<3> {
             sides.push(nodes.collect::<Vec<_>>());
         }
         let position = |node: u32| nodes.positions[node as usize];
-        let filled: Vec<Result<Filling, String>> = patches
-            .par_iter()
-            .zip(&sides)
-            .map(|(patch, sides)| fill(patch, sides, &position, domain, spacing))
-            .collect();
+        let both = patches.par_iter().zip(&sides);
+        let filled = both.map(|(patch, sides)| fill(patch, sides, &position, domain, spacing));
+        let filled: Vec<Result<Filling, String>> = filled.collect();
 
         let names = surfaces.iter().map(|s| s.name.clone()).collect();
         let mut mesh = Mesh::empty(names, groups, spacing, domain);
@@ -104,51 +102,6 @@ impl Mesh<3> {
         mesh.warnings.extend(unseen);
         Ok(mesh)
     }
-}
-
-/// A remark for every wall with faces that bound no fluid.
-fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<String> {
-    let remark = |(wall, surface): (usize, &Surface)| {
-        let all = pieces.iter().zip(seen);
-        let faces = all.filter(|(p, seen)| p.wall == wall && !**seen).count();
-        (faces > 0).then(|| unseen(&surface.name, faces))
-    };
-    surfaces.iter().enumerate().filter_map(remark).collect()
-}
-
-/// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
-fn planar_pieces(
-    surfaces: &[Surface],
-    groups: &[usize],
-    spacing: f64,
-    places: &mut Places,
-) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
-    let tolerance = SAME_PLACE * spacing;
-    for surface in surfaces {
-        check_input(surface)?;
-    }
-    check_extent(surfaces, spacing)?;
-    let mut drawn: Vec<Drawn> = Vec::new();
-    let mut pieces: Vec<Patch> = Vec::new();
-    let mut piece_of: Vec<u32> = Vec::new();
-    for (wall, surface) in surfaces.iter().enumerate() {
-        let own = weld(surface, wall, groups[wall], places)?;
-        let beside = neighbours(&surface.name, &own, places)?;
-        let (new, of) = patches(&own, &beside, tolerance);
-        piece_of.extend(of.iter().map(|p| pieces.len() as u32 + p));
-        pieces.extend(new);
-        drawn.extend(own);
-    }
-    let domain = places.domain;
-    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
-    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
-    for piece in &mut pieces {
-        piece.straighten(places, tolerance);
-    }
-    Ok((pieces, touched))
-}
-
-impl Mesh<3> {
     fn append(&mut self, patch: &Patch, filling: Filling, nodes: &mut Nodes, places: &Places) {
         let face = self.faces.len();
         let mut corner = |c: Site| {
@@ -222,6 +175,48 @@ impl Mesh<3> {
         };
         fine.map(remark).collect()
     }
+}
+
+/// A remark for every wall with faces that bound no fluid.
+fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<String> {
+    let remark = |(wall, surface): (usize, &Surface)| {
+        let all = pieces.iter().zip(seen);
+        let faces = all.filter(|(p, seen)| p.wall == wall && !**seen).count();
+        (faces > 0).then(|| unseen(&surface.name, faces))
+    };
+    surfaces.iter().enumerate().filter_map(remark).collect()
+}
+
+/// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
+fn planar_pieces(
+    surfaces: &[Surface],
+    groups: &[usize],
+    spacing: f64,
+    places: &mut Places,
+) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
+    let tolerance = SAME_PLACE * spacing;
+    for surface in surfaces {
+        check_input(surface)?;
+    }
+    check_extent(surfaces, spacing)?;
+    let mut drawn: Vec<Drawn> = Vec::new();
+    let mut pieces: Vec<Patch> = Vec::new();
+    let mut piece_of: Vec<u32> = Vec::new();
+    for (wall, surface) in surfaces.iter().enumerate() {
+        let own = weld(surface, wall, groups[wall], places)?;
+        let beside = neighbours(&surface.name, &own, places)?;
+        let (new, of) = patches(&own, &beside, tolerance);
+        piece_of.extend(of.iter().map(|p| pieces.len() as u32 + p));
+        pieces.extend(new);
+        drawn.extend(own);
+    }
+    let domain = places.domain;
+    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
+    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
+    for piece in &mut pieces {
+        piece.straighten(places, tolerance);
+    }
+    Ok((pieces, touched))
 }
 
 impl ElementMeasures for Mesh<3> {

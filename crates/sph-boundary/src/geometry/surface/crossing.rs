@@ -166,16 +166,9 @@ fn meet(
     // Both cut the line common to both planes; they cross if the pieces they cut out overlap.
     let line = unit(cross(normal_a, normal_b));
     let [first, second] = [cut(a, over_b, line), cut(b, over_a, line)];
-    let from = if first[0].0 > second[0].0 {
-        first[0]
-    } else {
-        second[0]
-    };
-    let to = if first[1].0 < second[1].0 {
-        first[1]
-    } else {
-        second[1]
-    };
+    let larger = |a: (f64, Point), b: (f64, Point)| if a.0 > b.0 { a } else { b };
+    let smaller = |a: (f64, Point), b: (f64, Point)| if a.0 < b.0 { a } else { b };
+    let (from, to) = (larger(first[0], second[0]), smaller(first[1], second[1]));
     if to.0 - from.0 <= 4.0 * tolerance {
         return Intersection::Apart;
     }
@@ -234,9 +227,8 @@ fn common_place(a: [Point; 3], normal: Point, b: [Point; 3], tolerance: f64) -> 
     }
     let fan = (2..rest.len()).map(|k| cross(sub(rest[k - 1], rest[0]), sub(rest[k], rest[0])));
     let area = 0.5 * fan.map(|n| dot(n, normal).abs()).sum::<f64>();
-    let centre = rest
-        .iter()
-        .fold([0.0; 3], |sum, p| along(sum, 1.0 / rest.len() as f64, *p));
+    let part = 1.0 / rest.len() as f64;
+    let centre = rest.iter().fold([0.0; 3], |sum, p| along(sum, part, *p));
     (area > 4.0 * tolerance * longest).then_some(centre)
 }
 

@@ -121,16 +121,11 @@ pub(super) fn weld(
         id: u32::MAX,
         image: [0; 3],
     };
-    let points = surface.points.iter().zip(used);
-    let sites: Vec<Site> = points
-        .map(|(p, used)| {
-            if used {
-                places.find(*p, group)
-            } else {
-                nowhere
-            }
-        })
-        .collect();
+    let site = |(point, used): (&Point, bool)| match used {
+        true => places.find(*point, group),
+        false => nowhere,
+    };
+    let sites: Vec<Site> = surface.points.iter().zip(used).map(site).collect();
     let mut drawn = Vec::with_capacity(surface.triangles.len());
     for (index, corners) in surface.triangles.iter().enumerate() {
         let corners = corners.map(|c| sites[c as usize]);
@@ -218,15 +213,12 @@ pub(super) fn neighbours(
 }
 
 fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), BoundaryError> {
-    let mut keys: Vec<([Site; 3], u32)> = drawn
-        .iter()
-        .enumerate()
-        .map(|(t, d)| {
-            let mut sorted = d.corners;
-            sorted.sort_unstable();
-            (sorted.map(|c| c.moved_back(sorted[0].image)), t as u32)
-        })
-        .collect();
+    let key = |(t, d): (usize, &Drawn)| {
+        let mut sorted = d.corners;
+        sorted.sort_unstable();
+        (sorted.map(|c| c.moved_back(sorted[0].image)), t as u32)
+    };
+    let mut keys: Vec<([Site; 3], u32)> = drawn.iter().enumerate().map(key).collect();
     keys.par_sort_unstable();
     let Some(pair) = keys.windows(2).find(|pair| pair[0].0 == pair[1].0) else {
         return Ok(());

@@ -152,9 +152,8 @@ fn triangulate(
         let x = x / spacing;
         if x.abs() < 1e-30 { 0.0 } else { x }
     };
-    let vertices = points
-        .iter()
-        .map(|p| Point2::new(scaled(p[0]), scaled(p[1])));
+    let vertex = |p: &[f64; 2]| Point2::new(scaled(p[0]), scaled(p[1]));
+    let vertices = points.iter().map(vertex);
     let mut conflicts = 0;
     let mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
         vertices.collect(),
@@ -203,9 +202,8 @@ fn triangulate(
         let times = winding[face.fix().index()];
         times.is_some_and(|n| n != 0)
     });
-    Ok(inside
-        .map(|f| f.vertices().map(|v| v.fix().index()))
-        .collect())
+    let corners = inside.map(|face| face.vertices().map(|v| v.fix().index()));
+    Ok(corners.collect())
 }
 
 /// Cells along each side of a tile. Triangles of a tile follow each other, so that those that are seen together mostly are
@@ -229,10 +227,8 @@ fn check_area(
     edges: &[[[f64; 2]; 2]],
 ) -> Result<(), String> {
     let double = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| perp(sub(b, a), sub(c, a));
-    let filled: f64 = triangles
-        .iter()
-        .map(|t| double(points[t[0]], points[t[1]], points[t[2]]))
-        .sum();
+    let own = |t: &[usize; 3]| double(points[t[0]], points[t[1]], points[t[2]]);
+    let filled: f64 = triangles.iter().map(own).sum();
     let origin = points[0];
     let whole: f64 = edges.iter().map(|[a, b]| double(origin, *a, *b)).sum();
     if (filled - whole).abs() <= ROUNDING * whole.abs() {
@@ -300,10 +296,8 @@ fn rectangle(
         _ => (2 * k + 1).cmp(&all),
     };
     let tile = |from: usize, all: usize| from..all.min(from + TILE);
-    for (low, left) in (0..n)
-        .step_by(TILE)
-        .flat_map(|j| (0..m).step_by(TILE).map(move |i| (j, i)))
-    {
+    let rows = (0..n).step_by(TILE);
+    for (low, left) in rows.flat_map(|j| (0..m).step_by(TILE).map(move |i| (j, i))) {
         for j in tile(low, n) {
             for i in tile(left, m) {
                 let [a, b] = [corner(i, j), corner(i + 1, j)];

@@ -136,10 +136,9 @@ mod tests {
     #[test]
     fn a_square_with_a_hole() {
         let ring = |s: f64| [[-s, -s], [s, -s], [s, s], [-s, s]];
-        let mut edges: Vec<_> = (0..4)
-            .map(|k| [ring(4.0)[k], ring(4.0)[(k + 1) % 4]])
-            .collect();
-        edges.extend((0..4).map(|k| [ring(2.0)[(k + 1) % 4], ring(2.0)[k]]));
+        let outer = (0..4).map(|k| [ring(4.0)[k], ring(4.0)[(k + 1) % 4]]);
+        let inner = (0..4).map(|k| [ring(2.0)[(k + 1) % 4], ring(2.0)[k]]);
+        let edges: Vec<_> = outer.chain(inner).collect();
         let lattice = Lattice { steps: [1.0, 1.0] };
         let points = lattice.inside(&edges, 0.6);
         assert_eq!(points.len(), 49 - 25);

@@ -60,20 +60,14 @@ impl Mesh<3> {
             return Ok(());
         }
         let near = Rims::new(self, bounds(points.iter().copied()), kernel_radius);
-        let nearest = points
-            .iter()
-            .enumerate()
-            .filter_map(|(particle, point)| Some((particle, near.nearest(*point)?)))
-            .min_by(|a, b| a.1.0.partial_cmp(&b.1.0).unwrap_or(Ordering::Equal));
+        let all = points.iter().enumerate();
+        let all = all.filter_map(|(particle, point)| Some((particle, near.nearest(*point)?)));
+        let nearest = all.min_by(|a, b| a.1.0.partial_cmp(&b.1.0).unwrap_or(Ordering::Equal));
         let Some((particle, ((_, distance), edge, at))) = nearest else {
             return Ok(());
         };
         let free = &self.free_edges[edge];
-        let Opening {
-            edges,
-            extent,
-            centre,
-        } = self.openings[free.opening];
+        let opening = &self.openings[free.opening];
         let remedy = match free.met {
             Some(other) => format!(
                 "wall `{}` meets it there and does not continue it: turn the one that faces the other way",
@@ -82,10 +76,11 @@ impl Mesh<3> {
             None => "close the wall or extend it".to_string(),
         };
         let why = format!(
-            "is open: {edges} edge(s) without a neighbour surround an opening of {} m around {}, and at {} one of them \
+            "is open: {} edge(s) without a neighbour surround an opening of {} m around {}, and at {} one of them \
              is {} m from particle {particle}, within the kernel radius {} m: {remedy}",
-            plain(extent),
-            Place::from(centre),
+            opening.edges,
+            plain(opening.extent),
+            Place::from(opening.centre),
             Place::from(at),
             plain(distance),
             plain(kernel_radius)

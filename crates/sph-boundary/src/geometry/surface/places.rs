@@ -144,12 +144,9 @@ impl Places {
     /// A point moved into the box along the periodic axes.
     fn wrapped(&self, point: Point) -> Point {
         let periods = self.domain.periods();
-        std::array::from_fn(|k| {
-            if self.domain.periodic[k] {
-                (point[k] - self.domain.lower[k]).rem_euclid(periods[k])
-            } else {
-                point[k]
-            }
+        std::array::from_fn(|k| match self.domain.periodic[k] {
+            true => (point[k] - self.domain.lower[k]).rem_euclid(periods[k]),
+            false => point[k],
         })
     }
 

@@ -61,9 +61,8 @@ fn bed<const D: usize>(
         return Err(no_floor(erodible));
     }
     let (grid, cut) = grid(erodible, floor, domain)?;
-    let levels: Vec<_> = (0..grid.len())
-        .map(|place| level(floor, grid.position(place), BORDER * erodible.cell))
-        .collect();
+    let level = |place| level(floor, grid.position(place), BORDER * erodible.cell);
+    let levels: Vec<_> = (0..grid.len()).map(level).collect();
     let covered: Vec<bool> = levels.iter().map(Option::is_none).collect();
     let at_cut = |place: usize| {
         let index = grid.index(place);

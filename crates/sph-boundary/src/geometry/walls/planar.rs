@@ -62,11 +62,8 @@ impl Walls<2> {
         let next = self.mesh.beside[node][ahead];
         let over_next = next.is_some_and(|s| {
             let ahead = -nearest.dot(&Vect::from(self.mesh.elements[s].tangent()));
-            if share > 1.0 {
-                ahead > 0.0
-            } else {
-                ahead < 0.0
-            }
+            let side = if share > 1.0 { 1.0 } else { -1.0 };
+            side * ahead > 0.0
         });
         let theta = self.mesh.nodes[node].theta;
         let theta = if turned { 1.0 - theta } else { theta };
@@ -193,10 +190,8 @@ impl WallMesh<2> for Walls<2> {
     }
 
     fn is_crossed(&self, near: NearElement<2>, point: &Vect<2>, by: &Vect<2>) -> bool {
-        let [a, b] = self
-            .mesh
-            .corners_from((*point).into(), near)
-            .map(Vect::from);
+        let corners = self.mesh.corners_from((*point).into(), near);
+        let [a, b] = corners.map(Vect::from);
         let along: Vect<2> = b - a;
         by.perp(&a) * by.perp(&b) <= 0.0 && along.perp(&-a) * along.perp(&(by - a)) <= 0.0
     }
@@ -208,10 +203,8 @@ impl WallMesh<2> for Walls<2> {
         reach: f64,
         hindrances: &mut Vec<Hindrance<2>>,
     ) {
-        hindrances.extend(
-            near.iter()
-                .filter_map(|near| self.hindrance(of, *near, reach)),
-        );
+        let near = near.iter();
+        hindrances.extend(near.filter_map(|near| self.hindrance(of, *near, reach)));
     }
 
     fn enclosed(&self, point: &Vect<2>) -> Option<f64> {

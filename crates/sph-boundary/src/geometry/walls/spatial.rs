@@ -113,9 +113,8 @@ impl WallMesh<3> for Walls<3> {
         let heights = self.faces(near).map(|part| {
             let first = &self.mesh.elements[part[0].index()];
             let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
-            -self
-                .seen(&corner, part[0].image, point)
-                .dot(&Vect::from(first.normal))
+            let seen = self.seen(&corner, part[0].image, point);
+            -seen.dot(&Vect::from(first.normal))
         });
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
     }
@@ -136,10 +135,8 @@ impl WallMesh<3> for Walls<3> {
     }
 
     fn is_crossed(&self, near: NearElement<3>, point: &Vect<3>, by: &Vect<3>) -> bool {
-        let [a, b, c] = self
-            .mesh
-            .corners_from((*point).into(), near)
-            .map(Vect::from);
+        let corners = self.mesh.corners_from((*point).into(), near);
+        let [a, b, c] = corners.map(Vect::from);
         let normal = Vect::from(self.mesh.elements[near.index()].normal);
         let here = a.dot(&normal);
         if here * (here - by.dot(&normal)) > 0.0 {
@@ -158,24 +155,18 @@ impl WallMesh<3> for Walls<3> {
     ) {
         let x: [f64; 3] = (*point).into();
         let row = &self.expanded(point, row, reach)[..];
-        let all: Vec<_> = row
-            .iter()
-            .map(|near| {
-                let closest = self.mesh.closest(x, *near);
-                let offset = Vect::from(closest.offset);
-                (near, closest, offset, offset.norm())
-            })
-            .filter(|(near, closest, _, distance)| {
-                let shell = self.shells.shell_of(near.index());
-                let turned = behind.iter().any(|(_, s)| *s == shell);
-                let before = if turned {
-                    closest.height < 0.0
-                } else {
-                    closest.height > 0.0
-                };
-                before && *distance <= reach
-            })
-            .collect();
+        let seen = row.iter().map(|near| {
+            let closest = self.mesh.closest(x, *near);
+            let offset = Vect::from(closest.offset);
+            (near, closest, offset, offset.norm())
+        });
+        let before = |(near, closest, _, distance): &NearTriangle| {
+            let shell = self.shells.shell_of(near.index());
+            let turned = behind.iter().any(|(_, s)| *s == shell);
+            let side = if turned { -1.0 } else { 1.0 };
+            side * closest.height > 0.0 && *distance <= reach
+        };
+        let all: Vec<_> = seen.filter(before).collect();
         for (near, closest, offset, distance) in &all {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:
             // on an edge that stands out, not where the plane beyond the rim is nearer.
@@ -243,10 +234,8 @@ impl WallMesh<3> for Walls<3> {
             };
             zs.iter().filter_map(place).collect()
         };
-        let columns: Vec<_> = xs
-            .iter()
-            .flat_map(|x| ys.iter().map(|y| (*x, *y)))
-            .collect();
+        let columns = xs.iter().flat_map(|x| ys.iter().map(|y| (*x, *y)));
+        let columns: Vec<_> = columns.collect();
         columns.into_par_iter().flat_map_iter(column).collect()
     }
 }

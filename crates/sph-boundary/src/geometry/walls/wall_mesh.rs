@@ -170,13 +170,8 @@ pub trait WallMesh<const D: usize>:
 
     /// Elements within a radius of a point, or a few more, ascending.
     fn near(&self, point: &Vect<D>, radius: f64) -> Vec<NearElement<D>> {
-        let mut row = Vec::new();
-        self.near_all(
-            std::slice::from_ref(point),
-            radius,
-            &mut Vec::new(),
-            &mut row,
-        );
+        let (mut counts, mut row) = (Vec::new(), Vec::new());
+        self.near_all(&[*point], radius, &mut counts, &mut row);
         row
     }
 

@@ -105,18 +105,16 @@ pub(super) fn tables(shape: &PiecewisePolynomial, sigma: f64) -> (Vec<Knot>, Vec
 
 fn knot(radius: f64, step: Vec<f64>, sigma: f64) -> Knot {
     let last = step.iter().rposition(|c| *c != 0.0).unwrap_or(0);
-    let terms = (0..=last)
-        .rev()
-        .map(|n| {
-            let (n1, n2) = (n as f64 + 1.0, n as f64 + 2.0);
-            let c = step[n] * sigma;
-            Term {
-                ratio: n2 / n1,
-                gradient: c / n1,
-                gamma: c / (n1 * n2),
-            }
-        })
-        .collect();
+    let term = |n: usize| {
+        let (n1, n2) = (n as f64 + 1.0, n as f64 + 2.0);
+        let c = step[n] * sigma;
+        Term {
+            ratio: n2 / n1,
+            gradient: c / n1,
+            gamma: c / (n1 * n2),
+        }
+    };
+    let terms = (0..=last).rev().map(term).collect();
     let alone = PiecewisePolynomial {
         breaks: vec![0.0, radius],
         pieces: vec![step],

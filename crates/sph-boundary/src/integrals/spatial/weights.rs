@@ -242,12 +242,9 @@ mod tests {
                     own = own.max(error / (w.at(nearest).0 * area));
                 }
             });
-            println!("{:15} {worst:.1e}, of its own {own:.1e}", kernel.name());
-            assert!(
-                worst < 8e-5 && own < 4e-4,
-                "{}: {worst:e} {own:e}",
-                kernel.name()
-            );
+            let name = kernel.name();
+            println!("{name:15} {worst:.1e}, of its own {own:.1e}");
+            assert!(worst < 8e-5 && own < 4e-4, "{name}: {worst:e} {own:e}");
         }
     }
 
