@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::geometry::wall_end::WallEnd;
+use crate::geometry::polyline::WallEnd;
 
 /// Most pairs of edges or triangles that are held against each other: a second or two of work.
 pub(crate) const MOST_PAIRS: usize = 200_000_000;

@@ -49,10 +49,9 @@ pub use geometry::mesh::{
 };
 pub use geometry::periodic::PeriodicBox;
 pub use geometry::plate::thin_plate;
-pub use geometry::polyline::Polyline;
+pub use geometry::polyline::{FreeEnd, Polyline, WallEnd};
 pub use geometry::shells::{Gammas, Shells};
 pub use geometry::surface::Surface;
-pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
 pub use integrals::sum::GammaSum;

@@ -123,10 +123,6 @@ impl Dynamics {
     ) {
         let turn = rotation(now);
         let shift = padded(&now.pose.translation);
-        let mut add = |j: &Vector6<f64>, pull: f64, stiffness: f64, damping: f64, rate: f64| {
-            *matrix += j * j.transpose() * (dt * damping + dt * dt * stiffness);
-            *force -= j * (pull + dt * stiffness * rate);
-        };
         if !self.holds.is_empty() {
             let rotation = Rotation3::from_matrix_unchecked(turn);
             let angle = UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis();
@@ -136,7 +132,8 @@ impl Dynamics {
                 let mut j = Vector6::zeros();
                 j[k] = 1.0;
                 let pull = stiffness * way[k] + damping * velocity[k];
-                add(&j, pull, *stiffness, *damping, velocity[k]);
+                *matrix += j * j.transpose() * (dt * damping + dt * dt * stiffness);
+                *force -= j * (pull + dt * stiffness * velocity[k]);
             }
         }
         for line in &self.lines {

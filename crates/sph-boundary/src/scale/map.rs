@@ -111,7 +111,7 @@ impl<const D: usize> ScaleMap<D> {
         }
         let walls: BTreeSet<u32> = curved().map(|e| e.wall as u32).collect();
         let walls: Vec<u32> = walls.into_iter().collect();
-        let mut cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
+        let cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
         for sweep in 0..=SWEEPS {
             let sums = cells.sums(&grid, of.kernel, &correction);
@@ -140,13 +140,12 @@ impl<const D: usize> ScaleMap<D> {
         };
         let known = |node: usize| (0..1 << D).any(|n| corner(node, n).is_some_and(|c| *c != 0.0));
         let known = (0..grid.len()).map(known).collect();
-        let mut coefficients = counts;
-        interpolate(&grid, &mut coefficients);
+        interpolate(&grid, &mut counts);
         Ok(ScaleMap {
             grid,
-            coefficients,
+            coefficients: counts,
             known,
-            nearest: std::mem::take(&mut cells.nearest),
+            nearest: cells.nearest,
             walls,
         })
     }

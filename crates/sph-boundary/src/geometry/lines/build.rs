@@ -7,9 +7,8 @@ use crate::error::BoundaryError;
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
 use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::Polyline;
+use crate::geometry::polyline::{FreeEnd, Polyline, WallEnd};
 use crate::geometry::vector::{dot, perp, sub};
-use crate::geometry::wall_end::{FreeEnd, WallEnd};
 
 /// Two segments folded onto each other within this angle leave the fluid all around their node.
 const FOLD: f64 = 1e-9;

@@ -4,9 +4,8 @@ use sph_core::BoxTree;
 
 use crate::error::{BoundaryError, Place};
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::Polyline;
+use crate::geometry::polyline::{Polyline, WallEnd};
 use crate::geometry::vector::{add, sub, widened};
-use crate::geometry::wall_end::WallEnd;
 
 /// Continuation of a wall behind its last point: the first point of a wall, moved by whole periods.
 pub(super) type Continuation = Option<(usize, [i32; 2])>;

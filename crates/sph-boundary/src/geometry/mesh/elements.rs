@@ -7,8 +7,8 @@ use sph_core::bed::Bed;
 use super::inside::Sides;
 use super::near::NearElement;
 use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::polyline::FreeEnd;
 use crate::geometry::vector::{Point, add, sub};
-use crate::geometry::wall_end::FreeEnd;
 use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
 
