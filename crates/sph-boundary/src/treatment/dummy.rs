@@ -5,10 +5,10 @@ use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{LanePair, PairSum, Particles, WallSet, World, add_scaled, shepard, splat};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::contract::shaped_by_outline;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
+use crate::treatment::shaped::shaped_by_outline;
 use crate::treatment::shepard::EffectiveGravity;
 use crate::{
     BoundaryError, PlanarWalls, SpatialWalls, Wall, WallCondition, WallEntry, WallSetup, WallSpec,

@@ -5,9 +5,9 @@ use sph_neighbours::{Slope, WallSet, World};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
-use crate::treatment::contract::shaped_by_outline;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::Outline;
+use crate::treatment::shaped::shaped_by_outline;
 use crate::{
     BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec, WallStates,
 };

@@ -4,9 +4,9 @@ use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{WallSet, World};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::contract::shaped_by_outline;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
+use crate::treatment::shaped::shaped_by_outline;
 use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of

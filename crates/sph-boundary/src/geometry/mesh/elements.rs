@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use super::inside::Sides;
-use super::near::NearElement;
+use super::near_element::NearElement;
+use super::sides::Sides;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::FreeEnd;
 use crate::geometry::vector::{Point, add, sub};

@@ -1,6 +1,6 @@
 //! Elements sorted by cells.
 
-use super::near::NearElement;
+use super::near_element::NearElement;
 use crate::geometry::cells::{index, listed};
 use crate::geometry::vector::{bounds, dot, sub};
 

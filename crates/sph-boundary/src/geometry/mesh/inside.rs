@@ -1,11 +1,10 @@
 //! On which side of the walls a point is.
 
-use sph_core::{BoxTree, Corners, Winding};
-
 use super::closest::{Feature, angle, nearest_to_origin};
 use super::elements::Mesh;
 use super::grid::Grid;
-use super::near::NearElement;
+use super::near_element::NearElement;
+use super::sides::{Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
@@ -22,62 +21,6 @@ const RIM: f64 = 1e-9;
 
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
-
-/// Data of a mesh for the side of a point, at the present position.
-#[derive(Clone, Debug)]
-pub struct Sides<const D: usize> {
-    /// Along one axis; if all are periodic, along each, and the last one goes
-    /// through an element.
-    rays: Vec<Rays<D>>,
-    /// The centre of that element, m.
-    target: [f64; D],
-    /// True if the fluid lies beyond all walls.
-    beyond: bool,
-    /// The search for the nearest wall, where there are free edges.
-    front: Option<Grid<D>>,
-    /// Of the plane, where walls end freely: first and last node of every straight edge.
-    pub(crate) lines: Vec<[usize; 2]>,
-    /// Of space, where walls end freely: how they wind around a place; of the other sign, since normals point into the
-    /// fluid.
-    pub(crate) winding: Option<Winding>,
-}
-
-/// Elements and their images over the box, seen along an axis.
-#[derive(Clone, Debug)]
-struct Rays<const D: usize> {
-    /// The axis.
-    along: usize,
-    entries: Vec<NearElement<D>>,
-    /// Of their boxes, flat across the axis.
-    tree: BoxTree<D>,
-    rim: f64,
-}
-
-impl<const D: usize> Rays<D> {
-    /// Of elements with their boxes flat across the axis, and the largest shift of their rims by rounding, m.
-    fn new(along: usize, images: Vec<(NearElement<D>, Corners<D>)>, rim: f64) -> Self {
-        let (entries, boxes): (Vec<_>, Vec<_>) = images.into_iter().unzip();
-        Rays {
-            along,
-            entries,
-            tree: BoxTree::new(boxes),
-            rim,
-        }
-    }
-
-    /// Calls `found` with the elements that a ray from the point may meet.
-    fn each(&self, point: [f64; D], mut found: impl FnMut(NearElement<D>)) {
-        let at = flattened(point, self.along);
-        let around = widened([at; 2], self.rim);
-        self.tree.each(around, |n| found(self.entries[n]));
-    }
-}
-
-/// A place without its coordinate along an axis.
-fn flattened<const D: usize>(mut x: [f64; D], along: usize) -> [f64; D] {
-    x[along] = 0.0;
-    x
-}
 
 /// Queries of a ray and the eye to a mesh of one dimension.
 pub trait RayQueries<const D: usize> {

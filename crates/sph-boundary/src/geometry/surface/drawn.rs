@@ -190,7 +190,8 @@ pub(super) fn neighbours(
             }
             [a, b] => {
                 let why = format!(
-                    "triangles {} and {} meet in an edge at {} but put the fluid on opposite sides: one of them is flipped",
+                    "triangles {} and {} meet in an edge at {} but put the fluid on opposite sides: one of them is \
+                     flipped",
                     index(a),
                     index(b),
                     middle(a)

@@ -1,0 +1,27 @@
+//! Elements near a point.
+
+/// An element and the whole periods to add to its position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NearElement<const D: usize> {
+    /// Index of the element.
+    pub element: u32,
+    /// Whole periods.
+    pub image: [i8; D],
+}
+
+impl<const D: usize> NearElement<D> {
+    /// Of an image that a byte can count; others are of a wall drawn far outside the box.
+    pub(crate) fn new(element: usize, image: [i32; D]) -> Option<Self> {
+        let image = image.map(i8::try_from);
+        let counted = image.iter().all(Result::is_ok);
+        counted.then(|| NearElement {
+            element: element as u32,
+            image: image.map(Result::unwrap_or_default),
+        })
+    }
+
+    /// Index of the element.
+    pub fn index(self) -> usize {
+        self.element as usize
+    }
+}
