@@ -8,7 +8,6 @@ mod body;
 mod catenary;
 mod dynamics;
 mod freedom;
-mod layer;
 mod line;
 mod mooring;
 mod prescribed;

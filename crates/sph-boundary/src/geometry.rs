@@ -14,7 +14,6 @@ pub(crate) mod shells;
 pub(crate) mod surface;
 pub(crate) mod touching;
 pub(crate) mod vector;
-pub(crate) mod wall_end;
 #[cfg(feature = "plugins")]
 pub(crate) mod walls;
 pub(crate) mod wedges;

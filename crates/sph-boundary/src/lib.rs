@@ -17,50 +17,7 @@
 //! `plugins`, which is on unless it is turned off; without it the table above is left, for programs that want γ of a
 //! mesh and nothing else.
 //!
-//! # In the plane
-//! ```
-//! use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Renormalisation2d};
-//! use sph_kernels::PiecewisePolynomial;
-//!
-//! let square = Polyline::closed("tank", vec![[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]]);
-//! let mesh = Mesh::<2>::build(&[square], 0.5, &PeriodicBox::none())?;
-//! // Wendland C2: (1 - q/2)⁴ (1 + 2q) on 0 ≤ q < 2.
-//! let wendland = PiecewisePolynomial {
-//!     breaks: vec![0.0, 2.0],
-//!     pieces: vec![vec![1.0, 0.0, -2.5, 2.5, -0.9375, 0.125]],
-//! };
-//! let renormalisation = Renormalisation2d::new(&wendland, 1.0)?;
-//! let grid = Grid::build(&mesh, renormalisation.kernel_radius());
-//! let at = renormalisation.at([4.0, 0.5], &mesh, &grid);
-//! assert!((at.gamma() - 0.823496914).abs() < 1e-9);
-//! # Ok::<(), sph_boundary::BoundaryError>(())
-//! ```
-//!
-//! # In space
-//! The fluid is on the side from which the corners of a triangle run anticlockwise.
-//! ```
-//! use sph_boundary::{Grid, Mesh, PeriodicBox, Renormalisation3d, Surface};
-//! # use sph_kernels::PiecewisePolynomial;
-//! # let wendland = PiecewisePolynomial {
-//! #     breaks: vec![0.0, 2.0],
-//! #     pieces: vec![vec![1.0, 0.0, -2.5, 2.5, -0.9375, 0.125]],
-//! # };
-//!
-//! // The inside of a tetrahedron with three square corners.
-//! let tank = Surface {
-//!     name: "tank".into(),
-//!     points: vec![[0.0; 3], [24.0, 0.0, 0.0], [0.0, 24.0, 0.0], [0.0, 0.0, 24.0]],
-//!     triangles: vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
-//! };
-//! let mesh = Mesh::<3>::build(&[tank], &[0], 0.5, &PeriodicBox::none())?;
-//! let renormalisation = Renormalisation3d::new(&wendland, 1.0)?;
-//! let grid = Grid::build(&mesh, renormalisation.kernel_radius());
-//! let gamma = |x| renormalisation.at(x, &mesh, &grid).gamma();
-//! assert!((gamma([4.0, 4.0, 0.5]) - 0.827583313).abs() < 1e-9); // half a length from the floor
-//! assert!((gamma([0.0; 3]) - 0.125).abs() < 1e-9); // in the corner, touching three walls
-//! # Ok::<(), sph_boundary::BoundaryError>(())
-//! ```
-
+#![cfg_attr(feature = "plugins", doc = include_str!("../README.md"))]
 // Unit tests name no plugin. Without registration they compile what they call, not all loops of the crate again.
 #![cfg_attr(
     test,
@@ -83,7 +40,6 @@ mod rigid;
 mod scale;
 #[cfg(feature = "plugins")]
 mod treatment;
-mod warning;
 
 pub use error::{BoundaryError, Place};
 pub use geometry::drawing::Drawing;
@@ -93,19 +49,16 @@ pub use geometry::mesh::{
 };
 pub use geometry::periodic::PeriodicBox;
 pub use geometry::plate::thin_plate;
-pub use geometry::polyline::Polyline;
+pub use geometry::polyline::{FreeEnd, Polyline, WallEnd};
 pub use geometry::shells::{Gammas, Shells};
 pub use geometry::surface::Surface;
-pub use geometry::wall_end::{FreeEnd, WallEnd};
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
 pub use integrals::sum::GammaSum;
-pub use rigid::bend::Bend;
-pub use rigid::erodible::Erodible;
+pub use rigid::bend::{Bend, Erodible};
 pub use rigid::motion::RigidMotion;
 pub use rigid::pose::Pose;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
-pub use warning::WallWarning;
 
 #[cfg(feature = "plugins")]
 pub use crate::{

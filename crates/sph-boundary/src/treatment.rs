@@ -12,7 +12,7 @@ pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;
 pub(crate) mod plates;
-pub(crate) mod shadowing;
+pub(crate) mod shaped;
 pub(crate) mod shepard;
 pub(crate) mod symmetric;
 pub(crate) mod touching;

@@ -5,11 +5,10 @@ use sph_core::{Vect, plugin};
 
 use crate::bodies::dynamics::Dynamics;
 use crate::bodies::freedom::{Freedom, Holds};
-use crate::bodies::layer::layer;
 use crate::bodies::line::Line;
 use crate::bodies::mooring::Mooring;
 use crate::bodies::prescribed::{self, Prescribed};
-use crate::bodies::shape::{Solid, winding};
+use crate::bodies::shape::{Solid, layer, winding};
 use crate::bodies::spatial_vector::padded;
 use crate::geometry::vector::{bounds, widened};
 use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidState, Touch};
@@ -90,12 +89,10 @@ fn vector<const D: usize>(
     key: &str,
     given: &Option<Vec<f64>>,
 ) -> MoverResult<Option<Vector3<f64>>> {
-    let Some(given) = given else {
-        return Ok(None);
-    };
-    match given.len() == D {
-        true => Ok(Some(padded(given))),
-        false => wrong_count(key, given.len(), &D.to_string()),
+    match given {
+        None => Ok(None),
+        Some(given) if given.len() == D => Ok(Some(padded(given))),
+        Some(given) => wrong_count(key, given.len(), &D.to_string()),
     }
 }
 
@@ -154,23 +151,17 @@ impl RigidBody {
 
     fn freedoms<const D: usize>(&self) -> MoverResult<[bool; 6]> {
         let there = Freedom::in_dimension(D);
-        let names = || {
-            there
-                .iter()
-                .map(|f| f.name())
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
+        let names: Vec<&str> = there.iter().map(|f| f.name()).collect();
+        let names = names.join(", ");
         let mut free = [false; 6];
         for (k, freedom) in self.free.as_deref().unwrap_or(there).iter().enumerate() {
             if !there.contains(freedom) {
-                let why = format!("there is no `{}` in {D}D: {}", freedom.name(), names());
+                let why = format!("there is no `{}` in {D}D: {names}", freedom.name());
                 return refused(&format!("free[{k}]"), why);
             }
             free[freedom.index()] = true;
         }
         if free == [false; 6] {
-            let names = names();
             let why = format!("nothing is free: leave the mover out, or free some of {names}");
             return refused("free", why);
         }
@@ -182,13 +173,6 @@ impl RigidBody {
             }
         }
         Ok(free)
-    }
-
-    fn moorings<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> MoverResult<Vec<Mooring>> {
-        let lines = self.line.iter().enumerate();
-        lines
-            .map(|(k, line)| Mooring::new(line, k, setting))
-            .collect()
     }
 
     /// Penalty of contact: a face of the body stops ten times the speed of sound within half a spacing.
@@ -288,12 +272,12 @@ impl<const D: usize> Mover<D> for RigidBody {
         let weighed = self.weighed(setting)?;
         check_separate(setting)?;
         let free = self.freedoms::<D>()?;
-        let lines = self.moorings(setting)?;
+        let lines = self.line.iter().enumerate();
+        let lines = lines.map(|(k, line)| Mooring::new(line, k, setting));
+        let lines: Vec<_> = lines.collect::<Result<_, _>>()?;
         let centre = weighed.centre;
-        let far = setting
-            .pieces()
-            .flat_map(corners)
-            .map(|x| (x - centre).norm());
+        let corners = setting.pieces().flat_map(corners);
+        let far = corners.map(|x| (x - centre).norm());
         let bounds = [far.fold(0.0, f64::max), setting.sound_speed];
         prescribed::check::<D>(&self.prescribed, self.start, bounds)?;
         vector::<D>("velocity", &self.velocity)?;

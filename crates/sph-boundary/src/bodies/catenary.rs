@@ -75,7 +75,7 @@ impl Catenary {
         // Straight above the anchor H is none, but its stiffness is not: a nearby place has both.
         let target = [x.max(1e-7 * self.length), z];
         let [mut across, mut up] = self.guess(target);
-        let mut energy = self.energy(across, up);
+        let mut energy = self.energy([across, up]);
         for _ in 0..STEPS {
             let missing = [0, 1].map(|k| target[k] - energy.place[k]);
             if missing.iter().all(|m| m.abs() <= CLOSE * self.length) {
@@ -91,20 +91,17 @@ impl Catenary {
                 share = share.min(-0.9 * up / step[1]);
             }
             let slope = missing[0] * step[0] + missing[1] * step[1];
-            let merit = |e: &Energy, h: f64, v: f64| e.value - h * target[0] - v * target[1];
-            let before = merit(&energy, across, up);
-            let mut next = self.energy(across + share * step[0], up + share * step[1]);
+            let merit = |e: &Energy, [h, v]: [f64; 2]| e.value - h * target[0] - v * target[1];
+            let at = |share: f64| [across + share * step[0], up + share * step[1]];
+            let before = merit(&energy, [across, up]);
+            let mut next = self.energy(at(share));
             // Armijo, with room for rounding: near the end differences of energies are noise.
             let room = 1e-12 * before.abs();
-            while merit(&next, across + share * step[0], up + share * step[1])
-                > before - 1e-4 * share * slope + room
-                && share > 1e-10
-            {
+            while share > 1e-10 && merit(&next, at(share)) > before - 1e-4 * share * slope + room {
                 share *= 0.5;
-                next = self.energy(across + share * step[0], up + share * step[1]);
+                next = self.energy(at(share));
             }
-            across += share * step[0];
-            up += share * step[1];
+            [across, up] = at(share);
             energy = next;
         }
         let [[a, b], [_, d]] = energy.hessian;
@@ -146,14 +143,9 @@ impl Catenary {
         [(0.5 * w * x / lambda).max(least), up]
     }
 
-    fn energy(&self, across: f64, up: f64) -> Energy {
-        let Catenary {
-            weight: w,
-            axial,
-            length,
-            ..
-        } = *self;
-        let (h, v, lies) = (across, up, self.length_on_bed(up));
+    fn energy(&self, [h, v]: [f64; 2]) -> Energy {
+        let (w, axial, length) = (self.weight, self.axial, self.length);
+        let lies = self.length_on_bed(v);
         // From where it leaves the bed, or from the anchor.
         let low = self.at_anchor(v);
         let [t, t_low] = [v, low].map(|v| h.hypot(v));

@@ -74,10 +74,8 @@ impl Dynamics {
         state.angular_velocity = omega_next.into();
 
         // The acceleration in the pressure at the wall follows that of the body.
-        let felt = six(
-            padded(now.acceleration.as_slice()),
-            now.angular_acceleration.into(),
-        );
+        let turning = now.angular_acceleration.into();
+        let felt = six(padded(now.acceleration.as_slice()), turning);
         let whole = six(along, (omega_next - omega) / dt);
         let frame = blocks(turn, turn);
         let layer = frame * self.layer * frame.transpose();
@@ -125,10 +123,6 @@ impl Dynamics {
     ) {
         let turn = rotation(now);
         let shift = padded(&now.pose.translation);
-        let mut add = |j: &Vector6<f64>, pull: f64, stiffness: f64, damping: f64, rate: f64| {
-            *matrix += j * j.transpose() * (dt * damping + dt * dt * stiffness);
-            *force -= j * (pull + dt * stiffness * rate);
-        };
         if !self.holds.is_empty() {
             let rotation = Rotation3::from_matrix_unchecked(turn);
             let angle = UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis();
@@ -138,7 +132,8 @@ impl Dynamics {
                 let mut j = Vector6::zeros();
                 j[k] = 1.0;
                 let pull = stiffness * way[k] + damping * velocity[k];
-                add(&j, pull, *stiffness, *damping, velocity[k]);
+                *matrix += j * j.transpose() * (dt * damping + dt * dt * stiffness);
+                *force -= j * (pull + dt * stiffness * velocity[k]);
             }
         }
         for line in &self.lines {

@@ -64,11 +64,9 @@ pub(crate) fn crosses(from: Vector3<f64>, to: Vector3<f64>, wall: &Drawing) -> b
             let normal = (b - a).cross(&(c - a));
             let s = normal.dot(&(a - from)) / normal.dot(&(to - from));
             let x = from + (to - from) * s;
-            let sides = [(a, b), (b, c), (c, a)];
-            inner(s)
-                && sides
-                    .into_iter()
-                    .all(|(p, q)| normal.dot(&(q - p).cross(&(x - p))) >= 0.0)
+            let left_of =
+                |(p, q): (Vector3<f64>, Vector3<f64>)| normal.dot(&(q - p).cross(&(x - p))) >= 0.0;
+            inner(s) && [(a, b), (b, c), (c, a)].into_iter().all(left_of)
         }),
     }
 }

@@ -69,11 +69,10 @@ impl Mooring {
                 "bed",
                 "a line without `weight` is straight: it needs no bed".into(),
             )),
-            None => Ok(Kind::Straight(
-                line.stiffness,
-                line.damping,
-                line.length.unwrap_or(drawn),
-            )),
+            None => {
+                let free = line.length.unwrap_or(drawn);
+                Ok(Kind::Straight(line.stiffness, line.damping, free))
+            }
         };
         let kind = kind.map_err(|(key, why)| refusal(key, why))?;
         let [from, to] = [&line.from, &line.to].map(|place| padded(place));
@@ -144,11 +143,9 @@ impl Mooring {
             Kind::Hanging(catenary, up) => {
                 let (across, [x, z]) = split(self.to - self.from, up);
                 let hang = catenary.hang(x, z);
-                let mut places: Vec<_> = catenary
-                    .shape(&hang, x, PIECES)
-                    .into_iter()
-                    .map(|[x, z]| self.from + across * x + up * z)
-                    .collect();
+                let shape = catenary.shape(&hang, x, PIECES).into_iter();
+                let places = shape.map(|[x, z]| self.from + across * x + up * z);
+                let mut places: Vec<_> = places.collect();
                 // Rounding must not move the end from a wall on which it lies.
                 if let Some(last) = places.last_mut() {
                     *last = self.to;

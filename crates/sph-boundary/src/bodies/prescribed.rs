@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 use sph_core::{Vect, parameters};
 
-use crate::bodies::spatial_vector::{parts, six};
+use crate::bodies::spatial_vector::{padded, parts, six};
 use crate::{MoverRefusal, RigidState};
 
 /// A time in which the body moves as given: it keeps the velocities that it had, or takes those of a course.
@@ -53,10 +53,8 @@ pub(crate) fn check<const D: usize>(
                 0 => "the body is free from `start` on",
                 _ => "the time before it ends",
             };
-            return refused(
-                "from",
-                format!("{} s is before {before} s, when {what}", one.from),
-            );
+            let why = format!("{} s is before {before} s, when {what}", one.from);
+            return refused("from", why);
         }
         if one.to <= one.from {
             return refused("to", format!("{} s is not after {} s", one.to, one.from));
@@ -96,11 +94,8 @@ pub(crate) fn check<const D: usize>(
     Ok(())
 }
 
-/// Velocities and accelerations of a body along the axes and about them.
-pub(crate) struct ImposedMotion {
-    pub velocity: Vector6<f64>,
-    pub acceleration: Vector6<f64>,
-}
+/// Velocities and accelerations of a body, along the axes and about them.
+pub(crate) type ImposedMotion = [Vector6<f64>; 2];
 
 impl Prescribed {
     /// True if a step from a time is one of its own.
@@ -116,20 +111,17 @@ impl Prescribed {
         let next = place.clamp(1, last);
         let [a, b] = [next - 1, next].map(|k| &self.course[k][..]);
         let of = |row: &[f64]| {
-            let about = match row.len() {
-                4 => Vector3::new(0.0, 0.0, row[3]),
-                _ => Vector3::from_column_slice(&row[4..]),
+            let (along, about) = row[1..].split_at(row.len() / 2);
+            let about = match about {
+                [turn] => Vector3::new(0.0, 0.0, *turn),
+                _ => padded(about),
             };
-            let along = Vector3::new(row[1], row[2], if row.len() == 4 { 0.0 } else { row[3] });
-            six(along, about)
+            six(padded(along), about)
         };
         let (from, to) = (of(a), of(b));
         let slope = (to - from) / (b[0] - a[0]);
         let gone = (time - a[0]).clamp(0.0, b[0] - a[0]);
-        Some(ImposedMotion {
-            velocity: from + slope * gone,
-            acceleration: slope,
-        })
+        Some([from + slope * gone, slope])
     }
 }
 
@@ -141,11 +133,11 @@ pub(crate) fn moved<const D: usize>(
 ) -> RigidState<D> {
     let mut state = *now;
     let (mut along, mut about) = (Vector3::zeros(), Vector3::zeros());
-    if let Some(given) = given {
-        let (velocity, turning) = parts(&given.velocity);
+    if let Some([velocity, acceleration]) = given {
+        let (velocity, turning) = parts(&velocity);
         state.velocity = Vect::from_fn(|k, _| velocity[k]);
         state.angular_velocity = turning.into();
-        (along, about) = parts(&given.acceleration);
+        (along, about) = parts(&acceleration);
     }
     state.acceleration = Vect::from_fn(|k, _| along[k]);
     state.angular_acceleration = about.into();
@@ -165,33 +157,23 @@ mod tests {
 
     #[test]
     fn a_course_is_straight_between_its_rows() {
-        let course = one(
-            1.0,
-            3.0,
-            &[
-                &[1.0, 0.0, 2.0, 1.0],
-                &[2.0, 0.0, 4.0, 0.0],
-                &[3.0, 1.0, 4.0, 0.0],
-            ],
-        );
+        let rows = [
+            [1.0, 0.0, 2.0, 1.0],
+            [2.0, 0.0, 4.0, 0.0],
+            [3.0, 1.0, 4.0, 0.0],
+        ];
+        let course = one(1.0, 3.0, &[&rows[0], &rows[1], &rows[2]]);
         assert!(course.holds(1.0) && !course.holds(3.0));
-        let at = |time: f64| course.at(time).map(|g| (g.velocity, g.acceleration));
         let numbers = |x: f64, y: f64, about: f64| {
             six(Vector3::new(x, y, 0.0), Vector3::new(0.0, 0.0, about))
         };
-        assert_eq!(
-            at(1.5),
-            Some((numbers(0.0, 3.0, 0.5), numbers(0.0, 2.0, -1.0)))
-        );
-        assert_eq!(
-            at(2.0),
-            Some((numbers(0.0, 4.0, 0.0), numbers(1.0, 0.0, 0.0)))
-        );
+        let middle = [numbers(0.0, 3.0, 0.5), numbers(0.0, 2.0, -1.0)];
+        assert_eq!(course.at(1.5), Some(middle));
+        let corner = [numbers(0.0, 4.0, 0.0), numbers(1.0, 0.0, 0.0)];
+        assert_eq!(course.at(2.0), Some(corner));
         // The step that goes beyond its end.
-        assert_eq!(
-            at(3.1),
-            Some((numbers(1.0, 4.0, 0.0), numbers(1.0, 0.0, 0.0)))
-        );
+        let end = [numbers(1.0, 4.0, 0.0), numbers(1.0, 0.0, 0.0)];
+        assert_eq!(course.at(3.1), Some(end));
         assert!(one(1.0, 2.0, &[]).at(1.0).is_none());
     }
 

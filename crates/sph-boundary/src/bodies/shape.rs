@@ -1,11 +1,11 @@
-//! Volume, centre and inertia of the volume that walls enclose.
+//! Volume, centre and inertia of the volume that walls enclose, and of the fluid next to it.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use crate::bodies::spatial_vector::padded;
+use crate::bodies::spatial_vector::{padded, six};
 use crate::{Drawing, Polyline, Surface};
 
 /// A solid of density 1.
@@ -51,9 +51,8 @@ impl Moments {
         let whole = corners[1..].iter().fold(corners[0], |sum, c| sum + c);
         self.first += whole * (volume / (n + 1.0));
         let square = |c: &Vector3<f64>| c * c.transpose();
-        let own = corners[1..]
-            .iter()
-            .fold(square(&corners[0]), |sum, c| sum + square(c));
+        let more = corners[1..].iter();
+        let own = more.fold(square(&corners[0]), |sum, c| sum + square(c));
         self.second += (own + square(&whole)) * (volume / ((n + 1.0) * (n + 2.0)));
     }
 }
@@ -138,12 +137,8 @@ fn add_line(sum: &mut Moments, line: &Polyline) -> Result<(), NoSolid> {
 fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
     let edges = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let bits = |c: u32| surface.points[c as usize].map(|x| (x + 0.0).to_bits());
-    let directed: BTreeSet<_> = surface
-        .triangles
-        .iter()
-        .flat_map(edges)
-        .map(|e| e.map(bits))
-        .collect();
+    let all = surface.triangles.iter().flat_map(edges);
+    let directed: BTreeSet<_> = all.map(|e| e.map(bits)).collect();
     if directed.iter().any(|[a, b]| !directed.contains(&[*b, *a])) {
         return Err(NoSolid::Open);
     }
@@ -153,6 +148,51 @@ fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
         sum.add(&[a, b, c], a.dot(&b.cross(&c)) / 6.0);
     }
     Ok(())
+}
+
+/// A* = ρ h Σ ∫ j jᵀ dS with j = (n, (x − c) × n): the inertia of a layer of fluid one smoothing length h thick that goes
+/// with the surface along its normal n.
+pub(crate) fn layer<'a>(
+    pieces: impl IntoIterator<Item = &'a Drawing>,
+    centre: Vector3<f64>,
+    density: f64,
+    smoothing_length: f64,
+) -> Matrix6<f64> {
+    let mut sum = Matrix6::zeros();
+    let mut add = |x: Vector3<f64>, weighted_normal: Vector3<f64>| {
+        let area = weighted_normal.norm();
+        if area > 0.0 {
+            let normal = weighted_normal / area;
+            let j = six(normal, (x - centre).cross(&normal));
+            sum += j * j.transpose() * (area * density * smoothing_length);
+        }
+    };
+    for piece in pieces {
+        match piece {
+            Drawing::Line(line) => {
+                for [a, b] in line.edges() {
+                    let [a, b] = [a, b].map(|p| Vector3::new(p[0], p[1], 0.0));
+                    let along = b - a;
+                    let normal = Vector3::new(-along.y, along.x, 0.0) * 0.5;
+                    // Two points are exact for squares of the arm.
+                    for s in [-1.0, 1.0].map(|k| 0.5 + k * 0.5 / 3.0_f64.sqrt()) {
+                        add(a + along * s, normal);
+                    }
+                }
+            }
+            Drawing::Surface(surface) => {
+                for triangle in &surface.triangles {
+                    let [a, b, c] = triangle.map(|k| Vector3::from(surface.points[k as usize]));
+                    let normal = (b - a).cross(&(c - a)) / 6.0;
+                    // So are the middles of the edges.
+                    for x in [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5] {
+                        add(x, normal);
+                    }
+                }
+            }
+        }
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -179,12 +219,8 @@ mod tests {
         assert!((solid.centre - Vector3::new(2.0, 2.5, 0.0)).norm() < 1e-14);
         // A (a² + b²)/12
         assert!((solid.inertia[(2, 2)] - 2.0 * 5.0 / 12.0).abs() < 1e-13);
-        let solid = Solid::from_pieces([&Drawing::Surface(boxed(
-            "box",
-            [1.0, 2.0, -1.0],
-            [3.0, 5.0, 3.0],
-        ))])
-        .unwrap();
+        let cuboid = boxed("box", [1.0, 2.0, -1.0], [3.0, 5.0, 3.0]);
+        let solid = Solid::from_pieces([&Drawing::Surface(cuboid)]).unwrap();
         assert!((solid.volume - 24.0).abs() < 1e-12);
         assert!((solid.centre - Vector3::new(2.0, 3.5, 1.0)).norm() < 1e-13);
         let expected = Vector3::new(9.0 + 16.0, 4.0 + 16.0, 4.0 + 9.0) * 2.0;
@@ -219,6 +255,21 @@ mod tests {
             (Drawing::Line(plate), NoSolid::Flat),
         ] {
             assert_eq!(Solid::from_pieces([&drawing]), Err(why));
+        }
+    }
+
+    /// Of a square of side a about its centre: 2 ρ h a along each axis, ρ h 4 ∫ s² ds = ρ h a³/3 about it.
+    #[test]
+    fn the_layer_of_a_square_has_its_inertia() {
+        let corners = vec![[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0]];
+        let square = Drawing::Line(Polyline::closed("s", corners));
+        let layer = layer([&square], Vector3::new(2.0, 2.0, 0.0), 1000.0, 0.1);
+        let expected = [400.0, 400.0, 0.0, 0.0, 0.0, 100.0 * 8.0 / 3.0];
+        for i in 0..6 {
+            for k in 0..6 {
+                let want = if i == k { expected[i] } else { 0.0 };
+                assert!((layer[(i, k)] - want).abs() < 1e-10, "{layer}");
+            }
         }
     }
 }

@@ -2,16 +2,13 @@
 
 mod crossing;
 
-use std::ops::ControlFlow;
-
 use sph_core::BoxTree;
 
 pub(crate) use crossing::check_crossings;
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::{bounds, distance_to_segment, dot, sub, widened};
-use crate::warning::WallWarning;
 
 /// Edges shorter than this part of the spacing are remarked upon.
 const SHORT: f64 = 0.25;
@@ -26,26 +23,31 @@ pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
         let why = format!("has {count} point(s), at least two are needed");
         return Err(BoundaryError::unfit(&line.name, why));
     }
-    if let Some(point) = line
-        .points
-        .iter()
-        .position(|p| p.iter().any(|x| !x.is_finite()))
-    {
-        return Err(BoundaryError::NotFinite {
-            wall: line.name.clone(),
-            point,
-        });
-    }
+    check_finite(&line.name, &line.points)?;
     if let Some(edge) = line.lengths().position(|length| length == 0.0) {
-        let next = (edge + 1) % line.points.len();
-        return Err(BoundaryError::ZeroLengthEdge {
-            wall: line.name.clone(),
-            edge,
-            next,
-            at: line.points[edge].into(),
-        });
+        let (next, at) = (
+            (edge + 1) % line.points.len(),
+            Place::from(line.points[edge]),
+        );
+        let why = format!("edge {edge} has zero length, points {edge} and {next} are both at {at}");
+        return Err(BoundaryError::of_part(&line.name, why));
     }
     Ok(())
+}
+
+/// Coordinates that are infinite or no numbers.
+pub(crate) fn check_finite<const D: usize>(
+    wall: &str,
+    points: &[[f64; D]],
+) -> Result<(), BoundaryError> {
+    let finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
+    match points.iter().position(|p| !finite(p)) {
+        None => Ok(()),
+        Some(point) => {
+            let why = format!("point {point} has a coordinate that is not finite");
+            Err(BoundaryError::of_part(wall, why))
+        }
+    }
 }
 
 /// A closed wall that encloses nothing and is not a plate of zero thickness.
@@ -55,25 +57,32 @@ pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), Boundary
         && line.signed_area().abs() <= NO_AREA * perimeter * perimeter
         && let Some(edge) = unretraced_edge(line, tolerance)
     {
-        return Err(BoundaryError::ZeroArea {
-            wall: line.name.clone(),
-            edge,
-        });
+        let why = format!(
+            "is closed but encloses no area, and edge {edge} is not retraced in the opposite direction as it would be \
+             on a plate of zero thickness"
+        );
+        return Err(BoundaryError::unfit(&line.name, why));
     }
     Ok(())
 }
 
-/// Edges far shorter than the spacing.
-pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item = WallWarning> {
+/// Remarks on edges far shorter than the spacing, each of which becomes one short segment.
+pub(crate) fn short_edges(line: &Polyline, spacing: f64) -> impl Iterator<Item = String> {
     let lengths = line.lengths().enumerate();
-    lengths
-        .filter(move |(_, length)| *length < SHORT * spacing)
-        .map(move |(edge, length)| WallWarning::ShortEdge {
-            wall: line.name.clone(),
-            edge,
-            length,
-            spacing,
-        })
+    let short = lengths.filter(move |(_, length)| *length < SHORT * spacing);
+    short.map(move |(edge, length)| {
+        let wall = &line.name;
+        format!(
+            "edge {edge} of wall `{wall}` is {length} m long, far shorter than the spacing {spacing} m"
+        )
+    })
+}
+
+/// A remark on faces that end on the back of another wall: no fluid is before them.
+pub(crate) fn unseen(wall: &str, faces: usize) -> String {
+    format!(
+        "{faces} faces of wall `{wall}` end on the back of another wall: they bound no fluid and are left out"
+    )
 }
 
 /// An edge whose middle is not on another edge in the opposite direction.
@@ -86,11 +95,8 @@ fn unretraced_edge(line: &Polyline, tolerance: f64) -> Option<usize> {
             let opposite = dot(sub(b, a), sub(d, c)) < 0.0;
             opposite && distance_to_segment(middle, [c, d]) <= tolerance
         };
-        let near = widened([middle; 2], tolerance);
-        let found = tree.overlapping(near, &mut |k| match retraces(k) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        });
-        found.is_continue()
+        let mut found = false;
+        tree.each(widened([middle; 2], tolerance), |k| found |= retraces(k));
+        !found
     })
 }

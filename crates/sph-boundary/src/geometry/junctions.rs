@@ -2,10 +2,10 @@
 
 use sph_core::{BoxTree, Sets};
 
+use crate::geometry::checks::unseen;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::widened;
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
-use crate::warning::WallWarning;
 
 /// A line with the number of its wall.
 type Piece = (usize, Polyline);
@@ -18,6 +18,8 @@ struct End {
     begins: bool,
     /// Of the line, from the end on, rad.
     angle: f64,
+    /// Of its wall.
+    group: usize,
 }
 
 /// Cuts lines at corners where another one of their group ends, and leaves out the pieces that then bound no fluid:
@@ -27,7 +29,7 @@ pub(crate) fn bounding(
     pieces: Vec<Piece>,
     groups: &[usize],
     tolerance: f64,
-) -> (Vec<Piece>, Vec<WallWarning>) {
+) -> (Vec<Piece>, Vec<String>) {
     let given = Ends::new(&pieces, groups, tolerance);
     let cut = |&(wall, ref line): &Piece| {
         let parts = cut(line, |place| !given.at(place, groups[wall]).is_empty());
@@ -38,7 +40,7 @@ pub(crate) fn bounding(
     let mut parts = Sets::new(all.len());
     let mut severed: Vec<(usize, Vec<usize>)> = Vec::new();
     for (n, end) in ends.all.iter().enumerate() {
-        let meet = ends.at(end.place, groups[all[end.piece].0]);
+        let meet = ends.at(end.place, end.group);
         if meet.first() != Some(&n) || meet.len() < 2 {
             continue;
         }
@@ -68,8 +70,7 @@ pub(crate) fn bounding(
         let left_out = all.iter().zip(&bounds);
         let left_out = left_out.filter(|((own, _), bounds)| *own == wall && !**bounds);
         let faces = left_out.map(|((_, line), _)| line.edge_count()).sum();
-        let wall = name.clone();
-        let remark = WallWarning::Unseen { wall, faces };
+        let remark = unseen(name, faces);
         if faces > 0 && !remarks.contains(&remark) {
             remarks.push(remark);
         }
@@ -89,19 +90,14 @@ fn cut(line: &Polyline, ends_at: impl Fn([f64; 2]) -> bool) -> Vec<Polyline> {
         false => 1..count.saturating_sub(1),
     };
     let cuts: Vec<usize> = inner.filter(|k| ends_at(line.points[*k])).collect();
-    let (Some(first), Some(last)) = (cuts.first(), cuts.last()) else {
+    let Some(first) = cuts.first() else {
         return vec![line.clone()];
     };
     // From corner to corner, of a closed line around.
-    let mut bounds = cuts.clone();
-    match line.closed {
-        true => bounds.push(first + count),
-        false => {
-            bounds.insert(0, 0);
-            bounds.push(count - 1);
-        }
-    }
-    debug_assert!(last >= first, "ascending");
+    let bounds = match line.closed {
+        true => [&cuts[..], &[first + count][..]].concat(),
+        false => [&[0][..], &cuts[..], &[count - 1][..]].concat(),
+    };
     let piece = |pair: &[usize]| {
         let points = (pair[0]..=pair[1]).map(|k| line.points[k % count]);
         Polyline::open(line.name.clone(), points.collect())
@@ -112,8 +108,6 @@ fn cut(line: &Polyline, ends_at: impl Fn([f64; 2]) -> bool) -> Vec<Polyline> {
 /// Ends of open pieces, and the search for those at a place.
 struct Ends {
     all: Vec<End>,
-    /// By end.
-    groups: Vec<usize>,
     tree: BoxTree<2>,
     tolerance: f64,
 }
@@ -121,7 +115,6 @@ struct Ends {
 impl Ends {
     fn new(pieces: &[Piece], groups: &[usize], tolerance: f64) -> Self {
         let mut all = Vec::new();
-        let mut of = Vec::new();
         for (piece, (wall, line)) in pieces.iter().enumerate().filter(|(_, (_, l))| !l.closed) {
             let edges = [0, line.edge_count().saturating_sub(1)].map(|e| line.edge(e));
             for (begins, [place, to]) in [(true, edges[0]), (false, [edges[1][1], edges[1][0]])] {
@@ -131,14 +124,13 @@ impl Ends {
                     place,
                     begins,
                     angle,
+                    group: groups[*wall],
                 });
-                of.push(groups[*wall]);
             }
         }
         let tree = BoxTree::new(all.iter().map(|end: &End| [end.place; 2]).collect());
         Ends {
             all,
-            groups: of,
             tree,
             tolerance,
         }
@@ -149,7 +141,7 @@ impl Ends {
         let mut found = Vec::new();
         let around = widened([place; 2], self.tolerance);
         self.tree.each(around, |end| found.push(end));
-        found.retain(|end| self.groups[*end] == group);
+        found.retain(|end| self.all[*end].group == group);
         found.sort_unstable();
         found
     }
@@ -170,10 +162,8 @@ mod tests {
             (3, Polyline::open("outlet", vec![[4.0, 0.0], [4.0, 2.0]])),
         ];
         let (kept, remarks) = bounding(pieces.clone(), &[0; 4], 1e-6);
-        let points: Vec<_> = kept
-            .iter()
-            .map(|(wall, l)| (*wall, l.points.clone()))
-            .collect();
+        let points = kept.into_iter().map(|(wall, line)| (wall, line.points));
+        let points: Vec<_> = points.collect();
         let within = [
             (0, vec![[0.0, 0.0], [4.0, 0.0]]),
             (1, vec![[4.0, 2.0], [0.0, 2.0]]),

@@ -2,6 +2,7 @@
 
 use crate::error::BoundaryError;
 use crate::geometry::cells::product;
+use crate::geometry::vector::sub;
 
 /// An axis-aligned box, each axis periodic or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,35 +37,26 @@ impl<const D: usize> PeriodicBox<D> {
 
     /// Periods in metres, 0 across an axis that is not periodic.
     pub fn periods(&self) -> [f64; D] {
-        std::array::from_fn(|k| {
-            if self.periodic[k] {
-                self.upper[k] - self.lower[k]
-            } else {
-                0.0
-            }
+        std::array::from_fn(|k| match self.periodic[k] {
+            true => self.upper[k] - self.lower[k],
+            false => 0.0,
         })
     }
 
     /// Refuses a periodic axis without extent.
     pub(crate) fn check(&self) -> Result<(), BoundaryError> {
-        for k in 0..D {
-            if self.periodic[k] {
-                BoundaryError::check_positive("period", self.upper[k] - self.lower[k])?;
-            }
-        }
-        Ok(())
+        let mut periodic = (0..D).filter(|k| self.periodic[*k]);
+        periodic.try_for_each(|k| BoundaryError::check_positive("period", self.periods()[k]))
     }
 
-    /// The whole number of periods nearest to a displacement.
-    pub(crate) fn nearest_image(&self, displacement: [f64; D]) -> [i32; D] {
+    /// The whole number of periods nearest to a displacement, and the rest of it.
+    pub(crate) fn nearest(&self, displacement: [f64; D]) -> ([i32; D], [f64; D]) {
         let periods = self.periods();
-        std::array::from_fn(|k| {
-            if self.periodic[k] {
-                (displacement[k] / periods[k]).round() as i32
-            } else {
-                0
-            }
-        })
+        let image = std::array::from_fn(|k| match self.periodic[k] {
+            true => (displacement[k] / periods[k]).round() as i32,
+            false => 0,
+        });
+        (image, sub(displacement, self.shift(image)))
     }
 
     /// A place moved into the box along its periodic directions, m.
@@ -107,10 +99,8 @@ impl<const D: usize> PeriodicBox<D> {
             false => [0; 2],
             true => {
                 let first = ((low[k] - own[1][k]) / periods[k]).ceil();
-                [
-                    first as i64,
-                    ((high[k] - own[0][k]) / periods[k]).floor() as i64,
-                ]
+                let last = ((high[k] - own[0][k]) / periods[k]).floor();
+                [first as i64, last as i64]
             }
         };
         product(std::array::from_fn(range)).map(|image| image.map(|n| n as i32))
@@ -135,7 +125,7 @@ mod tests {
         };
         assert_eq!(images([9.5, 10.0]), [-1, 0]);
         assert_eq!(images([4.0, 5.0]), [0]);
-        assert_eq!(channel.nearest_image([-9.9, 3.0]), [-1, 0]);
+        assert_eq!(channel.nearest([-9.9, 3.0]).0, [-1, 0]);
         assert_eq!(channel.shift([-1, 0]), [-10.0, 0.0]);
     }
 

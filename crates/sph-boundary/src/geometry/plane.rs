@@ -29,8 +29,7 @@ impl Plane {
     /// Coordinates of the foot of the perpendicular from a point, m.
     #[inline]
     pub fn foot(&self, point: Point) -> [f64; 2] {
-        let from = sub(point, self.origin);
-        [dot(from, self.axes[0]), dot(from, self.axes[1])]
+        self.part(sub(point, self.origin))
     }
 
     /// The part of a vector in the plane, by its axes.

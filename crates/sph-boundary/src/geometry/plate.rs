@@ -32,10 +32,8 @@ pub fn thin_plate(
     let last = points.len() - 1;
     if thickness == 0.0 {
         let back = (1..last).rev().map(|i| points[i]);
-        return Ok(Polyline::closed(
-            middle.name,
-            points.iter().copied().chain(back).collect(),
-        ));
+        let around = points.iter().copied().chain(back);
+        return Ok(Polyline::closed(middle.name, around.collect()));
     }
     let normals: Vec<[f64; 2]> = middle.edges().map(left_normal).collect();
     let mut outline = Vec::with_capacity(2 * points.len());
@@ -45,10 +43,10 @@ pub fn thin_plate(
         let after = normals[i.min(last - 1)];
         let bend = 1.0 + before[0] * after[0] + before[1] * after[1];
         if bend < MITRE_LIMIT {
-            return Err(BoundaryError::SharpPlate {
-                wall: middle.name,
-                point: i,
-            });
+            return Err(BoundaryError::Refused(format!(
+                "plate `{}` turns too sharply at point {i} to be given a thickness",
+                middle.name
+            )));
         }
         let offset = [0, 1].map(|k| 0.5 * thickness * (before[k] + after[k]) / bend);
         outline.push([x + offset[0], y + offset[1]]);
@@ -73,10 +71,8 @@ mod tests {
     fn plate_is_clockwise_and_as_thick_as_asked() {
         let plate = thin_plate("plate", &[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]], 0.1).unwrap();
         assert_eq!(plate.points.len(), 6);
-        assert!(
-            (plate.signed_area() + 0.3).abs() < 1e-15,
-            "middle line times thickness"
-        );
+        // Middle line times thickness.
+        assert!((plate.signed_area() + 0.3).abs() < 1e-15);
     }
 
     #[test]
@@ -90,11 +86,8 @@ mod tests {
     fn folds_and_negative_thickness_are_refused() {
         let fold = thin_plate("p", &[[0.0, 0.0], [1.0, 0.0], [0.0, 0.01]], 0.1);
         assert_eq!(
-            fold,
-            Err(BoundaryError::SharpPlate {
-                wall: "p".into(),
-                point: 1
-            })
+            fold.unwrap_err().to_string(),
+            "plate `p` turns too sharply at point 1 to be given a thickness"
         );
         assert!(thin_plate("p", &[[0.0, 0.0], [1.0, 0.0]], -1.0).is_err());
     }

@@ -1,4 +1,6 @@
-//! A wall as it is drawn.
+//! A wall as it is drawn, and its ends.
+
+use crate::geometry::vector::{perp, sub};
 
 /// A wall of straight edges with the fluid on the left of the direction of travel.
 ///
@@ -22,9 +24,8 @@ impl Polyline {
     /// A wall that returns to its first point, which is not repeated at the end.
     pub fn closed(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
         Self {
-            name: name.into(),
-            points,
             closed: true,
+            ..Self::open(name, points)
         }
     }
 
@@ -39,11 +40,8 @@ impl Polyline {
 
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
-        if self.closed {
-            self.points.len()
-        } else {
-            self.points.len().saturating_sub(1)
-        }
+        let open = usize::from(!self.closed);
+        self.points.len().saturating_sub(open)
     }
 
     /// End points of edge `edge`, in the order of travel.
@@ -51,10 +49,8 @@ impl Polyline {
     /// # Panics
     /// When there is no such edge.
     pub fn edge(&self, edge: usize) -> [[f64; 2]; 2] {
-        [
-            self.points[edge],
-            self.points[(edge + 1) % self.points.len()],
-        ]
+        let next = (edge + 1) % self.points.len();
+        [self.points[edge], self.points[next]]
     }
 
     /// All edges in the order of travel.
@@ -80,13 +76,39 @@ impl Polyline {
         let Some(&[x0, y0]) = self.points.first() else {
             return 0.0;
         };
-        let moved = |[x, y]: [f64; 2]| [x - x0, y - y0];
-        let twice: f64 = (0..self.points.len())
-            .map(|i| [self.points[i], self.points[(i + 1) % self.points.len()]].map(moved))
-            .map(|[a, b]| a[0] * b[1] - b[0] * a[1])
-            .sum();
-        0.5 * twice
+        let moved = |i: usize| sub(self.points[i % self.points.len()], [x0, y0]);
+        let twice = (0..self.points.len()).map(|i| perp(moved(i), moved(i + 1)));
+        0.5 * twice.sum::<f64>()
     }
+}
+
+/// An end of an open wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WallEnd {
+    /// The start of the direction of travel.
+    First,
+    /// The end of the direction of travel.
+    Last,
+}
+
+impl std::fmt::Display for WallEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::First => "first",
+            Self::Last => "last",
+        })
+    }
+}
+
+/// The end of a wall that nothing continues.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeEnd {
+    /// Index of the wall.
+    pub wall: usize,
+    /// Its end.
+    pub end: WallEnd,
+    /// Index of the node.
+    pub node: usize,
 }
 
 #[cfg(test)]

@@ -50,11 +50,10 @@ impl Shells {
             return Shells::default();
         }
         let rim = (elements.clone()).map(|(e, open)| !open && e.iter().any(|node| ends[*node]));
+        let of = elements.map(|(e, open)| if open { 0 } else { number[sets.root(e[0])] });
         Shells {
             rim: rim.collect(),
-            of: elements
-                .map(|(e, open)| if open { 0 } else { number[sets.root(e[0])] })
-                .collect(),
+            of: of.collect(),
         }
     }
 

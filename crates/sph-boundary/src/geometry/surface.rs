@@ -1,7 +1,7 @@
 //! From surfaces to a mesh of triangles.
 //!
 //! * `places`, `drawn`, `crossing`: the input is welded and checked;
-//! * `patches`, `removal`, `seen`: planar pieces, without the places where walls touch face to face and without those
+//! * `patches`, `removal`, `wetted`: planar pieces, without the places where walls touch face to face and without those
 //!   that bound no fluid;
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
 //!   both sides of every edge;

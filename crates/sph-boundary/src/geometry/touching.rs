@@ -7,7 +7,7 @@ use sph_core::BoxTree;
 use crate::Polyline;
 use crate::error::{BoundaryError, MOST_PAIRS};
 use crate::geometry::mesh::SAME_PLACE;
-use crate::geometry::vector::{bounds, widened};
+use crate::geometry::vector::{bounds, dot, perp, sub, widened};
 
 /// Lines without the stretches on which two of them lie face to face, each with its number.
 ///
@@ -71,13 +71,10 @@ pub(crate) fn without_shared(
 
 /// Abscissae along the first edge between which the second lies on it, facing it.
 fn shared([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2], tolerance: f64) -> Option<[f64; 2]> {
-    let along = [b[0] - a[0], b[1] - a[1]];
+    let along = sub(b, a);
     let length = along[0].hypot(along[1]);
     let t = along.map(|x| x / length);
-    let frame = |p: [f64; 2]| {
-        let (x, y) = (p[0] - a[0], p[1] - a[1]);
-        (x * t[0] + y * t[1], x * t[1] - y * t[0])
-    };
+    let frame = |p: [f64; 2]| (dot(sub(p, a), t), perp(sub(p, a), t));
     let ((from, above), (to, below)) = (frame(c), frame(d));
     if above.abs() > tolerance || below.abs() > tolerance || to >= from {
         return None;
@@ -111,26 +108,17 @@ fn rest(line: &Polyline, cuts: &[Vec<[f64; 2]>], tolerance: f64) -> Vec<Polyline
         }
         stretch(from, length, false);
     }
+    pieces.pop_if(|last| last.is_empty());
     // A closed line that is whole around its first corner goes on there.
-    let goes_on = |pieces: &[Vec<[f64; 2]>]| {
-        let (first, last) = (pieces.first()?, pieces.last()?);
-        (pieces.len() > 1 && line.closed && last.last() == first.first()).then_some(())
-    };
-    if pieces.last().is_some_and(Vec::is_empty) {
-        pieces.pop();
-    }
-    if goes_on(&pieces).is_some()
-        && let Some(last) = pieces.pop()
-    {
+    let start = pieces.first().and_then(|first| first.first()).copied();
+    let several = pieces.len() > 1 && line.closed;
+    if let Some(last) = pieces.pop_if(|last| several && last.last() == start.as_ref()) {
         let joined = last.into_iter().chain(pieces[0].drain(..).skip(1));
         pieces[0] = joined.collect();
     }
+    let whole = pieces.into_iter().filter(|p| p.len() > 1);
     let open = |points| Polyline::open(line.name.clone(), points);
-    pieces
-        .into_iter()
-        .filter(|p| p.len() > 1)
-        .map(open)
-        .collect()
+    whole.map(open).collect()
 }
 
 #[cfg(test)]

@@ -59,8 +59,18 @@ pub(crate) fn widened<const D: usize>([low, high]: [[f64; D]; 2], by: f64) -> [[
     [low.map(|x| x - by), high.map(|x| x + by)]
 }
 
-/// Distance of a point from the segment between two others.
-pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], [a, b]: [[f64; D]; 2]) -> f64 {
+/// a × b in the plane.
+#[inline(always)]
+pub(crate) fn perp<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The part of the way along the segment between two points at which it is nearest to another one, and the way from
+/// there to that one.
+pub(crate) fn foot_on_segment<const D: usize>(
+    p: [f64; D],
+    [a, b]: [[f64; D]; 2],
+) -> (f64, [f64; D]) {
     let (t, to) = (sub(b, a), sub(p, a));
     let length2 = dot(t, t);
     let part = if length2 > 0.0 {
@@ -68,5 +78,10 @@ pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], [a, b]: [[f64; D]
     } else {
         0.0
     };
-    norm(along(to, -part, t))
+    (part, along(to, -part, t))
+}
+
+/// Distance of a point from the segment between two others.
+pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], ends: [[f64; D]; 2]) -> f64 {
+    norm(foot_on_segment(p, ends).1)
 }

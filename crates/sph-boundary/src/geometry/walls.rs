@@ -2,11 +2,8 @@
 
 pub(crate) mod beds;
 pub(crate) mod cover;
-mod face_map;
 mod face_sums;
 mod faces;
-mod lattice_layers;
-mod layers;
 mod planar;
 mod spatial;
 pub(crate) mod wall_mesh;

@@ -19,10 +19,8 @@ pub(crate) fn wedges(mut around: Vec<AdjacentFace>) -> Vec<[usize; 2]> {
     around.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.with.cmp(&b.with)));
     let next = around.iter().cycle().skip(1);
     let pairs = around.iter().zip(next);
-    pairs
-        .filter(|(a, b)| a.with && !b.with)
-        .map(|(a, b)| [a.piece, b.piece])
-        .collect()
+    let pairs = pairs.filter(|(a, b)| a.with && !b.with);
+    pairs.map(|(a, b)| [a.piece, b.piece]).collect()
 }
 
 /// By piece, whether it bounds the fluid; `parts` are those that hang together.
@@ -35,10 +33,8 @@ pub(crate) fn bound_fluid(
     count: usize,
     severed: &[(usize, Vec<usize>)],
 ) -> Vec<bool> {
-    let ends: HashSet<usize> = severed
-        .iter()
-        .map(|(piece, _)| parts.root(*piece))
-        .collect();
+    let ends = severed.iter().map(|(piece, _)| parts.root(*piece));
+    let ends: HashSet<usize> = ends.collect();
     let mut outside: BTreeMap<usize, bool> = ends.iter().map(|part| (*part, true)).collect();
     for (piece, others) in severed {
         let whole = others.iter().all(|o| !ends.contains(&parts.root(*o)));

@@ -15,15 +15,14 @@ pub(crate) fn normalisation(
     dimension: usize,
 ) -> Result<f64, BoundaryError> {
     BoundaryError::check_positive("smoothing length", smoothing_length)?;
-    shape
-        .check()
-        .map_err(|reason| BoundaryError::Kernel { reason })?;
+    let unfit = |reason| BoundaryError::Kernel { reason };
+    shape.check().map_err(unfit)?;
     let sigma = shape.normalisation(dimension);
     match sigma > 0.0 && sigma.is_finite() {
         true => Ok(sigma),
-        false => Err(BoundaryError::Kernel {
-            reason: format!("its integral in {dimension} dimensions is not positive"),
-        }),
+        false => Err(unfit(format!(
+            "its integral in {dimension} dimensions is not positive"
+        ))),
     }
 }
 
@@ -39,6 +38,13 @@ pub(crate) fn steps(shape: &PiecewisePolynomial) -> Vec<(f64, Vec<f64>)> {
         }
     }
     steps
+}
+
+/// One end of a clipped segment or edge: abscissa y on its line and distance q, over h.
+#[derive(Clone, Copy)]
+pub(crate) struct End<L> {
+    pub y: L,
+    pub q: L,
 }
 
 #[cfg(test)]

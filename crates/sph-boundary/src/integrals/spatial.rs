@@ -4,13 +4,12 @@ mod edge;
 mod facet;
 mod knot;
 mod outer_moment;
-mod plane;
 mod renormalisation;
 mod weight;
 mod weights;
 mod winding;
 
 pub use facet::FacetIntegral;
-pub(crate) use plane::{Circle, Foot, Patch};
 pub use renormalisation::Renormalisation3d;
 pub use weights::Weights;
+pub(crate) use weights::{Circle, Foot, Patch};

@@ -7,7 +7,7 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_core::course::{Course, Rotation, Translation};
 
-use crate::geometry::vector::unit;
+use crate::geometry::vector::{along, unit};
 use crate::{Bend, Erodible, Pose};
 #[cfg(feature = "plugins")]
 use crate::{Movement, RigidState};
@@ -100,22 +100,17 @@ impl<const D: usize> RigidMotion<D> {
     /// Position and orientation of the wall at a time, relative to the drawing.
     pub fn pose(&self, time: f64) -> Pose<D> {
         let t = self.elapsed(time);
-        let mut pose = match &self.rotation {
-            Some(rotation) => Pose::turned_about(
-                unit_axis(rotation),
-                rotation.course.at(t).value,
-                rotation.centre,
-            ),
-            None => Pose::default(),
+        let turned = |r: &Rotation<D>| {
+            let angle = r.course.at(t).value;
+            Pose::turned_about(unit_axis(r), angle, r.centre)
         };
+        let mut pose = self.rotation.as_ref().map(turned).unwrap_or_default();
         if self.bends() {
             pose.moment = time;
         }
         for shift in &self.translations {
-            let s = shift.course.at(t).value;
-            for k in 0..D {
-                pose.translation[k] += shift.along[k] * s;
-            }
+            let way = shift.course.at(t).value;
+            pose.translation = along(pose.translation, way, shift.along);
         }
         pose
     }
@@ -205,14 +200,8 @@ mod tests {
             let rate = (at(t + h) - at(t - h)) / (2.0 * h);
             let velocity = |t: f64| motion.movement(at(t).into(), t).velocity;
             let second = (velocity(t + h) - velocity(t - h)) / (2.0 * h);
-            assert!(
-                (rate - now.velocity).norm() < 1e-8,
-                "t = {t}: {rate} {now:?}"
-            );
-            assert!(
-                (second - now.acceleration).norm() < 1e-6,
-                "t = {t}: {second} {now:?}"
-            );
+            let off = [rate - now.velocity, second - now.acceleration].map(|v| v.norm());
+            assert!(off[0] < 1e-8 && off[1] < 1e-6, "t = {t}: {off:?} {now:?}");
         }
     }
 

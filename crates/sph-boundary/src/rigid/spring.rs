@@ -104,10 +104,7 @@ mod tests {
             }
             before = way;
         }
-        let measured = crossings[1] - crossings[0];
-        assert!(
-            (measured / period - 1.0).abs() < 0.01,
-            "{measured} {period}"
-        );
+        let off = (crossings[1] - crossings[0]) / period - 1.0;
+        assert!(off.abs() < 0.01, "{off}");
     }
 }

@@ -111,7 +111,7 @@ impl<const D: usize> ScaleMap<D> {
         }
         let walls: BTreeSet<u32> = curved().map(|e| e.wall as u32).collect();
         let walls: Vec<u32> = walls.into_iter().collect();
-        let mut cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
+        let cells = Cells::from_elements((&grid, [low, high]), of, walls.len() > 1);
         let mut correction = vec![0.0; grid.len()];
         for sweep in 0..=SWEEPS {
             let sums = cells.sums(&grid, of.kernel, &correction);
@@ -140,13 +140,12 @@ impl<const D: usize> ScaleMap<D> {
         };
         let known = |node: usize| (0..1 << D).any(|n| corner(node, n).is_some_and(|c| *c != 0.0));
         let known = (0..grid.len()).map(known).collect();
-        let mut coefficients = counts;
-        interpolate(&grid, &mut coefficients);
+        interpolate(&grid, &mut counts);
         Ok(ScaleMap {
             grid,
-            coefficients,
+            coefficients: counts,
             known,
-            nearest: std::mem::take(&mut cells.nearest),
+            nearest: cells.nearest,
             walls,
         })
     }
@@ -230,22 +229,17 @@ impl<const D: usize> Cells<D> {
         interpolate(grid, &mut coefficients);
         let cell = grid.step.powi(D as i32);
         let nodes = self.flat.par_iter().zip(correction).zip(&self.whole);
-        let in_cells: Vec<f64> = nodes
-            .map(|((flat, more), whole)| {
-                if *whole {
-                    cell * (flat + more).exp()
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+        let in_cell = |((flat, more), whole): ((&f64, &f64), &bool)| match whole {
+            true => cell * (flat + more).exp(),
+            false => 0.0,
+        };
+        let in_cells: Vec<f64> = nodes.map(in_cell).collect();
         let lumps = self.lumps.par_iter().zip(&self.flat_at_lumps);
-        let in_lumps: Vec<f64> = lumps
-            .map(|(lump, flat)| {
-                let more = value(grid, &coefficients, &lump.place).map_or(0.0, |(v, _)| v);
-                lump.volume * (flat + more).exp()
-            })
-            .collect();
+        let in_lump = |(lump, flat): (&Lump<D>, &f64)| {
+            let more = value(grid, &coefficients, &lump.place).map_or(0.0, |(v, _)| v);
+            lump.volume * (flat + more).exp()
+        };
+        let in_lumps: Vec<f64> = lumps.map(in_lump).collect();
         let rows = rows(grid, kernel);
         let one = |[distances, values]: &mut [Vec<f64>; 2], (node, _): &(usize, f64)| {
             let x = grid.place(*node);
@@ -324,13 +318,13 @@ fn near_node<const D: usize, M: WallMesh<D>>(
         true => curved.clone().map(|n| of.mesh.wall_of(*n)).collect(),
         false => Vec::new(),
     };
-    let curved: Vec<_> = curved.map(|n| of.mesh.seen(&place, *n)).collect();
+    let curved = of.mesh.seen(&place, curved);
     let distance = |k: usize| {
         let only = std::slice::from_ref(&curved[k]);
         SeenElement::signed_distance(only, [0.0; D], reach).map_or(f64::INFINITY, f64::abs)
     };
     let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-    let seen: Vec<_> = near.iter().map(|n| of.mesh.seen(&place, *n)).collect();
+    let seen = of.mesh.seen(&place, &near);
     let from_curved = SeenElement::signed_distance(&curved, [0.0; D], reach);
     let height = SeenElement::signed_distance(&seen, [0.0; D], reach);
     let height = height.unwrap_or_else(|| match of.mesh.contains(&place) {

@@ -2,7 +2,7 @@
 
 use sph_core::Vect;
 use sph_kernels::Kernel;
-use sph_neighbours::{Domain, Frame};
+use sph_neighbours::Domain;
 
 use crate::geometry::surface::boxed;
 use crate::geometry::walls::wall_mesh::WallMesh;
@@ -48,19 +48,23 @@ fn product<const D: usize, M: WallMesh<D>>(
             (base[k] + number as f64 - reach as f64 + 0.5) * step
         })
     };
-    let all = (0..side.pow(D as u32)).map(place).filter(|y| fluid(y));
-    let mut places: Vec<Vect<D>> = all.collect();
-    let sum = |places: &[Vect<D>], found: &[crate::scale::walls::ScaleAt<D>]| {
-        let values = places.iter().zip(found);
-        let values = values.map(|(y, at)| at.scale * kernel.at((y - x).norm()).0);
-        values.sum::<f64>() * step.powi(D as i32)
-    };
+    let mut places: Vec<Vect<D>> = (0..side.pow(D as u32)).map(place).collect();
+    places.retain(fluid);
     places.push(x);
-    let (mut found, mut slopes) = (Vec::new(), Vec::new());
-    let frames: [Frame<D>; 0] = [];
-    scales.at(&places, &frames, &mut found, &mut slopes);
+    let found = scales_at(scales, &places);
     let n = places.len() - 1;
-    found[n].scale * sum(&places[..n], &found[..n])
+    let values = places[..n].iter().zip(&found);
+    let values = values.map(|(y, scale)| scale * kernel.at((y - x).norm()).0);
+    found[n] * (values.sum::<f64>() * step.powi(D as i32))
+}
+
+fn scales_at<const D: usize, M: WallMesh<D>>(
+    scales: &WallScales<D, M>,
+    places: &[Vect<D>],
+) -> Vec<f64> {
+    let (mut found, mut slopes) = (Vec::new(), Vec::new());
+    scales.at(places, &[], &mut found, &mut slopes);
+    found.into_iter().map(|at| at.scale).collect()
 }
 
 /// Checks s(x) ∫ s w = 1 at places next to walls to an error, on a lattice of a step.
@@ -79,9 +83,8 @@ fn check<const D: usize, M: WallMesh<D>>(
 }
 
 fn closed(corners: Vec<[f64; 2]>) -> [WallSpec<2>; 1] {
-    [WallSpec::at_rest(Drawing::Line(Polyline::closed(
-        "wall", corners,
-    )))]
+    let line = Polyline::closed("wall", corners);
+    [WallSpec::at_rest(Drawing::Line(line))]
 }
 
 #[test]
@@ -151,11 +154,7 @@ fn a_floor_goes_on_across_periodic_borders() {
     let [flat, ridge] = [flat, Polyline::open("ridge", ridge)].map(|line| {
         scales_in::<2, PlanarWalls>(domain.clone(), &[WallSpec::at_rest(Drawing::Line(line))])
     });
-    let at = |scales: &WallScales<2, PlanarWalls>, x: [f64; 2]| {
-        let (mut found, mut slopes) = (Vec::new(), Vec::new());
-        scales.at(&[x.into()], &[], &mut found, &mut slopes);
-        found[0].scale
-    };
+    let at = |scales: &WallScales<2, PlanarWalls>, x: [f64; 2]| scales_at(scales, &[x.into()])[0];
     for x in [0.01, 0.4, 8.0, 15.3, 15.99] {
         assert!((at(&flat, [x, 0.25]) - 1.264_273).abs() < 1e-5, "{x}");
     }

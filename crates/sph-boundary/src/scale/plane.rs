@@ -31,26 +31,26 @@ pub(crate) struct PlaneScale {
 impl PlaneScale {
     /// Of a kernel in `dimension` dimensions.
     pub fn new(kernel: &dyn Kernel, dimension: usize) -> Self {
-        let line = AlongWall::new(kernel, dimension);
+        let line = AlongWall {
+            sampler: kernel.sampler(dimension, 1.0),
+            support: kernel.support(),
+        };
         let panels = (END * line.support * PANELS as f64).ceil() as usize;
         let nodes: Vec<[f64; 2]> = gauss_points(0.0, END * line.support, panels).collect();
         let end = END * line.support;
-        let rows: Vec<Vec<(usize, f64)>> = nodes
-            .iter()
-            .map(|[x, _]| {
-                let near = nodes.iter().enumerate();
-                let near = near.filter(|(_, [y, _])| (x - y).abs() < line.support);
-                near.map(|(k, [y, w])| (k, w * line.at(x - y)[0])).collect()
-            })
-            .collect();
+        let row = |[x, _]: &[f64; 2]| -> Vec<(usize, f64)> {
+            let near = nodes.iter().enumerate();
+            let near = near.filter(|(_, [y, _])| (x - y).abs() < line.support);
+            near.map(|(k, [y, w])| (k, w * line.at(x - y)[0])).collect()
+        };
+        let rows: Vec<Vec<(usize, f64)>> = nodes.iter().map(row).collect();
         let beyond: Vec<f64> = nodes.iter().map(|[x, _]| line.beyond(end - x)).collect();
         let mut s = vec![1.0; nodes.len()];
         for _ in 0..SWEEPS {
             let sum = |row: &Vec<(usize, f64)>| row.iter().map(|(k, w)| w * s[*k]).sum::<f64>();
             let next = rows.iter().zip(&beyond).zip(&s);
-            s = next
-                .map(|((row, rest), s)| (s / (sum(row) + rest)).sqrt())
-                .collect();
+            let next = next.map(|((row, rest), s)| (s / (sum(row) + rest)).sqrt());
+            s = next.collect();
         }
         let at = |k: usize| {
             let x = k as f64 * REACH / CELLS as f64;
@@ -108,13 +108,6 @@ struct AlongWall {
 }
 
 impl AlongWall {
-    fn new(kernel: &dyn Kernel, dimension: usize) -> Self {
-        AlongWall {
-            sampler: kernel.sampler(dimension, 1.0),
-            support: kernel.support(),
-        }
-    }
-
     /// w₁ and its slope at a distance from the plane of integration.
     fn at(&self, u: f64) -> [f64; 2] {
         let square = self.support * self.support - u * u;

@@ -56,7 +56,7 @@ impl<const D: usize> SurfacePair<D> {
     }
 }
 
-fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
+pub(crate) fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
@@ -102,9 +102,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             };
             let seen = |e: &&Element<D>| {
                 let centre = Vect::from(e.centre);
-                let size = e
-                    .nodes
-                    .map(|n| (Vect::from(nodes[n].position) - centre).norm());
+                let arm = |n: usize| (Vect::from(nodes[n].position) - centre).norm();
+                let size = e.nodes.map(arm);
                 meets(&centre, size.into_iter().fold(0.0, f64::max))
             };
             let elements = self.mesh.elements().iter().filter(seen);
@@ -133,9 +132,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let over = |element: &Element<D>, way: &Vect<D>| Vect::from(element.normal).dot(way);
         for element in elements {
             let first = self.domain.nearest(to(element.nodes[0]));
-            let corners = element
-                .nodes
-                .map(|n| first + self.domain.nearest(to(n) - first));
+            let corner = |n: usize| first + self.domain.nearest(to(n) - first);
+            let corners = element.nodes.map(corner);
             let there = nearest_place(&corners);
             let distance = there.norm();
             let entry = nearest.entry(self.groups[element.wall]);

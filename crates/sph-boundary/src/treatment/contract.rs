@@ -241,11 +241,10 @@ fn vertices(flow: &FlowNature, named: Option<&str>) -> Option<SuitedPlugin> {
             "whole rows fit between the walls and the ends of the bodies",
         ),
     };
-    named
-        .is_none_or(|name| name == "usaw")
-        .then_some(SuitedPlugin {
-            name: "usaw",
-            parameters,
-            reason,
-        })
+    let named = named.is_none_or(|name| name == "usaw");
+    named.then_some(SuitedPlugin {
+        name: "usaw",
+        parameters,
+        reason,
+    })
 }

@@ -2,14 +2,13 @@
 
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_kernels::lanes::{Lane, dot};
-use sph_neighbours::{
-    LanePair, PairSum, Particles, WallPoints, WallSet, World, add_scaled, shepard, splat,
-};
+use sph_neighbours::{LanePair, PairSum, Particles, WallSet, World, add_scaled, shepard, splat};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
-use crate::treatment::outline::{Outline, shaped_by_outline};
+use crate::treatment::outline::Outline;
+use crate::treatment::shaped::shaped_by_outline;
 use crate::treatment::shepard::EffectiveGravity;
 use crate::{
     BoundaryError, PlanarWalls, SpatialWalls, Wall, WallCondition, WallEntry, WallSetup, WallSpec,
@@ -78,30 +77,13 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         })
     }
 
-    /// Lets the outline move, and places the layers where it is then.
-    fn moved(
-        &mut self,
-        walls: &mut WallSet<D>,
-        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
-    ) -> Result<(), BoundaryError> {
-        if self.outline.moves() {
-            way(&mut self.outline)?;
-            self.place(walls);
-        }
-        Ok(())
-    }
-
+    /// Places the layers where the outline is.
     fn place(&self, walls: &mut WallSet<D>) {
         self.outline.write(walls);
-        let (points, maps) = (&mut walls.points, self.outline.maps());
+        let maps = self.outline.maps();
         for (v, (wall, drawn)) in self.drawn.iter().enumerate() {
-            let position = maps[*wall]((*drawn).into()).into();
-            let movement = self.outline.movement(*wall, &position);
-            points.position[v] = Outline::<D, M>::in_box(&walls.frames, *wall, position);
-            points.velocity[v] = movement.velocity;
-            if let Some(acceleration) = points.acceleration.get_mut(v) {
-                *acceleration = movement.acceleration;
-            }
+            let place = maps[*wall]((*drawn).into()).into();
+            self.outline.put_point(walls, v, *wall, place);
         }
     }
 }
@@ -115,25 +97,14 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
 
     fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
         let set_up = SetUp::<D, M>::new(setup)?;
-        let mut points = WallPoints::default();
-        for (wall, position) in &set_up.drawn {
-            let velocity = set_up.outline.movement(*wall, position).velocity;
-            points.position.push(*position);
-            points.velocity.push(velocity);
-            points.viscous_velocity.push(velocity);
-            points.share.push(1.0);
-            points.volume.push(setup.spacing.powi(D as i32));
-            points.pressure.push(0.0);
-            let condition = &set_up.outline.specs[*wall].condition;
-            points.friction_factor.push(condition.friction_factor());
-            points.wall.push(*wall as u32);
-            if set_up.outline.moves() {
-                points.acceleration.push(Vect::zeros());
-            }
-        }
+        let outline = &set_up.outline;
+        let points = set_up.drawn.iter().map(|(wall, place)| {
+            let velocity = outline.movement(*wall, place).velocity;
+            (*wall, *place, 1.0, velocity)
+        });
         let mut walls = WallSet {
-            names: set_up.outline.mesh.names().to_vec(),
-            points,
+            names: outline.mesh.names().to_vec(),
+            points: outline.points_at(points),
             ..WallSet::default()
         };
         set_up.place(&mut walls);

@@ -18,8 +18,6 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     pub outline: Outline<D, M>,
     integrals: M::Integrals,
     near: NearLists<D>,
-    /// Moves of walls so far.
-    moves: u64,
     /// Version of the near lists, moves and positions for which the contacts were found.
     found_for: ((u64, u64), Vec<Vect<D>>),
     /// The last results, batch by batch; kept for their memory.
@@ -57,21 +55,8 @@ pub(crate) fn not_built() -> StepError {
 }
 
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
-    /// Lets the outline move, and places points and elements where it is then.
-    pub fn moved(
-        &mut self,
-        walls: &mut WallSet<D>,
-        way: impl FnOnce(&mut Outline<D, M>) -> Result<bool, BoundaryError>,
-    ) -> Result<(), BoundaryError> {
-        if self.outline.moves() {
-            self.moves += u64::from(way(&mut self.outline)?);
-            self.place(walls);
-        }
-        Ok(())
-    }
-
     /// Positions, normals and movements of points and elements.
-    fn place(&mut self, walls: &mut WallSet<D>) {
+    pub fn place(&mut self, walls: &mut WallSet<D>) {
         let bends = self.outline.bends();
         if walls.points.in_density() || bends {
             // All anew: shares follow from the time alone, whatever places a wall has been to.
@@ -86,25 +71,17 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         }
         let outline = &self.outline;
         outline.write(walls);
-        let points = &mut walls.points;
         for (v, node) in outline.mesh.nodes().iter().enumerate() {
-            let place = Vect::from(node.position);
-            let movement = outline.movement(node.wall, &place);
-            points.position[v] = Outline::<D, M>::in_box(&walls.frames, node.wall, place);
-            points.velocity[v] = movement.velocity;
-            points.viscous_velocity[v] = movement.velocity;
-            if let Some(acceleration) = points.acceleration.get_mut(v) {
-                *acceleration = movement.acceleration;
-            }
+            outline.put_point(walls, v, node.wall, node.position.into());
+            walls.points.viscous_velocity[v] = walls.points.velocity[v];
         }
-        for ((_, own), normal) in points.slip.iter_mut().zip(outline.mesh.normals()) {
+        for ((_, own), normal) in walls.points.slip.iter_mut().zip(outline.mesh.normals()) {
             *own = normal;
         }
-        let elements = &mut walls.elements;
         for (s, element) in outline.mesh.elements().iter().enumerate() {
-            let centre = Vect::from(element.centre);
-            let movement = outline.movement(element.wall, &centre);
-            elements.centre[s] = Outline::<D, M>::in_box(&walls.frames, element.wall, centre);
+            let (centre, movement) = outline.seen_place(walls, element.wall, element.centre.into());
+            let elements = &mut walls.elements;
+            elements.centre[s] = centre;
             elements.normal[s] = element.normal.into();
             elements.velocity[s] = movement.velocity;
             if bends {
@@ -124,7 +101,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// True if the contacts were found for these very positions of particles and walls.
     fn is_fresh(&mut self, positions: &[Vect<D>]) -> bool {
         let here = self.near.particles.iter().map(|p| positions[*p as usize]);
-        let now = (self.near.version, self.moves);
+        let now = (self.near.version, self.outline.moved);
         let (of, known) = &mut self.found_for;
         let fresh = *of == now && here.clone().eq(known.iter().copied());
         if !fresh {
@@ -187,24 +164,20 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             self.clearance[*place as usize] = 0.0;
         }
     }
-}
 
-impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     /// Meshes the walls at time 0 by elements of a size, m.
     pub fn build(
         setup: &WallSetup<'_, D>,
         vertices: bool,
         size: f64,
     ) -> Result<(Self, WallSet<D>), BoundaryError> {
-        let shape = setup
-            .kernel
-            .polynomial()
-            .ok_or_else(|| BoundaryError::Kernel {
-                reason: format!(
-                    "`{}` gives no radial moments, and semi-analytical walls integrate them",
-                    setup.kernel.name()
-                ),
-            })?;
+        let shape = setup.kernel.polynomial().ok_or_else(|| {
+            let name = setup.kernel.name();
+            let reason = format!(
+                "`{name}` gives no radial moments, and semi-analytical walls integrate them"
+            );
+            BoundaryError::Kernel { reason }
+        })?;
         let integrals = M::integrals(shape, setup.smoothing_length)?;
         let support = setup.kernel.support() * setup.smoothing_length;
         let outline = Outline::<D, M>::new(setup, support, size)?;
@@ -223,7 +196,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             outline,
             integrals,
             near: NearLists::default(),
-            moves: 0,
             found_for: Default::default(),
             found: Vec::new(),
             clearance: Vec::new(),
@@ -301,24 +273,14 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
                 true => lists.of_corners(points),
                 false => &lists.of_points,
             };
-            wall_means(
-                world,
-                &points.position[..nodes],
-                &points.acceleration,
-                (list, &lists.hidden.at_points),
-                whole,
-                at_points,
-            )?;
+            let list = (list, &lists.hidden.at_points);
+            let targets = (&points.position[..nodes], &points.acceleration[..]);
+            wall_means(world, targets, list, whole, at_points)?;
         }
         if !at_corners {
-            wall_means(
-                world,
-                &elements.centre,
-                &elements.acceleration,
-                (&lists.of_elements, &lists.hidden.at_elements),
-                whole,
-                at_elements,
-            )?;
+            let list = (&lists.of_elements, &lists.hidden.at_elements);
+            let targets = (&elements.centre[..], &elements.acceleration[..]);
+            wall_means(world, targets, list, whole, at_elements)?;
         }
         let walls = &mut world.walls;
         for (v, mean) in at_points.iter().enumerate() {

@@ -45,9 +45,8 @@ impl<const D: usize> NearLists<D> {
         let later = self.later(outline, world, dt)?;
         let (mesh, mut found) = (&outline.mesh, Gammas::default());
         let (mut room, mut block) = (M::Scratch::default(), ContactBlock::default());
-        let rows = later
-            .iter()
-            .map(|l| (&l.position, self.row(l.place as usize)));
+        let ends = later.iter();
+        let rows = ends.map(|l| (&l.position, self.row(l.place as usize)));
         mesh.gammas(integrals, rows, &mut room, &mut block, &mut found);
         let density = world.free.get(fields::DENSITY)?;
         let gamma = world.free.get(fields::RENORMALISATION)?;
@@ -100,13 +99,11 @@ impl<const D: usize> NearLists<D> {
         let behind = self.behind.iter().map(|(place, _)| *place);
         // The elements of a row beyond the support depend on its history.
         let near_rim = |place: &u32| {
-            let (mesh, x) = (
-                &outline.mesh,
-                &positions[self.particles[*place as usize] as usize],
-            );
+            let mesh = &outline.mesh;
+            let x = &positions[self.particles[*place as usize] as usize];
             let row = self.row(*place as usize).iter();
             let rims = row.filter(|near| mesh.shells().is_rim(near.index()));
-            let seen: Vec<_> = rims.map(|near| mesh.seen(x, *near)).collect();
+            let seen = mesh.seen(x, rims);
             SeenElement::signed_distance(&seen, [0.0; D], outline.support).is_some()
         };
         let rims = self.rims.iter().copied().filter(near_rim);

@@ -142,10 +142,8 @@ fn blows<const D: usize, M: WallMesh<D>>(
     changed: &[(usize, StoppedVelocity<D>)],
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
-    let (mass, position) = (
-        world.free.get(fields::MASS)?,
-        world.free.get(fields::POSITION)?,
-    );
+    let mass = world.free.get(fields::MASS)?;
+    let position = world.free.get(fields::POSITION)?;
     let owned = world.owned();
     let mut each: Vec<Vec<[f64; 6]>> = vec![Vec::new(); outline.specs.len()];
     for (p, corrected) in changed.iter().filter(|(p, _)| owned.has(*p)) {

@@ -64,11 +64,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             both.for_each(|(lift, rate)| *lift += dt * rate);
             let highest = grown.lift.iter().fold(0.0, |a: f64, b| a.max(*b));
             if highest.is_nan() || highest >= HIGHEST * grown.fade {
-                return Err(BoundaryError::Buried {
-                    wall: self.name(grown.walls[0] as usize),
-                    rise: highest,
-                    height: grown.fade,
-                });
+                let (wall, height) = (self.name(grown.walls[0] as usize), grown.fade);
+                return Err(BoundaryError::Refused(format!(
+                    "the bed `{wall}` has risen by {highest:.3} m, and walls that stand in it stretch over {height} m: \
+                     give `[wall.{wall}.erodible]` a larger `stretch`"
+                )));
             }
             *bed = grown;
         }
@@ -79,8 +79,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     fn check_dry(&self, loads: &[Load<D>]) -> Result<(), BoundaryError> {
         for (k, touch) in self.touches().into_iter().enumerate() {
             if touch.is_some_and(|t| t.dry) && loads[k].force != Vect::<D>::zeros() {
-                let wall = self.name(k);
-                return Err(BoundaryError::Light { wall });
+                return Err(BoundaryError::Refused(format!(
+                    "fluid acts on the body `{}`, which has less than a fiftieth of its density: one particle of it \
+                     would throw the body; give it more `density`",
+                    self.name(k)
+                )));
             }
         }
         Ok(())
@@ -165,18 +168,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Numbers of the walls with movers.
     pub fn numbers(&self) -> WallStates {
-        let of = |states: &[RigidState<D>]| -> Vec<f64> {
-            let all = self.movers().flat_map(|(k, _)| states[k].numbers());
-            all.collect()
-        };
-        let [now, listed] = [(&self.states, &self.beds[0]), (&self.listed, &self.beds[1])];
-        let all = |(states, beds): (&Vec<RigidState<D>>, &Vec<Bed>)| {
-            let levels = beds.iter().flat_map(Bed::numbers);
-            of(states).into_iter().chain(levels).collect()
+        let all = |states: &[RigidState<D>], beds: &[Bed]| -> Vec<f64> {
+            let own = self.movers().flat_map(|(k, _)| states[k].numbers());
+            own.chain(beds.iter().flat_map(Bed::numbers)).collect()
         };
         WallStates {
-            now: all(now),
-            listed: Some(all(listed)),
+            now: all(&self.states, &self.beds[0]),
+            listed: Some(all(&self.listed, &self.beds[1])),
         }
     }
 

@@ -11,7 +11,7 @@ use crate::geometry::walls::cover::Cover;
 use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::kernel_reach::far_sight;
-use crate::{BoundaryError, Movement, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+use crate::{BoundaryError, Movement, Node, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
 
 /// Most periods that walls may reach across: images are counted in a byte.
 const MOST_PERIODS: f64 = 100.0;
@@ -43,6 +43,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub struck: Vec<WallForce<D>>,
     /// The walls that forces move.
     pub bodies: Vec<FreeBody<D>>,
+    /// Moves so far.
+    pub moved: u64,
     cover: Cover<D>,
     pub specs: Vec<WallSpec<D>>,
 }
@@ -50,11 +52,8 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Meshes the walls by elements of a size, m.
     pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self, BoundaryError> {
-        let whole = |k: &usize| !is_piece(setup.walls, *k);
-        for spec in (0..setup.walls.len())
-            .filter(whole)
-            .map(|k| &setup.walls[k])
-        {
+        let whole = (0..setup.walls.len()).filter(|k| !is_piece(setup.walls, *k));
+        for spec in whole.map(|k| &setup.walls[k]) {
             if !spec.motion.is_sound() {
                 let wall = spec.drawing.name().to_string();
                 return Err(BoundaryError::Motion { wall });
@@ -84,6 +83,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             domain: setup.domain.clone(),
             struck: Vec::new(),
             bodies: Vec::new(),
+            moved: 0,
             cover: Cover::default(),
             specs: setup.walls.to_vec(),
         };
@@ -137,9 +137,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// True if any wall ever moves.
     pub fn moves(&self) -> bool {
-        self.specs
-            .iter()
-            .any(|s| s.motion.moves() || s.mover.is_some())
+        let moves = |s: &WallSpec<D>| s.motion.moves() || s.mover.is_some();
+        self.specs.iter().any(moves)
     }
 
     /// Shares of the nodes of which walls that move otherwise may take a part.
@@ -183,9 +182,27 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.states.iter().zip(boxes).map(frame).collect()
     }
 
-    /// Places of a wall as others see them, in the box.
-    pub fn in_box(frames: &[Frame<D>], wall: usize, place: Vect<D>) -> Vect<D> {
-        frames.get(wall).map_or(place, |frame| place - frame.round)
+    /// A place of a wall as others see it, in the box, and the movement of the wall there.
+    pub fn seen_place(
+        &self,
+        walls: &WallSet<D>,
+        wall: usize,
+        place: Vect<D>,
+    ) -> (Vect<D>, Movement<D>) {
+        let frame = walls.frames.get(wall);
+        let seen = frame.map_or(place, |frame| place - frame.round);
+        (seen, self.movement(wall, &place))
+    }
+
+    /// Puts a wall point at a place of its wall.
+    pub fn put_point(&self, walls: &mut WallSet<D>, point: usize, wall: usize, place: Vect<D>) {
+        let (seen, movement) = self.seen_place(walls, wall, place);
+        let points = &mut walls.points;
+        points.position[point] = seen;
+        points.velocity[point] = movement.velocity;
+        if let Some(acceleration) = points.acceleration.get_mut(point) {
+            *acceleration = movement.acceleration;
+        }
     }
 
     /// Forces of the lines of movers on their walls.
@@ -222,26 +239,39 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         Some((distance, self.mesh.names()[wall].as_str()))
     }
 
+    /// Points of walls without fluid around, each with its wall, place, share of a particle and velocity.
+    pub fn points_at(
+        &self,
+        all: impl Iterator<Item = (usize, Vect<D>, f64, Vect<D>)>,
+    ) -> WallPoints<D> {
+        let mut points = WallPoints::default();
+        for (wall, place, share, velocity) in all {
+            points.position.push(place);
+            points.share.push(share);
+            points.velocity.push(velocity);
+            points.viscous_velocity.push(velocity);
+            let condition = &self.specs[wall].condition;
+            points.friction_factor.push(condition.friction_factor());
+            points.wall.push(wall as u32);
+        }
+        let count = points.position.len();
+        points.volume = vec![self.spacing.powi(D as i32); count];
+        points.pressure = vec![0.0; count];
+        if self.moves() {
+            points.acceleration = vec![Vect::zeros(); count];
+        }
+        points
+    }
+
     /// The nodes as wall points, at rest without fluid around.
     pub fn points(&self) -> WallPoints<D> {
-        let mut points = WallPoints::default();
-        let (moves, slips) = (self.moves(), self.slips());
-        for (node, normal) in self.mesh.nodes().iter().zip(self.mesh.normals()) {
-            let condition = &self.specs[node.wall].condition;
-            points.position.push(node.position.into());
-            points.share.push(node.theta * node.size);
-            points.volume.push(self.spacing.powi(D as i32));
-            points.pressure.push(0.0);
-            points.friction_factor.push(condition.friction_factor());
-            points.wall.push(node.wall as u32);
-            points.velocity.push(Vect::zeros());
-            points.viscous_velocity.push(Vect::zeros());
-            if moves {
-                points.acceleration.push(Vect::zeros());
-            }
-            if slips {
-                points.slip.push((condition.slip_length(), normal));
-            }
+        let nodes = || self.mesh.nodes().iter();
+        let share = |n: &Node<D>| n.theta * n.size;
+        let at_rest = nodes().map(|n| (n.wall, n.position.into(), share(n), Vect::zeros()));
+        let mut points = self.points_at(at_rest);
+        if self.slips() {
+            let lengths = nodes().map(|n| self.specs[n.wall].condition.slip_length());
+            points.slip = lengths.zip(self.mesh.normals()).collect();
         }
         points
     }
@@ -249,31 +279,32 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// The elements, at rest without fluid around.
     pub fn elements(&self) -> Elements<D> {
         let mut elements = Elements::default();
-        let (moves, slips) = (self.moves(), self.slips());
+        let slips = self.slips();
         let rubs = |s: &WallSpec<D>| s.condition.coulomb().coefficient > 0.0;
         let rubs = self.specs.iter().any(rubs);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
             elements.centre.push(element.centre.into());
             elements.normal.push(element.normal.into());
-            elements.velocity.push(Vect::zeros());
             elements.measure.push(element.measure);
-            elements.volume.push(self.spacing.powi(D as i32));
-            elements.pressure.push(0.0);
             elements.friction_factor.push(condition.friction_factor());
             elements.wall.push(element.wall as u32);
             elements.corners.push(element.nodes.map(|n| n as u32));
-            if moves {
-                elements.acceleration.push(Vect::zeros());
-                if D == 3 {
-                    elements.turning.push([Vect::zeros(); D]);
-                }
-            }
             if slips {
                 elements.slip.push(condition.slip_length());
             }
             if rubs {
                 elements.coulomb.push(condition.coulomb());
+            }
+        }
+        let count = elements.centre.len();
+        elements.velocity = vec![Vect::zeros(); count];
+        elements.volume = vec![self.spacing.powi(D as i32); count];
+        elements.pressure = vec![0.0; count];
+        if self.moves() {
+            elements.acceleration = vec![Vect::zeros(); count];
+            if D == 3 {
+                elements.turning = vec![[Vect::zeros(); D]; count];
             }
         }
         elements
@@ -305,96 +336,3 @@ fn check_reach<const D: usize>(
     }
     Ok(())
 }
-
-/// Shape and motion of walls by their outline; the treatment keeps it in `self.set_up`, whose `moved` places the points
-/// and elements of the walls.
-macro_rules! shaped_by_outline {
-    ($treatment:ident) => {
-        impl<const D: usize, M: WallMesh<D>> $treatment<D, M> {
-            fn outline(&self) -> Option<&crate::treatment::outline::Outline<D, M>> {
-                self.set_up.as_ref().map(|s| &s.outline)
-            }
-        }
-
-        impl<const D: usize, M: WallMesh<D>> crate::WallShape<D> for $treatment<D, M> {
-            fn contains(&self, point: &Vect<D>) -> bool {
-                self.outline().is_none_or(|o| o.mesh.contains(point))
-            }
-
-            fn enclosed(&self, point: &Vect<D>) -> Option<f64> {
-                self.outline()?.mesh.enclosed(point)
-            }
-
-            fn clearance(&self, point: &Vect<D>, within: f64) -> Option<(f64, &str)> {
-                self.outline()?.clearance(point, within)
-            }
-
-            fn ends_freely(&self) -> bool {
-                self.outline().is_some_and(|o| o.mesh.shells().any())
-            }
-
-            fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
-                self.outline()
-                    .map_or(Ok(()), |o| o.mesh.check_free_ends(points, o.support))
-            }
-
-            fn thin_walls(&self, points: &[Vect<D>]) -> Vec<crate::ThinWall<D>> {
-                self.outline().map_or(Vec::new(), |o| o.thin_walls(points))
-            }
-
-            fn warnings(&self) -> Vec<String> {
-                let mesh = self.outline().map(|o| &o.mesh.walls().mesh);
-                let all = mesh.into_iter().flat_map(|mesh| &mesh.warnings);
-                all.map(ToString::to_string).collect()
-            }
-        }
-
-        impl<const D: usize, M: WallMesh<D>> crate::WallMotion<D> for $treatment<D, M> {
-            fn advance(
-                &mut self,
-                walls: &mut WallSet<D>,
-                gravity: Vect<D>,
-                time: f64,
-                dt: f64,
-            ) -> Result<(), BoundaryError> {
-                let forces = std::mem::take(&mut walls.forces);
-                let bodies = std::mem::take(&mut walls.bodies);
-                let beds = std::mem::take(&mut walls.beds);
-                let set_up = self.set_up.as_mut();
-                let moved = set_up.map_or(Ok(()), |s| {
-                    s.moved(walls, |outline| {
-                        outline.grow(beds, dt)?;
-                        outline.advance(&forces, &bodies, gravity, [time, dt])
-                    })
-                });
-                walls.forces = forces;
-                moved
-            }
-
-            fn needs_forces(&self, wall: usize) -> bool {
-                self.outline().is_some_and(|o| o.needs_forces(wall))
-            }
-
-            fn depth_gauges(&self) -> Vec<(usize, sph_neighbours::DepthGauge<D>)> {
-                self.outline().map_or(Vec::new(), |o| o.depth_gauges())
-            }
-
-            fn states(&self) -> WallStates {
-                self.outline().map(|o| o.numbers()).unwrap_or_default()
-            }
-
-            fn put_back(
-                &mut self,
-                walls: &mut WallSet<D>,
-                states: &WallStates,
-                time: f64,
-            ) -> Result<(), BoundaryError> {
-                let set_up = self.set_up.as_mut();
-                set_up.map_or(Ok(()), |s| {
-                    s.moved(walls, |outline| outline.put_back(states, time))
-                })
-            }
-        }
-    };
-}
-pub(crate) use shaped_by_outline;

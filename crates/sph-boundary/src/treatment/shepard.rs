@@ -17,8 +17,7 @@ pub(crate) struct WallMean {
 /// Means over the free particles at every target; walls that never move have no accelerations.
 pub(crate) fn wall_means<const D: usize>(
     world: &World<D>,
-    targets: &[Vect<D>],
-    accelerations: &[Vect<D>],
+    (targets, accelerations): (&[Vect<D>], &[Vect<D>]),
     list: (&Clusters, &HiddenPairs),
     whole: f64,
     out: &mut Vec<WallMean>,

@@ -6,7 +6,8 @@ use sph_neighbours::{Slope, WallSet, World};
 use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
 use crate::treatment::elements::{SetUp, not_built};
-use crate::treatment::outline::{Outline, shaped_by_outline};
+use crate::treatment::outline::Outline;
+use crate::treatment::shaped::shaped_by_outline;
 use crate::{
     BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec, WallStates,
 };
@@ -164,7 +165,6 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.state(world)
+        self.set_up.as_mut().ok_or_else(not_built)?.state(world)
     }
 }

@@ -6,7 +6,7 @@ use sph_core::Vect;
 use sph_neighbours::{WallForce, cross};
 
 use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::contact::{DEPTH, SurfacePair};
+use crate::treatment::contact::{DEPTH, SurfacePair, ordered};
 use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, RigidState, Touch};
 
@@ -23,7 +23,7 @@ const SINKS: f64 = 0.025;
 const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
 /// Contact law of two walls.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Law {
     /// k, Pa/m.
     stiffness: f64,
@@ -53,12 +53,7 @@ impl Law {
                 ..a
             }),
             [Some(one), None] | [None, Some(one)] => law(one),
-            [None, None] => Law {
-                stiffness: 0.0,
-                mass: 0.0,
-                left: 0.0,
-                friction: 0.0,
-            },
+            [None, None] => Law::default(),
         }
     }
 
@@ -165,8 +160,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let mut pairs = BTreeMap::<[usize; 2], usize>::new();
         let (mut laws, mut gaps) = (Vec::new(), Vec::new());
         let number = |n: &SurfacePair<D>| {
-            let [a, b] = n.pair;
-            *pairs.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            *pairs.entry(ordered(n.pair)).or_insert_with(|| {
                 gaps.push(self.gap(n.pair));
                 laws.push(Law::new(n.pair.map(|k| touches[k]), least));
                 laws.len() - 1

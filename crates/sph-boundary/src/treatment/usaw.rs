@@ -7,7 +7,7 @@ use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::element_size;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
-use crate::treatment::outline::shaped_by_outline;
+use crate::treatment::shaped::shaped_by_outline;
 use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
@@ -82,8 +82,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.geometry(world)
+        self.set_up.as_mut().ok_or_else(not_built)?.geometry(world)
     }
 
     fn constrain(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
@@ -92,7 +91,6 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
     }
 
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let set_up = self.set_up.as_mut().ok_or_else(not_built)?;
-        set_up.state(world)
+        self.set_up.as_mut().ok_or_else(not_built)?.state(world)
     }
 }

@@ -82,7 +82,7 @@ fn the_end_is_where_it_is_held_and_the_stiffness_is_the_slope() {
             for z in [0.001, 0.2, 0.6, 1.2, 1.9] {
                 let hang = chain.hang(x, z);
                 if hang.across > 0.0 {
-                    let place = chain.energy(hang.across, hang.up).place;
+                    let place = chain.energy([hang.across, hang.up]).place;
                     let missed = (place[0] - x.max(2e-7)).hypot(place[1] - z);
                     worst.0 = worst.0.max(missed);
                 }

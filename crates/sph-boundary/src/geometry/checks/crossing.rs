@@ -7,7 +7,7 @@ use sph_core::BoxTree;
 use crate::error::{BoundaryError, MOST_PAIRS};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
-use crate::geometry::vector::{add, bounds};
+use crate::geometry::vector::{add, along, bounds, perp, sub};
 
 struct Edge {
     wall: usize,
@@ -77,11 +77,8 @@ fn compared(
 
 /// All edges, and their images across the periodic sides that come near the walls themselves.
 fn edges(polylines: &[Polyline], domain: &PeriodicBox) -> Vec<Edge> {
-    let walls = bounds(
-        polylines
-            .iter()
-            .flat_map(|line| line.points.iter().copied()),
-    );
+    let points = polylines.iter().flat_map(|line| &line.points);
+    let walls = bounds(points.copied());
     let mut edges = Vec::new();
     for (wall, line) in polylines.iter().enumerate() {
         for (edge, own) in line.edges().enumerate() {
@@ -108,13 +105,13 @@ fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2], tolerance: f64) -> Opt
         return None;
     }
     let part = to_a / (to_a - to_b);
-    Some([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])])
+    Some(along(a, part, sub(b, a)))
 }
 
 /// Signed distance of `p` to the line from `c` to `d`, positive on its left.
 fn distance_to_line(p: [f64; 2], c: [f64; 2], d: [f64; 2]) -> f64 {
-    let (x, y) = (d[0] - c[0], d[1] - c[1]);
-    (x * (p[1] - c[1]) - y * (p[0] - c[0])) / x.hypot(y)
+    let [x, y] = sub(d, c);
+    perp([x, y], sub(p, c)) / x.hypot(y)
 }
 
 #[cfg(test)]
@@ -142,11 +139,9 @@ mod tests {
         }
         let mut crossed = comb(20_000, 0, 1000.0);
         crossed.points.extend([[10_001.0, 500.5], [-1.0, 500.5]]);
-        let found = check_crossings(&[crossed], 1e-6, &none);
-        assert!(
-            matches!(found, Err(BoundaryError::Crossing { number: 0, .. })),
-            "{found:?}"
-        );
+        let found = check_crossings(&[crossed], 1e-6, &none).unwrap_err();
+        let first = matches!(found, BoundaryError::Crossing { number: 0, .. });
+        assert!(first, "{found:?}");
     }
 
     #[test]
@@ -159,10 +154,8 @@ mod tests {
         let most = |most| compared(&lines, 1e-6, &PeriodicBox::none(), most);
         // Every box overlaps every other.
         assert_eq!(most(300 * 299 / 2), Ok(300 * 299 / 2));
-        let found = most(300 * 299 / 2 - 1);
-        assert!(
-            matches!(found, Err(BoundaryError::Tangled { .. })),
-            "{found:?}"
-        );
+        let found = most(300 * 299 / 2 - 1).unwrap_err();
+        let tangled = matches!(found, BoundaryError::Tangled { .. });
+        assert!(tangled, "{found:?}");
     }
 }

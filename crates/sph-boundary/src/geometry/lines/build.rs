@@ -7,8 +7,8 @@ use crate::error::BoundaryError;
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
 use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::Polyline;
-use crate::geometry::wall_end::{FreeEnd, WallEnd};
+use crate::geometry::polyline::{FreeEnd, Polyline, WallEnd};
+use crate::geometry::vector::{dot, perp, sub};
 
 /// Two segments folded onto each other within this angle leave the fluid all around their node.
 const FOLD: f64 = 1e-9;
@@ -56,13 +56,12 @@ impl Mesh<2> {
         for (piece, line) in polylines.iter().enumerate() {
             let wall = walls[piece];
             mesh.cut(wall, line, joints.after[piece], &first_nodes);
+            let mut free = |end, node| mesh.free_ends.push(FreeEnd { wall, end, node });
             if joints.starts_free[piece] {
-                let (end, node) = (WallEnd::First, first_nodes[piece]);
-                mesh.free_ends.push(FreeEnd { wall, end, node });
+                free(WallEnd::First, first_nodes[piece]);
             }
-            if joints.after[piece] == Continuation::Free {
-                let (end, node) = (WallEnd::Last, mesh.nodes.len() - 1);
-                mesh.free_ends.push(FreeEnd { wall, end, node });
+            if joints.after[piece].is_none() {
+                free(WallEnd::Last, mesh.nodes.len() - 1);
             }
         }
         mesh.reference = mesh.nodes.iter().map(|node| node.position).collect();
@@ -78,49 +77,6 @@ impl Mesh<2> {
         mesh.size_nodes();
         Ok(mesh)
     }
-}
-
-/// Number of equal parts of an edge.
-fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
-    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-    ((length / spacing).round() as usize).max(1)
-}
-
-/// Index of the first node of every piece.
-fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
-    let mut next = 0;
-    polylines
-        .iter()
-        .zip(&joints.after)
-        .map(|(line, after)| {
-            let first = next;
-            next += line.edges().map(|edge| parts(edge, spacing)).sum::<usize>();
-            next += usize::from(*after == Continuation::Free);
-            first
-        })
-        .collect()
-}
-
-impl ElementMeasures for Mesh<2> {
-    fn measure(&mut self, segment: usize) {
-        let [a, b] = self.corners(segment);
-        let (x, y) = (b[0] - a[0], b[1] - a[1]);
-        let length = x.hypot(y);
-        let segment = &mut self.elements[segment];
-        segment.measure = length;
-        segment.centre = [a[0] + 0.5 * x, a[1] + 0.5 * y];
-        segment.normal = [-y / length, x / length];
-    }
-
-    fn follow(&mut self, _: &[bool]) {
-        if self.motions.iter().any(|motion| motion.bends()) {
-            self.find_angles();
-        }
-        self.size_nodes();
-    }
-}
-
-impl Mesh<2> {
     fn cut(&mut self, wall: usize, line: &Polyline, after: Continuation, first_nodes: &[usize]) {
         let first_face = self.elements.last().map_or(0, |segment| segment.face + 1);
         for (edge, [a, b]) in line.edges().enumerate() {
@@ -141,17 +97,14 @@ impl Mesh<2> {
                 });
             }
         }
-        match after {
-            Continuation::Free => {
-                let last = line.points[line.points.len() - 1];
-                self.nodes.push(Node::new(last, wall));
-            }
-            Continuation::Start { wall: next, image } => {
-                if let Some(last) = self.elements.last_mut() {
-                    last.nodes[1] = first_nodes[next];
-                    last.images[1] = image;
-                }
-            }
+        let Some((next, image)) = after else {
+            let last = line.points[line.points.len() - 1];
+            self.nodes.push(Node::new(last, wall));
+            return;
+        };
+        if let Some(last) = self.elements.last_mut() {
+            last.nodes[1] = first_nodes[next];
+            last.images[1] = image;
         }
     }
 
@@ -185,12 +138,79 @@ impl Mesh<2> {
             _ => self.nodes[node].theta,
         }
     }
+
+    /// Refuses a free end within the kernel radius of any point, where γ is not defined.
+    ///
+    /// # Errors
+    /// Names the wall, the end and the nearest point. Lengths in metres.
+    pub fn check_free_ends(
+        &self,
+        points: &[[f64; 2]],
+        kernel_radius: f64,
+    ) -> Result<(), BoundaryError> {
+        for free in &self.free_ends {
+            let position = self.nodes[free.node].position;
+            let distance = |point: &[f64; 2]| {
+                let (_, [x, y]) = self.domain.nearest(sub(*point, position));
+                x.hypot(y)
+            };
+            let distances = points.iter().map(distance).enumerate();
+            let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((particle, distance)) = nearest.filter(|(_, d)| *d < kernel_radius) {
+                return Err(BoundaryError::FreeEndInReach {
+                    wall: self.walls[free.wall].clone(),
+                    end: free.end,
+                    at: position.into(),
+                    particle,
+                    distance,
+                    radius: kernel_radius,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Number of equal parts of an edge.
+fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    ((length / spacing).round() as usize).max(1)
+}
+
+/// Index of the first node of every piece.
+fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
+    let mut next = 0;
+    let first = |(line, after): (&Polyline, &Continuation)| {
+        let first = next;
+        next += line.edges().map(|edge| parts(edge, spacing)).sum::<usize>();
+        next += usize::from(after.is_none());
+        first
+    };
+    polylines.iter().zip(&joints.after).map(first).collect()
+}
+
+impl ElementMeasures for Mesh<2> {
+    fn measure(&mut self, segment: usize) {
+        let [a, b] = self.corners(segment);
+        let [x, y] = sub(b, a);
+        let length = x.hypot(y);
+        let segment = &mut self.elements[segment];
+        segment.measure = length;
+        segment.centre = [a[0] + 0.5 * x, a[1] + 0.5 * y];
+        segment.normal = [-y / length, x / length];
+    }
+
+    fn follow(&mut self, _: &[bool]) {
+        if self.motions.iter().any(|motion| motion.bends()) {
+            self.find_angles();
+        }
+        self.size_nodes();
+    }
 }
 
 /// θ = 1/2 − turn/2π between two directions of travel; 1 where the wall folds back.
 fn fluid_angle(from: [f64; 2], to: [f64; 2]) -> f64 {
-    let cross = from[0] * to[1] - from[1] * to[0];
-    let dot = from[0] * to[0] + from[1] * to[1];
+    let (cross, dot) = (perp(from, to), dot(from, to));
     if dot < 0.0 && cross.abs() <= FOLD {
         return 1.0;
     }

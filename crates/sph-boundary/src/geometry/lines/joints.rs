@@ -2,20 +2,13 @@
 
 use sph_core::BoxTree;
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::Polyline;
+use crate::geometry::polyline::{Polyline, WallEnd};
 use crate::geometry::vector::{add, sub, widened};
-use crate::geometry::wall_end::WallEnd;
 
-/// Continuation of a wall behind its last point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Continuation {
-    /// Nothing.
-    Free,
-    /// The first point of a wall, moved by whole periods.
-    Start { wall: usize, image: [i32; 2] },
-}
+/// Continuation of a wall behind its last point: the first point of a wall, moved by whole periods.
+pub(super) type Continuation = Option<(usize, [i32; 2])>;
 
 /// For every wall, the continuation of its last point, and true if its first point is free.
 pub(super) struct Joints {
@@ -34,13 +27,7 @@ pub(super) fn joints(
     tolerance: f64,
     domain: &PeriodicBox,
 ) -> Result<Joints, BoundaryError> {
-    let alone = |(wall, line): (usize, &Polyline)| match line.closed {
-        true => Continuation::Start {
-            wall,
-            image: [0; 2],
-        },
-        false => Continuation::Free,
-    };
+    let alone = |(wall, line): (usize, &Polyline)| line.closed.then_some((wall, [0; 2]));
     let mut joints = Joints {
         after: polylines.iter().enumerate().map(alone).collect(),
         starts_free: polylines.iter().map(|line| !line.closed).collect(),
@@ -49,42 +36,39 @@ pub(super) fn joints(
     let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
     let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
     for (i, end) in ends.iter().enumerate() {
-        let images = |other: &OpenEnd| same_place(end.position, other.position, tolerance, domain);
+        let met = |j: &usize| {
+            let other = &ends[*j];
+            let image = same_place(end.position, other.position, tolerance, domain)?;
+            Some((other, image))
+        };
         let mut near = near(&tree, wrapped(end), tolerance, domain);
         near.retain(|j| *j != i);
-        let met: Vec<(&OpenEnd, [i32; 2])> = near
-            .iter()
-            .filter_map(|j| Some((&ends[*j], images(&ends[*j])?)))
-            .collect();
-        let name = |end: &OpenEnd| polylines[end.wall].name.clone();
-        let at = end.position.into();
+        let met: Vec<(&OpenEnd, [i32; 2])> = near.iter().filter_map(met).collect();
+        let name = |end: &OpenEnd| &polylines[end.wall].name;
+        let at = Place::from(end.position);
         match met.as_slice() {
             [] => {}
             [(other, _)] if other.end == end.end => {
-                return Err(BoundaryError::OpposedWalls {
-                    wall: name(end),
-                    end: end.end,
-                    other: name(other),
-                    other_end: other.end,
-                    at,
-                });
+                return Err(BoundaryError::Refused(format!(
+                    "the {} end of wall `{}` meets the {} end of wall `{}` at {at}: their directions of travel put the \
+                     fluid on opposite sides, reverse one of them",
+                    end.end,
+                    name(end),
+                    other.end,
+                    name(other)
+                )));
             }
             [(other, image)] => {
                 if end.end == WallEnd::Last {
-                    joints.after[end.wall] = Continuation::Start {
-                        wall: other.wall,
-                        image: *image,
-                    };
+                    joints.after[end.wall] = Some((other.wall, *image));
                     joints.starts_free[other.wall] = false;
                 }
             }
             more => {
-                let count = more.len() + 1;
-                return Err(BoundaryError::AmbiguousJoint {
-                    wall: name(end),
-                    count,
-                    at,
-                });
+                let (count, wall) = (more.len() + 1, name(end));
+                return Err(BoundaryError::Refused(format!(
+                    "{count} ends of walls meet at {at}, the first of wall `{wall}`: only two can be joined"
+                )));
             }
         }
     }
@@ -129,9 +113,6 @@ fn same_place(
     tolerance: f64,
     domain: &PeriodicBox,
 ) -> Option<[i32; 2]> {
-    let apart = sub(here, there);
-    let image = domain.nearest_image(apart);
-    let shift = domain.shift(image);
-    let rest = (apart[0] - shift[0]).hypot(apart[1] - shift[1]);
-    (rest <= tolerance).then_some(image)
+    let (image, rest) = domain.nearest(sub(here, there));
+    (rest[0].hypot(rest[1]) <= tolerance).then_some(image)
 }

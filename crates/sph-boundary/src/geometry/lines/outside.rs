@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::geometry::mesh::{Mesh, RayQueries, SAME_HEIGHT, Sides};
+use crate::geometry::vector::{dot, perp, sub};
 
 impl RayQueries<2> for Mesh<2> {
     fn crossing([a, b]: [[f64; 2]; 2], normal: [f64; 2], along: usize) -> Option<(f64, i32)> {
@@ -40,7 +41,7 @@ impl RayQueries<2> for Mesh<2> {
         }
         // A spike: the fluid is outside when it is travelled clockwise or folds back.
         let [t, u] = [previous, next].map(|s| self.elements[s].tangent());
-        t[0] * u[1] - t[1] * u[0] <= 0.0
+        perp(t, u) <= 0.0
     }
 
     fn wind(&self, sides: &mut Sides<2>) {
@@ -54,11 +55,8 @@ impl RayQueries<2> for Mesh<2> {
 
     fn wound(&self, sides: &Sides<2>, point: [f64; 2]) -> Option<f64> {
         let angle = |ends: &[usize; 2]| {
-            let [a, b] = ends.map(|v| {
-                let x = self.nodes[v].position;
-                [x[0] - point[0], x[1] - point[1]]
-            });
-            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+            let [a, b] = ends.map(|v| sub(self.nodes[v].position, point));
+            perp(a, b).atan2(dot(a, b))
         };
         let sum: f64 = sides.lines.iter().map(angle).sum();
         (!sides.lines.is_empty()).then_some(sum / TAU)

@@ -7,11 +7,10 @@ use sph_core::bed::Bed;
 use super::near_element::NearElement;
 use super::sides::Sides;
 use crate::geometry::periodic::PeriodicBox;
+use crate::geometry::polyline::FreeEnd;
 use crate::geometry::vector::{Point, add, sub};
-use crate::geometry::wall_end::FreeEnd;
 use crate::rigid::motion::RigidMotion;
 use crate::rigid::pose::Pose;
-use crate::warning::WallWarning;
 
 /// A node of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,7 +153,7 @@ pub struct Mesh<const D: usize> {
     /// Of space: the openings that free edges surround.
     pub openings: Vec<Opening>,
     /// Remarks on the walls.
-    pub warnings: Vec<WallWarning>,
+    pub warnings: Vec<String>,
     /// Positions of the nodes before any motion, m.
     pub(crate) reference: Vec<[f64; D]>,
     /// Normals of the faces before any motion.
@@ -201,11 +200,8 @@ impl<const D: usize> Mesh<D> {
 
     /// Corners of an element, m.
     pub fn corners(&self, element: usize) -> [[f64; D]; D] {
-        let near = NearElement {
-            element: element as u32,
-            image: [0; D],
-        };
-        self.corners_from([0.0; D], near)
+        let Element { nodes, images, .. } = &self.elements[element];
+        std::array::from_fn(|k| self.node_from([0.0; D], nodes[k], images[k]))
     }
 
     /// Corners of an image of an element relative to a point, m.

@@ -147,10 +147,8 @@ where
     fn crossings(&self, rays: &Rays<D>, point: [f64; D]) -> Vec<(f64, i32)> {
         let (along, mut crossings) = (rays.along, Vec::new());
         rays.each(point, |near| {
-            let (corners, normal) = (
-                self.corners_from(point, near),
-                self.elements[near.index()].normal,
-            );
+            let corners = self.corners_from(point, near);
+            let normal = self.elements[near.index()].normal;
             let Some((mut height, facing)) = Self::crossing(corners, normal, along) else {
                 return;
             };

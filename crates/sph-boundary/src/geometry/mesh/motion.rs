@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use sph_core::bed::Bed;
 
 use super::elements::Mesh;
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
 use crate::rigid::pose::Pose;
 
 /// The bed that a wall follows.
@@ -63,30 +63,30 @@ where
     fn check_poses(&self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());
-            return Err(BoundaryError::Count {
-                what: "pose",
-                given,
-                walls,
-            });
+            let why = format!("{given} pose(s) given for {walls} wall(s)");
+            return Err(BoundaryError::Refused(why));
         }
-        let name = |wall: usize| self.walls[wall].clone();
+        let name = |wall: usize| &self.walls[wall];
         let mut firsts = HashMap::new();
         for (wall, group) in self.groups.iter().enumerate() {
             let first = *firsts.entry(group).or_insert(wall);
             if poses[first] != poses[wall] {
                 let (wall, other) = (name(first), name(wall));
-                return Err(BoundaryError::TornApart { wall, other });
+                return Err(BoundaryError::Refused(format!(
+                    "walls `{wall}` and `{other}` move together and cannot be given different motions"
+                )));
             }
         }
         for element in &self.elements {
             let (wall, pose) = (element.wall, &poses[element.wall]);
             let other = |node: &&usize| poses[self.nodes[**node].wall] != *pose;
             if let Some(&joint) = element.nodes.iter().find(other) {
-                return Err(BoundaryError::JointTornApart {
-                    wall: name(wall),
-                    other: name(self.nodes[joint].wall),
-                    at: self.reference[joint].into(),
-                });
+                return Err(BoundaryError::Refused(format!(
+                    "walls `{}` and `{}` are joined at {} and cannot move differently",
+                    name(wall),
+                    name(self.nodes[joint].wall),
+                    Place::from(self.reference[joint])
+                )));
             }
             if element.images != [[0; D]; D] && pose.turns() {
                 let why = "is closed through periodicity and cannot rotate";

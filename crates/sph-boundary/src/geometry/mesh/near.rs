@@ -1,10 +1,23 @@
-//! Elements of a mesh near a point.
+//! Elements of a mesh near one or many points.
 
 use super::closest::nearest_to_origin;
 use super::elements::Mesh;
 use super::grid::{Grid, ROUNDING, Sphere};
 use super::near_element::NearElement;
-use crate::geometry::vector::{add, dot, norm, sub};
+use crate::geometry::vector::{add, bounds, dot, norm, sub};
+
+/// Diagonal of the box around points that are served together, over the radius.
+const TOGETHER: f64 = 0.75;
+
+/// Elements that may be near one of several points.
+#[derive(Default)]
+struct Candidates<const D: usize> {
+    /// By image and element.
+    found: Vec<NearElement<D>>,
+    spheres: Vec<Sphere<D>>,
+    /// Image and element as one number, and the place in the grid.
+    keys: Vec<(u64, u32)>,
+}
 
 impl<const D: usize> Grid<D> {
     /// Lists for the present position of the walls and queries up to the radius `reach`, m.
@@ -16,11 +29,9 @@ impl<const D: usize> Grid<D> {
         let (mut margin, mut radii) = ([0.0; D], Vec::with_capacity(mesh.elements.len()));
         for (e, element) in mesh.elements.iter().enumerate() {
             let arms = mesh.corners(e).map(|corner| sub(corner, element.centre));
-            let reached = |k: usize| {
-                arms.iter()
-                    .fold(margin[k], |m: f64, arm| m.max(arm[k].abs()))
-            };
-            margin = std::array::from_fn(reached);
+            for (k, margin) in margin.iter_mut().enumerate() {
+                *margin = arms.iter().fold(*margin, |m: f64, arm| m.max(arm[k].abs()));
+            }
             let radius = arms.into_iter().map(norm).fold(0.0, f64::max);
             // Rounding loses nothing.
             radii.push(radius * (1.0 + ROUNDING));
@@ -63,5 +74,116 @@ impl<const D: usize> Grid<D> {
         });
         found.sort_unstable();
         found.into_iter()
+    }
+
+    /// For every point the images of elements that may be nearer than `radius`, because the spheres around them are: their
+    /// number, and all of them one behind the other, each point's by image and element. `radius` at most the reach of the grid.
+    ///
+    /// The grid is walked once, and its contents are sorted once, for neighbouring points that follow one another; each
+    /// takes what is in its own reach.
+    pub fn rows(
+        &self,
+        points: &[[f64; D]],
+        radius: f64,
+        counts: &mut Vec<u32>,
+        rows: &mut Vec<NearElement<D>>,
+    ) {
+        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
+        let mut candidates = Candidates::default();
+        let mut rest = points;
+        while !rest.is_empty() {
+            let (group, after) = rest.split_at(count_within(rest, TOGETHER * radius));
+            rest = after;
+            self.gather(group, radius, &mut candidates);
+            for point in group {
+                counts.push(candidates.reached(*point, radius, rows));
+            }
+        }
+    }
+
+    /// All that a point of the group may have, by image and element.
+    fn gather(&self, group: &[[f64; D]], radius: f64, candidates: &mut Candidates<D>) {
+        let [lower, upper] = bounds(group.iter().copied());
+        let half = sub(upper, lower).map(|x| 0.5 * x);
+        let centre: [f64; D] = std::array::from_fn(|k| lower[k] + half[k]);
+        let spread = norm(half) * (1.0 + ROUNDING) + ROUNDING * radius;
+        candidates.keys.clear();
+        self.visit(centre, radius + spread, |place, _| {
+            let key = key(&self.entries[place]);
+            candidates.keys.push((key, place as u32));
+        });
+        candidates.keys.sort_unstable();
+        let places = || candidates.keys.iter().map(|(_, place)| *place as usize);
+        candidates.found.clear();
+        let found = places().map(|place| self.entries[place]);
+        candidates.found.extend(found);
+        candidates.spheres.clear();
+        let spheres = places().map(|place| self.spheres[place]);
+        candidates.spheres.extend(spheres);
+    }
+}
+
+impl<const D: usize> Candidates<D> {
+    /// Appends those in reach of a point; how many.
+    fn reached(&self, point: [f64; D], radius: f64, rows: &mut Vec<NearElement<D>>) -> u32 {
+        let from = rows.len();
+        rows.extend_from_slice(&self.found);
+        let (slots, mut n) = (&mut rows[from..], 0);
+        for (near, sphere) in self.found.iter().zip(&self.spheres) {
+            slots[n] = *near;
+            n += usize::from(sphere.within(point, radius).is_some());
+        }
+        rows.truncate(from + n);
+        n as u32
+    }
+}
+
+/// Number of points from the first on that lie in a box of at most this diagonal, m.
+fn count_within<const D: usize>(points: &[[f64; D]], diagonal: f64) -> usize {
+    let (mut lower, mut upper) = (points[0], points[0]);
+    let apart = |point: &[f64; D]| {
+        lower = std::array::from_fn(|k| lower[k].min(point[k]));
+        upper = std::array::from_fn(|k| upper[k].max(point[k]));
+        let across = sub(upper, lower);
+        dot(across, across) > diagonal * diagonal
+    };
+    let rest = &points[1..];
+    1 + rest.iter().position(apart).unwrap_or(rest.len())
+}
+
+/// Ascending by image, then element.
+fn key<const D: usize>(near: &NearElement<D>) -> u64 {
+    let place = |periods: i8| u64::from((i16::from(periods) + 128) as u16);
+    let images = near.image.into_iter();
+    let image = images.fold(0, |all, periods| (all << 8) | place(periods));
+    (image << 32) | u64::from(near.element)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_ascend_by_image_and_element() {
+        let near = |element, image| NearElement { element, image };
+        let ascending = [
+            near(9, [-127, 4, 0]),
+            near(0, [-1, 127, 127]),
+            near(u32::MAX, [0, -1, 0]),
+            near(3, [0, 0, -1]),
+            near(2, [0, 0, 0]),
+            near(3, [0, 0, 0]),
+            near(0, [127, 0, 0]),
+        ];
+        assert!(ascending.map(|n| key(&n)).is_sorted());
+        assert!(ascending.map(|n| (n.image, n.element)).is_sorted());
+    }
+
+    #[test]
+    fn points_go_together_while_their_box_is_small() {
+        let points = [0.0, 0.4, -0.3, 0.8, 0.9].map(|x| [x, 0.1, 0.0]);
+        assert_eq!(count_within(&points, 0.75), 3);
+        assert_eq!(count_within(&points[3..], 0.75), 2);
+        assert_eq!(count_within(&points, 0.0), 1);
     }
 }

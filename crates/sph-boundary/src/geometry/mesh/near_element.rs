@@ -9,15 +9,6 @@ pub struct NearElement<const D: usize> {
     pub image: [i8; D],
 }
 
-impl<const D: usize> Default for NearElement<D> {
-    fn default() -> Self {
-        NearElement {
-            element: 0,
-            image: [0; D],
-        }
-    }
-}
-
 impl<const D: usize> NearElement<D> {
     /// Of an image that a byte can count; others are of a wall drawn far outside the box.
     pub(crate) fn new(element: usize, image: [i32; D]) -> Option<Self> {

@@ -1,19 +1,21 @@
 //! From surfaces to the mesh.
 
 use super::crossing::contacts;
-use super::drawn::{Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, neighbours, weld};
+use super::drawn::{
+    Drawn, MOST_ELEMENTS, Surface, check_extent, check_input, neighbours, too_many, weld,
+};
 use super::edges::{Cuts, Nodes, free_pieces};
 use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, Site};
 use super::removal::remove_contacts;
 use super::wetted::{FaceContacts, wetted_pieces};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
+use crate::geometry::checks::unseen;
 use crate::geometry::mesh::{Element, ElementMeasures, Face, FaceEdge, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{double_area, norm};
 use crate::parallel::*;
-use crate::warning::WallWarning;
 
 /// Elements with shorter sides than this part of the spacing are fine.
 const FINE: f64 = 0.25;
@@ -34,7 +36,13 @@ impl Mesh<3> {
         spacing: f64,
         domain: &PeriodicBox<3>,
     ) -> Result<Self, BoundaryError> {
-        check_arguments(surfaces, groups, spacing, domain)?;
+        BoundaryError::check_positive("wall spacing", spacing)?;
+        domain.check()?;
+        if groups.len() != surfaces.len() {
+            let (given, walls) = (groups.len(), surfaces.len());
+            let why = format!("{given} group(s) given for {walls} wall(s)");
+            return Err(BoundaryError::Refused(why));
+        }
         let tolerance = SAME_PLACE * spacing;
         let mut places = Places::new(tolerance, domain);
         let (mut patches, touched) = planar_pieces(surfaces, groups, spacing, &mut places)?;
@@ -43,7 +51,14 @@ impl Mesh<3> {
         let unseen = unseen_faces(surfaces, &patches, &seen);
         let mut kept = seen.iter();
         patches.retain(|_| kept.next() == Some(&true));
-        check_left(surfaces, &patches)?;
+        let covered = |(wall, _): &(usize, &Surface)| !patches.iter().any(|p| p.wall == *wall);
+        if let Some((_, surface)) = surfaces.iter().enumerate().find(covered) {
+            return Err(BoundaryError::Refused(format!(
+                "nothing is left of wall `{}`: other walls cover all of it, or face away from its edges: turn the one \
+                 that faces the other way, leave the wall out, or give a plate of two sides a thickness",
+                surface.name
+            )));
+        }
         let free = free_pieces(surfaces, &patches, &cuts, &places)?;
 
         let mut nodes = Nodes::default();
@@ -54,11 +69,9 @@ impl Mesh<3> {
             sides.push(nodes.collect::<Vec<_>>());
         }
         let position = |node: u32| nodes.positions[node as usize];
-        let filled: Vec<Result<Filling, String>> = patches
-            .par_iter()
-            .zip(&sides)
-            .map(|(patch, sides)| fill(patch, sides, &position, domain, spacing))
-            .collect();
+        let both = patches.par_iter().zip(&sides);
+        let filled = both.map(|(patch, sides)| fill(patch, sides, &position, domain, spacing));
+        let filled: Vec<Result<Filling, String>> = filled.collect();
 
         let names = surfaces.iter().map(|s| s.name.clone()).collect();
         let mut mesh = Mesh::empty(names, groups, spacing, domain);
@@ -66,10 +79,12 @@ impl Mesh<3> {
         let triangles = filled.iter().flatten().map(|f| f.triangles.len());
         mesh.elements.reserve_exact(triangles.sum());
         for (patch, filling) in patches.iter().zip(filled) {
-            let filling = filling.map_err(|reason| BoundaryError::NotMeshed {
-                wall: surfaces[patch.wall].name.clone(),
-                at: places.at(patch.boundary[0][0]).into(),
-                reason,
+            let filling = filling.map_err(|reason| {
+                let (wall, at) = (&surfaces[patch.wall].name, places.at(patch.boundary[0][0]));
+                BoundaryError::Refused(format!(
+                    "the planar piece of wall `{wall}` at {} cannot be cut into triangles: {reason}",
+                    Place::from(at)
+                ))
             })?;
             mesh.append(patch, filling, &mut nodes, &places);
         }
@@ -87,85 +102,6 @@ impl Mesh<3> {
         mesh.warnings.extend(unseen);
         Ok(mesh)
     }
-}
-
-/// A spacing and a box that walls can be cut with, and a group for every wall.
-fn check_arguments(
-    surfaces: &[Surface],
-    groups: &[usize],
-    spacing: f64,
-    domain: &PeriodicBox<3>,
-) -> Result<(), BoundaryError> {
-    BoundaryError::check_positive("wall spacing", spacing)?;
-    domain.check()?;
-    if groups.len() != surfaces.len() {
-        let (given, walls) = (groups.len(), surfaces.len());
-        return Err(BoundaryError::Count {
-            what: "group",
-            given,
-            walls,
-        });
-    }
-    Ok(())
-}
-
-/// Refuses a wall of which nothing is left.
-fn check_left(surfaces: &[Surface], pieces: &[Patch]) -> Result<(), BoundaryError> {
-    for (wall, surface) in surfaces.iter().enumerate() {
-        if !pieces.iter().any(|p| p.wall == wall) {
-            let wall = surface.name.clone();
-            return Err(BoundaryError::Covered { wall });
-        }
-    }
-    Ok(())
-}
-
-/// A remark for every wall with faces that bound no fluid.
-fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<WallWarning> {
-    let unseen = |wall: usize| {
-        let all = pieces.iter().zip(seen);
-        all.filter(|(p, seen)| p.wall == wall && !**seen).count()
-    };
-    let walls = surfaces.iter().map(|s| s.name.clone()).enumerate();
-    let counted = walls.map(|(k, wall)| (wall, unseen(k)));
-    let some = counted.filter(|(_, faces)| *faces > 0);
-    some.map(|(wall, faces)| WallWarning::Unseen { wall, faces })
-        .collect()
-}
-
-/// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
-fn planar_pieces(
-    surfaces: &[Surface],
-    groups: &[usize],
-    spacing: f64,
-    places: &mut Places,
-) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
-    let tolerance = SAME_PLACE * spacing;
-    for surface in surfaces {
-        check_input(surface)?;
-    }
-    check_extent(surfaces, spacing)?;
-    let mut drawn: Vec<Drawn> = Vec::new();
-    let mut pieces: Vec<Patch> = Vec::new();
-    let mut piece_of: Vec<u32> = Vec::new();
-    for (wall, surface) in surfaces.iter().enumerate() {
-        let own = weld(surface, wall, groups[wall], places)?;
-        let beside = neighbours(&surface.name, &own, places)?;
-        let (new, of) = patches(&own, &beside, tolerance);
-        piece_of.extend(of.iter().map(|p| pieces.len() as u32 + p));
-        pieces.extend(new);
-        drawn.extend(own);
-    }
-    let domain = places.domain;
-    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
-    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
-    for piece in &mut pieces {
-        piece.straighten(places, tolerance);
-    }
-    Ok((pieces, touched))
-}
-
-impl Mesh<3> {
     fn append(&mut self, patch: &Patch, filling: Filling, nodes: &mut Nodes, places: &Places) {
         let face = self.faces.len();
         let mut corner = |c: Site| {
@@ -217,16 +153,11 @@ impl Mesh<3> {
             return Ok(());
         }
         let most = (0..self.walls.len()).max_by_key(|w| count(*w)).unwrap_or(0);
-        Err(BoundaryError::TooManyElements {
-            wall: self.walls[most].clone(),
-            own: count(most),
-            estimate,
-            limit: MOST_ELEMENTS,
-        })
+        Err(too_many(&self.walls[most], count(most), estimate))
     }
 
-    /// Walls most of whose triangles are far smaller than the spacing.
-    fn fine_walls(&self) -> Vec<WallWarning> {
+    /// Remarks on walls most of whose triangles are far smaller than the spacing: they stay so.
+    fn fine_walls(&self) -> Vec<String> {
         let mut counts = vec![[0usize; 2]; self.walls.len()];
         for triangle in &self.elements {
             // Half a square of side s has the area s²/2.
@@ -235,16 +166,57 @@ impl Mesh<3> {
             counts[triangle.wall][1] += 1;
         }
         let walls = self.walls.iter().zip(counts);
-        walls
-            .filter(|(_, [fine, all])| 2 * fine > *all)
-            .map(|(wall, [fine, all])| WallWarning::FineSurface {
-                wall: wall.clone(),
-                fine,
-                all,
-                spacing: self.spacing,
-            })
-            .collect()
+        let fine = walls.filter(|(_, [fine, all])| 2 * fine > *all);
+        let remark = |(wall, [fine, all]): (&String, [usize; 2])| {
+            format!(
+                "{fine} of the {all} triangles of wall `{wall}` are far smaller than the spacing {} m: draw it coarser",
+                self.spacing
+            )
+        };
+        fine.map(remark).collect()
     }
+}
+
+/// A remark for every wall with faces that bound no fluid.
+fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<String> {
+    let remark = |(wall, surface): (usize, &Surface)| {
+        let all = pieces.iter().zip(seen);
+        let faces = all.filter(|(p, seen)| p.wall == wall && !**seen).count();
+        (faces > 0).then(|| unseen(&surface.name, faces))
+    };
+    surfaces.iter().enumerate().filter_map(remark).collect()
+}
+
+/// Checks the surfaces; returns their planar pieces without the places where walls touch, and these.
+fn planar_pieces(
+    surfaces: &[Surface],
+    groups: &[usize],
+    spacing: f64,
+    places: &mut Places,
+) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
+    let tolerance = SAME_PLACE * spacing;
+    for surface in surfaces {
+        check_input(surface)?;
+    }
+    check_extent(surfaces, spacing)?;
+    let mut drawn: Vec<Drawn> = Vec::new();
+    let mut pieces: Vec<Patch> = Vec::new();
+    let mut piece_of: Vec<u32> = Vec::new();
+    for (wall, surface) in surfaces.iter().enumerate() {
+        let own = weld(surface, wall, groups[wall], places)?;
+        let beside = neighbours(&surface.name, &own, places)?;
+        let (new, of) = patches(&own, &beside, tolerance);
+        piece_of.extend(of.iter().map(|p| pieces.len() as u32 + p));
+        pieces.extend(new);
+        drawn.extend(own);
+    }
+    let domain = places.domain;
+    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
+    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
+    for piece in &mut pieces {
+        piece.straighten(places, tolerance);
+    }
+    Ok((pieces, touched))
 }
 
 impl ElementMeasures for Mesh<3> {

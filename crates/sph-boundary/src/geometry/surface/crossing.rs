@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sph_core::BoxTree;
 
-use super::drawn::{Drawn, Surface};
-use crate::error::{BoundaryError, MOST_PAIRS};
+use super::drawn::{Drawn, Surface, no_thickness};
+use crate::error::{BoundaryError, MOST_PAIRS, Place};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::parallel::*;
@@ -125,22 +125,15 @@ fn touch(
             opposite: false,
             at,
         } if together => {
-            let [wall, other] = names();
-            Err(BoundaryError::DrawnTwice {
-                wall,
-                triangle: a.index,
-                other,
-                other_triangle: b.index,
-                at: at.into(),
-            })
+            let ([wall, other], at) = (names(), Place::from(at));
+            Err(BoundaryError::Refused(format!(
+                "triangle {} of wall `{wall}` and triangle {} of wall `{other}` cover each other near {at}: that piece \
+                 is drawn twice",
+                a.index, b.index
+            )))
         }
         Intersection::Cover { opposite: true, at } if a.wall == b.wall => {
-            Err(BoundaryError::NoThickness {
-                wall: surfaces[a.wall].name.clone(),
-                triangle: a.index,
-                other: b.index,
-                at: at.into(),
-            })
+            Err(no_thickness(&surfaces[a.wall].name, [a, b], at))
         }
         Intersection::Cover { .. } => Ok(together),
         _ => Ok(false),
@@ -173,16 +166,9 @@ fn meet(
     // Both cut the line common to both planes; they cross if the pieces they cut out overlap.
     let line = unit(cross(normal_a, normal_b));
     let [first, second] = [cut(a, over_b, line), cut(b, over_a, line)];
-    let from = if first[0].0 > second[0].0 {
-        first[0]
-    } else {
-        second[0]
-    };
-    let to = if first[1].0 < second[1].0 {
-        first[1]
-    } else {
-        second[1]
-    };
+    let larger = |a: (f64, Point), b: (f64, Point)| if a.0 > b.0 { a } else { b };
+    let smaller = |a: (f64, Point), b: (f64, Point)| if a.0 < b.0 { a } else { b };
+    let (from, to) = (larger(first[0], second[0]), smaller(first[1], second[1]));
     if to.0 - from.0 <= 4.0 * tolerance {
         return Intersection::Apart;
     }
@@ -241,9 +227,8 @@ fn common_place(a: [Point; 3], normal: Point, b: [Point; 3], tolerance: f64) -> 
     }
     let fan = (2..rest.len()).map(|k| cross(sub(rest[k - 1], rest[0]), sub(rest[k], rest[0])));
     let area = 0.5 * fan.map(|n| dot(n, normal).abs()).sum::<f64>();
-    let centre = rest
-        .iter()
-        .fold([0.0; 3], |sum, p| along(sum, 1.0 / rest.len() as f64, *p));
+    let part = 1.0 / rest.len() as f64;
+    let centre = rest.iter().fold([0.0; 3], |sum, p| along(sum, part, *p));
     (area > 4.0 * tolerance * longest).then_some(centre)
 }
 

@@ -1,7 +1,8 @@
 //! Surfaces as drawn, and their triangles with the corners welded.
 
 use super::places::{HalfEdge, Places, Site, half_edges};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
+use crate::geometry::checks::check_finite;
 use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
 use crate::parallel::*;
 
@@ -52,26 +53,16 @@ pub(super) struct Drawn {
 
 /// Coordinates that are not finite and corners that do not exist.
 pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
-    let wall = || surface.name.clone();
     if surface.triangles.is_empty() {
-        return Err(BoundaryError::unfit(wall(), "has no triangle"));
+        return Err(BoundaryError::unfit(&surface.name, "has no triangle"));
     }
-    let finite = |p: &Point| p.iter().all(|x| x.is_finite());
-    if let Some(point) = surface.points.iter().position(|p| !finite(p)) {
-        return Err(BoundaryError::NotFinite {
-            wall: wall(),
-            point,
-        });
-    }
+    check_finite(&surface.name, &surface.points)?;
     let count = surface.points.len();
     for (triangle, corners) in surface.triangles.iter().enumerate() {
         if let Some(point) = corners.iter().find(|c| **c as usize >= count) {
-            return Err(BoundaryError::MissingPoint {
-                wall: wall(),
-                triangle,
-                point: *point,
-                count,
-            });
+            let why =
+                format!("triangle {triangle} has the corner {point}, there are {count} points");
+            return Err(BoundaryError::of_part(&surface.name, why));
         }
     }
     Ok(())
@@ -98,14 +89,20 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), Bou
     let estimate: f64 = needs.iter().sum();
     let most = (0..needs.len()).max_by(|a, b| needs[*a].total_cmp(&needs[*b]));
     match most {
-        Some(most) if estimate > MOST_ELEMENTS as f64 => Err(BoundaryError::TooManyElements {
-            wall: surfaces[most].name.clone(),
-            own: needs[most] as u64,
-            estimate: estimate as u64,
-            limit: MOST_ELEMENTS,
-        }),
+        Some(most) if estimate > MOST_ELEMENTS as f64 => {
+            let (wall, own) = (&surfaces[most].name, needs[most] as u64);
+            Err(too_many(wall, own, estimate as u64))
+        }
         _ => Ok(()),
     }
+}
+
+/// Walls of more elements than can be meant, and the one that has most.
+pub(super) fn too_many(wall: &str, own: u64, estimate: u64) -> BoundaryError {
+    BoundaryError::Refused(format!(
+        "the walls would be cut into about {estimate} triangles, {MOST_ELEMENTS} at most: `{wall}` alone needs {own}; \
+         check the unit of length or use a coarser spacing"
+    ))
 }
 
 /// Welds the corners of a wall and checks every triangle by itself.
@@ -124,16 +121,11 @@ pub(super) fn weld(
         id: u32::MAX,
         image: [0; 3],
     };
-    let points = surface.points.iter().zip(used);
-    let sites: Vec<Site> = points
-        .map(|(p, used)| {
-            if used {
-                places.find(*p, group)
-            } else {
-                nowhere
-            }
-        })
-        .collect();
+    let site = |(point, used): (&Point, bool)| match used {
+        true => places.find(*point, group),
+        false => nowhere,
+    };
+    let sites: Vec<Site> = surface.points.iter().zip(used).map(site).collect();
     let mut drawn = Vec::with_capacity(surface.triangles.len());
     for (index, corners) in surface.triangles.iter().enumerate() {
         let corners = corners.map(|c| sites[c as usize]);
@@ -142,24 +134,19 @@ pub(super) fn weld(
         let area = 0.5 * norm(double);
         let side = |i: usize| norm(sub(at[(i + 1) % 3], at[i]));
         let edge = side(0).max(side(1)).max(side(2));
-        let name = || surface.name.clone();
+        let refused = |why: String| {
+            let why = format!("triangle {index} at {} {why}", Place::from(at[0]));
+            Err(BoundaryError::of_part(&surface.name, why))
+        };
         let [a, b, c] = corners;
         if a == b || b == c || c == a || area < NO_AREA * edge * edge {
-            return Err(BoundaryError::NoArea {
-                wall: name(),
-                triangle: index,
-                at: at[0].into(),
-            });
+            return refused("has no area".into());
         }
         let altitude = 2.0 * area / edge;
         if altitude < NEEDLE * edge {
-            return Err(BoundaryError::Needle {
-                wall: name(),
-                triangle: index,
-                at: at[0].into(),
-                altitude,
-                edge,
-            });
+            return refused(format!(
+                "is a needle: {altitude} m high on an edge of {edge} m"
+            ));
         }
         drawn.push(Drawn {
             wall,
@@ -187,11 +174,11 @@ pub(super) fn neighbours(
     let mut neighbours = vec![[None; 3]; drawn.len()];
     for run in halves.chunk_by(|a, b| a.key == b.key) {
         let index = |h: &HalfEdge| drawn[h.triangle as usize].index;
-        let middle = |h: &HalfEdge| -> Point {
+        let middle = |h: &HalfEdge| -> Place {
             let corners = &drawn[h.triangle as usize].corners;
             let [a, b] = [h.edge as usize, (h.edge as usize + 1) % 3].map(|k| corners[k]);
             let [a, b] = [places.at(a), places.at(b)];
-            std::array::from_fn(|k| 0.5 * (a[k] + b[k]))
+            [0, 1, 2].map(|k| 0.5 * (a[k] + b[k])).into()
         };
         match run {
             [_] => {}
@@ -202,20 +189,24 @@ pub(super) fn neighbours(
                 }
             }
             [a, b] => {
-                return Err(BoundaryError::Flipped {
-                    wall: name.into(),
-                    triangle: index(a),
-                    other: index(b),
-                    at: middle(a).into(),
-                });
+                let why = format!(
+                    "triangles {} and {} meet in an edge at {} but put the fluid on opposite sides: one of them is \
+                     flipped",
+                    index(a),
+                    index(b),
+                    middle(a)
+                );
+                return Err(BoundaryError::of_part(name, why));
             }
             more => {
-                return Err(BoundaryError::NotManifold {
-                    wall: name.into(),
-                    triangle: index(&more[0]),
-                    count: more.len(),
-                    at: middle(&more[0]).into(),
-                });
+                let why = format!(
+                    "{} triangles meet in one edge at {}, the first is {}: the surface is not a manifold there, draw \
+                     the bodies as walls of their own",
+                    more.len(),
+                    middle(&more[0]),
+                    index(&more[0])
+                );
+                return Err(BoundaryError::of_part(name, why));
             }
         }
     }
@@ -223,33 +214,31 @@ pub(super) fn neighbours(
 }
 
 fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), BoundaryError> {
-    let mut keys: Vec<([Site; 3], u32)> = drawn
-        .iter()
-        .enumerate()
-        .map(|(t, d)| {
-            let mut sorted = d.corners;
-            sorted.sort_unstable();
-            (sorted.map(|c| c.moved_back(sorted[0].image)), t as u32)
-        })
-        .collect();
+    let key = |(t, d): (usize, &Drawn)| {
+        let mut sorted = d.corners;
+        sorted.sort_unstable();
+        (sorted.map(|c| c.moved_back(sorted[0].image)), t as u32)
+    };
+    let mut keys: Vec<([Site; 3], u32)> = drawn.iter().enumerate().map(key).collect();
     keys.par_sort_unstable();
     let Some(pair) = keys.windows(2).find(|pair| pair[0].0 == pair[1].0) else {
         return Ok(());
     };
     let [a, b] = [&drawn[pair[0].1 as usize], &drawn[pair[1].1 as usize]];
-    let (wall, triangle, other, at) = (name.into(), a.index, b.index, a.places[0].into());
-    Err(match dot(a.normal, b.normal) > 0.0 {
-        true => BoundaryError::Repeated {
-            wall,
-            triangle,
-            other,
-            at,
-        },
-        false => BoundaryError::NoThickness {
-            wall,
-            triangle,
-            other,
-            at,
-        },
-    })
+    if dot(a.normal, b.normal) <= 0.0 {
+        return Err(no_thickness(name, [a, b], a.places[0]));
+    }
+    let (a, b, at) = (a.index, b.index, Place::from(a.places[0]));
+    let why = format!("triangles {a} and {b} at {at} have the same corners");
+    Err(BoundaryError::of_part(name, why))
+}
+
+/// Two faces of a wall on each other, with opposite normals.
+pub(super) fn no_thickness(wall: &str, [a, b]: [&Drawn; 2], at: Point) -> BoundaryError {
+    let (a, b, at) = (a.index, b.index, Place::from(at));
+    let why = format!(
+        "triangles {a} and {b} lie on each other near {at} with opposite normals: give the plate a thickness, or draw \
+         bodies that touch as walls of their own"
+    );
+    BoundaryError::of_part(wall, why)
 }

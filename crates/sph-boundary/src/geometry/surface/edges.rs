@@ -7,7 +7,7 @@ use sph_core::BoxTree;
 use super::drawn::Surface;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, Site, edge_key};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
@@ -30,14 +30,9 @@ impl Nodes {
     }
 
     pub fn corner(&mut self, corner: Site, places: &Places, wall: usize) -> Site {
-        let id = match self.at_corner.get(&corner.id) {
-            Some(id) => *id,
-            None => {
-                let id = self.push(places.positions[corner.id as usize], wall);
-                self.at_corner.insert(corner.id, id);
-                id
-            }
-        };
+        let known = self.at_corner.get(&corner.id).copied();
+        let id = known.unwrap_or_else(|| self.push(places.positions[corner.id as usize], wall));
+        self.at_corner.insert(corner.id, id);
         Site { id, ..corner }
     }
 
@@ -66,15 +61,10 @@ impl Nodes {
                 (first, parts)
             }
         };
-        let site = |k: u32| Site {
-            id: first + k,
+        nodes.extend((0..parts - 1).map(|k| Site {
+            id: first + if forward { k } else { parts - 2 - k },
             image,
-        };
-        if forward {
-            nodes.extend((0..parts - 1).map(site));
-        } else {
-            nodes.extend((0..parts - 1).rev().map(site));
-        }
+        }));
         nodes
     }
 }
@@ -91,9 +81,8 @@ impl Cuts {
         let mut chains = HashMap::new();
         for edge in patches.iter().flat_map(|patch| &patch.boundary) {
             let (key, ..) = edge_key(edge[0], edge[1]);
-            chains
-                .entry(key)
-                .or_insert_with(|| corners.along(&key, places));
+            let chain = chains.entry(key);
+            chain.or_insert_with(|| corners.along(&key, places));
         }
         Self { chains }
     }
@@ -118,10 +107,10 @@ impl Cuts {
         spacing: f64,
     ) -> Vec<Site> {
         let chain = self.along(edge);
-        let pieces = chain.windows(2);
-        let mut sites: Vec<Site> = pieces
-            .flat_map(|pair| nodes.piece([pair[0], pair[1]], places, wall, spacing))
-            .collect();
+        let mut sites = Vec::new();
+        for pair in chain.windows(2) {
+            sites.extend(nodes.piece([pair[0], pair[1]], places, wall, spacing));
+        }
         sites.push(nodes.corner(edge[1], places, wall));
         sites
     }
@@ -194,10 +183,8 @@ impl Corners {
         met.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         met.dedup_by_key(|(_, corner)| *corner);
         let between = met.into_iter().map(|(_, corner)| corner);
-        std::iter::once(first)
-            .chain(between)
-            .chain([key.second])
-            .collect()
+        let chain = std::iter::once(first).chain(between);
+        chain.chain([key.second]).collect()
     }
 }
 
@@ -237,11 +224,13 @@ pub(super) fn free_pieces(
             1 => free.push(more[0].1),
             _ => {
                 let [a, b] = more[0].1.map(|c| places.at(c));
-                return Err(BoundaryError::Opposed {
-                    wall: surfaces[more[0].0].name.clone(),
-                    other: surfaces[more[1].0].name.clone(),
-                    at: along(a, 0.5, sub(b, a)).into(),
-                });
+                return Err(BoundaryError::Refused(format!(
+                    "walls `{}` and `{}` meet in an edge at {} but put the fluid on opposite sides: reverse the \
+                     triangles of one of them",
+                    surfaces[more[0].0].name,
+                    surfaces[more[1].0].name,
+                    Place::from(along(a, 0.5, sub(b, a)))
+                )));
             }
         }
     }

@@ -11,7 +11,7 @@ use super::places::Site;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::plane::Plane;
-use crate::geometry::vector::{Point, add, norm, sub};
+use crate::geometry::vector::{Point, add, norm, perp, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
 const CLEARANCE: f64 = 0.6;
@@ -152,9 +152,8 @@ fn triangulate(
         let x = x / spacing;
         if x.abs() < 1e-30 { 0.0 } else { x }
     };
-    let vertices = points
-        .iter()
-        .map(|p| Point2::new(scaled(p[0]), scaled(p[1])));
+    let vertex = |p: &[f64; 2]| Point2::new(scaled(p[0]), scaled(p[1]));
+    let vertices = points.iter().map(vertex);
     let mut conflicts = 0;
     let mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
         vertices.collect(),
@@ -203,9 +202,8 @@ fn triangulate(
         let times = winding[face.fix().index()];
         times.is_some_and(|n| n != 0)
     });
-    Ok(inside
-        .map(|f| f.vertices().map(|v| v.fix().index()))
-        .collect())
+    let corners = inside.map(|face| face.vertices().map(|v| v.fix().index()));
+    Ok(corners.collect())
 }
 
 /// Cells along each side of a tile. Triangles of a tile follow each other, so that those that are seen together mostly are
@@ -228,21 +226,16 @@ fn check_area(
     points: &[[f64; 2]],
     edges: &[[[f64; 2]; 2]],
 ) -> Result<(), String> {
-    let double = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
-    let filled: f64 = triangles
-        .iter()
-        .map(|t| double(points[t[0]], points[t[1]], points[t[2]]))
-        .sum();
+    let double = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| perp(sub(b, a), sub(c, a));
+    let own = |t: &[usize; 3]| double(points[t[0]], points[t[1]], points[t[2]]);
+    let filled: f64 = triangles.iter().map(own).sum();
     let origin = points[0];
     let whole: f64 = edges.iter().map(|[a, b]| double(origin, *a, *b)).sum();
     if (filled - whole).abs() <= ROUNDING * whole.abs() {
-        Ok(())
-    } else {
-        let [filled, whole] = [0.5 * filled, 0.5 * whole];
-        Err(format!("its triangles cover {filled} m² of {whole} m²"))
+        return Ok(());
     }
+    let [filled, whole] = [0.5 * filled, 0.5 * whole];
+    Err(format!("its triangles cover {filled} m² of {whole} m²"))
 }
 
 /// A rectangle whose sides are cut into equal parts gets a lattice that meets all their nodes, and is its own mirror image
@@ -303,10 +296,8 @@ fn rectangle(
         _ => (2 * k + 1).cmp(&all),
     };
     let tile = |from: usize, all: usize| from..all.min(from + TILE);
-    for (low, left) in (0..n)
-        .step_by(TILE)
-        .flat_map(|j| (0..m).step_by(TILE).map(move |i| (j, i)))
-    {
+    let rows = (0..n).step_by(TILE);
+    for (low, left) in rows.flat_map(|j| (0..m).step_by(TILE).map(move |i| (j, i))) {
         for j in tile(low, n) {
             for i in tile(left, m) {
                 let [a, b] = [corner(i, j), corner(i + 1, j)];

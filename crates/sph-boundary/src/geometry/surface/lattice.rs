@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::geometry::vector::{bounds, foot_on_segment};
+
 /// A rectangular lattice of points (i s₀, j s₁), m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lattice {
@@ -25,13 +27,7 @@ impl Lattice {
     pub fn inside(&self, edges: &[[[f64; 2]; 2]], clearance: f64) -> Vec<[i64; 2]> {
         let mut crossings: HashMap<i64, Vec<(f64, i32)>> = HashMap::new();
         let mut close: HashSet<[i64; 2]> = HashSet::new();
-        let ends = |k: usize| {
-            let ends = edges.iter().flatten().map(|p| p[k]);
-            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-                [low.min(x), high.max(x)]
-            })
-        };
-        let bounds = [0, 1].map(ends);
+        let bounds = bounds(edges.iter().flatten().copied());
         for &[a, b] in edges {
             self.mark_close([a, b], clearance, bounds, &mut close);
             // Rows between the two ends, the lower end's own left out.
@@ -79,19 +75,14 @@ impl Lattice {
         close: &mut HashSet<[i64; 2]>,
     ) {
         let range = |k: usize| {
-            let low = (a[k].min(b[k]) - clearance).max(bounds[k][0]) / self.steps[k];
-            let high = (a[k].max(b[k]) + clearance).min(bounds[k][1]) / self.steps[k];
+            let low = (a[k].min(b[k]) - clearance).max(bounds[0][k]) / self.steps[k];
+            let high = (a[k].max(b[k]) + clearance).min(bounds[1][k]) / self.steps[k];
             // Rounding must not leave out a point on the bounds.
             low.floor() as i64..=high.ceil() as i64
         };
-        let t = [b[0] - a[0], b[1] - a[1]];
-        let length2 = (t[0] * t[0] + t[1] * t[1]).max(f64::MIN_POSITIVE);
         for j in range(1) {
             for i in range(0) {
-                let p = self.point([i, j]);
-                let to = [p[0] - a[0], p[1] - a[1]];
-                let part = ((to[0] * t[0] + to[1] * t[1]) / length2).clamp(0.0, 1.0);
-                let off = [to[0] - part * t[0], to[1] - part * t[1]];
+                let (_, off) = foot_on_segment(self.point([i, j]), [a, b]);
                 if off[0].hypot(off[1]) < clearance {
                     close.insert([i, j]);
                 }
@@ -145,10 +136,9 @@ mod tests {
     #[test]
     fn a_square_with_a_hole() {
         let ring = |s: f64| [[-s, -s], [s, -s], [s, s], [-s, s]];
-        let mut edges: Vec<_> = (0..4)
-            .map(|k| [ring(4.0)[k], ring(4.0)[(k + 1) % 4]])
-            .collect();
-        edges.extend((0..4).map(|k| [ring(2.0)[(k + 1) % 4], ring(2.0)[k]]));
+        let outer = (0..4).map(|k| [ring(4.0)[k], ring(4.0)[(k + 1) % 4]]);
+        let inner = (0..4).map(|k| [ring(2.0)[(k + 1) % 4], ring(2.0)[k]]);
+        let edges: Vec<_> = outer.chain(inner).collect();
         let lattice = Lattice { steps: [1.0, 1.0] };
         let points = lattice.inside(&edges, 0.6);
         assert_eq!(points.len(), 49 - 25);

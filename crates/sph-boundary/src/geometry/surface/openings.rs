@@ -3,9 +3,11 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
+#[cfg(feature = "plugins")]
+use sph_core::number::plain;
 use sph_core::{BoxTree, Sets};
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Place};
 use crate::geometry::mesh::{FreeEdge, Mesh, Opening};
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
@@ -58,28 +60,38 @@ impl Mesh<3> {
             return Ok(());
         }
         let near = Rims::new(self, bounds(points.iter().copied()), kernel_radius);
-        let nearest = points
-            .iter()
-            .enumerate()
-            .filter_map(|(particle, point)| Some((particle, near.nearest(*point)?)))
-            .min_by(|a, b| a.1.0.partial_cmp(&b.1.0).unwrap_or(Ordering::Equal));
+        let all = points.iter().enumerate();
+        let all = all.filter_map(|(particle, point)| Some((particle, near.nearest(*point)?)));
+        let nearest = all.min_by(|a, b| a.1.0.partial_cmp(&b.1.0).unwrap_or(Ordering::Equal));
         let Some((particle, ((_, distance), edge, at))) = nearest else {
             return Ok(());
         };
         let free = &self.free_edges[edge];
         let opening = &self.openings[free.opening];
-        Err(BoundaryError::FreeEdgeInReach {
-            wall: self.walls[free.wall].clone(),
-            edges: opening.edges,
-            extent: opening.extent,
-            centre: opening.centre.into(),
-            met: free.met.map(|wall| self.walls[wall].as_str().into()),
-            at: at.into(),
-            particle,
-            distance,
-            radius: kernel_radius,
-        })
+        let remedy = match free.met {
+            Some(other) => format!(
+                "wall `{}` meets it there and does not continue it: turn the one that faces the other way",
+                self.walls[other]
+            ),
+            None => "close the wall or extend it".to_string(),
+        };
+        let why = format!(
+            "is open: {} edge(s) without a neighbour surround an opening of {} m around {}, and at {} one of them \
+             is {} m from particle {particle}, within the kernel radius {} m: {remedy}",
+            opening.edges,
+            plain(opening.extent),
+            Place::from(opening.centre),
+            Place::from(at),
+            plain(distance),
+            plain(kernel_radius)
+        );
+        Err(BoundaryError::unfit(&self.walls[free.wall], why))
     }
+}
+
+#[cfg(not(feature = "plugins"))]
+fn plain(x: f64) -> String {
+    x.to_string()
 }
 
 /// Images of the free edges that come near to some points.

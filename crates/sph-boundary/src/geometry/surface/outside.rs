@@ -85,9 +85,8 @@ fn winding(mesh: &Mesh<3>) -> Option<Winding> {
     let images = IMAGES.0 * norm(sub(high, low)) / mesh.domain.periods()[axis];
     let images = images.ceil().min(IMAGES.1) as i32;
     let all = (-images..=images).flat_map(|n| {
-        let shift = mesh
-            .domain
-            .shift(std::array::from_fn(|k| if k == axis { n } else { 0 }));
+        let image = std::array::from_fn(|k| if k == axis { n } else { 0 });
+        let shift = mesh.domain.shift(image);
         own.iter().map(move |t| t.map(|p| add(p, shift)))
     });
     Some(Winding::new(all.collect()))

@@ -130,8 +130,7 @@ impl Places {
             let mut next = self.cells.get(&cell).copied();
             while let Some(id) = next {
                 let apart = sub(point, self.positions[id as usize]);
-                let image = self.domain.nearest_image(apart);
-                let rest = sub(apart, self.domain.shift(image));
+                let (image, rest) = self.domain.nearest(apart);
                 let near = dot(rest, rest) <= self.tolerance * self.tolerance;
                 if near && self.groups[id as usize] == group {
                     return Some(Site { id, image });
@@ -145,12 +144,9 @@ impl Places {
     /// A point moved into the box along the periodic axes.
     fn wrapped(&self, point: Point) -> Point {
         let periods = self.domain.periods();
-        std::array::from_fn(|k| {
-            if self.domain.periodic[k] {
-                (point[k] - self.domain.lower[k]).rem_euclid(periods[k])
-            } else {
-                point[k]
-            }
+        std::array::from_fn(|k| match self.domain.periodic[k] {
+            true => (point[k] - self.domain.lower[k]).rem_euclid(periods[k]),
+            false => point[k],
         })
     }
 

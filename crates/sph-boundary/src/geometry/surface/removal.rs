@@ -40,10 +40,9 @@ pub(super) fn remove_contacts(
     }
     let covered = covers.keys().flat_map(|p| &patches[*p as usize].boundary);
     let edges = covered.map(|[a, b]| edge_key(*a, *b).0).collect();
-    let left: BTreeMap<u32, Vec<Patch>> = covers
-        .into_iter()
-        .map(|(p, others)| (p, difference(p as usize, &others, patches, places, groups)))
-        .collect();
+    let mut rest = |p: u32, others| difference(p as usize, others, patches, places, groups);
+    let left = covers.iter().map(|(p, others)| (*p, rest(*p, others)));
+    let left: BTreeMap<u32, Vec<Patch>> = left.collect();
     let mut pieces = Vec::new();
     for (p, patch) in std::mem::take(patches).into_iter().enumerate() {
         let rest = left.get(&(p as u32));
@@ -66,17 +65,13 @@ fn difference(
     let plane = Plane::along(sub(to, from), whole.origin, whole.normal);
     let loops_of = |other: &Patch, image: [i32; 3], places: &Places| -> Vec<Vec<[f64; 2]>> {
         let point = |c: &Site| plane.foot(places.at(c.moved(image)));
-        let loops = other.loops();
-        loops
-            .iter()
-            .map(|l| l.iter().map(point).collect())
-            .collect()
+        let contour = |corners: &Vec<Site>| corners.iter().map(point).collect();
+        other.loops().iter().map(contour).collect()
     };
     let own = loops_of(whole, [0; 3], places);
-    let theirs: Vec<_> = others
-        .iter()
-        .flat_map(|(other, image)| loops_of(&patches[*other as usize], *image, places))
-        .collect();
+    let theirs = others.iter();
+    let theirs = theirs.flat_map(|(p, image)| loops_of(&patches[*p as usize], *image, places));
+    let theirs: Vec<_> = theirs.collect();
     let numbers = own.iter().chain(&theirs).flatten().flatten();
     let size = numbers.fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs()));
     // A power of two: no rounding but that to whole numbers.
@@ -102,13 +97,11 @@ fn difference(
     for shape in shapes {
         let mut edges: BTreeMap<[Site; 2], i32> = BTreeMap::new();
         for contour in &shape {
-            let corners: Vec<Site> = contour
-                .iter()
-                .map(|p| {
-                    let x = [p.x as f64 / scale, p.y as f64 / scale];
-                    places.find(plane.place(x), group)
-                })
-                .collect();
+            let corner = |p: &IntPoint<i64>| {
+                let x = [p.x as f64 / scale, p.y as f64 / scale];
+                places.find(plane.place(x), group)
+            };
+            let corners: Vec<Site> = contour.iter().map(corner).collect();
             for (k, a) in corners.iter().enumerate() {
                 let b = corners[(k + 1) % corners.len()];
                 // Slivers of rounding collapse: their edges run back and forth, or nowhere.
@@ -119,10 +112,9 @@ fn difference(
                 }
             }
         }
-        let boundary: Vec<[Site; 2]> = edges
-            .into_iter()
-            .flat_map(|(edge, times)| std::iter::repeat_n(edge, times as usize))
-            .collect();
+        let all = edges.into_iter();
+        let all = all.flat_map(|(edge, times)| std::iter::repeat_n(edge, times as usize));
+        let boundary: Vec<[Site; 2]> = all.collect();
         if boundary.len() >= 3 {
             left.push(Patch {
                 boundary,

@@ -66,10 +66,8 @@ impl Mesh<3> {
             }
             free.extend(rest.into_iter().map(|half| self.free_edge(half, met(half))));
         }
-        for edge in &free {
-            for node in edge.nodes {
-                open[node] = true;
-            }
+        for node in free.iter().flat_map(|edge| edge.nodes) {
+            open[node] = true;
         }
         let mut count = vec![0u32; self.nodes.len()];
         let mut area = vec![0.0; self.nodes.len()];

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use sph_core::bed::{Bed, LevelGrid, horizontal};
 
+use crate::geometry::vector::{bounds, perp, sub};
 use crate::{BoundaryError, Erodible, Mesh, PeriodicBox, WallSpec};
 
 /// Elements whose normal has a smaller part upwards are no floor.
@@ -60,9 +61,8 @@ fn bed<const D: usize>(
         return Err(no_floor(erodible));
     }
     let (grid, cut) = grid(erodible, floor, domain)?;
-    let levels: Vec<_> = (0..grid.len())
-        .map(|place| level(floor, grid.position(place), BORDER * erodible.cell))
-        .collect();
+    let level = |place| level(floor, grid.position(place), BORDER * erodible.cell);
+    let levels: Vec<_> = (0..grid.len()).map(level).collect();
     let covered: Vec<bool> = levels.iter().map(Option::is_none).collect();
     let at_cut = |place: usize| {
         let index = grid.index(place);
@@ -96,12 +96,10 @@ fn grid<const D: usize>(
         count: [1; 2],
         periodic: [false; 2],
     };
+    let [lower, upper] = bounds(floor.iter().flatten().copied());
     let mut cut = [[false; 2]; 2];
     for k in 0..D - 1 {
-        let along = floor.iter().flatten().map(|corner| corner[k]);
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let (low, high) = (lower[k], upper[k]);
         let near = BORDER * erodible.cell;
         cut[k] = [erodible.from[k] > low + near, erodible.to[k] < high - near];
         let (low, high) = (low.max(erodible.from[k]), high.min(erodible.to[k]));
@@ -111,11 +109,11 @@ fn grid<const D: usize>(
         }
         let cells = (length / erodible.cell).round().max(1.0);
         if cells * grid.count[0] as f64 > MOST_PLACES as f64 {
-            return Err(BoundaryError::ManyPlaces {
-                wall: erodible.wall.clone(),
-                places: cells * grid.count[0] as f64,
-                most: MOST_PLACES,
-            });
+            return Err(BoundaryError::Refused(format!(
+                "the bed `{}` has {} places, more than {MOST_PLACES}: give it a larger `cell`",
+                erodible.wall,
+                cells * grid.count[0] as f64
+            )));
         }
         let whole = domain.periodic[k] && length > domain.periods()[k] - near;
         grid.periodic[k] = whole;
@@ -138,35 +136,26 @@ fn level<const D: usize>(floor: &[[[f64; D]; D]], at: [f64; 2], border: f64) -> 
 
 /// The shares of the corners of a simplex, drawn in the plane, of which a place is the mean; none if it is outside.
 fn shares<const D: usize>(corners: &[[f64; 2]; D], at: [f64; 2], border: f64) -> Option<[f64; D]> {
-    let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
-    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
-    let sides: [[f64; 2]; D] = std::array::from_fn(|k| minus(corners[(k + 1) % D], corners[k]));
+    let side = |k: usize| sub(corners[(k + 1) % D], corners[k]);
     let mut shares = [0.0; D];
-    match D {
-        2 => {
-            let length = sides[0][0];
-            let along = at[0] - corners[0][0];
-            let within =
-                along * length.signum() > -border && (along - length) * length.signum() < border;
-            if !within {
-                return None;
-            }
-            let share = (along / length).clamp(0.0, 1.0);
-            [shares[0], shares[1]] = [1.0 - share, share];
+    if D == 2 {
+        let (length, along) = (side(0)[0], at[0] - corners[0][0]);
+        let within =
+            along * length.signum() > -border && (along - length) * length.signum() < border;
+        let share = (along / length).clamp(0.0, 1.0);
+        [shares[0], shares[1]] = [1.0 - share, share];
+        return within.then_some(shares);
+    }
+    let double = perp(side(0), side(1));
+    for (k, share) in shares.iter_mut().enumerate() {
+        // The share of a corner is the area opposite to it.
+        let opposite = (k + 1) % D;
+        let edge = side(opposite);
+        let area = perp(edge, sub(at, corners[opposite]));
+        if area * double.signum() < -border * edge[0].hypot(edge[1]) {
+            return None;
         }
-        _ => {
-            let double = cross(sides[0], sides[1]);
-            for (k, share) in shares.iter_mut().enumerate() {
-                // The share of a corner is the area opposite to it.
-                let opposite = (k + 1) % D;
-                let area = cross(sides[opposite], minus(at, corners[opposite]));
-                let length = sides[opposite][0].hypot(sides[opposite][1]);
-                if area * double.signum() < -border * length {
-                    return None;
-                }
-                *share = area / double;
-            }
-        }
+        *share = area / double;
     }
     Some(shares)
 }

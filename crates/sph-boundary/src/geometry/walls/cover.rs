@@ -54,7 +54,7 @@ impl<const D: usize> Cover<D> {
                 let all = mesh.near(x, FAR * spacing).into_iter();
                 let own = |n: &NearElement<D>| groups[mesh.wall_of(*n)] == *group;
                 let (own, others): (Vec<_>, Vec<_>) = all.partition(own);
-                let seen = seen_elements(mesh, x, &others);
+                let seen = mesh.seen(x, &others);
                 let found = SeenElement::signed_distance(&seen, [0.0; D], 2.0 * spacing);
                 found.map(|_| NodeNeighbours { node, own, others })
             };
@@ -80,15 +80,6 @@ impl<const D: usize> Cover<D> {
     }
 }
 
-/// Elements as seen from a point.
-fn seen_elements<const D: usize, M: WallMesh<D>>(
-    mesh: &M,
-    x: &Vect<D>,
-    near: &[NearElement<D>],
-) -> Vec<SeenElement<D>> {
-    near.iter().map(|n| mesh.seen(x, *n)).collect()
-}
-
 fn visible<const D: usize, M: WallMesh<D>>(
     mesh: &M,
     around: &NodeNeighbours<D>,
@@ -96,7 +87,7 @@ fn visible<const D: usize, M: WallMesh<D>>(
     spacing: f64,
 ) -> f64 {
     let apart = 0.5 * spacing / f64::from(SAMPLES);
-    let mut others = seen_elements(mesh, x, &around.others);
+    let mut others = mesh.seen(x, &around.others);
     let Some(distance) = SeenElement::signed_distance(&others, [0.0; D], 2.0 * spacing) else {
         return 1.0;
     };
@@ -110,7 +101,7 @@ fn visible<const D: usize, M: WallMesh<D>>(
     let left = |d: f64| 0.5 * (ramp(d) + ramp(d - 0.5 * spacing));
     // What is farther from the node than its wall by twice the radius of the ball is the nearest of no sample.
     let reach = [0.0, distance.abs()].map(|d| d + 0.5 * spacing + apart);
-    let mut own = seen_elements(mesh, x, &around.own);
+    let mut own = mesh.seen(x, &around.own);
     for (elements, reach) in [&mut own, &mut others].into_iter().zip(reach) {
         let (alone, far) = (std::slice::from_ref, reach + 0.5 * spacing);
         elements.retain(|e| SeenElement::signed_distance(alone(e), [0.0; D], far).is_some());

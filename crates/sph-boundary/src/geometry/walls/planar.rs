@@ -1,6 +1,7 @@
 //! Walls in the plane: segments for the wall treatments.
 
 use sph_core::Vect;
+use sph_core::place_cells::PlaceCells;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
@@ -10,13 +11,15 @@ use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::shells::Gammas;
 use crate::geometry::touching::without_shared;
 use crate::geometry::walls::beds::laid;
-use crate::geometry::walls::layers::layers;
 use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,
     Renormalisation2d, SeenElement, SegmentBatch, WallSpec, Walls,
 };
+
+/// Two dummy particles nearer than this share of the spacing are one.
+const TOO_CLOSE: f64 = 0.7;
 
 impl Walls<2> {
     /// Plane at which a segment keeps a particle off.
@@ -59,11 +62,8 @@ impl Walls<2> {
         let next = self.mesh.beside[node][ahead];
         let over_next = next.is_some_and(|s| {
             let ahead = -nearest.dot(&Vect::from(self.mesh.elements[s].tangent()));
-            if share > 1.0 {
-                ahead > 0.0
-            } else {
-                ahead < 0.0
-            }
+            let side = if share > 1.0 { 1.0 } else { -1.0 };
+            side * ahead > 0.0
         });
         let theta = self.mesh.nodes[node].theta;
         let theta = if turned { 1.0 - theta } else { theta };
@@ -113,14 +113,6 @@ impl WallMesh<2> for Walls<2> {
 
     fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d, BoundaryError> {
         Renormalisation2d::new(shape, h)
-    }
-
-    fn walls(&self) -> &Walls<2> {
-        self
-    }
-
-    fn walls_mut(&mut self) -> &mut Walls<2> {
-        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
@@ -198,10 +190,8 @@ impl WallMesh<2> for Walls<2> {
     }
 
     fn is_crossed(&self, near: NearElement<2>, point: &Vect<2>, by: &Vect<2>) -> bool {
-        let [a, b] = self
-            .mesh
-            .corners_from((*point).into(), near)
-            .map(Vect::from);
+        let corners = self.mesh.corners_from((*point).into(), near);
+        let [a, b] = corners.map(Vect::from);
         let along: Vect<2> = b - a;
         by.perp(&a) * by.perp(&b) <= 0.0 && along.perp(&-a) * along.perp(&(by - a)) <= 0.0
     }
@@ -213,10 +203,8 @@ impl WallMesh<2> for Walls<2> {
         reach: f64,
         hindrances: &mut Vec<Hindrance<2>>,
     ) {
-        hindrances.extend(
-            near.iter()
-                .filter_map(|near| self.hindrance(of, *near, reach)),
-        );
+        let near = near.iter();
+        hindrances.extend(near.filter_map(|near| self.hindrance(of, *near, reach)));
     }
 
     fn enclosed(&self, point: &Vect<2>) -> Option<f64> {
@@ -226,8 +214,7 @@ impl WallMesh<2> for Walls<2> {
     /// The side of the nearest segment if a wall is near, else of all walls together. Open walls
     /// have no inside, but they have a front.
     fn contains(&self, point: &Vect<2>) -> bool {
-        let near = self.near(point, self.reach);
-        let seen: Vec<_> = near.into_iter().map(|n| self.seen(point, n)).collect();
+        let seen = self.seen(point, &self.near(point, self.reach));
         match SeenElement::signed_distance(&seen, [0.0; 2], self.reach) {
             Some(distance) => distance >= 0.0,
             None => self.mesh.contains((*point).into()),
@@ -239,7 +226,61 @@ impl WallMesh<2> for Walls<2> {
         self.mesh.check_free_ends(&points, radius)
     }
 
+    /// Rows at ½, 1½, … spacings behind every straight stretch, prolonged round corners.
+    ///
+    /// A place is kept if it is outside the fluid, not nearer to any wall than its own row, and not
+    /// on top of a place already kept; so right angles are tiled exactly and others nearly so.
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<2>)> {
-        layers(self, &self.mesh, [spacing, support])
+        let rows = (support / spacing - 1e-9).ceil() as usize;
+        let mut kept = Vec::new();
+        let mut places = PlaceCells::new(spacing, []);
+        let domain = &self.mesh.domain;
+        let inside_period = |p: [f64; 2]| {
+            (0..2).all(|k| {
+                !domain.periodic[k]
+                    || (p[k] >= domain.lower[k] - 1e-9 * spacing
+                        && p[k] < domain.upper[k] - 1e-9 * spacing)
+            })
+        };
+        for row in 0..rows {
+            let depth = (row as f64 + 0.5) * spacing;
+            for (s, segment) in self.mesh.elements.iter().enumerate() {
+                let [start, _] = self.mesh.corners(s);
+                let tangent = segment.tangent();
+                // A segment is about one spacing long: its own place is in its middle, and both
+                // ends reach on so that outer corners are filled.
+                let reach = rows as i64;
+                for k in -reach..=reach {
+                    let along = segment.measure * 0.5 + k as f64 * spacing;
+                    let p =
+                        [0, 1].map(|a| start[a] + tangent[a] * along - segment.normal[a] * depth);
+                    let beyond = k != 0;
+                    if self.contains(&p.into()) {
+                        continue;
+                    }
+                    let clearance = self.nearest(&p.into(), depth);
+                    if clearance.is_some_and(|(d, _)| d < depth * (1.0 - 1e-6)) {
+                        continue;
+                    }
+                    // A prolonged row serves only places that no segment's own row reaches.
+                    if beyond && self.nearest(&p.into(), depth * (1.0 + 1e-6)).is_some() {
+                        continue;
+                    }
+                    // A wall may lie across a periodic border; a line that closes through it has a place there already.
+                    let seen = match inside_period(p) {
+                        true => p,
+                        false => domain.wrapped(p),
+                    };
+                    let taken = places.around(seen).any(|q: &[f64; 2]| {
+                        (seen[0] - q[0]).hypot(seen[1] - q[1]) < TOO_CLOSE * spacing
+                    });
+                    if !taken {
+                        places.add(seen, seen);
+                        kept.push((segment.wall, p.into()));
+                    }
+                }
+            }
+        }
+        kept
     }
 }

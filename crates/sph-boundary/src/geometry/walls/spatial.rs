@@ -1,10 +1,12 @@
 //! Walls in space: triangles for the wall treatments.
 
+use rayon::prelude::*;
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
 use crate::geometry::shells::Gammas;
+use crate::geometry::vector::bounds;
 use crate::geometry::walls::beds::laid;
 use crate::geometry::walls::faces::{Corner, Planes};
 use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
@@ -19,6 +21,9 @@ use crate::{
 const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
 /// A place is in a plane if it is this near to it, relatively.
 const SAME_PLANE: f64 = 1e-6;
+
+/// A place of a dummy particle nearer to the fluid's side than this share of the spacing is left out.
+const TOO_NEAR: f64 = 0.25;
 
 /// A triangle with its closest place, the vector there and its length.
 type NearTriangle<'a> = (&'a NearElement<3>, Closest<3>, Vect<3>, f64);
@@ -56,14 +61,6 @@ impl WallMesh<3> for Walls<3> {
 
     fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d, BoundaryError> {
         Renormalisation3d::new(shape, h)
-    }
-
-    fn walls(&self) -> &Walls<3> {
-        self
-    }
-
-    fn walls_mut(&mut self) -> &mut Walls<3> {
-        self
     }
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
@@ -116,9 +113,8 @@ impl WallMesh<3> for Walls<3> {
         let heights = self.faces(near).map(|part| {
             let first = &self.mesh.elements[part[0].index()];
             let corner = Corner::new(&self.mesh, first.nodes[0], first.images[0]);
-            -self
-                .seen(&corner, part[0].image, point)
-                .dot(&Vect::from(first.normal))
+            let seen = self.seen(&corner, part[0].image, point);
+            -seen.dot(&Vect::from(first.normal))
         });
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
     }
@@ -139,10 +135,8 @@ impl WallMesh<3> for Walls<3> {
     }
 
     fn is_crossed(&self, near: NearElement<3>, point: &Vect<3>, by: &Vect<3>) -> bool {
-        let [a, b, c] = self
-            .mesh
-            .corners_from((*point).into(), near)
-            .map(Vect::from);
+        let corners = self.mesh.corners_from((*point).into(), near);
+        let [a, b, c] = corners.map(Vect::from);
         let normal = Vect::from(self.mesh.elements[near.index()].normal);
         let here = a.dot(&normal);
         if here * (here - by.dot(&normal)) > 0.0 {
@@ -161,24 +155,18 @@ impl WallMesh<3> for Walls<3> {
     ) {
         let x: [f64; 3] = (*point).into();
         let row = &self.expanded(point, row, reach)[..];
-        let all: Vec<_> = row
-            .iter()
-            .map(|near| {
-                let closest = self.mesh.closest(x, *near);
-                let offset = Vect::from(closest.offset);
-                (near, closest, offset, offset.norm())
-            })
-            .filter(|(near, closest, _, distance)| {
-                let shell = self.shells.shell_of(near.index());
-                let turned = behind.iter().any(|(_, s)| *s == shell);
-                let before = if turned {
-                    closest.height < 0.0
-                } else {
-                    closest.height > 0.0
-                };
-                before && *distance <= reach
-            })
-            .collect();
+        let seen = row.iter().map(|near| {
+            let closest = self.mesh.closest(x, *near);
+            let offset = Vect::from(closest.offset);
+            (near, closest, offset, offset.norm())
+        });
+        let before = |(near, closest, _, distance): &NearTriangle| {
+            let shell = self.shells.shell_of(near.index());
+            let turned = behind.iter().any(|(_, s)| *s == shell);
+            let side = if turned { -1.0 } else { 1.0 };
+            side * closest.height > 0.0 && *distance <= reach
+        };
+        let all: Vec<_> = seen.filter(before).collect();
         for (near, closest, offset, distance) in &all {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:
             // on an edge that stands out, not where the plane beyond the rim is nearer.
@@ -216,7 +204,38 @@ impl WallMesh<3> for Walls<3> {
         self.mesh.check_free_edges(&points, radius)
     }
 
+    /// Nodes of the cubic lattice of half spacings, counted from the lower corner of the box around all
+    /// walls, that are outside the fluid and within the support of a wall.
+    ///
+    /// Faces along the axes at whole spacings get rows at ½, 1½, … spacings; slanted and curved ones
+    /// get steps.
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
-        crate::geometry::walls::lattice_layers::layers(self, &self.mesh.domain, spacing, support)
+        let domain = &self.mesh.domain;
+        let [low, high] = bounds(self.nodes().iter().map(|n| n.position));
+        let axis = |k: usize| -> Vec<f64> {
+            if domain.periodic[k] {
+                let period = domain.upper[k] - domain.lower[k];
+                let count = (period / spacing).round().max(1.0);
+                let node = |i: usize| domain.lower[k] + (i as f64 + 0.5) * (period / count);
+                return (0..count as usize).map(node).collect();
+            }
+            let beyond = (support / spacing).ceil();
+            let count = ((high[k] - low[k]) / spacing).ceil() + 2.0 * beyond;
+            let node = |i: usize| low[k] + (i as f64 + 0.5 - beyond) * spacing;
+            (0..count as usize).map(node).collect()
+        };
+        let [xs, ys, zs] = [axis(0), axis(1), axis(2)];
+        let column = |(x, y): (f64, f64)| -> Vec<(usize, Vect<3>)> {
+            let place = |z: &f64| {
+                let place = Vect::from([x, y, *z]);
+                let (distance, wall) = self.nearest(&place, support)?;
+                let kept = distance >= TOO_NEAR * spacing && !self.contains(&place);
+                kept.then_some((wall, place))
+            };
+            zs.iter().filter_map(place).collect()
+        };
+        let columns = xs.iter().flat_map(|x| ys.iter().map(|y| (*x, *y)));
+        let columns: Vec<_> = columns.collect();
+        columns.into_par_iter().flat_map_iter(column).collect()
     }
 }

@@ -1,5 +1,7 @@
 //! Geometry of the walls for a wall treatment, in either dimension.
 
+use std::borrow::BorrowMut;
+
 use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
@@ -29,7 +31,9 @@ pub struct Hindrance<const D: usize> {
 
 /// The walls of a scene as a mesh of elements of about the particle spacing: the common queries of the two dimensions,
 /// and those with a method of each.
-pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'static {
+pub trait WallMesh<const D: usize>:
+    BorrowMut<Walls<D>> + Sized + Send + Sync + std::fmt::Debug + 'static
+{
     /// The wall integrals of a kernel.
     type Integrals: Send + Sync + std::fmt::Debug;
     /// Buffers of a task that finds γ.
@@ -56,10 +60,14 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
     ) -> Result<Self::Integrals, BoundaryError>;
 
     /// The mesh and the search for its elements.
-    fn walls(&self) -> &Walls<D>;
+    fn walls(&self) -> &Walls<D> {
+        self.borrow()
+    }
 
     /// The same, to change.
-    fn walls_mut(&mut self) -> &mut Walls<D>;
+    fn walls_mut(&mut self) -> &mut Walls<D> {
+        self.borrow_mut()
+    }
 
     /// Moves every wall to its pose.
     ///
@@ -162,13 +170,8 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
 
     /// Elements within a radius of a point, or a few more, ascending.
     fn near(&self, point: &Vect<D>, radius: f64) -> Vec<NearElement<D>> {
-        let mut row = Vec::new();
-        self.near_all(
-            std::slice::from_ref(point),
-            radius,
-            &mut Vec::new(),
-            &mut row,
-        );
+        let (mut counts, mut row) = (Vec::new(), Vec::new());
+        self.near_all(&[*point], radius, &mut counts, &mut row);
         row
     }
 
@@ -182,9 +185,14 @@ pub trait WallMesh<const D: usize>: Sized + Send + Sync + std::fmt::Debug + 'sta
         self.walls().mesh.elements[near.index()].wall
     }
 
-    /// An element as seen from a point.
-    fn seen(&self, point: &Vect<D>, near: NearElement<D>) -> SeenElement<D> {
-        self.walls().mesh.seen((*point).into(), near)
+    /// Elements as seen from a point.
+    fn seen<'a>(
+        &self,
+        point: &Vect<D>,
+        near: impl IntoIterator<Item = &'a NearElement<D>>,
+    ) -> Vec<SeenElement<D>> {
+        let (mesh, x) = (&self.walls().mesh, (*point).into());
+        near.into_iter().map(|near| mesh.seen(x, *near)).collect()
     }
 
     /// Distance of the nearest wall, m, and its index, if nearer than `within`.

@@ -110,13 +110,12 @@ impl Body for Discs<'_> {
             ..
         } = self.batch;
         for from in (0..height.len()).step_by(L::N) {
+            let [y1, y2] = along;
+            let [q1, q2] = distance2;
             let seen = OnLine {
                 height: L::load(&height[from..]),
-                along: [L::load(&along[0][from..]), L::load(&along[1][from..])],
-                distance2: [
-                    L::load(&distance2[0][from..]),
-                    L::load(&distance2[1][from..]),
-                ],
+                along: [L::load(&y1[from..]), L::load(&y2[from..])],
+                distance2: [L::load(&q1[from..]), L::load(&q2[from..])],
             };
             let [kernel, gamma] = self.integrals.discs(&seen);
             kernel.store(&mut discs[0][from..]);

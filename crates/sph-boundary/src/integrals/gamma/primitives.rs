@@ -6,7 +6,7 @@ use sph_kernels::PiecewisePolynomial;
 use sph_kernels::lanes::Lane;
 
 use super::ring::{Ring, amplification};
-use crate::integrals::normalisation::steps;
+use crate::integrals::normalisation::{End, steps};
 
 /// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
 ///
@@ -30,13 +30,6 @@ struct Term {
     gradient: f64,
     /// σ c_n/((n + 1)(n + 2)).
     gamma: f64,
-}
-
-/// One end of a clipped segment: abscissa y on the line and distance q, over h.
-#[derive(Clone, Copy)]
-pub(super) struct End<L> {
-    pub y: L,
-    pub q: L,
 }
 
 /// σ Σ c_n I_n and σ Σ c_n I_n/(n + 2), without and with the logarithm's factor.
@@ -89,13 +82,9 @@ pub(super) fn tables(shape: &PiecewisePolynomial, sigma: f64) -> (Vec<Knot>, Vec
         amplified.max(amplification(step, *radius, sigma))
     };
     if steps.iter().fold(0.0, worst) <= AMPLIFICATION {
-        return (
-            steps
-                .into_iter()
-                .map(|(radius, step)| knot(radius, step, sigma))
-                .collect(),
-            vec![],
-        );
+        let knots = steps.into_iter();
+        let knots = knots.map(|(radius, step)| knot(radius, step, sigma));
+        return (knots.collect(), Vec::new());
     }
     let pieces = shape.pieces.iter().zip(shape.breaks.windows(2)).rev();
     let mut rings = Vec::new();
@@ -107,30 +96,25 @@ pub(super) fn tables(shape: &PiecewisePolynomial, sigma: f64) -> (Vec<Knot>, Vec
         rings.push(Ring::new(shape, piece, [0.5 * radius, radius], sigma));
         radius *= 0.5;
     }
-    let disc = knot(radius, piece.clone(), sigma);
-    (
-        vec![Knot {
-            angle: 1.0 / TAU,
-            ..disc
-        }],
-        rings,
-    )
+    let disc = Knot {
+        angle: 1.0 / TAU,
+        ..knot(radius, piece.clone(), sigma)
+    };
+    (vec![disc], rings)
 }
 
 fn knot(radius: f64, step: Vec<f64>, sigma: f64) -> Knot {
     let last = step.iter().rposition(|c| *c != 0.0).unwrap_or(0);
-    let terms = (0..=last)
-        .rev()
-        .map(|n| {
-            let (n1, n2) = (n as f64 + 1.0, n as f64 + 2.0);
-            let c = step[n] * sigma;
-            Term {
-                ratio: n2 / n1,
-                gradient: c / n1,
-                gamma: c / (n1 * n2),
-            }
-        })
-        .collect();
+    let term = |n: usize| {
+        let (n1, n2) = (n as f64 + 1.0, n as f64 + 2.0);
+        let c = step[n] * sigma;
+        Term {
+            ratio: n2 / n1,
+            gradient: c / n1,
+            gamma: c / (n1 * n2),
+        }
+    };
+    let terms = (0..=last).rev().map(term).collect();
     let alone = PiecewisePolynomial {
         breaks: vec![0.0, radius],
         pieces: vec![step],

@@ -2,8 +2,8 @@
 
 use sph_kernels::lanes::{Lane, atan2, ln};
 
-use super::primitives::End;
 use super::renormalisation::Renormalisation2d;
+use crate::integrals::normalisation::End;
 
 /// Below this distance over h the logarithmic terms, of order a² ln a, are left out.
 const NO_LOGARITHM: f64 = 1e-30;

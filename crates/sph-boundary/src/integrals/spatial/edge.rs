@@ -59,15 +59,13 @@ impl Edge {
         } else {
             (perpendicular, a2)
         };
+        let end = |k: usize| End {
+            y: y[k],
+            q: r2[k].sqrt(),
+        };
         Self {
-            from: End {
-                y: y[0],
-                q: r2[0].sqrt(),
-            },
-            to: End {
-                y: y[1],
-                q: r2[1].sqrt(),
-            },
+            from: end(0),
+            to: end(1),
             offset: -dot(perpendicular, inward),
             inward,
             a2,

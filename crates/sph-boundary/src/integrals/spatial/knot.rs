@@ -37,12 +37,8 @@ struct Term {
     factors: [f64; 2],
 }
 
-/// One end of a clipped edge: abscissa y on its line and distance q, over h.
-#[derive(Clone, Copy)]
-pub(super) struct End {
-    pub y: f64,
-    pub q: f64,
-}
+/// One end of a clipped edge.
+pub(super) type End = crate::integrals::normalisation::End<f64>;
 
 /// Σ b_n U_{n+2} of both sums, split by the factor that is still to come.
 pub(super) struct Primitives {

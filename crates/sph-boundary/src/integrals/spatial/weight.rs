@@ -50,13 +50,13 @@ const TWELVE_MIXED_WEIGHT: f64 = 0.082_851_075_618_374;
 /// |c + Σ λ_i ξ_i|² = c² + Σ λ_i t_i + |Σ λ_i ξ_i|²,   t_i = 2 c·ξ_i
 /// ```
 #[derive(Clone, Copy)]
-pub(super) struct SquaredDistances {
+pub(super) struct SquaredDistances<L> {
     /// c².
-    pub centre: f64,
+    pub centre: L,
     /// t_i.
-    pub slopes: [f64; 3],
+    pub slopes: [L; 3],
     /// ξ_i².
-    pub arms: [f64; 3],
+    pub arms: [L; 3],
 }
 
 impl Renormalisation3d {
@@ -74,7 +74,7 @@ impl Renormalisation3d {
     }
 
     #[inline(never)]
-    pub(super) fn mean_of_twelve(&self, seen: &SquaredDistances) -> f64 {
+    pub(super) fn mean_of_twelve(&self, seen: &SquaredDistances<f64>) -> f64 {
         let mut squares = [0.0; 12];
         for i in 0..3 {
             squares[i] = seen.orbit(TWELVE_ORBITS[0][0], i);
@@ -115,33 +115,44 @@ pub(super) fn mean_of_six<L: Lane>(w: [L; POINTS]) -> L {
     first * (w[0] + w[1] + w[2]) + second * (w[3] + w[4] + w[5])
 }
 
-/// Of [`six`].
+/// Of [`SquaredDistances::six`].
 pub(super) const POINTS: usize = 6;
 
-/// λ (3/2) − 1/2 of the points of either orbit.
-const SIX_PARTS: [f64; 2] = [1.5 * SIX_ORBITS[0][0] - 0.5, 1.5 * SIX_ORBITS[1][0] - 0.5];
-
-/// Squared distances of the six points, the two orbits one behind the other, from c², t_i and ξ_i².
-#[inline(always)]
-pub(super) fn six<L: Lane>(centre: L, slopes: [L; 3], arms: [L; 3]) -> [L; POINTS] {
-    let mut squares = [centre; POINTS];
-    for orbit in 0..2 {
-        let part = L::splat(SIX_PARTS[orbit]);
-        for k in 0..3 {
-            squares[3 * orbit + k] = centre + part * (slopes[k] + part * arms[k]);
+impl<L: Lane> SquaredDistances<L> {
+    /// From the coordinates of the centre in a plane, the squared height over it, the first two of ξ_i, and all ξ_i².
+    #[inline(always)]
+    pub fn new([x, y]: [L; 2], height2: L, [a, b]: [[L; 2]; 2], arms: [L; 3]) -> Self {
+        let two = L::splat(2.0);
+        let first = two * (x * a[0] + y * a[1]);
+        let second = two * (x * b[0] + y * b[1]);
+        SquaredDistances {
+            centre: x * x + y * y + height2,
+            slopes: [first, second, -(first + second)],
+            arms,
         }
     }
-    squares
-}
 
-impl SquaredDistances {
-    /// With λ in the place i and (1 − λ)/2 in the others: Σ λ_i ξ_i = ξ_i (3λ − 1)/2.
+    /// Those of the six points, the two orbits one behind the other.
     #[inline(always)]
-    fn orbit(&self, single: f64, i: usize) -> f64 {
-        let part = 1.5 * single - 0.5;
-        self.centre + part * (self.slopes[i] + part * self.arms[i])
+    pub fn six(&self) -> [L; POINTS] {
+        let mut squares = [self.centre; POINTS];
+        for orbit in 0..2 {
+            for k in 0..3 {
+                squares[3 * orbit + k] = self.orbit(SIX_ORBITS[orbit][0], k);
+            }
+        }
+        squares
     }
 
+    /// With λ in the place i and (1 − λ)/2 in the others: Σ λ_i ξ_i = ξ_i (3λ − 1)/2.
+    #[inline(always)]
+    fn orbit(&self, single: f64, i: usize) -> L {
+        let part = L::splat(1.5 * single - 0.5);
+        self.centre + part * (self.slopes[i] + part * self.arms[i])
+    }
+}
+
+impl SquaredDistances<f64> {
     /// With ξ_k = −ξ_i − ξ_j: Σ λ_i ξ_i = (λ_i − λ_k) ξ_i + (λ_j − λ_k) ξ_j.
     #[inline(always)]
     fn mixed_orbit(&self, [a, b, c]: [f64; 3]) -> [f64; 6] {
@@ -179,25 +190,17 @@ mod tests {
         let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
         let orbits = |orbits: [Orbit; 2], n: i32| -> f64 {
             let sum = |single| (0..3).map(|i| value.orbit(single, i).powi(n)).sum::<f64>();
-            orbits
-                .iter()
-                .map(|[single, weight]| weight * sum(*single))
-                .sum()
+            let parts = orbits.map(|[single, weight]| weight * sum(single));
+            parts.into_iter().sum()
         };
         for n in 0..=6 {
             let exact = 2.0 * factorial(n) / factorial(n + 2);
             let mixed = value.mixed_orbit(TWELVE_MIXED).map(|x| x.powi(n));
             let mixed = TWELVE_MIXED_WEIGHT * mixed.iter().sum::<f64>();
-            let twelve = orbits(TWELVE_ORBITS, n) + mixed;
-            assert!(
-                (twelve - exact).abs() < 1e-14,
-                "degree {n}: {twelve} {exact}"
-            );
-            let six = orbits(SIX_ORBITS, n);
-            assert!(
-                n > 4 || (six - exact).abs() < 1e-14,
-                "degree {n}: {six} {exact}"
-            );
+            let twelve = (orbits(TWELVE_ORBITS, n) + mixed - exact).abs();
+            assert!(twelve < 1e-14, "degree {n}: {twelve}");
+            let six = (orbits(SIX_ORBITS, n) - exact).abs();
+            assert!(n > 4 || six < 1e-14, "degree {n}: {six}");
         }
     }
 

@@ -3,8 +3,92 @@
 use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
-use super::plane::{Circle, Foot, Patch};
-use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six, six};
+use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six};
+use crate::geometry::plane::Plane;
+
+/// A triangle in the coordinates of its plane, ready to be seen from many points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patch {
+    /// Mean of the corners, m.
+    pub centre: [f64; 2],
+    /// The first two corners from there, m; the third makes their sum vanish.
+    pub arms: [[f64; 2]; 2],
+    /// Squared distances of the corners from there, m².
+    pub squares: [f64; 3],
+    /// m².
+    pub area: f64,
+}
+
+/// The circle around a triangle in the coordinates of its plane, about the mean of the corners.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circle {
+    /// m.
+    centre: [f64; 2],
+    /// m.
+    radius: f64,
+}
+
+impl Patch {
+    /// A triangle with corners in or close to a plane, m, and its area, m²; and the circle around it.
+    pub fn new(plane: &Plane, corners: [[f64; 3]; 3], area: f64) -> (Self, Circle) {
+        let [a, b, c] = corners.map(|corner| plane.foot(corner));
+        let centre = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+        let arms = [a, b, c].map(|corner| [corner[0] - centre[0], corner[1] - centre[1]]);
+        let squares = arms.map(|arm| arm[0] * arm[0] + arm[1] * arm[1]);
+        let patch = Self {
+            centre,
+            arms: [arms[0], arms[1]],
+            squares,
+            area,
+        };
+        // Rounding loses nothing.
+        let radius = squares.into_iter().fold(0.0, f64::max).sqrt() * (1.0 + 1e-9);
+        (patch, Circle { centre, radius })
+    }
+
+    /// Squared distances from the point over the foot, m².
+    #[inline(always)]
+    fn squared_distances(&self, foot: &Foot) -> SquaredDistances<f64> {
+        let height2 = foot.height * foot.height;
+        SquaredDistances::new(foot.to(self.centre), height2, self.arms, self.squares)
+    }
+
+    /// Corners relative to the point over the foot, m, with the plane's normal along the third axis.
+    fn corners(&self, foot: &Foot) -> [[f64; 3]; 3] {
+        let ([x, y], [a, b]) = (foot.to(self.centre), self.arms);
+        let at = |arm: [f64; 2]| [x + arm[0], y + arm[1], -foot.height];
+        [at(a), at(b), at([-(a[0] + b[0]), -(a[1] + b[1])])]
+    }
+}
+
+impl Circle {
+    /// True if it meets the disc of the plane within the support.
+    #[inline(always)]
+    pub fn meets(&self, foot: &Foot) -> bool {
+        let [x, y] = foot.to(self.centre);
+        let reach = foot.reach + self.radius;
+        x * x + y * y < reach * reach
+    }
+}
+
+/// Foot of a point on a plane, and the part of the plane in its sight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    /// Coordinates of the foot of the perpendicular, m.
+    pub place: [f64; 2],
+    /// Signed distance from the plane, m.
+    pub height: f64,
+    /// Radius of the disc of the plane within the support, m.
+    pub reach: f64,
+}
+
+impl Foot {
+    /// A place as seen from the foot, m.
+    #[inline(always)]
+    pub fn to(&self, place: [f64; 2]) -> [f64; 2] {
+        [place[0] - self.place[0], place[1] - self.place[1]]
+    }
+}
 
 /// The triangles of a plane that a point sees, and their weights; buffers for reuse.
 #[derive(Debug, Default)]
@@ -75,11 +159,10 @@ impl Weights {
         }
         for (&triangle, weight) in near.iter().zip(weights) {
             let patch = &patches[triangle as usize];
-            match of.rule(patch.distance2(foot), patch.area) {
+            let seen = patch.squared_distances(foot);
+            match of.rule(seen.centre, patch.area) {
                 Rule::Six => {}
-                Rule::Twelve => {
-                    *weight = patch.area * of.mean_of_twelve(&patch.squared_distances(foot))
-                }
+                Rule::Twelve => *weight = patch.area * of.mean_of_twelve(&seen),
                 Rule::Exact => {
                     *weight = of.triangle(patch.corners(foot), [0.0, 0.0, 1.0]).kernel;
                 }
@@ -131,18 +214,13 @@ impl Body for Squares<'_> {
                 }
                 area.set(lane, patch.area);
             }
-            let (x, y) = (centre[0] - x, centre[1] - y);
-            let distance2 = x * x + y * y + height2;
-            let two = L::splat(2.0);
-            let first = two * (x * arms[0][0] + y * arms[0][1]);
-            let second = two * (x * arms[1][0] + y * arms[1][1]);
-            let slopes = [first, second, -(first + second)];
-            let six = six(distance2, slopes, sizes);
+            let seen = SquaredDistances::new([centre[0] - x, centre[1] - y], height2, arms, sizes);
+            let six = seen.six();
             for k in 0..POINTS {
                 six[k].store(&mut squares[k * L::N..]);
             }
             area.store(areas);
-            all_far &= is_far(distance2, area, self.per_h2);
+            all_far &= is_far(seen.centre, area, self.per_h2);
             used += L::N;
         }
         (used, all_far)
@@ -171,40 +249,11 @@ impl Body for Means<'_> {
     }
 }
 
-impl Patch {
-    /// Squared distance of the centre from the point over the foot, m².
-    #[inline(always)]
-    fn distance2(&self, foot: &Foot) -> f64 {
-        let [x, y] = foot.to(self.centre);
-        x * x + y * y + foot.height * foot.height
-    }
-
-    #[inline(always)]
-    fn squared_distances(&self, foot: &Foot) -> SquaredDistances {
-        let ([x, y], [a, b]) = (foot.to(self.centre), self.arms);
-        let first = 2.0 * (x * a[0] + y * a[1]);
-        let second = 2.0 * (x * b[0] + y * b[1]);
-        SquaredDistances {
-            centre: self.distance2(foot),
-            slopes: [first, second, -(first + second)],
-            arms: self.squares,
-        }
-    }
-
-    /// Corners relative to the point over the foot, m, with the plane's normal along the third axis.
-    fn corners(&self, foot: &Foot) -> [[f64; 3]; 3] {
-        let ([x, y], [a, b]) = (foot.to(self.centre), self.arms);
-        let at = |arm: [f64; 2]| [x + arm[0], y + arm[1], -foot.height];
-        [at(a), at(b), at([-(a[0] + b[0]), -(a[1] + b[1])])]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use sph_kernels::{Kernel, builtin};
 
     use super::*;
-    use crate::geometry::plane::Plane;
     use crate::geometry::vector::{along, cross, dot, norm};
 
     /// Calls `found` with the distances of the corners, the weight and the integral of a right isosceles triangle in a
@@ -260,12 +309,9 @@ mod tests {
                     own = own.max(error / (w.at(nearest).0 * area));
                 }
             });
-            println!("{:15} {worst:.1e}, of its own {own:.1e}", kernel.name());
-            assert!(
-                worst < 8e-5 && own < 4e-4,
-                "{}: {worst:e} {own:e}",
-                kernel.name()
-            );
+            let name = kernel.name();
+            println!("{name:15} {worst:.1e}, of its own {own:.1e}");
+            assert!(worst < 8e-5 && own < 4e-4, "{name}: {worst:e} {own:e}");
         }
     }
 

@@ -107,7 +107,7 @@ fn sizes() {
     );
     let fine = mesh(&[icosphere(4, 1.0)], 0.5);
     assert_eq!(
-        fine.warnings[0].to_string(),
+        fine.warnings[0],
         "5120 of the 5120 triangles of wall `ball` are far smaller than the spacing 0.5 m: draw \
          it coarser"
     );
