@@ -70,9 +70,7 @@ impl MixingLength {
             None => rate,
         }
     }
-}
 
-impl MixingLength {
     /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, rates) = world.free.get((fields::DENSITY, fields::STRAIN_RATE))?;
@@ -105,8 +103,9 @@ impl<const D: usize> Contribution<D> for MixingLength {
         let access = Access::none()
             .here((fields::DENSITY, fields::STRAIN_RATE, WALL_DISTANCE))
             .where_there(FRICTION_VELOCITY);
-        let (own, name) = (self.clone(), "mixing length");
-        common.offer_to(setting, (name, access), move |w, e| own.set(w, e), offer)
+        let own = self.clone();
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("mixing length", access), set, offer)
     }
 }
 

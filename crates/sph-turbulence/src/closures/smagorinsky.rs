@@ -95,9 +95,7 @@ impl Smagorinsky {
             StrainOf::LastStep => LAST_STRAIN,
         }
     }
-}
 
-impl Smagorinsky {
     /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
@@ -135,8 +133,9 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
         if self.damping == Damping::VanDriest {
             access = access.here(DAMPING_UNITS);
         }
-        let (own, name) = (self.clone(), "smagorinsky");
-        common.offer_to(setting, (name, access), move |w, e| own.set(w, e), offer)?;
+        let own = self.clone();
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("smagorinsky", access), set, offer)?;
         if self.strain_of == StrainOf::LastStep {
             offer.hook(StrainRecorder);
         }

@@ -60,9 +60,7 @@ impl Wale {
             false => 0.0,
         }
     }
-}
 
-impl Wale {
     /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
@@ -86,7 +84,8 @@ impl<const D: usize> Contribution<D> for Wale {
         };
         let access = Access::none().here((fields::DENSITY, fields::VELOCITY_GRADIENT));
         let own = self.clone();
-        common.offer_to(setting, ("wale", access), move |w, e| own.set(w, e), offer)
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("wale", access), set, offer)
     }
 }
 

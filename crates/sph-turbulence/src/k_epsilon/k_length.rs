@@ -123,12 +123,8 @@ impl<const D: usize> Contribution<D> for KLength {
         };
         let access = Access::none().here((fields::DENSITY, TURBULENT_ENERGY, WALL_DISTANCE));
         let own = self.clone();
-        common.offer_to(
-            setting,
-            ("k-length", access),
-            move |w, e| own.set(w, e),
-            offer,
-        )?;
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("k-length", access), set, offer)?;
         if rubs(setting) && setting.phases.len() == 1 {
             return Err(Refusal::at_key(
                 KIND,

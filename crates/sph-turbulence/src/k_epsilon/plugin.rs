@@ -138,13 +138,9 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         if self.variant != Variant::Standard {
             access = access.here(fields::VELOCITY_GRADIENT);
         }
-        let (variant, name) = (self.variant, "k-epsilon");
-        common.offer_to(
-            setting,
-            (name, access),
-            move |w, e| variant.set(w, e),
-            offer,
-        )?;
+        let variant = self.variant;
+        let set = move |world: &World<D>, eddies: &mut [f64]| variant.set(world, eddies);
+        common.offer_to(setting, ("k-epsilon", access), set, offer)?;
         if self.start(0.0).is_none() {
             return Err(Refusal::at_key(
                 KIND,

@@ -97,12 +97,10 @@ impl Sources {
         match self.at_wall {
             AtWall::Values => KEpsilonModel::at_wall(u, z, self.karman),
             AtWall::Flux => KEpsilonModel::with_flux(k, u, z, self.karman, dt),
-            AtWall::BothFluxes => KEpsilonModel::produced(
-                k,
-                e,
-                KEpsilonModel::wall_production(k, u, z, self.karman),
-                dt,
-            ),
+            AtWall::BothFluxes => {
+                let produced = KEpsilonModel::wall_production(k, u, z, self.karman);
+                KEpsilonModel::produced(k, e, produced, dt)
+            }
         }
     }
 }
