@@ -155,11 +155,19 @@ impl<const D: usize> Store<D> {
         self.entries.iter().any(|e| e.name == name)
     }
 
-    /// The entries of a column, or those of several in a tuple.
+    /// The entries of a column.
     ///
     /// # Errors
-    /// If a column was not declared, or it has another type.
-    pub fn get<F: FieldList>(&self, fields: F) -> Result<F::Items<'_, D>, FieldError> {
+    /// If the column was not declared, or it has another type.
+    pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
+        self.column(field)
+    }
+
+    /// The entries of the columns of several fields in a tuple.
+    ///
+    /// # Errors
+    /// As [`get`](Self::get).
+    pub fn all<F: FieldList>(&self, fields: F) -> Result<F::Items<'_, D>, FieldError> {
         fields.items(self)
     }
 

@@ -25,7 +25,7 @@ pub(crate) fn dispersed_fraction<const D: usize>(light: Vec<bool>) -> impl Stage
         move |world: &mut World<D>| {
             let mut dispersed_fraction = world.free.take(DISPERSED_FRACTION)?;
             dispersed_fraction.fill(0.0);
-            let (phase, volume) = world.free.get((fields::PHASE, fields::VOLUME))?;
+            let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
             let mut at_zero = [0.0];
             world.kernel.value(&[0.0], &mut at_zero);
             let share = |around: &Around<'_, D>| {

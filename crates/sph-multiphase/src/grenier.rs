@@ -57,7 +57,7 @@ impl<const D: usize> Formulation<D> for Grenier {
     }
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut volume = world.free.take(fields::VOLUME)?;
-        let (mass, density) = world.free.get((fields::MASS, fields::DENSITY))?;
+        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
         let all = volume.iter_mut().zip(mass).zip(density);
         all.for_each(|((v, m), rho)| *v = m / rho);
         Ok(world.free.put(fields::VOLUME, volume)?)
@@ -76,7 +76,7 @@ fn phase_densities<const D: usize>() -> impl Stage<World<D>> {
         let mut density = world.free.take(fields::DENSITY)?;
         let mut kernel_sum = world.free.take(KERNEL_SUM)?;
         let free = &world.free;
-        let (mass, volume) = free.get((fields::MASS, fields::VOLUME))?;
+        let (mass, volume) = free.all((fields::MASS, fields::VOLUME))?;
         let phase = free.get(fields::PHASE).ok();
         let points = &world.walls.points;
         let own = world.kernel.value_at_zero();

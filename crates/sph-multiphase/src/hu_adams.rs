@@ -52,7 +52,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         kernel_sums(world, &mut constant)?;
-        let (mass, density) = world.free.get((fields::MASS, fields::DENSITY))?;
+        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
         let gamma = world.sum_renormalisation();
         for (i, k) in constant.iter_mut().enumerate() {
             *k = gamma.map_or(1.0, |g| g[i]) * density[i] - mass[i] * *k;
@@ -71,7 +71,7 @@ fn density_sum<const D: usize>() -> impl Stage<World<D>> {
         let mut density = world.free.take(fields::DENSITY)?;
         let mut volume = world.free.take(fields::VOLUME)?;
         kernel_sums(world, &mut density)?;
-        let (mass, constant) = world.free.get((fields::MASS, fields::DENSITY_CONSTANT))?;
+        let (mass, constant) = world.free.all((fields::MASS, fields::DENSITY_CONSTANT))?;
         let gamma = world.sum_renormalisation();
         density
             .par_iter_mut()

@@ -96,7 +96,7 @@ fn colour_gradient<const D: usize>() -> impl Stage<World<D>> {
         .writes(COLOUR_GRADIENT);
     stage("colour gradient", access, |world: &mut World<D>| {
         let mut gradients = world.free.take(COLOUR_GRADIENT)?;
-        let (phase, volume) = world.free.get((fields::PHASE, fields::VOLUME))?;
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
         let gradient = |around: &Around<'_, D>| {
             let (row, i) = (&around.rows.free, around.rows.particle);
             let mut sum = Vect::<D>::zeros();

@@ -68,7 +68,7 @@ impl<const D: usize> StepHook<D> for BulkVelocity {
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         let world = &mut *moment.world;
         let axis = self.axis as usize;
-        let (velocity, mass) = world.free.get((fields::VELOCITY, fields::MASS))?;
+        let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
         let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
         let [total, momentum] = world.sums(each)?;
         let mut velocity = world.free.take(fields::VELOCITY)?;

@@ -39,7 +39,7 @@ impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
                        `[eddy-viscosity.k-length]`";
             return Err(StepError::stage("probe `turbulent-energy`", why));
         }
-        let (mass, energy) = world.free.get((fields::MASS, TURBULENT_ENERGY))?;
+        let (mass, energy) = world.free.all((fields::MASS, TURBULENT_ENERGY))?;
         let dissipation = match world.free.has(DISSIPATION.name) {
             true => world.free.get(DISSIPATION)?,
             false => &[],

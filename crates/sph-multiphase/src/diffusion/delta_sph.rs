@@ -86,7 +86,7 @@ fn density_gradient<const D: usize>() -> impl Stage<World<D>> {
         .writes(DENSITY_GRADIENT);
     stage("density gradient", access, |world: &mut World<D>| {
         let mut gradients = world.free.take(DENSITY_GRADIENT)?;
-        let (density, volume) = world.free.get((fields::DENSITY, fields::VOLUME))?;
+        let (density, volume) = world.free.all((fields::DENSITY, fields::VOLUME))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gradient = |around: &Around<'_, D>| {
             let i = around.rows.particle;

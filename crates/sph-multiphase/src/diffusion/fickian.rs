@@ -236,7 +236,7 @@ fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<
 /// The largest speed of every phase against the mean velocity of all, m/s.
 fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepError> {
     const BATCH: usize = 4096;
-    let (velocity, mass) = world.free.get((fields::VELOCITY, fields::MASS))?;
+    let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
     let phase = world.free.get(fields::PHASE).ok();
     // Mass and momentum, of which the last component is not there in the plane.
     let sums = world.sums(|i| {

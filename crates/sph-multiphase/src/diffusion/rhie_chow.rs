@@ -64,7 +64,7 @@ fn pressure_slope<const D: usize>() -> impl Stage<World<D>> {
         .writes(PRESSURE_SLOPE);
     stage("pressure slope", access, |world: &mut World<D>| {
         let mut slopes = world.free.take(PRESSURE_SLOPE)?;
-        let (pressure, volume) = world.free.get((fields::PRESSURE, fields::VOLUME))?;
+        let (pressure, volume) = world.free.all((fields::PRESSURE, fields::VOLUME))?;
         let density = world.free.get(fields::DENSITY)?;
         let slope = |around: &Around<'_, D>| {
             let i = around.rows.particle;

@@ -173,7 +173,7 @@ impl<const D: usize> SolvePressure<D> {
     /// The own entries of every row.
     fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
         let free = &world.free;
-        let (volume, density) = free.get((fields::VOLUME, fields::DENSITY))?;
+        let (volume, density) = free.all((fields::VOLUME, fields::DENSITY))?;
         let pressure = free.get(fields::PRESSURE)?;
         let gamma = free.get(fields::RENORMALISATION).ok();
         let phase = free.get(fields::PHASE).ok();

@@ -128,7 +128,7 @@ fn lacking<const D: usize>(
     world: &World<D>,
 ) -> Result<impl Fn(usize) -> bool + Sync + '_, StepError> {
     let cell = world.spacing.powi(D as i32);
-    let (mass, density) = world.free.get((fields::MASS, fields::DENSITY))?;
+    let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
     let constant = world.free.get(fields::DENSITY_CONSTANT)?;
     let gamma = world.free.get(fields::RENORMALISATION).ok();
     Ok(move |i: usize| {

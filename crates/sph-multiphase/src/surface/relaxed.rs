@@ -148,8 +148,8 @@ impl Relaxation {
         dt: f64,
     ) -> Result<f64, StepError> {
         let h = world.kernel.smoothing_length();
-        let (surface, density) = world.free.get((FREE_SURFACE, fields::DENSITY))?;
-        let (pressure, volume) = world.free.get((fields::PRESSURE, fields::VOLUME))?;
+        let (surface, density) = world.free.all((FREE_SURFACE, fields::DENSITY))?;
+        let (pressure, volume) = world.free.all((fields::PRESSURE, fields::VOLUME))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let Scratch { parts, given } = scratch;

@@ -277,7 +277,7 @@ impl<const D: usize> StepHook<D> for SurfaceStrain {
         let (world, dt) = (&mut *moment.world, moment.dt);
         self.strain(world)?;
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let (explained, mass) = world.free.get((EXPLAINED_DEFICIT, fields::MASS))?;
+        let (explained, mass) = world.free.all((EXPLAINED_DEFICIT, fields::MASS))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.sum_renormalisation();
         let length = self.time * world.kernel.smoothing_length();

@@ -323,7 +323,7 @@ fn relative_change<const D: usize>(
     velocity: &[Vect<D>],
     dt: f64,
 ) -> Result<f64, StepError> {
-    let (mass, last) = world.free.get((fields::MASS, fields::VELOCITY))?;
+    let (mass, last) = world.free.all((fields::MASS, fields::VELOCITY))?;
     let kick = dt * dt * (world.gravity + world.driving).norm_squared();
     let sums = world.sums(|i| {
         let (u, l, m) = (velocity[i], last[i], mass[i]);

@@ -50,7 +50,7 @@ pub(super) fn interface_distance<const D: usize>() -> impl Stage<World<D>> {
     let name = "distance from the interface";
     stage(name, access, move |world: &mut World<D>| {
         let mut distance = world.free.take(INTERFACE_DISTANCE)?;
-        let (volume, phase) = world.free.get((fields::VOLUME, fields::PHASE))?;
+        let (volume, phase) = world.free.all((fields::VOLUME, fields::PHASE))?;
         let kernel = &*world.kernel;
         let own = kernel.value_at_zero();
         let beyond = beyond.get_or_insert_with(|| KernelTail::new(kernel));

@@ -41,8 +41,8 @@ impl SolveArrest {
         }
         let free = &world.free;
         let (mass, volume) = (free.get(fields::MASS)?, free.get(fields::VOLUME)?);
-        let (velocity, viscosity) = free.get((fields::VELOCITY, fields::VISCOSITY))?;
-        let (stiffness, rate) = free.get((fields::ELASTIC_STIFFNESS, fields::STRAIN_RATE))?;
+        let (velocity, viscosity) = free.all((fields::VELOCITY, fields::VISCOSITY))?;
+        let (stiffness, rate) = free.all((fields::ELASTIC_STIFFNESS, fields::STRAIN_RATE))?;
         let [all, taken, power, lawful] = world.sums(|i| match stiffness[i] > 0.0 {
             false => [0.0; 4],
             true => {

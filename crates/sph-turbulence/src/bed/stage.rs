@@ -59,7 +59,7 @@ fn bed_view<const D: usize>(
     (bed, shares): (u32, &[f64]),
     viscosities: impl Fn(usize) -> Option<f64> + Sync,
 ) -> Result<Vec<Option<Option<BedView<D>>>>, StepError> {
-    let (phase, velocity) = world.free.get((fields::PHASE, fields::VELOCITY))?;
+    let (phase, velocity) = world.free.all((fields::PHASE, fields::VELOCITY))?;
     let volume = world.free.get(fields::VOLUME)?;
     let points = &world.walls.points;
     let own = world.kernel.value_at_zero();

@@ -73,7 +73,7 @@ impl MixingLength {
 
     /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
-        let (density, rates) = world.free.get((fields::DENSITY, fields::STRAIN_RATE))?;
+        let (density, rates) = world.free.all((fields::DENSITY, fields::STRAIN_RATE))?;
         let distance = world.free.get(WALL_DISTANCE)?;
         let friction = match world.free.has(FRICTION_VELOCITY.name) {
             true => world.free.get(FRICTION_VELOCITY)?,

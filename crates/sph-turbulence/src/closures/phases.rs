@@ -128,8 +128,8 @@ impl BedEddies {
         world: &World<D>,
         eddies: &mut [f64],
     ) -> Result<(), StepError> {
-        let (friction, distance) = world.free.get(BED)?;
-        let (density, phase) = world.free.get((fields::DENSITY, fields::PHASE))?;
+        let (friction, distance) = world.free.all(BED)?;
+        let (density, phase) = world.free.all((fields::DENSITY, fields::PHASE))?;
         for i in (0..eddies.len()).filter(|i| friction[*i] > 0.0) {
             let Some(nu) = self.viscosities[phase[i] as usize] else {
                 continue;

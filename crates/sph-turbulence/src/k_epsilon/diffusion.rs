@@ -151,7 +151,7 @@ pub(crate) struct DiffusionLimit(
 impl<const D: usize> Limiter<D> for DiffusionLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let viscosity = world.free.get(fields::VISCOSITY)?.iter();
-        let (density, eddies) = world.free.get((fields::DENSITY, fields::EDDY_VISCOSITY))?;
+        let (density, eddies) = world.free.all((fields::DENSITY, fields::EDDY_VISCOSITY))?;
         let all = viscosity.zip(density).zip(eddies);
         let acting = all.filter(|(_, eddies)| **eddies > 0.0);
         let both = acting.map(|((eta, rho), _)| eta / rho);

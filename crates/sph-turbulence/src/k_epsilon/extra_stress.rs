@@ -20,7 +20,7 @@ pub(crate) fn extra_stress<const D: usize>() -> impl Stage<World<D>> {
         let mut stresses = world.free.take(EDDY_STRESS)?;
         let density = world.free.get(fields::DENSITY)?;
         let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
-        let (energy, dissipation) = world.free.get((TURBULENT_ENERGY, DISSIPATION))?;
+        let (energy, dissipation) = world.free.all((TURBULENT_ENERGY, DISSIPATION))?;
         let all = stresses.par_iter_mut().enumerate().with_min_len(512);
         all.for_each(|(i, stress)| {
             let (k, e) = (energy[i], dissipation[i]);

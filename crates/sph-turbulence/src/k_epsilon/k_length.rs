@@ -97,7 +97,7 @@ impl KLength {
     /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let length = self.length();
-        let (density, energy) = world.free.get((fields::DENSITY, TURBULENT_ENERGY))?;
+        let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
         let distance = world.free.get(WALL_DISTANCE)?;
         for (i, eddy) in eddies.iter_mut().enumerate() {
             let length = at(&length, distance[i], world.spacing);
@@ -192,8 +192,8 @@ impl<const D: usize> StepHook<D> for Sources {
             true => world.free.get(SURFACE_SHARE)?,
             false => &[],
         };
-        let bed = world.free.get(BED).ok();
-        let (rates, distance) = world.free.get((fields::STRAIN_RATE, WALL_DISTANCE))?;
+        let bed = world.free.all(BED).ok();
+        let (rates, distance) = world.free.all((fields::STRAIN_RATE, WALL_DISTANCE))?;
         let all = energy.par_iter_mut().zip(rates).zip(distance).enumerate();
         all.with_min_len(1024).for_each(|(i, ((k, rate), z))| {
             if acts(i) {

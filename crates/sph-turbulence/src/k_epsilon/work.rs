@@ -142,10 +142,10 @@ impl<const D: usize> StepHook<D> for Sources {
             false => &[],
         };
         let walls = match world.free.has(FRICTION_VELOCITY.name) {
-            true => Some(world.free.get((FRICTION_VELOCITY, WALL_UNITS))?),
+            true => Some(world.free.all((FRICTION_VELOCITY, WALL_UNITS))?),
             false => None,
         };
-        let bed = world.free.get(BED).ok();
+        let bed = world.free.all(BED).ok();
         let near = |i: usize, nu: f64| {
             let of_wall = walls.and_then(|(friction, units)| {
                 let distance = units[i] * nu / friction[i];

@@ -51,7 +51,7 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
                 "no wall of this scene has a wall function: name one, `[wall-function.log-law]`";
             return Err(refused(why));
         }
-        let (friction, units) = world.free.get((FRICTION_VELOCITY, WALL_UNITS))?;
+        let (friction, units) = world.free.all((FRICTION_VELOCITY, WALL_UNITS))?;
         let of_it = |s: u32| {
             let elements = &walls.elements;
             let marked = elements.wall_function.get(s as usize) == Some(&true);

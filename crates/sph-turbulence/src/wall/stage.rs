@@ -32,7 +32,7 @@ pub(crate) fn wall_shear<const D: usize>(
         let mut friction_velocity = world.free.take(FRICTION_VELOCITY)?;
         let mut wall_units = world.free.take(WALL_UNITS)?;
         let mut friction = world.free.take(fields::WALL_FRICTION)?;
-        let (velocity, density) = world.free.get((fields::VELOCITY, fields::DENSITY))?;
+        let (velocity, density) = world.free.all((fields::VELOCITY, fields::DENSITY))?;
         let viscosity = Kinematic::from_world(&viscosities, world)?;
         let (walls, spacing) = (&world.walls, world.spacing);
         let at = |i: usize| -> Result<[f64; 3], StepError> {
