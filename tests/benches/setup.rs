@@ -13,7 +13,7 @@ use sph_core::{Contract, Field, Registry, Role, Scalar, Vect, fields};
 use sph_kernels::Sampler;
 use sph_multiphase::diffusion::BrezziPitkaranta;
 use sph_multiphase::viscosity::{
-    Choice, FirstDifferences, Viscosity, ViscositySource, ViscousOperatorEntry, ViscousTerm,
+    Morris, Viscosity, ViscositySource, ViscousOperatorEntry, ViscousTerm,
 };
 use sph_multiphase::{FormulationEntry, PressureGradient, SquaredVolumes};
 use sph_neighbours::{
@@ -161,11 +161,7 @@ impl Sums {
     /// One sweep with kernel and terms as types.
     pub fn by_type(&mut self, world: &World<2>, kernel: &WendlandC2) {
         let smoother = BrezziPitkaranta::with(STRENGTH).term(&laws());
-        let friction = ViscousTerm(
-            FirstDifferences,
-            ViscositySource::Uniform(VISCOSITY),
-            Choice::default(),
-        );
+        let friction = ViscousTerm(Morris::default(), ViscositySource::Uniform(VISCOSITY));
         let bound = ByPairs(OneLoop(
             column(PairTerm::<2>::bind(
                 &PressureGradient(SquaredVolumes),

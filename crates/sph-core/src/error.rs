@@ -140,3 +140,13 @@ pub enum StepError {
         reason: String,
     },
 }
+
+impl StepError {
+    /// Of a stage, for a reason of its own.
+    pub fn stage(stage: impl Into<String>, reason: impl ToString) -> Self {
+        StepError::Stage {
+            stage: stage.into(),
+            reason: reason.to_string(),
+        }
+    }
+}

@@ -36,6 +36,8 @@ mod evolve;
 #[cfg(feature = "plugins")]
 mod field;
 #[cfg(feature = "plugins")]
+mod field_list;
+#[cfg(feature = "plugins")]
 pub mod fields;
 #[cfg(feature = "plugins")]
 mod insertion;
@@ -90,6 +92,7 @@ pub use crate::{
     field::{
         AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, unit_suffix,
     },
+    field_list::{Columns, FieldList},
     kinds::{
         FlowNature, LawNature, LawNatures, Place, PluginKind, SuitedPlugin, Suits, Work, kind_of,
         kinds,
@@ -102,7 +105,7 @@ pub use crate::{
         Contract, Makes, Parameter, Registry, node_of, parameters, plugins_of, schema_of, typed,
     },
     saved::Saved,
-    stage::{Access, Declares, Stage},
+    stage::{Access, Declares, Stage, stage},
     store::{Plain, Role, Store},
     turnover::{Inserted, Removed},
 };

@@ -1,7 +1,7 @@
 //! Stages: the reads and writes of a piece of work, and the work itself.
 
 use crate::field::AnyField;
-use crate::{Field, Kind, StepError};
+use crate::{FieldList, StepError};
 
 /// The columns a stage touches.
 ///
@@ -31,35 +31,42 @@ impl Access {
         Access::default()
     }
 
-    /// Adds a column read at the particle.
-    pub fn here<K: Kind>(mut self, field: Field<K>) -> Self {
-        push(&mut self.here, field.any());
+    /// Adds columns read at the particle.
+    pub fn here(mut self, fields: impl FieldList) -> Self {
+        fields.for_each(|f| push(&mut self.here, f));
         self
     }
 
-    /// Adds a column read at the particle and at its neighbours.
-    pub fn both<K: Kind>(mut self, field: Field<K>) -> Self {
-        push(&mut self.here, field.any());
-        self.neighbours(field)
-    }
-
-    /// Adds a column read at the neighbours.
-    pub fn neighbours<K: Kind>(mut self, field: Field<K>) -> Self {
-        push(&mut self.neighbours, field.any());
+    /// Adds columns read at the particle and at its neighbours.
+    pub fn both(mut self, fields: impl FieldList) -> Self {
+        fields.for_each(|f| {
+            push(&mut self.here, f);
+            push(&mut self.neighbours, f);
+        });
         self.sweep = true;
         self
     }
 
-    /// Adds a column written at the particle.
-    pub fn writes<K: Kind>(mut self, field: Field<K>) -> Self {
-        push(&mut self.writes, field.any());
+    /// Adds columns read at the neighbours.
+    pub fn neighbours(mut self, fields: impl FieldList) -> Self {
+        fields.for_each(|f| push(&mut self.neighbours, f));
+        self.sweep = true;
         self
     }
 
-    /// Adds a column written at the particle that carries history.
-    pub fn remembers<K: Kind>(mut self, field: Field<K>) -> Self {
-        push(&mut self.remembers, field.any());
-        self.writes(field)
+    /// Adds columns written at the particle.
+    pub fn writes(mut self, fields: impl FieldList) -> Self {
+        fields.for_each(|f| push(&mut self.writes, f));
+        self
+    }
+
+    /// Adds columns written at the particle that carry history.
+    pub fn remembers(mut self, fields: impl FieldList) -> Self {
+        fields.for_each(|f| {
+            push(&mut self.remembers, f);
+            push(&mut self.writes, f);
+        });
+        self
     }
 
     /// The same columns, at neighbours of neighbours: `rings` times from a particle to its neighbours.
@@ -67,31 +74,23 @@ impl Access {
         Access { rings, ..self }
     }
 
-    /// Adds a column that is read where a scene has it.
-    pub fn where_there<K: Kind>(mut self, field: Field<K>) -> Self {
-        push(&mut self.where_there, field.any());
+    /// Adds columns that are read where a scene has them.
+    pub fn where_there(mut self, fields: impl FieldList) -> Self {
+        fields.for_each(|f| push(&mut self.where_there, f));
         self
     }
 
     /// Joins the accesses of two pieces of work done in one walk.
     pub fn and(mut self, other: Access) -> Self {
-        other.here.into_iter().for_each(|f| push(&mut self.here, f));
-        other
-            .neighbours
-            .into_iter()
-            .for_each(|f| push(&mut self.neighbours, f));
-        other
-            .writes
-            .into_iter()
-            .for_each(|f| push(&mut self.writes, f));
-        other
-            .where_there
-            .into_iter()
-            .for_each(|f| push(&mut self.where_there, f));
-        other
-            .remembers
-            .into_iter()
-            .for_each(|f| push(&mut self.remembers, f));
+        for (own, others) in [
+            (&mut self.here, other.here),
+            (&mut self.neighbours, other.neighbours),
+            (&mut self.writes, other.writes),
+            (&mut self.where_there, other.where_there),
+            (&mut self.remembers, other.remembers),
+        ] {
+            others.into_iter().for_each(|f| push(own, f));
+        }
         self.sweep |= other.sweep;
         self.rings = self.rings.max(other.rings);
         self
@@ -140,5 +139,36 @@ pub trait Stage<C>: Declares + Send {
     /// Memory of the system that it solved last, matrix and solution, bytes; 0 where it solves none.
     fn bytes(&self) -> usize {
         0
+    }
+}
+
+/// A stage that is one function.
+struct FunctionStage<F> {
+    name: &'static str,
+    access: Access,
+    run: F,
+}
+
+/// A stage of a name in plans, the columns that it touches and its work.
+pub fn stage<C>(
+    name: &'static str,
+    access: Access,
+    run: impl FnMut(&mut C) -> Result<(), StepError> + Send,
+) -> impl Stage<C> {
+    FunctionStage { name, access, run }
+}
+
+impl<F> Declares for FunctionStage<F> {
+    fn name(&self) -> String {
+        self.name.into()
+    }
+    fn access(&self) -> Access {
+        self.access.clone()
+    }
+}
+
+impl<C, F: FnMut(&mut C) -> Result<(), StepError> + Send> Stage<C> for FunctionStage<F> {
+    fn run(&mut self, context: &mut C) -> Result<(), StepError> {
+        (self.run)(context)
     }
 }

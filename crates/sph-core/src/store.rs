@@ -4,7 +4,10 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Field, FieldError, Inserted, Kind, Removed, StepError, Symmetric, Vect};
+use crate::{
+    Access, Columns, Field, FieldError, FieldList, Inserted, Kind, Removed, StepError, Symmetric,
+    Vect,
+};
 
 /// Treatment of a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +54,14 @@ pub enum Plain<'a> {
     Real(Cow<'a, [f64]>),
     /// Unsigned integers.
     Index(&'a [u32]),
+}
+
+impl<const D: usize> Columns<D> for Store<D> {
+    fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
+        let found = self.unwatched(field)?;
+        self.note_read(field.name);
+        Ok(found)
+    }
 }
 
 impl<const D: usize> Store<D> {
@@ -149,9 +160,15 @@ impl<const D: usize> Store<D> {
     /// # Errors
     /// If the column was not declared, or it has another type.
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
-        let found = self.unwatched(field)?;
-        self.note_read(field.name);
-        Ok(found)
+        self.column(field)
+    }
+
+    /// The entries of the columns of several fields in a tuple.
+    ///
+    /// # Errors
+    /// As [`get`](Self::get).
+    pub fn all<F: FieldList>(&self, fields: F) -> Result<F::Items<'_, D>, FieldError> {
+        fields.items(self)
     }
 
     /// The entries of a column for the division of a flow, which no work declares.

@@ -4,12 +4,13 @@ use std::sync::OnceLock;
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{
-    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin,
+    Field, Scalar, Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin, stage,
 };
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values,
-    WallSet, World, add_scaled, all_sums, declared, pair_term, walk_some,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values, WallSet,
+    World, add_scaled, all_sums, declared, pair_term, walk_some,
 };
+use sph_rheology::state::Reference;
 
 use crate::damping::DampingEntry;
 use crate::divergence::{Divergence, OwnVolume};
@@ -48,17 +49,9 @@ pub struct AcousticDamper {
 impl<const D: usize> Contribution<D> for AcousticDamper {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let laws = setting.laws.iter().map(|law| law.reference());
-        let term = [Divergence::boxed(OwnVolume)];
-        offer.stage(Resistance {
-            impedance: laws
-                .clone()
-                .map(|r| self.strength * r.density * r.sound_speed)
-                .collect(),
-            densities: laws.clone().map(|r| r.density).collect(),
-            declared: declared(&term),
-            term,
-            unused: Vec::new(),
-        });
+        let impedance = |r: Reference| self.strength * r.density * r.sound_speed;
+        let densities = laws.clone().map(|r| r.density).collect();
+        offer.stage(resistance(laws.clone().map(impedance).collect(), densities));
         offer.term(DampingForce);
         if self.strength > 0.0 {
             offer.limiter(DamperLimit {
@@ -79,71 +72,31 @@ pub const DAMPING_PRESSURE: Field<Scalar> = Field::new(
     "pressure of the bulk viscosity against sound",
 );
 
-/// q of [`AcousticDamper`].
-struct Resistance<const D: usize> {
-    /// α ρ₀ c of every phase, kg/(m² s).
-    impedance: Vec<f64>,
-    /// ρ₀ of every phase, kg/m³.
-    densities: Vec<f64>,
-    term: [Box<dyn Interaction<D>>; 1],
-    /// Declared columns of the term: no step allocates memory for it.
-    declared: Vec<Access>,
-    /// The sweep sums accelerations, too; they are not read.
-    unused: Vec<Vect<D>>,
-}
-
-impl<const D: usize> Declares for Resistance<D> {
-    fn name(&self) -> String {
-        "acoustic damper's pressure".into()
+/// q of [`AcousticDamper`], with α ρ₀ c, kg/(m² s), and ρ₀, kg/m³, of every phase.
+fn resistance<const D: usize>(impedance: Vec<f64>, densities: Vec<f64>) -> impl Stage<World<D>> {
+    let term = [Divergence::boxed::<D>(OwnVolume)];
+    let mut access = term[0].access().both(fields::POSITION);
+    access = access
+        .here((fields::MASS, fields::PRESSURE))
+        .where_there(MOMENT_EXCESS)
+        .writes(DAMPING_PRESSURE);
+    if densities.len() > 1 {
+        access = access.both(fields::PHASE);
     }
-    fn access(&self) -> Access {
-        let access = self.term[0].access().both(fields::POSITION);
-        let access = access
-            .here(fields::MASS)
-            .here(fields::PRESSURE)
-            .where_there(MOMENT_EXCESS)
-            .writes(DAMPING_PRESSURE);
-        match self.densities.len() {
-            1 => access,
-            _ => access.both(fields::PHASE),
-        }
-    }
-}
-
-impl<const D: usize> Resistance<D> {
-    /// Least density of a phase within the support over that of a particle's own, where it sees another phase.
-    fn lightest(&self, world: &World<D>) -> Result<Vec<Option<f64>>, StepError> {
-        let Ok(phase) = world.free.get(fields::PHASE) else {
-            return Ok(Vec::new());
-        };
-        let density = |i: usize| self.densities[phase[i] as usize];
-        let lists = world.lists.nearest();
-        let near = |i: usize| {
-            let mut others = lists.candidates(i).iter();
-            others.any(|j| density(*j as usize) < density(i))
-        };
-        walk_some(world, Values::Gradient, near, |around| {
-            let (own, row) = (density(around.rows.particle), &around.rows.free);
-            let all = row.index.iter().zip(row.factor);
-            let seen = all.filter(|(_, factor)| **factor != 0.0);
-            let least = seen.map(|(j, _)| density(*j as usize));
-            least.fold(own, f64::min) / own
-        })
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for Resistance<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+    // No step allocates memory for the declared columns; the sweep sums accelerations, too, which are not read.
+    let (declared, mut unused) = (declared(&term), Vec::new());
+    let name = "acoustic damper's pressure";
+    stage(name, access, move |world: &mut World<D>| {
         let mut pressure = world.free.take(DAMPING_PRESSURE)?;
         pressure.fill(0.0);
-        self.unused.resize(world.free.len(), Vect::zeros());
+        unused.resize(world.free.len(), Vect::zeros());
         let sums = Sums {
-            acceleration: &mut self.unused,
+            acceleration: &mut unused,
             scalar: Some(&mut pressure),
             more: &mut [],
         };
-        all_sums(world, &self.declared, &self.term, sums)?;
-        let lightest = self.lightest(world)?;
+        all_sums(world, &declared, &term, sums)?;
+        let lightest = lightest(world, &densities)?;
         let h = world.kernel.smoothing_length();
         let phase = world.free.get(fields::PHASE).ok();
         let fluid = world.free.get(fields::PRESSURE)?;
@@ -155,11 +108,34 @@ impl<const D: usize> Stage<World<D>> for Resistance<D> {
                 continue;
             }
             let lighter = lightest.get(i).copied().flatten().unwrap_or(1.0);
-            let impedance = self.impedance[phase.map_or(0, |p| p[i] as usize)] * lighter;
+            let impedance = impedance[phase.map_or(0, |p| p[i] as usize)] * lighter;
             *q = (-impedance * h * *q).max(-p.max(0.0));
         }
         Ok(world.free.put(DAMPING_PRESSURE, pressure)?)
-    }
+    })
+}
+
+/// Least density of a phase within the support over that of a particle's own, where it sees another phase.
+fn lightest<const D: usize>(
+    world: &World<D>,
+    densities: &[f64],
+) -> Result<Vec<Option<f64>>, StepError> {
+    let Ok(phase) = world.free.get(fields::PHASE) else {
+        return Ok(Vec::new());
+    };
+    let density = |i: usize| densities[phase[i] as usize];
+    let lists = world.lists.nearest();
+    let near = |i: usize| {
+        let mut others = lists.candidates(i).iter();
+        others.any(|j| density(*j as usize) < density(i))
+    };
+    walk_some(world, Values::Gradient, near, |around| {
+        let (own, row) = (density(around.rows.particle), &around.rows.free);
+        let all = row.index.iter().zip(row.factor);
+        let seen = all.filter(|(_, factor)| **factor != 0.0);
+        let least = seen.map(|(j, _)| density(*j as usize));
+        least.fold(own, f64::min) / own
+    })
 }
 
 /// Δt ≤ 1/(α h c S²), S = max_k ΣV|∂w/∂x sin kx| on a lattice, 1.2/h: half of where the fastest mode would be turned round.

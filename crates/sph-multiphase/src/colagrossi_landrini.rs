@@ -1,13 +1,13 @@
 //! The formulation of Colagrossi and Landrini.
 
-use sph_core::{Evolved, StepError, fields, plugin};
+use rayon::prelude::*;
+use sph_contribution::Stages;
+use sph_core::{Access, Evolved, Stage, fields, plugin, stage};
 use sph_neighbours::{Interaction, World};
 
 use crate::divergence::{Divergence, NeighbourVolume};
 use crate::gradient::{PressureGradient, SumOfPressures};
-use crate::volume::VolumeStage;
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
-use sph_contribution::Stages;
 
 /// dρ_a/dt = −ρ_a D_a{u}, V = m/ρ, with
 /// D_a{u} = −1/γ_a [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as] and its adjoint
@@ -32,16 +32,13 @@ impl<const D: usize> Formulation<D> for ColagrossiLandrini {
         Some(compressed_density())
     }
     fn stages(&self) -> Stages<D> {
-        vec![Box::new(VolumeStage)]
+        vec![Box::new(volumes())]
     }
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         PressureGradient::boxed(SumOfPressures)
     }
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(NeighbourVolume)
-    }
-    fn rebase(&self, _world: &mut World<D>) -> Result<(), StepError> {
-        Ok(())
     }
 }
 
@@ -62,4 +59,19 @@ pub(crate) fn compressed_density() -> Compressed {
         value: fields::DENSITY,
         exponent: -1.0,
     }
+}
+
+/// V = m/ρ.
+pub(crate) fn volumes<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here((fields::MASS, fields::DENSITY))
+        .writes(fields::VOLUME);
+    stage("volume", access, |world: &mut World<D>| {
+        let mut volume = world.free.take(fields::VOLUME)?;
+        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
+        let all = volume.par_iter_mut().zip(mass).zip(density);
+        all.with_min_len(2048)
+            .for_each(|((v, m), rho)| *v = m / rho);
+        Ok(world.free.put(fields::VOLUME, volume)?)
+    })
 }

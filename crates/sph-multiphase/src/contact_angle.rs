@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use sph_contribution::{Refusal, Setting};
-use sph_core::{
-    Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, suggestion,
-};
+use sph_core::{Access, Field, Stage, Vect, Vector, fields, parameters, stage, suggestion};
 use sph_neighbours::{Around, Values, World, walk_into};
 
 /// Angle at which an interface meets walls at rest, measured through one of its phases.
@@ -60,57 +58,39 @@ impl ContactAngle {
         Ok(())
     }
 
-    /// The stage that finds the films.
-    pub(crate) fn films<const D: usize>(&self, setting: &Setting<'_, D>) -> Films {
+    /// The stage that finds [`FILM`].
+    pub(crate) fn films<const D: usize>(
+        &self,
+        setting: &Setting<'_, D>,
+    ) -> impl Stage<World<D>> + use<D> {
         let number = setting.phases.iter().position(|p| *p == self.phase);
+        let wetting = number.unwrap_or(0) as u32;
         let of_wall = |name: &String| self.walls.get(name).unwrap_or(&self.angle).cos();
-        Films {
-            phase: number.unwrap_or(0) as u32,
-            cosines: setting.world.walls.names.iter().map(of_wall).collect(),
-        }
+        let names = setting.world.walls.names.iter();
+        let cosines: Vec<f64> = names.map(of_wall).collect();
+        let access = Access::none()
+            .here((fields::POSITION, fields::PHASE, fields::RENORMALISATION))
+            .writes(FILM);
+        stage("films on walls", access, move |world: &mut World<D>| {
+            let mut films = world.free.take(FILM)?;
+            let phase = world.free.get(fields::PHASE)?;
+            let wall = &world.walls.elements.wall;
+            let film = |around: &Around<'_, D>| {
+                let wets = phase[around.rows.particle] == wetting;
+                let mut sum = Vect::<D>::zeros();
+                for contact in around.rows.contacts.iter() {
+                    let cosine = cosines[wall[contact.element as usize] as usize];
+                    if (cosine > 0.0) == wets {
+                        sum += contact.gradient * (2.0 * cosine.abs());
+                    }
+                }
+                sum * around.rows.inverse_renormalisation
+            };
+            walk_into(world, Values::Gradient, |_| true, &mut films, film)?;
+            Ok(world.free.put(FILM, films)?)
+        })
     }
 }
 
 /// Σ_s 2 cos θ ∇γ_as/γ_a of the phase that wets a wall, 1/m; −σ times it is the tension of the film on the wall.
 pub const FILM: Field<Vector> = Field::new("film", "1/m", "tension of films on walls over −σ");
-
-/// Finds [`FILM`].
-pub(crate) struct Films {
-    phase: u32,
-    /// cos θ at every wall.
-    cosines: Vec<f64>,
-}
-
-impl Declares for Films {
-    fn name(&self) -> String {
-        "films on walls".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::POSITION)
-            .here(fields::PHASE)
-            .here(fields::RENORMALISATION)
-            .writes(FILM)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for Films {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut films = world.free.take(FILM)?;
-        let phase = world.free.get(fields::PHASE)?;
-        let wall = &world.walls.elements.wall;
-        let film = |around: &Around<'_, D>| {
-            let wets = phase[around.rows.particle] == self.phase;
-            let mut sum = Vect::<D>::zeros();
-            for contact in around.rows.contacts.iter() {
-                let cosine = self.cosines[wall[contact.element as usize] as usize];
-                if (cosine > 0.0) == wets {
-                    sum += contact.gradient * (2.0 * cosine.abs());
-                }
-            }
-            sum * around.rows.inverse_renormalisation
-        };
-        walk_into(world, Values::Gradient, |_| true, &mut films, film)?;
-        Ok(world.free.put(FILM, films)?)
-    }
-}

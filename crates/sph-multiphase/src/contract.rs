@@ -48,13 +48,15 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn is_scaled(&self) -> bool {
         true
     }
-    /// Sets the evolved scalars so that the stages return the density column as it is.
+    /// Sets the evolved scalars so that the stages return the density column as it is: nothing where that is evolved.
     ///
     /// Called at the start, and again whenever the sum changes for another reason than motion.
     ///
     /// # Errors
     /// If a column is missing.
-    fn rebase(&self, world: &mut World<D>) -> Result<(), StepError>;
+    fn rebase(&self, _world: &mut World<D>) -> Result<(), StepError> {
+        Ok(())
+    }
 }
 
 contract!(

@@ -12,7 +12,6 @@ mod diffusion_limit;
 mod evenness;
 mod fickian;
 mod linear_exact;
-mod per_phase;
 mod rhie_chow;
 mod shift_transport;
 mod shifted_sum;

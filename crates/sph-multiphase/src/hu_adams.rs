@@ -1,7 +1,7 @@
 //! The volume formulation of Hu and Adams with semi-analytical walls and free surfaces.
 
 use rayon::prelude::*;
-use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_core::{Access, Evolved, Stage, StepError, fields, plugin, stage};
 use sph_neighbours::{Interaction, World, kernel_sums};
 
 use crate::divergence::{Divergence, OwnVolume, SumVolume};
@@ -34,7 +34,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
     }
 
     fn stages(&self) -> Stages<D> {
-        vec![Box::new(DensitySum)]
+        vec![Box::new(density_sum())]
     }
 
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
@@ -52,8 +52,7 @@ impl<const D: usize> Formulation<D> for HuAdams {
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         kernel_sums(world, &mut constant)?;
-        let mass = world.free.get(fields::MASS)?;
-        let density = world.free.get(fields::DENSITY)?;
+        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
         let gamma = world.sum_renormalisation();
         for (i, k) in constant.iter_mut().enumerate() {
             *k = gamma.map_or(1.0, |g| g[i]) * density[i] - mass[i] * *k;
@@ -63,29 +62,16 @@ impl<const D: usize> Formulation<D> for HuAdams {
 }
 
 /// ρ = (K + m Σθw)/γ and V = m/ρ.
-struct DensitySum;
-
-impl Declares for DensitySum {
-    fn name(&self) -> String {
-        "density sum".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .here(fields::MASS)
-            .here(fields::DENSITY_CONSTANT)
-            .writes(fields::DENSITY)
-            .writes(fields::VOLUME)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for DensitySum {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+fn density_sum<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both(fields::POSITION)
+        .here((fields::MASS, fields::DENSITY_CONSTANT))
+        .writes((fields::DENSITY, fields::VOLUME));
+    stage("density sum", access, |world: &mut World<D>| {
         let mut density = world.free.take(fields::DENSITY)?;
         let mut volume = world.free.take(fields::VOLUME)?;
         kernel_sums(world, &mut density)?;
-        let mass = world.free.get(fields::MASS)?;
-        let constant = world.free.get(fields::DENSITY_CONSTANT)?;
+        let (mass, constant) = world.free.all((fields::MASS, fields::DENSITY_CONSTANT))?;
         let gamma = world.sum_renormalisation();
         density
             .par_iter_mut()
@@ -98,8 +84,5 @@ impl<const D: usize> Stage<World<D>> for DensitySum {
             });
         world.free.put(fields::DENSITY, density)?;
         Ok(world.free.put(fields::VOLUME, volume)?)
-    }
+    })
 }
-
-/// The pressure term of [`HuAdams`].
-pub type HuAdamsPressure = PressureGradient<SquaredVolumes>;

@@ -12,7 +12,7 @@ use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_neighbours::lattice_sum;
 use sph_rheology::state::Laws;
 
-use crate::dispersed_fraction::{DISPERSED_FRACTION, DispersedFraction};
+use crate::dispersed_fraction::{DISPERSED_FRACTION, dispersed_fraction};
 use crate::{InterfaceEntry, offer_interface};
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
@@ -50,11 +50,10 @@ pub struct InterfaceFriction {
 
 impl<const D: usize> Contribution<D> for InterfaceFriction {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let damping = Damping::new(self, setting.laws);
+        let damping = Damping::new(*self, setting.laws);
         let light = damping.wall_density.iter();
-        offer.stage(DispersedFraction {
-            light: light.map(|density| *density > 0.0).collect(),
-        });
+        let light = light.map(|density| *density > 0.0).collect();
+        offer.stage(dispersed_fraction(light));
         offer.limiter(DampingLimit(damping.clone()));
         offer_interface(Box::new(damping), setting, offer)
     }
@@ -63,21 +62,19 @@ impl<const D: usize> Contribution<D> for InterfaceFriction {
 /// The term of [`InterfaceFriction`] with the speeds of sound of the phases.
 #[derive(Clone, Debug)]
 struct Damping {
-    strength: f64,
-    shocks: f64,
+    friction: InterfaceFriction,
     sound: Arc<[f64]>,
     /// Density that walls have for a phase, kg/m³: that of the heaviest, nothing for that itself.
     wall_density: Arc<[f64]>,
 }
 
 impl Damping {
-    fn new(friction: &InterfaceFriction, laws: &Laws) -> Self {
+    fn new(friction: InterfaceFriction, laws: &Laws) -> Self {
         let density = laws.iter().map(|l| l.reference().density);
         let heaviest = density.clone().fold(0.0, f64::max);
         let behind_wall = |rho: f64| if rho < heaviest { heaviest } else { 0.0 };
         Damping {
-            strength: friction.strength,
-            shocks: friction.shocks,
+            friction,
             sound: laws.iter().map(|l| l.reference().sound_speed).collect(),
             wall_density: density.map(behind_wall).collect(),
         }
@@ -95,7 +92,7 @@ impl<const D: usize> Limiter<D> for DampingLimit {
             -pair.factor * pair.separation[0].powi(2) / pair.distance2
         });
         let cell = world.spacing.powi(D as i32);
-        let strength = self.0.strength + self.0.shocks;
+        let strength = self.0.friction.strength + self.0.friction.shocks;
         let rate = 2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell;
         Ok(StepLimit::new("interface friction", 1.0 / rate))
     }
@@ -107,9 +104,9 @@ impl<const D: usize> Limiter<D> for DampingLimit {
 /// [`Damping`] with its columns.
 #[pair_term(Damping, "artificial viscosity between phases")]
 struct BoundInterfaceFriction<'a, const D: usize> {
-    #[value(self.strength)]
+    #[value(self.friction.strength)]
     strength: f64,
-    #[value(self.shocks)]
+    #[value(self.friction.shocks)]
     shocks: f64,
     #[value(world.kernel.smoothing_length())]
     length: f64,

@@ -1,14 +1,13 @@
 //! The formulation of Krimi et al. (2018).
 
-use sph_core::{StepError, parameters, plugin};
-use sph_neighbours::{Interaction, World};
+use sph_contribution::Stages;
+use sph_core::{parameters, plugin};
+use sph_neighbours::Interaction;
 
-use crate::colagrossi_landrini::{compressed_density, integrated_density};
+use crate::colagrossi_landrini::{compressed_density, integrated_density, volumes};
 use crate::divergence::{DensityWeighted, Divergence, NeighbourVolume};
 use crate::gradient::{BetweenParticles, PressureGradient};
-use crate::volume::VolumeStage;
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
-use sph_contribution::Stages;
 
 /// m_a a = −1/γ_a Σ_b θ_b (V_a² + V_b²) p̃_ab ∇w_ab with the pressure between two particles,
 /// p̃_ab = (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b), which is continuous where ∇p/ρ is; dρ/dt = −ρ D{u}.
@@ -55,7 +54,7 @@ impl<const D: usize> Formulation<D> for Krimi {
         Some(compressed_density())
     }
     fn stages(&self) -> Stages<D> {
-        vec![Box::new(VolumeStage)]
+        vec![Box::new(volumes())]
     }
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         PressureGradient::boxed(BetweenParticles)
@@ -65,8 +64,5 @@ impl<const D: usize> Formulation<D> for Krimi {
             Continuity::Literal => Divergence::boxed(NeighbourVolume),
             Continuity::Consistent => Divergence::boxed(DensityWeighted),
         }
-    }
-    fn rebase(&self, _world: &mut World<D>) -> Result<(), StepError> {
-        Ok(())
     }
 }

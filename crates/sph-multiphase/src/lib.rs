@@ -31,20 +31,17 @@ mod dispersed_fraction;
 mod divergence;
 mod gradient;
 mod grenier;
-mod grenier_interface;
 mod hu_adams;
 mod interface_friction;
 mod interface_limit;
 mod krimi;
 pub mod linear;
-mod micro_mixing;
 pub mod pressure;
 mod pressure_stage;
 mod repulsion;
 mod surface;
 mod surface_tension;
 pub mod viscosity;
-mod volume;
 
 pub use acoustic_damper::AcousticDamper;
 pub use colagrossi_landrini::ColagrossiLandrini;
@@ -60,12 +57,11 @@ pub use gradient::{
     BetweenParticles, PairPressure, PairState, PressureGradient, SquaredVolumes, SumOfPressures,
 };
 pub use grenier::Grenier;
-pub use grenier_interface::GrenierInterface;
-pub use hu_adams::{HuAdams, HuAdamsPressure};
+pub use hu_adams::HuAdams;
 pub use interface_friction::InterfaceFriction;
 pub use interface_limit::InterfaceLimit;
 pub use krimi::{Continuity, Krimi};
-pub use micro_mixing::MicroMixing;
 pub use pressure_stage::PressureStage;
+pub use repulsion::{GrenierInterface, MicroMixing};
 pub use surface::{ConeTest, FREE_SURFACE, MOMENT_EXCESS, Place, Renormalised, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

@@ -22,7 +22,6 @@
 //! ```
 
 mod assemble;
-mod assembled;
 mod automatic;
 mod bicgstab;
 mod cholesky;
@@ -51,12 +50,12 @@ pub use conjugate_gradient::ConjugateGradient;
 pub use entry::{Block, Entry};
 pub use error::SolveError;
 pub use halved::{Halved, Halves};
-pub use incomplete::Incomplete;
 pub use jacobi::Jacobi;
-pub use krylov::Tolerance;
+pub(crate) use krylov::Tolerance;
 pub use low_rank::LowRank;
+pub(crate) use matrix::coupling_ratio;
 pub use matrix::{Diagonal, Entries, Matrix, Pattern, Values};
-pub use memory::{Memories, Memory, MemoryOwner};
+pub use memory::Memories;
 pub use operator::Operator;
 pub use particle_matrix::ParticleMatrix;
 pub use precondition::Preconditioner;

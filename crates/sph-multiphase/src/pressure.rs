@@ -5,9 +5,7 @@
 
 mod bodies;
 mod implicit;
-mod limit;
 mod stage;
 mod system;
 
-pub use implicit::ImplicitPressure;
-pub use limit::FlowLimit;
+pub use implicit::{FlowLimit, ImplicitPressure};

@@ -1,41 +1,107 @@
 //! Forces that push phases apart: a weight per pair of particles of different phases.
 
-use sph_core::{Vect, fields};
+use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_core::{Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, add_scaled,
-    pair_term, unlike,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, add_scaled, pair_term,
+    unlike,
 };
 
+use crate::{InterfaceEntry, offer_interface};
+
+/// ρ_a a = −ε Σ_{b of other phases} V_b (|p_a| + |p_b|) ∇w_ab.
+///
+/// Symbols: ε number; p pressure (Pa); V volume (m^d). Conserves momentum to rounding. The source
+/// divides p by the filling of the formulation it belongs to ([`Grenier`](crate::Grenier)), which is
+/// 1 up to noise at an interface and left out here, so that it serves every formulation.
+///
+/// Source: Grenier et al. 2009; ε from 0.01 to 0.1.
+///
+/// ```toml
+/// [interface.grenier]
+/// strength = 0.08
+/// ```
+#[plugin(InterfaceEntry [2, 3], "grenier", "repulsion between phases that keeps interfaces sharp",
+    source: "Grenier et al. 2009", cfg(not(test)))]
+pub struct GrenierInterface {
+    /// Strength ε.
+    #[parameter(default: 0.08, unit: "1", min: 0.0, max: 1.0, source: "Grenier et al. 2009: 0.01 to 0.1")]
+    pub strength: f64,
+}
+
+impl Repulsion for GrenierInterface {
+    const NAME: &'static str = "Grenier interface force";
+    fn strength(self) -> f64 {
+        self.strength
+    }
+    #[inline(always)]
+    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L {
+        volume * there_volume * (pressure.abs() + there.abs())
+    }
+}
+
+impl<const D: usize> Contribution<D> for GrenierInterface {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer_interface(Box::new(Repelling(*self)), setting, offer)
+    }
+}
+
+/// m_a a = −ε Σ_{b of other phases} (|p_a| V_a² + |p_b| V_b²) ∇w_ab: a share ε of the pressure
+/// gradient between phases, always repulsive.
+///
+/// Symbols: ε number; p pressure (Pa); V volume (m^d). Conserves momentum to rounding. It does
+/// nothing where there is no pressure, and depends on the level of the pressure. Thickens the gap between the
+/// phases by about ε: it is a numerical force, not surface tension.
+///
+/// Source: Ghaïtanellis 2017, Eq. 3.32, corrected: Eq. 3.33 and 4.124 print the sign of an attraction.
+///
+/// ```toml
+/// [interface.micro-mixing]
+/// strength = 0.01
+/// ```
+#[plugin(InterfaceEntry [2, 3], "micro-mixing", "repulsion between phases against micro-mixing",
+    source: "Ghaïtanellis 2017, Eq. 3.32", cfg(not(test)))]
+pub struct MicroMixing {
+    /// Strength ε.
+    #[parameter(default: 0.01, unit: "1", min: 0.0, max: 1.0, source: "Ghaïtanellis 2017, Eq. 3.32: 0.005 to 0.015")]
+    pub strength: f64,
+}
+
+impl Repulsion for MicroMixing {
+    const NAME: &'static str = "micro-mixing force";
+    fn strength(self) -> f64 {
+        self.strength
+    }
+    #[inline(always)]
+    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L {
+        pressure.abs() * volume * volume + there.abs() * there_volume * there_volume
+    }
+}
+
+impl<const D: usize> Contribution<D> for MicroMixing {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer_interface(Box::new(Repelling(*self)), setting, offer)
+    }
+}
+
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
-pub trait Repulsion: Copy + Send + Sync + 'static {
+trait Repulsion: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
+    /// ε.
+    fn strength(self) -> f64;
     /// P_ab = P_ba ≥ 0 from pressures and volumes here and there, Pa m^2d.
     fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L;
 }
 
-/// The term of a weight with its ε.
-#[derive(Clone, Copy, Debug)]
-pub struct Repelling<R> {
-    strength: f64,
-    weight: std::marker::PhantomData<R>,
-}
-
-impl<R: Repulsion> Repelling<R> {
-    /// As a term of a sweep.
-    pub fn boxed<const D: usize>(strength: f64) -> Box<dyn Interaction<D>> {
-        Box::new(Repelling::<R> {
-            strength,
-            weight: std::marker::PhantomData,
-        })
-    }
-}
+/// The term of a weight.
+struct Repelling<R>(R);
 
 /// [`Repelling`] with its columns.
 #[pair_term(Repelling<R>, R::NAME)]
-pub struct BoundRepulsion<'a, R: Repulsion> {
-    #[value(self)]
-    term: &'a Repelling<R>,
+struct BoundRepulsion<'a, R: Repulsion> {
+    #[value(self.0)]
+    weight: R,
     #[both(fields::PRESSURE)]
     pressure: &'a [f64],
     #[both(fields::VOLUME)]
@@ -82,6 +148,6 @@ impl<const D: usize, R: Repulsion> BoundTerm<D> for BoundRepulsion<'_, R> {
     #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let inverse_mass = 1.0 / self.mass[at.particle];
-        rates.acceleration -= Vect::from(sum) * (self.term.strength * inverse_mass);
+        rates.acceleration -= Vect::from(sum) * (self.weight.strength() * inverse_mass);
     }
 }

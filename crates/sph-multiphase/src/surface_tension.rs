@@ -1,7 +1,7 @@
 //! Surface tension as a continuous surface stress.
 
 use sph_core::{
-    Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin,
+    Access, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin, stage,
 };
 use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot, pair_term,
@@ -70,7 +70,7 @@ pub enum SurfaceStress {
 impl<const D: usize> Contribution<D> for SurfaceTension {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         offer_interface(Box::new(self.clone()), setting, offer)?;
-        offer.stage(ColourGradient);
+        offer.stage(colour_gradient());
         if let Some(angle) = &self.contact_angle {
             angle.check(setting)?;
             offer.stage(angle.films(setting));
@@ -90,26 +90,13 @@ pub const COLOUR_GRADIENT: Field<Vector> = Field::new(
 );
 
 /// [`COLOUR_GRADIENT`].
-struct ColourGradient;
-
-impl Declares for ColourGradient {
-    fn name(&self) -> String {
-        "colour gradient".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .both(fields::PHASE)
-            .both(fields::VOLUME)
-            .writes(COLOUR_GRADIENT)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for ColourGradient {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+fn colour_gradient<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::PHASE, fields::VOLUME))
+        .writes(COLOUR_GRADIENT);
+    stage("colour gradient", access, |world: &mut World<D>| {
         let mut gradients = world.free.take(COLOUR_GRADIENT)?;
-        let phase = world.free.get(fields::PHASE)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
         let gradient = |around: &Around<'_, D>| {
             let (row, i) = (&around.rows.free, around.rows.particle);
             let mut sum = Vect::<D>::zeros();
@@ -123,7 +110,7 @@ impl<const D: usize> Stage<World<D>> for ColourGradient {
         };
         walk_into(world, Values::Gradient, |_| true, &mut gradients, gradient)?;
         Ok(world.free.put(COLOUR_GRADIENT, gradients)?)
-    }
+    })
 }
 
 /// [`SurfaceTension`] with its columns.

@@ -5,5 +5,5 @@ mod stage;
 mod surface;
 
 pub use rough::RoughBed;
-pub(crate) use stage::BedShear;
-pub(crate) use surface::SurfaceShare;
+pub(crate) use stage::bed_shear;
+pub(crate) use surface::surface_share;

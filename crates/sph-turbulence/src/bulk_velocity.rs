@@ -59,8 +59,7 @@ impl<const D: usize> StepHook<D> for BulkVelocity {
     }
     fn access(&self) -> Access {
         Access::none()
-            .here(fields::MASS)
-            .here(fields::VELOCITY)
+            .here((fields::MASS, fields::VELOCITY))
             .writes(fields::VELOCITY)
     }
     fn phases(&self) -> &'static [StepPhase] {
@@ -69,8 +68,7 @@ impl<const D: usize> StepHook<D> for BulkVelocity {
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         let world = &mut *moment.world;
         let axis = self.axis as usize;
-        let velocity = world.free.get(fields::VELOCITY)?;
-        let mass = world.free.get(fields::MASS)?;
+        let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
         let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
         let [total, momentum] = world.sums(each)?;
         let mut velocity = world.free.take(fields::VELOCITY)?;

@@ -53,6 +53,8 @@ pub const BED_DISTANCE: Field<Scalar> = Field::new(
     "m",
     "distance from the bed of another phase; infinite beyond a spacing",
 );
+/// Both columns of a bed.
+pub(crate) const BED: (Field<Scalar>, Field<Scalar>) = (BED_FRICTION_VELOCITY, BED_DISTANCE);
 /// Share of the turbulent production that counts: less at free surfaces.
 pub const SURFACE_SHARE: Field<Scalar> = Field::new(
     "surface_share",

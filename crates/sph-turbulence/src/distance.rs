@@ -4,5 +4,6 @@ mod simplex;
 mod stage;
 mod tree;
 
-pub use stage::WallDistance;
+pub(crate) use stage::wall_distance;
 pub use tree::ElementTree;
+pub(crate) use tree::KeptTree;

@@ -20,6 +20,7 @@ mod closures;
 mod columns;
 mod distance;
 mod energy_probe;
+mod in_space;
 mod k_epsilon;
 mod kind;
 mod wall;
@@ -32,7 +33,7 @@ pub use columns::{
     FRICTION_VELOCITY, LAST_STRAIN, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
     WALL_DISTANCE, WALL_UNITS,
 };
-pub use distance::{ElementTree, WallDistance};
+pub use distance::ElementTree;
 pub use energy_probe::TurbulentEnergyProbe;
 pub use k_epsilon::{
     AlgebraicStress, Anisotropy, AtWall, ChannelStart, KEpsilon, KEpsilonModel, KLength,

@@ -7,7 +7,6 @@ mod probe;
 mod solution;
 mod stage;
 
-pub(crate) use function::karman;
 pub use function::{LogLaw, WallFunctionEntry};
 pub use law::{WallLaw, WallLawError};
 pub(crate) use nearest::{LEAST_DISTANCE, nearest};

@@ -1,15 +1,14 @@
 //! The δ-SPH smoother for several phases.
 
-use sph_core::{Access, StepError, Vect, fields, parameters, plugin};
+use sph_core::{Vect, fields, parameters, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot, pair_term,
     splat,
 };
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_rheology::state::Laws;
 
-use crate::diffusion::per_phase::PerPhase;
 use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
 
 /// dρ_a/dt += 2 δ h c_a ρ₀_a/γ_a [Σ_b V_b (β_a − β_b) F_ab − Σ_s (β_a − β_s)/d_s |∇γ_as|], β = ρ/ρ₀,
@@ -76,11 +75,12 @@ impl<const D: usize> Contribution<D> for DeltaMultiphase {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         self.accelerations.get_or_insert(setting.carried);
         let laws = setting.laws;
+        let at_rest = laws.iter().map(|law| law.reference());
         let smoothing = Smoothing {
             term: Box::new(DeltaTerm {
                 smoother: *self,
-                density: PerPhase::new(laws, |law| law.reference().density),
-                sound_speed: PerPhase::new(laws, |law| law.reference().sound_speed),
+                density: at_rest.clone().map(|rest| rest.density).collect(),
+                sound_speed: at_rest.map(|rest| rest.sound_speed).collect(),
                 laws: laws.clone(),
             }),
             strength: self.strength,
@@ -95,8 +95,9 @@ impl<const D: usize> Contribution<D> for DeltaMultiphase {
 /// The term of [`DeltaMultiphase`].
 pub struct DeltaTerm {
     smoother: DeltaMultiphase,
-    density: PerPhase,
-    sound_speed: PerPhase,
+    /// At rest, of every phase.
+    density: Vec<f64>,
+    sound_speed: Vec<f64>,
     laws: Laws,
 }
 
@@ -115,65 +116,35 @@ impl DeltaTerm {
     }
 }
 
-impl<const D: usize> PairTerm<D> for DeltaTerm {
-    type Bound<'a> = BoundDelta<'a, D>;
-
-    fn name(&self) -> String {
-        "δ-SPH smoother for several phases".into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::DENSITY)
-            .both(fields::VOLUME)
-            .and(self.density.access())
-            .and(match self.smoother.accelerated() {
-                Some(_) => Access::none().both(fields::MEAN_ACCELERATION),
-                None => Access::none(),
-            })
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDelta<'a, D>, StepError> {
-        let points = &world.walls.points;
-        let beside_walls = |pressure: &[f64]| match self.smoother.walls {
-            true => self.compressions(pressure),
-            false => Vec::new(),
-        };
-        Ok(BoundDelta {
-            term: self,
-            density: world.free.get(fields::DENSITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            phase: self.density.column(world)?,
-            wall_share: &points.share,
-            at_points: beside_walls(&points.pressure),
-            normals: &world.walls.elements.normal,
-            gravity: match self.smoother.balance {
-                Balance::Hydrostatic => world.gravity,
-                Balance::Literal => Vect::zeros(),
-            },
-            acceleration: match self.smoother.accelerated() {
-                Some(_) => Some(world.free.get(fields::MEAN_ACCELERATION)?),
-                None => None,
-            },
-            nearest: 0.5 * world.spacing,
-            weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
-        })
-    }
-}
-
 /// [`DeltaTerm`] with its columns.
+#[pair_term(DeltaTerm, "δ-SPH smoother for several phases")]
 pub struct BoundDelta<'a, const D: usize> {
+    #[value(self)]
     term: &'a DeltaTerm,
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[both(fields::PHASE, if self.density.len() > 1)]
     phase: Option<&'a [u32]>,
-    wall_share: &'a [f64],
-    /// β of every phase at the points' pressures; empty where walls do not count.
-    at_points: Vec<f64>,
-    normals: &'a [Vect<D>],
-    gravity: Vect<D>,
+    #[both(fields::MEAN_ACCELERATION, if self.smoother.accelerated().is_some())]
     acceleration: Option<&'a [Vect<D>]>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
+    /// β of every phase at the points' pressures; empty where walls do not count.
+    #[value(match self.smoother.walls {
+        true => self.compressions(&world.walls.points.pressure),
+        false => Vec::new(),
+    })]
+    at_points: Vec<f64>,
+    #[value(match self.smoother.balance {
+        Balance::Hydrostatic => world.gravity,
+        Balance::Literal => Vect::zeros(),
+    })]
+    gravity: Vect<D>,
+    #[value(0.5 * world.spacing)]
     nearest: f64,
+    #[value(2.0 * self.smoother.strength * world.kernel.smoothing_length())]
     weight: f64,
 }
 
@@ -202,8 +173,8 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let [compression, compressibility] = all.each(|i| {
-            let phase = self.phase.map_or(0, |p| p[i]);
-            let (rest, c) = (self.term.density.at(phase), self.term.sound_speed.at(phase));
+            let phase = self.phase.map_or(0, |p| p[i] as usize);
+            let (rest, c) = (self.term.density[phase], self.term.sound_speed[phase]);
             [self.density[i] / rest, 1.0 / (rest * c * c)]
         });
         Own {
@@ -215,8 +186,8 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
 
     #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
-        let phase = self.phase.map_or(0, |p| p[j]);
-        let compression = L::splat(self.density[j] / self.term.density.at(phase));
+        let phase = self.phase.map_or(0, |p| p[j] as usize);
+        let compression = L::splat(self.density[j] / self.term.density[phase]);
         let mut mean = splat::<D, L>(&self.at_rest(j, self.density[j]));
         for (mean, own) in mean.iter_mut().zip(own.at_rest) {
             *mean = (own + *mean) * L::splat(0.5);
@@ -232,26 +203,27 @@ impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
         let i = at.particle;
         let own = self.own::<f64>(Particles::one(i));
         let own_at_rest = Vect::from(own.at_rest);
-        let phase = self.phase.map_or(0, |p| p[i]);
+        let phase = self.phase.map_or(0, |p| p[i] as usize);
         if !self.at_points.is_empty() {
             for (v, pair) in at.wall.pairs() {
-                let there = self.at_points[phase as usize * self.wall_share.len() + v];
-                let weight = self.wall_share[v] * self.volume[i];
+                let share = &self.walls.points.share;
+                let there = self.at_points[phase * share.len() + v];
+                let weight = share[v] * self.volume[i];
                 let at_rest = own_at_rest.dot(&pair.separation) * own.compressibility;
                 sum += weight * (own.compression - there - at_rest) * pair.factor;
             }
         }
         if self.term.smoother.walls {
             for contact in at.contacts {
-                let there = self.term.compression(phase as usize, contact.pressure);
+                let there = self.term.compression(phase, contact.pressure);
                 let apart = contact.distance.max(self.nearest);
                 let slope = (own.compression - there) / apart;
-                let at_rest =
-                    own_at_rest.dot(&self.normals[contact.element as usize]) * own.compressibility;
+                let normal = &self.walls.elements.normal[contact.element as usize];
+                let at_rest = own_at_rest.dot(normal) * own.compressibility;
                 sum -= (slope - at_rest) * contact.gradient.norm();
             }
         }
-        let scale = self.term.density.at(phase) * self.term.sound_speed.at(phase);
+        let scale = self.term.density[phase] * self.term.sound_speed[phase];
         rates.scalar += self.weight * scale * sum * at.inverse_renormalisation;
     }
 }

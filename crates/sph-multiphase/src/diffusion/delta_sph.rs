@@ -1,17 +1,14 @@
 //! The δ-SPH smoother.
 
-use sph_core::{
-    Access, Declares, Field, Stage, StepError, Vect, Vector, fields, parameters, plugin,
-};
+use sph_core::{Access, Field, Stage, Vect, Vector, fields, parameters, plugin, stage};
 use sph_neighbours::{
-    Around, BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, Values,
-    World, dot, unlike, walk_into,
+    Around, BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Values, World,
+    dot, pair_term, unlike, walk_into,
 };
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::diffusion::linear_exact::linear_exact;
-use crate::diffusion::per_phase::PerPhase;
 use crate::diffusion::{SmootherEntry, Smoothing};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
@@ -56,12 +53,13 @@ pub enum DeltaForm {
 impl<const D: usize> Contribution<D> for DeltaSph {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if self.form == DeltaForm::Renormalised {
-            offer.stage(DensityGradient);
+            offer.stage(density_gradient());
         }
+        let laws = setting.laws.iter();
         let smoothing = Smoothing {
             term: Box::new(DeltaTerm {
                 smoother: *self,
-                sound_speed: PerPhase::new(setting.laws, |law| law.reference().sound_speed),
+                sound_speed: laws.map(|law| law.reference().sound_speed).collect(),
             }),
             strength: self.strength,
             accelerated: None,
@@ -81,27 +79,14 @@ pub const DENSITY_GRADIENT: Field<Vector> = Field::new(
 
 /// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours
 /// span no volume.
-struct DensityGradient;
-
-impl Declares for DensityGradient {
-    fn name(&self) -> String {
-        "density gradient".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .both(fields::DENSITY)
-            .both(fields::VOLUME)
-            .where_there(fields::PHASE)
-            .writes(DENSITY_GRADIENT)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for DensityGradient {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+fn density_gradient<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::DENSITY, fields::VOLUME))
+        .where_there(fields::PHASE)
+        .writes(DENSITY_GRADIENT);
+    stage("density gradient", access, |world: &mut World<D>| {
         let mut gradients = world.free.take(DENSITY_GRADIENT)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (density, volume) = world.free.all((fields::DENSITY, fields::VOLUME))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gradient = |around: &Around<'_, D>| {
             let i = around.rows.particle;
@@ -112,55 +97,30 @@ impl<const D: usize> Stage<World<D>> for DensityGradient {
         };
         walk_into(world, Values::Gradient, |_| true, &mut gradients, gradient)?;
         Ok(world.free.put(DENSITY_GRADIENT, gradients)?)
-    }
+    })
 }
 
 /// The term of [`DeltaSph`].
 pub struct DeltaTerm {
     smoother: DeltaSph,
-    sound_speed: PerPhase,
-}
-
-impl<const D: usize> PairTerm<D> for DeltaTerm {
-    type Bound<'a> = BoundDelta<'a, D>;
-
-    fn name(&self) -> String {
-        "δ-SPH smoother".into()
-    }
-
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .both(fields::DENSITY)
-            .neighbours(fields::VOLUME)
-            .and(self.sound_speed.access());
-        match self.smoother.form {
-            DeltaForm::Plain => access,
-            DeltaForm::Renormalised => access.both(DENSITY_GRADIENT),
-        }
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDelta<'a, D>, StepError> {
-        Ok(BoundDelta {
-            density: world.free.get(fields::DENSITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            gradient: match self.smoother.form {
-                DeltaForm::Plain => None,
-                DeltaForm::Renormalised => Some(world.free.get(DENSITY_GRADIENT)?),
-            },
-            phase: self.sound_speed.column(world)?,
-            sound_speed: &self.sound_speed,
-            weight: 2.0 * self.smoother.strength * world.kernel.smoothing_length(),
-        })
-    }
+    /// Of every phase, m/s.
+    sound_speed: Vec<f64>,
 }
 
 /// [`DeltaTerm`] with its columns.
+#[pair_term(DeltaTerm, "δ-SPH smoother")]
 pub struct BoundDelta<'a, const D: usize> {
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[neighbours(fields::VOLUME)]
     volume: &'a [f64],
-    gradient: Option<&'a [Vect<D>]>,
+    #[both(fields::PHASE, if self.sound_speed.len() > 1)]
     phase: Option<&'a [u32]>,
-    sound_speed: &'a PerPhase,
+    #[both(DENSITY_GRADIENT, if self.smoother.form == DeltaForm::Renormalised)]
+    gradient: Option<&'a [Vect<D>]>,
+    #[value(&self.sound_speed)]
+    sound_speed: &'a [f64],
+    #[value(2.0 * self.smoother.strength * world.kernel.smoothing_length())]
     weight: f64,
 }
 
@@ -204,9 +164,7 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
 impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
     #[inline(always)]
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let c = self
-            .sound_speed
-            .at(self.phase.map_or(0, |p| p[at.particle]));
+        let c = self.sound_speed[self.phase.map_or(0, |p| p[at.particle] as usize)];
         rates.scalar += self.weight * c * sum * at.inverse_renormalisation;
     }
 }

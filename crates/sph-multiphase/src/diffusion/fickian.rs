@@ -1,7 +1,7 @@
 //! Shifting down the gradient of concentration.
 
 use rayon::prelude::*;
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields, parameters, plugin};
+use sph_core::{Access, Stage, StepError, Vect, fields, parameters, plugin, stage};
 use sph_neighbours::World;
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
@@ -96,11 +96,8 @@ impl<const D: usize> Contribution<D> for Fickian {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         offer.goals.push(fields::SHIFT_VELOCITY.any());
         let laws = setting.laws.iter();
-        offer.stage(ShiftVelocity {
-            parameters: *self,
-            speeds: laws.map(|l| l.reference().sound_speed).collect(),
-            all: Vec::new(),
-        });
+        let speeds = laws.map(|l| l.reference().sound_speed).collect();
+        offer.stage(shift_velocity(*self, speeds));
         if self.transport != Transport::Nothing {
             offer.changes_density = true;
             offer.term(ShiftTransport {
@@ -117,39 +114,23 @@ impl<const D: usize> Contribution<D> for Fickian {
     }
 }
 
-/// The shift velocity.
-struct ShiftVelocity<const D: usize> {
-    parameters: Fickian,
-    /// Speed of sound of every phase, m/s.
-    speeds: Vec<f64>,
-    /// The measures of every particle's neighbourhood, kept from step to step.
-    all: Vec<Evenness<D>>,
-}
-
-impl<const D: usize> Declares for ShiftVelocity<D> {
-    fn name(&self) -> String {
-        "Fickian shifting".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .where_there(fields::PHASE)
-            .here(fields::VELOCITY)
-            .here(fields::MASS)
-            // Drifts may sort particles between their halves: the shift must be sorted, too.
-            .remembers(fields::SHIFT_VELOCITY)
-            .writes(fields::VOID_FRACTION)
-            // Normals are sums over sums at neighbours.
-            .rings(2)
-    }
-}
-
 /// Share of h²/Δt that a diffusivity may have.
 const STABLE: f64 = 0.25;
 
-impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+/// The shift velocity; `speeds` are those of sound of every phase, m/s.
+fn shift_velocity<const D: usize>(shifting: Fickian, speeds: Vec<f64>) -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::VOLUME))
+        .where_there(fields::PHASE)
+        .here((fields::VELOCITY, fields::MASS))
+        // Drifts may sort particles between their halves: the shift must be sorted, too.
+        .remembers(fields::SHIFT_VELOCITY)
+        .writes(fields::VOID_FRACTION)
+        // Normals are sums over sums at neighbours.
+        .rings(2);
+    // The measures of every particle's neighbourhood, kept from step to step.
+    let mut all = Vec::new();
+    stage("Fickian shifting", access, move |world: &mut World<D>| {
         let Fickian {
             strength,
             tensile,
@@ -158,20 +139,20 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
             surface,
             along_walls,
             ..
-        } = self.parameters;
-        let (fastest, sound) = (largest_speeds(world)?, &self.speeds);
+        } = shifting;
+        let fastest = largest_speeds(world)?;
         let mut shift = world.free.take(fields::SHIFT_VELOCITY)?;
         let mut void_fraction = world.free.take(fields::VOID_FRACTION)?;
         let phase = world.free.get(fields::PHASE).ok();
         if fastest.iter().any(|u| *u > 0.0) {
             let h = world.kernel.smoothing_length();
-            evenness(world, tensile, exponent, &mut self.all)?;
-            let normals = held_normals(world, &self.all, surface)?;
+            evenness(world, tensile, exponent, &mut all)?;
+            let normals = held_normals(world, &all, surface)?;
             // Rows that pass points that stand are rearranged all the time, so that no density is taken up beside them: a shift
             // would change the pressure by ρc², and a tank at rest would sing.
             let rough = world.walls.points.in_sums();
             let along_walls = along_walls || !world.walls.frames.is_empty();
-            let results = shift.par_iter_mut().zip(&mut void_fraction).zip(&self.all);
+            let results = shift.par_iter_mut().zip(&mut void_fraction).zip(&all);
             let results = results.enumerate().with_min_len(1024);
             results.for_each(|(i, ((s, empty), even))| {
                 if rough && !world.lists.wall.row(i).is_empty() {
@@ -181,7 +162,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
                 *empty = 1.0 - even.filling;
                 let phase = phase.map_or(0, |p| p[i] as usize);
                 let fastest = fastest[phase];
-                let diffusivity = (strength * h * sound[phase]).min(STABLE * h * h / world.dt);
+                let diffusivity = (strength * h * speeds[phase]).min(STABLE * h * h / world.dt);
                 *s = along_interface(even, -diffusivity * even.push, limit * fastest);
                 if let Some(normals) = &normals {
                     *s = normals[i].held(*s);
@@ -200,7 +181,7 @@ impl<const D: usize> Stage<World<D>> for ShiftVelocity<D> {
         }
         world.free.put(fields::VOID_FRACTION, void_fraction)?;
         Ok(world.free.put(fields::SHIFT_VELOCITY, shift)?)
-    }
+    })
 }
 
 /// The shift along the interface between phases, not longer than `most`.
@@ -255,8 +236,7 @@ fn keep_off<const D: usize>(world: &World<D>, particle: usize, shift: &mut Vect<
 /// The largest speed of every phase against the mean velocity of all, m/s.
 fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepError> {
     const BATCH: usize = 4096;
-    let velocity = world.free.get(fields::VELOCITY)?;
-    let mass = world.free.get(fields::MASS)?;
+    let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
     let phase = world.free.get(fields::PHASE).ok();
     // Mass and momentum, of which the last component is not there in the plane.
     let sums = world.sums(|i| {

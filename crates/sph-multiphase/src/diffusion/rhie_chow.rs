@@ -1,6 +1,6 @@
 //! The Rhie–Chow smoother.
 
-use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
+use sph_core::{Access, Stage, fields, plugin, stage};
 use sph_neighbours::{Around, Values, World, walk_into};
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
@@ -44,7 +44,7 @@ impl<const D: usize> Contribution<D> for RhieChow {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let mut narrow = BrezziPitkaranta::with(self.strength);
         narrow.accelerations = Some(true);
-        offer.stage(PressureSlope);
+        offer.stage(pressure_slope());
         let smoothing = Smoothing {
             term: Box::new(narrow.term(setting.laws)),
             strength: self.strength,
@@ -57,27 +57,14 @@ impl<const D: usize> Contribution<D> for RhieChow {
 }
 
 /// [`PRESSURE_SLOPE`].
-struct PressureSlope;
-
-impl Declares for PressureSlope {
-    fn name(&self) -> String {
-        "pressure slope".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .both(fields::PRESSURE)
-            .both(fields::DENSITY)
-            .both(fields::VOLUME)
-            .writes(PRESSURE_SLOPE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for PressureSlope {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+fn pressure_slope<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::PRESSURE, fields::DENSITY))
+        .both(fields::VOLUME)
+        .writes(PRESSURE_SLOPE);
+    stage("pressure slope", access, |world: &mut World<D>| {
         let mut slopes = world.free.take(PRESSURE_SLOPE)?;
-        let pressure = world.free.get(fields::PRESSURE)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (pressure, volume) = world.free.all((fields::PRESSURE, fields::VOLUME))?;
         let density = world.free.get(fields::DENSITY)?;
         let slope = |around: &Around<'_, D>| {
             let i = around.rows.particle;
@@ -87,5 +74,5 @@ impl<const D: usize> Stage<World<D>> for PressureSlope {
         };
         walk_into(world, Values::Gradient, |_| true, &mut slopes, slope)?;
         Ok(world.free.put(PRESSURE_SLOPE, slopes)?)
-    }
+    })
 }

@@ -90,7 +90,7 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
     #[inline(always)]
     pub fn couple(&mut self, j: u32, c: &E, counts: bool) {
         self.columns[self.used] = j;
-        self.others[self.used] = c.times(-1.0);
+        self.others[self.used] = *c * -1.0;
         self.used += usize::from(counts);
     }
 
@@ -104,14 +104,14 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
     #[inline]
     pub fn sum(&self) -> E {
         let own = self.own().iter();
-        own.fold(E::ZERO, |sum, c| sum.plus(&c.times(-1.0)))
+        own.fold(E::ZERO, |sum, c| sum + *c * -1.0)
     }
 
     /// Ends the row at hand: `own` stands on the diagonal besides the sum of the couplings, `source` on the right-hand side.
     #[inline]
     pub fn end(&mut self, own: E, source: Vect<C>) {
         let couplings = self.own().iter();
-        let diagonal = couplings.fold(own, |sum, c| sum.plus(&c.times(-1.0)));
+        let diagonal = couplings.fold(own, |sum, c| sum + *c * -1.0);
         self.close(diagonal, source);
     }
 
@@ -144,24 +144,8 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
 impl<E: Entry<C>, const C: usize> Assembly<E, C> {
     /// Fills it with −c_ij beside and own_i + Σ_j c_ij on the diagonal, and the sources.
     ///
-    /// `cluster` adds a row for each member of a cluster, in their order.
-    ///
-    /// # Errors
-    /// If the world has no positions.
-    pub fn fill<const D: usize>(
-        &mut self,
-        world: &World<D>,
-        cluster: impl Fn(&mut Cluster<'_, D>, &mut Rows<E, C>) + Sync,
-    ) -> Result<(), StepError> {
-        let walk = ClusterWalk::new(world)?;
-        self.fill_blocks([walk.blocks(), walk.particles()], |block, rows| {
-            walk.for_each_cluster(block, |members| cluster(members, rows));
-        });
-        Ok(())
-    }
-
-    /// The same where `others` adds a row for each member of a cluster in which no member is `wanted`: no neighbours
-    /// are searched there.
+    /// `cluster` adds a row for each member of a cluster, in their order, `others` for each of one in which no member is
+    /// `wanted`: no neighbours are searched there.
     ///
     /// # Errors
     /// If the world has no positions.

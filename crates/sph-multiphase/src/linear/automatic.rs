@@ -4,8 +4,8 @@ use sph_core::{Vect, plugin};
 
 use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
 use crate::linear::{
-    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, Memories, MemoryOwner, Operator,
-    Preconditioner, Report, SolveError, Tolerance,
+    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner,
+    Report, SolveError, Tolerance,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -62,15 +62,10 @@ fn iteration_limit<const D: usize>(rows: usize, mixed: bool) -> Option<usize> {
 
 /// True if the diagonal alone preconditions.
 fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
-    operator
-        .stiffness()
-        .is_some_and(|stiffness| stiffness < MILD)
+    operator.stiffness().is_some_and(|ratio| ratio < MILD)
 }
 
-impl<const D: usize> LinearSolver<D> for Automatic
-where
-    Memories: MemoryOwner<D>,
-{
+impl<const D: usize> LinearSolver<D> for Automatic {
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,
@@ -81,10 +76,7 @@ where
     }
 
     fn needs_entries(&self, operator: &dyn Operator<D>) -> bool {
-        match operator.diagonal() {
-            Some(Diagonal::Scalar(_)) => !mild(operator),
-            _ => false,
-        }
+        matches!(operator.diagonal(), Some(Diagonal::Scalar(_))) && !mild(operator)
     }
 
     fn solve_roughly(
@@ -99,9 +91,9 @@ where
             iterations,
         };
         let Some(diagonal) = operator.diagonal() else {
-            let memory = self.memories.memory();
-            let system = (operator, right, x);
-            return iterate(Preconditioner::None, within(ITERATIONS), memory, system);
+            let (none, system) = (Preconditioner::None, (operator, right, x));
+            let work = |memory: &mut _| iterate(none, within(ITERATIONS), memory, system);
+            return self.memories.lend(work);
         };
         let mixed = matches!(diagonal, Diagonal::Block(_));
         let stages = match (mild(operator), mixed) {
@@ -121,8 +113,8 @@ where
             };
             // Each stage starts from the result of the one before.
             let system = (operator, right, &mut *x);
-            let memory = self.memories.memory();
-            match iterate(preconditioner, within(iterations), memory, system) {
+            let work = |memory: &mut _| iterate(preconditioner, within(iterations), memory, system);
+            match self.memories.lend(work) {
                 Err(SolveError::NotConverged { .. } | SolveError::NotPositive { .. })
                     if !last || patience.is_some() =>
                 {

@@ -67,7 +67,7 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
             self.kept = Some(analysed(matrix, blocks)?);
         }
         let Some(kept) = &mut self.kept else {
-            return Err(no_memory(right.len()));
+            return Err(SolveError::NoMemory(METHOD, right.len()));
         };
         match &matrix.entries {
             Entries::Scalar(values) => fill::<D, _>(&mut kept.upper, &matrix.pattern, values, 1),
@@ -88,15 +88,12 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         match relative <= REFUSE {
             true => Ok(report(relative, self.bytes())),
             false if relative.is_finite() => Err(SolveError::NotConverged {
-                method: METHOD.into(),
+                method: METHOD,
                 wanted: REFUSE,
                 iterations: 0,
                 history: vec![relative],
             }),
-            false => Err(SolveError::NotFinite {
-                method: METHOD.into(),
-                what: "the solution",
-            }),
+            false => Err(SolveError::NotFinite(METHOD, "the solution")),
         }
     }
 }
@@ -110,13 +107,6 @@ fn report(residual: f64, bytes: usize) -> Report {
     }
 }
 
-fn no_memory(rows: usize) -> SolveError {
-    SolveError::NoMemory {
-        method: METHOD.into(),
-        rows,
-    }
-}
-
 /// Order of elimination and shape of the factor.
 fn analysed<const D: usize>(matrix: &Matrix<D>, blocks: bool) -> Result<Workspace, SolveError> {
     let upper = shape(&matrix.pattern, if blocks { D } else { 1 });
@@ -124,25 +114,21 @@ fn analysed<const D: usize>(matrix: &Matrix<D>, blocks: bool) -> Result<Workspac
     Ok(Workspace {
         pattern: matrix.pattern.clone(),
         blocks,
-        factor: factor.map_err(|_| no_memory(matrix.rows()))?,
+        factor: factor.map_err(|_| SolveError::NoMemory(METHOD, matrix.rows()))?,
         upper,
     })
 }
 
 fn factorise(kept: &mut Workspace, rows: usize) -> Result<(), SolveError> {
     if kept.upper.values.iter().any(|v| !v.is_finite()) {
-        return Err(SolveError::NotFinite {
-            method: METHOD.into(),
-            what: "the matrix",
-        });
+        return Err(SolveError::NotFinite(METHOD, "the matrix"));
     }
     let done = kept.factor.factorise(&kept.upper);
     done.map_err(|refused| match refused {
-        SparseError::NotPositive { row, unknowns } => SolveError::NotPositive {
-            method: METHOD.into(),
-            row: row * rows / unknowns,
-        },
-        _ => no_memory(rows),
+        SparseError::NotPositive { row, unknowns } => {
+            SolveError::NotPositive(METHOD, row * rows / unknowns)
+        }
+        _ => SolveError::NoMemory(METHOD, rows),
     })
 }
 
@@ -186,7 +172,8 @@ fn fill<const D: usize, E: Entry<D>>(
     values: &Values<E>,
     size: usize,
 ) {
-    upper.values.clear();
+    let all = &mut upper.values;
+    all.clear();
     for i in 0..pattern.len() {
         for c in 0..size {
             for k in pattern.row(i) {
@@ -195,12 +182,10 @@ fn fill<const D: usize, E: Entry<D>>(
                 }
                 // A_ji = A_ijᵀ.
                 let other = &values.others[k];
-                upper
-                    .values
-                    .extend((0..size).map(|r| other.component(c, r)));
+                all.extend((0..size).map(|r| other.component(c, r)));
             }
             let own = &values.diagonal[i];
-            upper.values.extend((0..=c).map(|r| own.component(r, c)));
+            all.extend((0..=c).map(|r| own.component(r, c)));
         }
     }
 }

@@ -3,11 +3,10 @@
 use sph_core::{Vect, plugin};
 
 use crate::linear::krylov::{SolveMonitor, Tolerance};
-use crate::linear::memory::Vectors;
+use crate::linear::memory::{Memory, Vectors};
 use crate::linear::vector::{add, scale_and_add};
 use crate::linear::{
-    LinearSolver, LinearSolverEntry, Memories, Memory, MemoryOwner, Operator, Preconditioner,
-    Report, SolveError,
+    LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner, Report, SolveError,
 };
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
@@ -44,10 +43,7 @@ const METHOD: &str = "conjugate gradients";
 /// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
 const PREPARE: usize = 3;
 
-impl<const D: usize> LinearSolver<D> for ConjugateGradient
-where
-    Memories: MemoryOwner<D>,
-{
+impl<const D: usize> LinearSolver<D> for ConjugateGradient {
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,
@@ -72,8 +68,9 @@ where
             residual: self.tolerance.max(enough),
             iterations: self.iterations,
         };
-        let memory = self.memories.memory();
-        iterate(self.preconditioner, tolerance, memory, (operator, right, x))
+        let system = (operator, right, x);
+        self.memories
+            .lend(|memory| iterate(self.preconditioner, tolerance, memory, system))
     }
 }
 

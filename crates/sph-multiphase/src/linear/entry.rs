@@ -1,5 +1,7 @@
 //! Entries of a matrix: a number, or a block of the space's dimension.
 
+use std::ops::{Add, Mul};
+
 use nalgebra::SMatrix;
 use sph_core::Vect;
 
@@ -7,11 +9,13 @@ use sph_core::Vect;
 pub type Block<const D: usize> = SMatrix<f64, D, D>;
 
 /// An entry that acts on vectors. A number acts on all components alike.
-pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
+pub trait Entry<const D: usize>:
+    Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + 'static
+{
     /// Nothing.
     const ZERO: Self;
     /// The same in half the memory, to seven digits.
-    type Short: Copy + Send + Sync + std::fmt::Debug + 'static;
+    type Short: Copy + Send + Sync + 'static;
     /// s a, shortened.
     fn to_single(&self, factor: f64) -> Self::Short;
     /// A shortened entry at full length.
@@ -20,10 +24,6 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     fn apply(&self, v: &Vect<D>) -> Vect<D>;
     /// aᵀ v.
     fn apply_transposed(&self, v: &Vect<D>) -> Vect<D>;
-    /// a + b.
-    fn plus(&self, other: &Self) -> Self;
-    /// s a.
-    fn times(&self, factor: f64) -> Self;
     /// a b cᵀ.
     fn triple_product(&self, middle: &Self, right: &Self) -> Self;
     /// aᵀ.
@@ -34,6 +34,10 @@ pub trait Entry<const D: usize>: Copy + Send + Sync + PartialEq + 'static {
     fn diagonal(&self) -> Self;
     /// Component of row r and column c; a number stands for a multiple of the unit matrix.
     fn component(&self, r: usize, c: usize) -> f64;
+    /// Mean of its own diagonal: those of a row add up, as numbers do.
+    fn mean(&self) -> f64 {
+        (0..D).map(|k| self.component(k, k)).sum::<f64>() / D as f64
+    }
     /// Largest component.
     fn largest(&self) -> f64;
     /// s 1.
@@ -62,14 +66,6 @@ impl<const D: usize> Entry<D> for f64 {
     #[inline(always)]
     fn apply_transposed(&self, v: &Vect<D>) -> Vect<D> {
         v * *self
-    }
-    #[inline(always)]
-    fn plus(&self, other: &f64) -> f64 {
-        self + other
-    }
-    #[inline(always)]
-    fn times(&self, factor: f64) -> f64 {
-        self * factor
     }
     #[inline(always)]
     fn triple_product(&self, middle: &f64, right: &f64) -> f64 {
@@ -114,23 +110,11 @@ impl<const D: usize> Entry<D> for Block<D> {
     type Short = [[f32; D]; D];
     #[inline(always)]
     fn to_single(&self, factor: f64) -> [[f32; D]; D] {
-        let mut short = [[0.0; D]; D];
-        for c in 0..D {
-            for r in 0..D {
-                short[c][r] = (self[(r, c)] * factor) as f32;
-            }
-        }
-        short
+        self.data.0.map(|c| c.map(|r| (r * factor) as f32))
     }
     #[inline(always)]
     fn long(short: &[[f32; D]; D]) -> Self {
-        let mut block = Block::zeros();
-        for c in 0..D {
-            for r in 0..D {
-                block[(r, c)] = f64::from(short[c][r]);
-            }
-        }
-        block
+        Block::from(short.map(|c| c.map(f64::from)))
     }
     #[inline(always)]
     fn apply(&self, v: &Vect<D>) -> Vect<D> {
@@ -152,14 +136,6 @@ impl<const D: usize> Entry<D> for Block<D> {
             }
         }
         product
-    }
-    #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    #[inline(always)]
-    fn times(&self, factor: f64) -> Self {
-        self * factor
     }
     #[inline(always)]
     fn triple_product(&self, middle: &Self, right: &Self) -> Self {

@@ -13,7 +13,7 @@ pub enum SolveError {
     )]
     NotConverged {
         /// The solver.
-        method: String,
+        method: &'static str,
         /// Asked for.
         wanted: f64,
         /// Done.
@@ -21,45 +21,24 @@ pub enum SolveError {
         /// Relative residuals, from the first.
         history: Vec<f64>,
     },
-    /// A pivot or a curvature is not positive.
-    #[error("{method}: the matrix is not positive definite at row {row}")]
-    NotPositive {
-        /// The solver.
-        method: String,
-        /// Row of the fault.
-        row: usize,
-    },
-    /// A number is not finite.
-    #[error("{method}: {what} of the system is not finite")]
-    NotFinite {
-        /// The solver.
-        method: String,
-        /// Matrix or right-hand side.
-        what: &'static str,
-    },
-    /// Entries that the method needs are not there.
-    #[error("{method} needs all entries of the matrix, and this operator only multiplies")]
-    NotWhole {
-        /// The solver.
-        method: String,
-    },
-    /// The factorisation has no room.
-    #[error("{method}: no memory for the factorisation of {rows} rows")]
-    NoMemory {
-        /// The solver.
-        method: String,
-        /// Size of the system.
-        rows: usize,
-    },
+    /// A pivot or a curvature is not positive: the solver, and the row of the fault.
+    #[error("{0}: the matrix is not positive definite at row {1}")]
+    NotPositive(&'static str, usize),
+    /// A number of the matrix or of a vector is not finite: the solver, and what that is of.
+    #[error("{0}: {1} of the system is not finite")]
+    NotFinite(&'static str, &'static str),
+    /// Entries that the solver needs are not there.
+    #[error("{0} needs all entries of the matrix, and this operator only multiplies")]
+    NotWhole(&'static str),
+    /// The factorisation has no room: the solver, and the rows of the system.
+    #[error("{0}: no memory for the factorisation of {1} rows")]
+    NoMemory(&'static str, usize),
 }
 
 fn history_text(history: &[f64]) -> String {
     let step = history.len().div_ceil(8).max(1);
-    let mut shown: Vec<String> = history
-        .iter()
-        .step_by(step)
-        .map(|r| format!("{r:.1e}"))
-        .collect();
+    let each = history.iter().step_by(step).map(|r| format!("{r:.1e}"));
+    let mut shown: Vec<_> = each.collect();
     if let Some(last) = history.last() {
         shown.push(format!("{last:.1e} at the end"));
     }

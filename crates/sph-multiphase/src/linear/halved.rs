@@ -16,7 +16,12 @@ const MOST: usize = 1 << 16;
 /// The same operator as a [`Matrix`], read in 0.6 to 0.7 of the time: of pairs within a part of rows there is one entry.
 ///
 /// The parts depend on the number of rows alone, and so does the order of the sums: by rounding another one than the matrix has.
-pub struct Halved<'a, const D: usize>(Kind<'a, D>);
+pub enum Halved<'a, const D: usize> {
+    /// Numbers.
+    Scalar(Parts<'a, f64>),
+    /// Blocks.
+    Block(Parts<'a, Block<D>>),
+}
 
 /// The memory of halved matrices.
 #[derive(Default)]
@@ -25,43 +30,27 @@ pub struct Halves<const D: usize> {
     block: Vec<Part<Block<D>>>,
 }
 
-enum Kind<'a, const D: usize> {
-    Scalar(Parts<'a, f64>),
-    Block(Parts<'a, Block<D>>),
-}
-
 impl<'a, const D: usize> Halved<'a, D> {
     /// Of a matrix, in the memory of one before.
     pub(crate) fn new(matrix: &'a Matrix<D>, memory: &'a mut Halves<D>) -> Self {
-        let pattern = &matrix.pattern;
-        Halved(match &matrix.entries {
-            Entries::Scalar(values) => {
-                Kind::Scalar(Parts::new::<D>(pattern, values, &mut memory.scalar))
-            }
-            Entries::Block(values) => {
-                Kind::Block(Parts::new::<D>(pattern, values, &mut memory.block))
-            }
-        })
-    }
-
-    /// Rows.
-    pub fn rows(&self) -> usize {
-        match &self.0 {
-            Kind::Scalar(parts) => parts.diagonal.len(),
-            Kind::Block(parts) => parts.diagonal.len(),
+        let Matrix { pattern, entries } = matrix;
+        match entries {
+            Entries::Scalar(own) => Halved::Scalar(halve::<_, D>(pattern, own, &mut memory.scalar)),
+            Entries::Block(own) => Halved::Block(halve::<_, D>(pattern, own, &mut memory.block)),
         }
     }
 
     /// y = A x.
     pub fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
-        match &self.0 {
-            Kind::Scalar(parts) => parts.multiply(x, y),
-            Kind::Block(parts) => parts.multiply(x, y),
+        match self {
+            Halved::Scalar(parts) => multiply(parts, x, y),
+            Halved::Block(parts) => multiply(parts, x, y),
         }
     }
 }
 
-struct Parts<'a, E> {
+/// The parts of a matrix.
+pub struct Parts<'a, E> {
     diagonal: &'a [E],
     rows: usize,
     parts: &'a [Part<E>],
@@ -78,39 +67,31 @@ struct Part<E> {
     others: Vec<E>,
 }
 
-impl<'a, E: Copy + Send + Sync> Parts<'a, E> {
-    fn new<const D: usize>(
-        pattern: &Pattern,
-        values: &'a Values<E>,
-        parts: &'a mut Vec<Part<E>>,
-    ) -> Self
-    where
-        E: Entry<D>,
-    {
-        let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
-        let count = pattern.len().div_ceil(rows);
-        parts.resize_with(count, Part::empty);
-        parts.par_iter_mut().enumerate().for_each(|(k, part)| {
-            let own = k * rows..((k + 1) * rows).min(pattern.len());
-            part.refill(pattern, &values.others, own);
-        });
-        Parts {
-            diagonal: &values.diagonal,
-            rows,
-            parts,
-        }
+fn halve<'a, E: Entry<D>, const D: usize>(
+    pattern: &Pattern,
+    values: &'a Values<E>,
+    parts: &'a mut Vec<Part<E>>,
+) -> Parts<'a, E> {
+    let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
+    let count = pattern.len().div_ceil(rows);
+    parts.resize_with(count, Part::empty);
+    parts.par_iter_mut().enumerate().for_each(|(k, part)| {
+        let own = k * rows..((k + 1) * rows).min(pattern.len());
+        part.refill(pattern, &values.others, own);
+    });
+    Parts {
+        diagonal: &values.diagonal,
+        rows,
+        parts,
     }
+}
 
-    fn multiply<const D: usize>(&self, x: &[Vect<D>], y: &mut [Vect<D>])
-    where
-        E: Entry<D>,
-    {
-        let parts = y.par_chunks_mut(self.rows).zip(self.parts).enumerate();
-        parts.for_each(|(k, (y, part))| {
-            let from = k * self.rows;
-            part.multiply(&self.diagonal[from..from + y.len()], &x[from..], x, y);
-        });
-    }
+fn multiply<E: Entry<D>, const D: usize>(all: &Parts<'_, E>, x: &[Vect<D>], y: &mut [Vect<D>]) {
+    let parts = y.par_chunks_mut(all.rows).zip(all.parts).enumerate();
+    parts.for_each(|(k, (y, part))| {
+        let from = k * all.rows;
+        part.multiply(&all.diagonal[from..from + y.len()], &x[from..], x, y);
+    });
 }
 
 impl<E: Copy> Part<E> {

@@ -16,12 +16,11 @@ use crate::linear::{Entry, Pattern};
 ///
 /// L is kept to seven digits, in units of the largest pivot: the factors stay symmetric and positive definite whatever L
 /// is, an approximation need not be better, and a solve is the time that it takes to read them.
-#[derive(Clone, Debug)]
-pub struct Incomplete<E, S> {
-    parts: Vec<Part<E, S>>,
+pub(crate) struct Incomplete<E: Entry<D>, const D: usize> {
+    parts: Vec<Part<E, D>>,
 }
 
-impl<E, S> Default for Incomplete<E, S> {
+impl<E: Entry<D>, const D: usize> Default for Incomplete<E, D> {
     /// Of no rows.
     fn default() -> Self {
         Incomplete { parts: Vec::new() }
@@ -29,12 +28,11 @@ impl<E, S> Default for Incomplete<E, S> {
 }
 
 /// The factor of some rows that follow each other; columns count from the first of them.
-#[derive(Clone, Debug)]
-struct Part<E, S> {
+struct Part<E: Entry<D>, const D: usize> {
     starts: Vec<u32>,
     columns: Vec<u16>,
     /// l in units of `largest`.
-    lower: Vec<S>,
+    lower: Vec<E::Short>,
     inverse_pivots: Vec<E>,
     largest: f64,
     /// l before it is shortened; kept for its memory.
@@ -48,20 +46,17 @@ const RAISE: f64 = 1e-3;
 /// Failures after which the matrix is called indefinite.
 const ATTEMPTS: usize = 5;
 
-impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
+impl<E: Entry<D>, const D: usize> Incomplete<E, D> {
     /// Factorises in the memory of the factors before; with `pivots_only` l_ij = a_ij, which leaves out the search for common columns: less work for more iterations.
     ///
     /// # Errors
     /// The row whose pivot is not positive, even with a raised diagonal.
-    pub fn refill<const D: usize>(
+    pub fn refill(
         &mut self,
         pattern: &Pattern,
         values: &Values<E>,
         pivots_only: bool,
-    ) -> Result<(), usize>
-    where
-        E: Entry<D, Short = S>,
-    {
+    ) -> Result<&Self, usize> {
         let mut raise = 0.0;
         let mut row = 0;
         let count = pattern.len().div_ceil(PART);
@@ -69,11 +64,11 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
         for _ in 0..ATTEMPTS {
             let parts = self.parts.par_iter_mut().enumerate();
             let failed = parts.filter_map(|(k, part)| {
-                let filled = part.refill::<D>(pattern, values, pivots_only, 1.0 + raise, k);
+                let filled = part.refill(pattern, values, pivots_only, 1.0 + raise, k);
                 filled.err()
             });
             match failed.min() {
-                None => return Ok(()),
+                None => return Ok(self),
                 Some(i) => row = i,
             }
             raise = if raise == 0.0 { RAISE } else { 10.0 * raise };
@@ -83,7 +78,7 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
 
     /// Memory of the factor.
     pub fn bytes(&self) -> usize {
-        let part = |p: &Part<E, S>| {
+        let part = |p: &Part<E, D>| {
             size_of_val(&p.starts[..])
                 + size_of_val(&p.columns[..])
                 + size_of_val(&p.lower[..])
@@ -94,17 +89,14 @@ impl<E: Copy + Send + Sync, S: Copy + Send + Sync> Incomplete<E, S> {
     }
 
     /// z = (P + Lᵀ)⁻¹ P (P + L)⁻¹ r.
-    pub fn solve<const D: usize>(&self, r: &[Vect<D>], z: &mut [Vect<D>])
-    where
-        E: Entry<D, Short = S>,
-    {
+    pub fn solve(&self, r: &[Vect<D>], z: &mut [Vect<D>]) {
         let parts = z.par_chunks_mut(PART).zip(r.par_chunks(PART));
         let parts = parts.zip(&self.parts);
         parts.for_each(|((z, r), part)| part.solve(r, z));
     }
 }
 
-impl<E: Copy, S: Copy> Part<E, S> {
+impl<E: Entry<D>, const D: usize> Part<E, D> {
     fn empty() -> Self {
         Part {
             starts: Vec::new(),
@@ -116,17 +108,14 @@ impl<E: Copy, S: Copy> Part<E, S> {
         }
     }
 
-    fn refill<const D: usize>(
+    fn refill(
         &mut self,
         pattern: &Pattern,
         values: &Values<E>,
         pivots_only: bool,
         raise: f64,
         part: usize,
-    ) -> Result<(), usize>
-    where
-        E: Entry<D, Short = S>,
-    {
+    ) -> Result<(), usize> {
         let Part {
             starts,
             columns,
@@ -155,7 +144,7 @@ impl<E: Copy, S: Copy> Part<E, S> {
             columns.extend(all[first..last].iter().map(|j| (j - from as u32) as u16));
             lower.extend(&values.others[row.start + first..row.start + last]);
             largest = largest.max(values.diagonal[i].largest());
-            let mut pivot = values.diagonal[i].times(raise);
+            let mut pivot = values.diagonal[i] * raise;
             for k in begin..columns.len() {
                 let j = columns[k] as usize;
                 let mut entry: E = lower[k];
@@ -166,13 +155,13 @@ impl<E: Copy, S: Copy> Part<E, S> {
                     let (ca, cb) = (columns[a], columns[b]);
                     if ca == cb {
                         let middle = &inverse_pivots[ca as usize];
-                        entry = entry.plus(&lower[a].triple_product(middle, &lower[b]).times(-1.0));
+                        entry = entry + lower[a].triple_product(middle, &lower[b]) * -1.0;
                     }
                     a += usize::from(ca <= cb);
                     b += usize::from(cb <= ca);
                 }
                 lower[k] = entry;
-                pivot = pivot.plus(&entry.triple_product(&inverse_pivots[j], &entry).times(-1.0));
+                pivot = pivot + entry.triple_product(&inverse_pivots[j], &entry) * -1.0;
             }
             inverse_pivots.push(pivot.inverted().ok_or(i)?);
             starts.push(columns.len() as u32);
@@ -186,10 +175,7 @@ impl<E: Copy, S: Copy> Part<E, S> {
         Ok(())
     }
 
-    fn solve<const D: usize>(&self, r: &[Vect<D>], z: &mut [Vect<D>])
-    where
-        E: Entry<D, Short = S>,
-    {
+    fn solve(&self, r: &[Vect<D>], z: &mut [Vect<D>]) {
         let row = |i: usize| self.starts[i] as usize..self.starts[i + 1] as usize;
         for i in 0..r.len() {
             let mut sum = Vect::zeros();

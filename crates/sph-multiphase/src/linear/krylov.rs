@@ -40,10 +40,7 @@ impl<'s> SolveMonitor<'s> {
                 scale,
                 history,
             }),
-            false => Err(SolveError::NotFinite {
-                method: method.into(),
-                what: "the right-hand side",
-            }),
+            false => Err(SolveError::NotFinite(method, "the right-hand side")),
         }
     }
 
@@ -58,17 +55,14 @@ impl<'s> SolveMonitor<'s> {
         };
         self.history.push(relative);
         if !relative.is_finite() {
-            return Err(SolveError::NotFinite {
-                method: self.method.into(),
-                what: "the residual",
-            });
+            return Err(SolveError::NotFinite(self.method, "the residual"));
         }
         if relative <= self.tolerance.residual {
             return Ok(Some(relative));
         }
         match self.iterations() >= self.tolerance.iterations {
             true => Err(SolveError::NotConverged {
-                method: self.method.into(),
+                method: self.method,
                 wanted: self.tolerance.residual,
                 iterations: self.iterations(),
                 history: self.history.clone(),
@@ -94,9 +88,6 @@ impl<'s> SolveMonitor<'s> {
 
     /// A curvature that is not positive.
     pub fn not_positive(&self) -> SolveError {
-        SolveError::NotPositive {
-            method: self.method.into(),
-            row: 0,
-        }
+        SolveError::NotPositive(self.method, 0)
     }
 }

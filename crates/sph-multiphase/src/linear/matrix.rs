@@ -106,15 +106,8 @@ pub enum Diagonal<'a, const D: usize> {
     Block(&'a [Block<D>]),
 }
 
-impl<const D: usize> Default for Entries<D> {
-    /// No rows.
-    fn default() -> Self {
-        Entries::Scalar(Values::default())
-    }
-}
-
 /// A symmetric matrix; both triangles are stored.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Matrix<const D: usize> {
     /// Pattern of the entries.
     pub pattern: Arc<Pattern>,
@@ -154,16 +147,16 @@ impl<const D: usize> Matrix<D> {
     /// y = A x.
     pub fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
         match &self.entries {
-            Entries::Scalar(values) => values.multiply(&self.pattern, x, y),
-            Entries::Block(values) => values.multiply(&self.pattern, x, y),
+            Entries::Scalar(values) => multiply(&self.pattern, values, x, y),
+            Entries::Block(values) => multiply(&self.pattern, values, x, y),
         }
     }
 
     /// max |A − Aᵀ| over max |A|.
     pub fn asymmetry(&self) -> f64 {
         match &self.entries {
-            Entries::Scalar(values) => values.asymmetry::<D>(&self.pattern),
-            Entries::Block(values) => values.asymmetry::<D>(&self.pattern),
+            Entries::Scalar(values) => asymmetry::<_, D>(&self.pattern, values),
+            Entries::Block(values) => asymmetry(&self.pattern, values),
         }
     }
 
@@ -171,77 +164,68 @@ impl<const D: usize> Matrix<D> {
     /// the means of their diagonals.
     pub fn stiffness(&self) -> f64 {
         match &self.entries {
-            Entries::Scalar(values) => values.stiffness::<D>(&self.pattern),
-            Entries::Block(values) => values.stiffness::<D>(&self.pattern),
+            Entries::Scalar(values) => stiffness::<_, D>(&self.pattern, values),
+            Entries::Block(values) => stiffness(&self.pattern, values),
         }
     }
 }
 
-impl<E> Values<E> {
-    /// y = A x.
-    pub fn multiply<const D: usize>(&self, pattern: &Pattern, x: &[Vect<D>], y: &mut [Vect<D>])
-    where
-        E: Entry<D>,
-    {
-        let row = |i: usize, y: &mut Vect<D>| {
-            let range = pattern.row(i);
-            let mut sum = self.diagonal[i].apply(&x[i]);
-            for (a, &j) in self.others[range.clone()]
-                .iter()
-                .zip(&pattern.columns[range])
-            {
-                sum += a.apply(&x[j as usize]);
-            }
-            *y = sum;
-        };
-        y.par_iter_mut()
-            .enumerate()
-            .with_min_len(ROWS)
-            .for_each(|(i, y)| row(i, y));
-    }
-
-    fn asymmetry<const D: usize>(&self, pattern: &Pattern) -> f64
-    where
-        E: Entry<D>,
-    {
-        let mirrored = |i: usize, j: usize| {
-            let row = pattern.row(j);
-            let place = pattern.columns[row.clone()].binary_search(&(i as u32));
-            place.map_or(E::ZERO, |k| self.others[row.start + k])
-        };
-        let (mut apart, mut all) = (0.0_f64, 0.0_f64);
-        for i in 0..pattern.len() {
-            let own = self.diagonal[i];
-            apart = apart.max(own.plus(&own.transposed().times(-1.0)).largest());
-            all = all.max(own.largest());
-            for k in pattern.row(i) {
-                let other = mirrored(i, pattern.columns[k] as usize).transposed();
-                apart = apart.max(self.others[k].plus(&other.times(-1.0)).largest());
-                all = all.max(self.others[k].largest());
-            }
+fn multiply<E: Entry<D>, const D: usize>(
+    pattern: &Pattern,
+    Values { diagonal, others }: &Values<E>,
+    x: &[Vect<D>],
+    y: &mut [Vect<D>],
+) {
+    let rows = y.par_iter_mut().enumerate().with_min_len(ROWS);
+    rows.for_each(|(i, y)| {
+        let range = pattern.row(i);
+        let mut sum = diagonal[i].apply(&x[i]);
+        for (a, &j) in others[range.clone()].iter().zip(&pattern.columns[range]) {
+            sum += a.apply(&x[j as usize]);
         }
-        if all > 0.0 { apart / all } else { 0.0 }
-    }
+        *y = sum;
+    });
+}
 
-    fn stiffness<const D: usize>(&self, pattern: &Pattern) -> f64
-    where
-        E: Entry<D>,
-    {
-        // Of blocks the mean of their diagonals: those of a row add up, as numbers do.
-        let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
-        let row = |i: usize| {
-            let coupled: f64 = self.others[pattern.row(i)]
-                .iter()
-                .map(|a| mean(a).abs())
-                .sum();
-            let left = mean(&self.diagonal[i]) - coupled;
-            match coupled > 0.0 {
-                true if left > 0.0 => coupled / left,
-                true => f64::INFINITY,
-                false => 0.0,
-            }
-        };
-        let all = (0..pattern.len()).into_par_iter().with_min_len(ROWS);
-        all.map(row).reduce(|| 0.0, f64::max)
+fn asymmetry<E: Entry<D>, const D: usize>(
+    pattern: &Pattern,
+    Values { diagonal, others }: &Values<E>,
+) -> f64 {
+    let mirrored = |i: usize, j: usize| {
+        let row = pattern.row(j);
+        let place = pattern.columns[row.clone()].binary_search(&(i as u32));
+        place.map_or(E::ZERO, |k| others[row.start + k])
+    };
+    let (mut apart, mut all) = (0.0_f64, 0.0_f64);
+    for (i, own) in diagonal.iter().enumerate() {
+        apart = apart.max((*own + own.transposed() * -1.0).largest());
+        all = all.max(own.largest());
+        for k in pattern.row(i) {
+            let other = mirrored(i, pattern.columns[k] as usize).transposed();
+            apart = apart.max((others[k] + other * -1.0).largest());
+            all = all.max(others[k].largest());
+        }
+    }
+    if all > 0.0 { apart / all } else { 0.0 }
+}
+
+fn stiffness<E: Entry<D>, const D: usize>(
+    pattern: &Pattern,
+    Values { diagonal, others }: &Values<E>,
+) -> f64 {
+    let row = |i: usize| {
+        let coupled = others[pattern.row(i)].iter().map(|a| a.mean().abs()).sum();
+        coupling_ratio(coupled, diagonal[i].mean() - coupled)
+    };
+    let all = (0..pattern.len()).into_par_iter().with_min_len(ROWS);
+    all.map(row).reduce(|| 0.0, f64::max)
+}
+
+/// Couplings of a row over what is left of its diagonal.
+pub(crate) fn coupling_ratio(coupled: f64, left: f64) -> f64 {
+    match coupled > 0.0 {
+        true if left > 0.0 => coupled / left,
+        true => f64::INFINITY,
+        false => 0.0,
     }
 }

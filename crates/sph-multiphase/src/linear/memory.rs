@@ -1,5 +1,7 @@
 //! Memory kept from solve to solve.
 
+use std::any::Any;
+
 use sph_core::Vect;
 
 use crate::linear::Halves;
@@ -7,12 +9,12 @@ use crate::linear::precondition::Factors;
 
 /// Vectors and factors of the solves before, for vectors of D components.
 #[derive(Default)]
-pub struct Memory<const D: usize> {
+pub(crate) struct Memory<const D: usize> {
     /// Residuals of the solve at hand.
-    pub(crate) history: Vec<f64>,
-    pub(crate) vectors: Vectors<D>,
-    pub(crate) factors: Factors<D>,
-    pub(crate) halves: Halves<D>,
+    pub history: Vec<f64>,
+    pub vectors: Vectors<D>,
+    pub factors: Factors<D>,
+    pub halves: Halves<D>,
 }
 
 /// The vectors of conjugate gradients.
@@ -24,41 +26,24 @@ pub(crate) struct Vectors<const D: usize> {
     pub image: Vec<Vect<D>>,
 }
 
-/// The memory of a solver of systems with one component, and of velocities in the plane and in space.
+/// The memory of a solver.
 #[derive(Default)]
-pub struct Memories {
-    one: Memory<1>,
-    plane: Memory<2>,
-    space: Memory<3>,
+pub struct Memories(Option<Box<dyn Any + Send + Sync>>);
+
+impl Memories {
+    /// Lends that of solves for vectors of D components.
+    pub(crate) fn lend<const D: usize, R>(&mut self, work: impl FnOnce(&mut Memory<D>) -> R) -> R {
+        let kept = self.0.take().and_then(|kept| kept.downcast().ok());
+        let mut memory: Box<Memory<D>> = kept.unwrap_or_default();
+        let done = work(&mut memory);
+        self.0 = Some(memory);
+        done
+    }
 }
 
 impl Clone for Memories {
     /// None yet: a memory is not shared.
     fn clone(&self) -> Self {
         Memories::default()
-    }
-}
-
-/// The owner of the memory of solves for vectors of D components.
-pub trait MemoryOwner<const D: usize> {
-    /// That memory.
-    fn memory(&mut self) -> &mut Memory<D>;
-}
-
-impl MemoryOwner<1> for Memories {
-    fn memory(&mut self) -> &mut Memory<1> {
-        &mut self.one
-    }
-}
-
-impl MemoryOwner<2> for Memories {
-    fn memory(&mut self) -> &mut Memory<2> {
-        &mut self.plane
-    }
-}
-
-impl MemoryOwner<3> for Memories {
-    fn memory(&mut self) -> &mut Memory<3> {
-        &mut self.space
     }
 }

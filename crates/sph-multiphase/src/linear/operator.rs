@@ -101,8 +101,21 @@ impl<const D: usize> dyn Operator<D> + '_ {
     /// If it is not written down, or some of it is with the owners of copies.
     pub(crate) fn whole_matrix(&self, method: &'static str) -> Result<&Matrix<D>, SolveError> {
         let whole = self.assembled().filter(|_| self.is_whole());
-        whole.ok_or_else(|| SolveError::NotWhole {
-            method: method.into(),
-        })
+        whole.ok_or(SolveError::NotWhole(method))
+    }
+}
+
+impl<const D: usize> Operator<D> for Matrix<D> {
+    fn rows(&self) -> usize {
+        Matrix::rows(self)
+    }
+    fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
+        Matrix::multiply(self, x, y);
+    }
+    fn prepared<'a>(&'a self, memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
+        Some(Halved::new(self, memory))
+    }
+    fn assembled(&self) -> Option<&Matrix<D>> {
+        Some(self)
     }
 }

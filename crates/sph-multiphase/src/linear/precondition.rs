@@ -5,7 +5,7 @@ use sph_core::{Vect, parameters};
 
 use crate::linear::incomplete::Incomplete;
 use crate::linear::matrix::{Entries, ROWS};
-use crate::linear::{Block, Diagonal, Entry, Operator, SolveError};
+use crate::linear::{Block, Diagonal, Entry, Matrix, Operator, SolveError};
 
 /// z ≈ A⁻¹ r.
 #[parameters]
@@ -29,8 +29,8 @@ pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     Nothing,
     Scalar(&'s [f64]),
     Block(&'s [Block<D>]),
-    IncompleteScalar(&'s Incomplete<f64, f32>),
-    IncompleteBlock(&'s Incomplete<Block<D>, [[f32; D]; D]>),
+    IncompleteScalar(&'s Incomplete<f64, D>),
+    IncompleteBlock(&'s Incomplete<Block<D>, D>),
 }
 
 /// Factors of preconditioners.
@@ -38,8 +38,8 @@ pub(crate) enum BoundPreconditioner<'s, const D: usize> {
 pub(crate) struct Factors<const D: usize> {
     scalar: Vec<f64>,
     block: Vec<Block<D>>,
-    incomplete_scalar: Incomplete<f64, f32>,
-    incomplete_block: Incomplete<Block<D>, [[f32; D]; D]>,
+    incomplete_scalar: Incomplete<f64, D>,
+    incomplete_block: Incomplete<Block<D>, D>,
 }
 
 impl Preconditioner {
@@ -59,46 +59,38 @@ impl Preconditioner {
         method: &'static str,
         factors: &'s mut Factors<D>,
     ) -> Result<BoundPreconditioner<'s, D>, SolveError> {
-        if self == Preconditioner::None {
-            return Ok(BoundPreconditioner::Nothing);
-        }
-        let missing = || SolveError::NotWhole {
-            method: method.into(),
-        };
-        let failed = |row| SolveError::NotPositive {
-            method: method.into(),
-            row,
-        };
-        if !self.factorises() {
-            let diagonal = operator.diagonal().ok_or_else(missing)?;
-            let bound = match diagonal {
-                Diagonal::Scalar(all) => inverted::<D, _>(&mut factors.scalar, all, |d| *d)
-                    .map(BoundPreconditioner::Scalar),
-                Diagonal::Block(all) if self == Preconditioner::Jacobi => {
-                    inverted::<D, _>(&mut factors.block, all, Entry::<D>::diagonal)
-                        .map(BoundPreconditioner::Block)
+        use BoundPreconditioner as Bound;
+        let missing = SolveError::NotWhole(method);
+        let bound = if self == Preconditioner::None {
+            Ok(Bound::Nothing)
+        } else if self.factorises() {
+            let Matrix { pattern, entries } = operator.assembled().ok_or(missing)?;
+            let quick = self == Preconditioner::IncompleteDiagonal;
+            let (scalar, block) = (
+                &mut factors.incomplete_scalar,
+                &mut factors.incomplete_block,
+            );
+            match entries {
+                Entries::Scalar(own) => scalar
+                    .refill(pattern, own, quick)
+                    .map(Bound::IncompleteScalar),
+                Entries::Block(own) => block
+                    .refill(pattern, own, quick)
+                    .map(Bound::IncompleteBlock),
+            }
+        } else {
+            let whole = self == Preconditioner::BlockJacobi;
+            let part = |d: &Block<D>| if whole { *d } else { Entry::<D>::diagonal(d) };
+            match operator.diagonal().ok_or(missing)? {
+                Diagonal::Scalar(all) => {
+                    inverted::<D, _>(&mut factors.scalar, all, |d| *d).map(Bound::Scalar)
                 }
-                Diagonal::Block(all) => inverted::<D, _>(&mut factors.block, all, |d| *d)
-                    .map(BoundPreconditioner::Block),
-            };
-            return bound.map_err(failed);
-        }
-        let matrix = operator.assembled().ok_or_else(missing)?;
-        let quick = self == Preconditioner::IncompleteDiagonal;
-        Ok(match &matrix.entries {
-            Entries::Scalar(values) => {
-                let factor = &mut factors.incomplete_scalar;
-                let filled = factor.refill::<D>(&matrix.pattern, values, quick);
-                filled.map_err(failed)?;
-                BoundPreconditioner::IncompleteScalar(factor)
+                Diagonal::Block(all) => {
+                    inverted::<D, _>(&mut factors.block, all, part).map(Bound::Block)
+                }
             }
-            Entries::Block(values) => {
-                let factor = &mut factors.incomplete_block;
-                let filled = factor.refill::<D>(&matrix.pattern, values, quick);
-                filled.map_err(failed)?;
-                BoundPreconditioner::IncompleteBlock(factor)
-            }
-        })
+        };
+        bound.map_err(|row| SolveError::NotPositive(method, row))
     }
 }
 

@@ -32,6 +32,7 @@ pub(crate) struct SolvePressure<const D: usize> {
 const OPEN: f64 = 0.15;
 
 /// Buffers of a solve, kept for their memory.
+#[derive(Default)]
 struct Scratch<const D: usize> {
     rate: Vec<f64>,
     /// The sweep sums accelerations, too; they are not read.
@@ -55,14 +56,7 @@ impl<const D: usize> SolvePressure<D> {
             dilatation: [acting.dilatation],
             surfaces: acting.surfaces,
             solver,
-            scratch: Scratch {
-                rate: Vec::new(),
-                unused: Vec::new(),
-                parts: Vec::new(),
-                assembly: Assembly::default(),
-                pressure: Vec::new(),
-                scratch_pool: Pool::default(),
-            },
+            scratch: Scratch::default(),
         }
     }
 }
@@ -74,13 +68,10 @@ impl<const D: usize> Declares for SolvePressure<D> {
     fn access(&self) -> Access {
         let access = self.state.access().and(self.dilatation[0].access());
         let access = access
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .both(fields::DENSITY)
+            .both((fields::POSITION, fields::VOLUME, fields::DENSITY))
             // A solve starts from the pressure of the step before.
             .remembers(fields::PRESSURE)
-            .where_there(fields::DENSITY_CONSTANT)
-            .where_there(fields::RENORMALISATION)
+            .where_there((fields::DENSITY_CONSTANT, fields::RENORMALISATION))
             .where_there(fields::PHASE);
         match self.surfaces {
             true => access.here(FREE_SURFACE),
@@ -91,15 +82,10 @@ impl<const D: usize> Declares for SolvePressure<D> {
 
 impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let before = world.free.get(fields::PRESSURE)?.iter();
         let x = &mut self.scratch.pressure;
         x.clear();
-        x.extend(
-            world
-                .free
-                .get(fields::PRESSURE)?
-                .iter()
-                .map(|p| Vect::from([*p])),
-        );
+        x.extend(before.map(|p| Vect::from([*p])));
         self.state.run(world)?;
         // Later a resumed run would meet a check that an uninterrupted one did not.
         if !self.surfaces && world.time <= 0.0 {
@@ -143,11 +129,11 @@ impl<const D: usize> SolvePressure<D> {
             parts,
             gravity: world.gravity,
             squared_step: world.dt * world.dt,
-            full: full_support(world),
+            full: 2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor),
         };
         assembly.fill_wanted(
             world,
-            |i| system.is_own(i),
+            |i| system.owned.has(i),
             |rows, cluster| system.add(cluster, rows, scratch_pool),
             |rows, others| others.for_each(|_| Couplings::<D>::add_other(rows)),
         )?;
@@ -170,10 +156,7 @@ impl<const D: usize> SolvePressure<D> {
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }
-        solved.map_err(|e| StepError::Stage {
-            stage: NAME.into(),
-            reason: e.to_string(),
-        })?;
+        solved.map_err(|error| StepError::stage(NAME, error))?;
         self.spread(world)
     }
 
@@ -190,8 +173,7 @@ impl<const D: usize> SolvePressure<D> {
     /// The own entries of every row.
     fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
         let free = &world.free;
-        let volume = free.get(fields::VOLUME)?;
-        let density = free.get(fields::DENSITY)?;
+        let (volume, density) = free.all((fields::VOLUME, fields::DENSITY))?;
         let pressure = free.get(fields::PRESSURE)?;
         let gamma = free.get(fields::RENORMALISATION).ok();
         let phase = free.get(fields::PHASE).ok();
@@ -230,11 +212,6 @@ impl<const D: usize> SolvePressure<D> {
     }
 }
 
-/// Σ 2V|F| on the lattice, 1/m².
-fn full_support<const D: usize>(world: &World<D>) -> f64 {
-    2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor)
-}
-
 /// Refuses supports that lack fluid where free surfaces are not defined: their pressure would float.
 fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let (Ok(constant), Ok(density)) = (
@@ -246,12 +223,12 @@ fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;
     match constant.iter().zip(density).filter(lacks).count() {
         0 => Ok(()),
-        some => Err(StepError::Stage {
-            stage: NAME.into(),
-            reason: format!(
+        some => {
+            let why = format!(
                 "{some} particles are at a free surface, and the scene does not say what that is: add \
                  `[surface.cone-test]`"
-            ),
-        }),
+            );
+            Err(StepError::stage(NAME, why))
+        }
     }
 }

@@ -52,11 +52,6 @@ pub(crate) struct ClusterCoefficients {
 }
 
 impl<const D: usize> Couplings<'_, D> {
-    /// True if the row of a particle is not with another owner.
-    pub fn is_own(&self, i: usize) -> bool {
-        self.owned.has(i)
-    }
-
     /// Adds a row that holds a pressure at 0: the owner has the right one.
     pub fn add_other(rows: &mut Rows<f64, 1>) {
         rows.begin(0);
@@ -78,7 +73,7 @@ impl<const D: usize> Couplings<'_, D> {
             scratch,
         });
         for (lane, i) in cluster.members().enumerate() {
-            if !self.is_own(i) {
+            if !self.owned.has(i) {
                 Self::add_other(rows);
                 continue;
             }

@@ -1,7 +1,7 @@
 //! Particles at a free surface, by a cone test.
 
 use rayon::prelude::*;
-use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, Vect, fields};
+use sph_core::{Access, Field, Scalar, Stage, StepError, Vect, fields, stage};
 use sph_neighbours::{Around, CHUNK, Values, World, walk_into};
 
 /// Kind of a particle by its place: [`Place`] as a number.
@@ -55,52 +55,27 @@ const FULL: f64 = 0.95;
 ///
 /// Source: Marrone et al. 2010, J. Comput. Phys. 229, 3652–3663, §3.1, with the cone of the first step alone; the bounds for
 /// sheets and lone particles are ours.
-pub(super) struct FreeSurface {
-    /// True if densities are K and a sum.
-    sums: bool,
-    /// Kept for its memory.
-    places: Vec<Place>,
-}
-
-impl FreeSurface {
-    /// Sets whether densities are K and a sum.
-    pub(super) fn new(sums: bool) -> Self {
-        FreeSurface {
-            sums,
-            places: Vec::new(),
-        }
+///
+/// `sums`: densities are K and a sum.
+pub(super) fn free_surface<const D: usize>(sums: bool) -> impl Stage<World<D>> {
+    // Particles at the surface, then those near them.
+    let mut access = Access::none().rings(2);
+    access = access.both(fields::POSITION).writes(FREE_SURFACE);
+    if sums {
+        access = access
+            .here((fields::MASS, fields::DENSITY, fields::DENSITY_CONSTANT))
+            .where_there(fields::RENORMALISATION);
     }
-}
-
-impl Declares for FreeSurface {
-    fn name(&self) -> String {
-        "free surface".into()
-    }
-    fn access(&self) -> Access {
-        // Particles at the surface, then those near them.
-        let access = Access::none().rings(2);
-        let access = access.both(fields::POSITION).writes(FREE_SURFACE);
-        match self.sums {
-            true => access
-                .here(fields::MASS)
-                .here(fields::DENSITY)
-                .here(fields::DENSITY_CONSTANT)
-                .where_there(fields::RENORMALISATION),
-            false => access,
-        }
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for FreeSurface {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+    // Kept for its memory.
+    let mut places = Vec::new();
+    stage("free surface", access, move |world: &mut World<D>| {
         let mut surface = world.free.take(FREE_SURFACE)?;
-        let places = &mut self.places;
-        match self.sums {
-            true => find(world, lacking(world)?, places, &mut surface)?,
-            false => find(world, |_| true, places, &mut surface)?,
+        match sums {
+            true => find(world, lacking(world)?, &mut places, &mut surface)?,
+            false => find(world, |_| true, &mut places, &mut surface)?,
         }
         Ok(world.free.put(FREE_SURFACE, surface)?)
-    }
+    })
 }
 
 /// Particles at a surface, among those that `wanted` names, then those near them.
@@ -123,8 +98,9 @@ fn find<const D: usize>(
     let hidden = &world.lists.hidden.particles;
     let near = |i: usize, candidates: &[u32]| {
         let all = candidates.iter().filter(|j| at(**j));
-        let mut apart = all.map(|&j| (j, apart2(world, &position[i], &position[j as usize])));
-        apart.any(|(j, apart)| apart < reach2 && !hidden.has(i, j))
+        let mut apart = all.map(|&j| (j, position[i] - position[j as usize]));
+        let near = |r| world.domain.nearest_image(r).norm_squared() < reach2;
+        apart.any(|(j, r)| near(r) && !hidden.has(i, j))
     };
     let blocks = surface.par_chunks_mut(CHUNK).enumerate();
     blocks.for_each(|(block, surface)| {
@@ -152,19 +128,13 @@ fn lacking<const D: usize>(
     world: &World<D>,
 ) -> Result<impl Fn(usize) -> bool + Sync + '_, StepError> {
     let cell = world.spacing.powi(D as i32);
-    let mass = world.free.get(fields::MASS)?;
-    let density = world.free.get(fields::DENSITY)?;
+    let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
     let constant = world.free.get(fields::DENSITY_CONSTANT)?;
     let gamma = world.free.get(fields::RENORMALISATION).ok();
     Ok(move |i: usize| {
         let sum = density[i] - constant[i] / gamma.map_or(1.0, |g| g[i]);
         sum * cell < FULL * mass[i]
     })
-}
-
-/// Squared distance, m², of the nearest images.
-fn apart2<const D: usize>(world: &World<D>, a: &Vect<D>, b: &Vect<D>) -> f64 {
-    world.domain.nearest_image(a - b).norm_squared()
 }
 
 /// Measures of the neighbourhood of a particle, but for surfaces of others.

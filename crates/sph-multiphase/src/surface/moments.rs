@@ -1,9 +1,7 @@
 //! Moments of supports that a free surface cuts.
 
 use rayon::prelude::*;
-use sph_core::{
-    Access, Declares, Field, Scalar, Stage, StepError, Symmetric, SymmetricTensor, Vect, fields,
-};
+use sph_core::{Access, Field, Scalar, Stage, Symmetric, SymmetricTensor, Vect, fields, stage};
 use sph_neighbours::{
     Lane, LanePair, Neighbourhood, PairSum, Particles, World, add_scaled, walk_in_lanes,
 };
@@ -60,41 +58,26 @@ impl<const D: usize> PairSum<D> for Moments {
 }
 
 /// N/γ and the explained deficit of every particle.
-#[derive(Default)]
-pub(super) struct MomentStage {
-    half_space: Option<HalfSpace>,
-    /// Kept for its memory.
-    all: Vec<(Symmetric, f64)>,
-}
-
-impl Declares for MomentStage {
-    fn name(&self) -> String {
-        "moments at free surfaces".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .writes(MOMENT_EXCESS)
-            .writes(EXPLAINED_DEFICIT)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for MomentStage {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+pub(super) fn moments<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both(fields::POSITION)
+        .writes((MOMENT_EXCESS, EXPLAINED_DEFICIT));
+    // Kept for their memory.
+    let (mut half_space, mut all) = (None, Vec::new());
+    let name = "moments at free surfaces";
+    stage(name, access, move |world: &mut World<D>| {
         let table = || HalfSpace::new(&*world.kernel, D);
-        let half_space = self.half_space.get_or_insert_with(table);
-        self.all.resize(world.free.len(), (Symmetric::ZERO, 0.0));
-        let all = |_: usize| true;
-        walk_in_lanes(world, &Moments, all, &mut self.all, |sums, rows| {
-            at_surface(world, half_space, sums, rows)
-        })?;
+        let half_space = half_space.get_or_insert_with(table);
+        all.resize(world.free.len(), (Symmetric::ZERO, 0.0));
+        let found = |sums, rows: &Neighbourhood<'_, D>| at_surface(world, half_space, sums, rows);
+        walk_in_lanes(world, &Moments, |_| true, &mut all, found)?;
         let mut excess = world.free.take(MOMENT_EXCESS)?;
         let mut deficit = world.free.take(EXPLAINED_DEFICIT)?;
-        let columns = excess.par_iter_mut().zip(&mut deficit).zip(&self.all);
+        let columns = excess.par_iter_mut().zip(&mut deficit).zip(&all);
         columns.for_each(|((n, d), of)| (*n, *d) = *of);
         world.free.put(MOMENT_EXCESS, excess)?;
         Ok(world.free.put(EXPLAINED_DEFICIT, deficit)?)
-    }
+    })
 }
 
 /// N/γ and the explained deficit of a particle.

@@ -9,7 +9,7 @@ use sph_contribution::{
 use sph_core::{Access, StepError, Work, fields, plugin};
 use sph_neighbours::World;
 
-use super::cone::{FREE_SURFACE, FreeSurface, Place};
+use super::cone::{FREE_SURFACE, Place, free_surface};
 
 contribution_kind!(
     /// A treatment of free surfaces that a scene may name.
@@ -64,7 +64,7 @@ pub struct ConeTest {
 impl<const D: usize> Contribution<D> for ConeTest {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let sums = are_sums(setting);
-        offer.stage(FreeSurface::new(sums));
+        offer.stage(free_surface(sums));
         if sums {
             let laws = setting.laws.iter().map(|law| law.reference());
             offer.hook(Relaxation {
@@ -148,10 +148,8 @@ impl Relaxation {
         dt: f64,
     ) -> Result<f64, StepError> {
         let h = world.kernel.smoothing_length();
-        let surface = world.free.get(FREE_SURFACE)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let pressure = world.free.get(fields::PRESSURE)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (surface, density) = world.free.all((FREE_SURFACE, fields::DENSITY))?;
+        let (pressure, volume) = world.free.all((fields::PRESSURE, fields::VOLUME))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.free.get(fields::RENORMALISATION).ok();
         let Scratch { parts, given } = scratch;
@@ -195,13 +193,9 @@ impl<const D: usize> StepHook<D> for Relaxation {
     }
     fn access(&self) -> Access {
         Access::none()
-            .here(FREE_SURFACE)
-            .here(fields::DENSITY_CONSTANT)
-            .here(fields::DENSITY)
-            .here(fields::PRESSURE)
-            .here(fields::VOLUME)
-            .where_there(fields::PHASE)
-            .where_there(fields::RENORMALISATION)
+            .here((FREE_SURFACE, fields::DENSITY_CONSTANT, fields::DENSITY))
+            .here((fields::PRESSURE, fields::VOLUME))
+            .where_there((fields::PHASE, fields::RENORMALISATION))
             .writes(fields::DENSITY_CONSTANT)
     }
     fn phases(&self) -> &'static [StepPhase] {
@@ -231,50 +225,43 @@ impl<const D: usize> StepHook<D> for Relaxation {
 mod tests {
     use super::*;
 
-    fn relaxation() -> Relaxation {
-        Relaxation {
-            plugin: ConeTest::default(),
-            phases: vec![(1000.0, 30.0)],
-            energy: 0.0,
-            scratch: Scratch::default(),
+    #[test]
+    fn constants_change_by_the_place_of_a_particle() {
+        use Place::{Alone, At, Inside, Near};
+        // K and ρ, the share of the difference that goes, whether surfaces have no pressure, and the change.
+        for (place, constant, density, part, no_pressure, change) in [
+            // A full support loses what it has beyond the tolerance.
+            (Inside, 9.0, 1000.0, 1.0, false, 0.0),
+            (Inside, -9.0, 1000.0, 1.0, false, 0.0),
+            (Inside, 430.0, 1000.0, 1.0, false, -420.0),
+            (Inside, -130.0, 1000.0, 1.0, false, 120.0),
+            // Surfaces have no pressure where that is asked for.
+            (At, 0.0, 1030.0, 0.5, true, -15.0),
+            (At, 0.0, 960.0, 0.5, true, 20.0),
+            // Within reach of a surface nothing changes.
+            (Near, 400.0, 900.0, 1.0, false, 0.0),
+            // Surfaces are not under tension, and lone particles have no pressure.
+            (At, 0.0, 590.0, 0.5, false, 200.0),
+            (At, 0.0, 1100.0, 0.5, false, 0.0),
+            (Alone, 0.0, 140.0, 0.5, false, 860.0),
+        ] {
+            let relaxation = Relaxation {
+                plugin: ConeTest {
+                    no_pressure,
+                    ..ConeTest::default()
+                },
+                phases: vec![(1000.0, 30.0)],
+                energy: 0.0,
+                scratch: Scratch::default(),
+            };
+            let seen = RelaxedParticle {
+                place: place.number(),
+                constant,
+                density,
+                gamma: 1.0,
+            };
+            let found = relaxation.change(&seen, 1000.0, part);
+            assert_eq!(found, change, "{place:?} with {constant} and {density}");
         }
-    }
-
-    fn sample(place: Place, constant: f64, density: f64) -> RelaxedParticle {
-        RelaxedParticle {
-            place: place.number(),
-            constant,
-            density,
-            gamma: 1.0,
-        }
-    }
-
-    #[test]
-    fn a_full_support_loses_what_it_has_beyond_the_tolerance() {
-        let of = |k: f64| relaxation().change(&sample(Place::Inside, k, 1000.0), 1000.0, 1.0);
-        assert_eq!([of(9.0), of(-9.0)], [0.0, 0.0]);
-        assert!((of(430.0) + 420.0).abs() < 1e-9 && (of(-130.0) - 120.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn surfaces_have_no_pressure_where_that_is_asked_for() {
-        let mut relaxation = relaxation();
-        relaxation.plugin.no_pressure = true;
-        let of = |rho| relaxation.change(&sample(Place::At, 0.0, rho), 1000.0, 0.5);
-        assert_eq!([of(1030.0), of(960.0)], [-15.0, 20.0]);
-    }
-
-    #[test]
-    fn within_reach_of_a_surface_nothing_changes() {
-        let change = relaxation().change(&sample(Place::Near, 400.0, 900.0), 1000.0, 1.0);
-        assert_eq!(change, 0.0);
-    }
-
-    #[test]
-    fn surfaces_are_not_under_tension_and_lone_particles_have_no_pressure() {
-        let of = |place, rho| relaxation().change(&sample(place, 0.0, rho), 1000.0, 0.5);
-        assert!((of(Place::At, 590.0) - 200.0).abs() < 1e-9);
-        assert_eq!(of(Place::At, 1100.0), 0.0);
-        assert_eq!(of(Place::Alone, 140.0), 860.0);
     }
 }

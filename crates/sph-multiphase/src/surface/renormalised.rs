@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World, dot,
-    minus, pair_term, splat, walk_in_lanes,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World,
+    add_scaled, dot, minus, pair_term, splat, walk_in_lanes,
 };
 
-use super::cone::FreeSurface;
-use super::moments::{EXPLAINED_DEFICIT, MOMENT_EXCESS, MomentStage};
+use super::cone::free_surface;
+use super::moments::{EXPLAINED_DEFICIT, MOMENT_EXCESS, moments};
 use super::relaxed::{SurfaceEntry, are_sums, set_parts};
 
 /// The density constant K of [`HuAdams`](crate::HuAdams) follows the strain at a free surface,
@@ -57,9 +57,9 @@ impl<const D: usize> Contribution<D> for Renormalised {
                 "half of a row that passes an open face is in no sum: take `[surface.cone-test]`",
             );
         }
-        offer.stage(MomentStage::default());
+        offer.stage(moments());
         // For readers that ask for free surfaces.
-        offer.stage(FreeSurface::new(true));
+        offer.stage(free_surface(true));
         offer.term(SurfacePressure);
         let laws = setting.laws.iter();
         offer.hook(SurfaceStrain {
@@ -125,9 +125,7 @@ impl<const D: usize> PairSum<D> for BoundSurfacePressure<'_, D> {
     fn pair<L: Lane>(&self, own: &[L; 6], j: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
         let both = plus(own, &self.weighted(j));
         let force = apply(&both, &pair.separation);
-        for (sum, force) in sum.0.iter_mut().zip(force) {
-            *sum += force * pair.factor;
-        }
+        add_scaled(&mut sum.0, &force, pair.factor);
     }
     #[inline(always)]
     fn pair_at_walls<L: Lane>(
@@ -138,9 +136,7 @@ impl<const D: usize> PairSum<D> for BoundSurfacePressure<'_, D> {
         sum: &mut Self::Sum<L>,
     ) {
         let both = plus(own, &self.weighted(j));
-        for (sum, both) in sum.1.iter_mut().zip(both) {
-            *sum += both * pair.value;
-        }
+        add_scaled(&mut sum.1, &both, pair.value);
     }
 }
 
@@ -267,16 +263,11 @@ impl<const D: usize> StepHook<D> for SurfaceStrain {
     }
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::POSITION)
-            .both(fields::VELOCITY)
-            .both(MOMENT_EXCESS)
+            .both((fields::POSITION, fields::VELOCITY, MOMENT_EXCESS))
             .where_there(fields::SCALE_SLOPE)
-            .here(EXPLAINED_DEFICIT)
-            .here(fields::MASS)
-            .here(fields::VOLUME)
+            .here((EXPLAINED_DEFICIT, fields::MASS, fields::VOLUME))
             .here(fields::DENSITY_CONSTANT)
-            .where_there(fields::PHASE)
-            .where_there(fields::RENORMALISATION)
+            .where_there((fields::PHASE, fields::RENORMALISATION))
             .writes(fields::DENSITY_CONSTANT)
     }
     fn phases(&self) -> &'static [StepPhase] {
@@ -286,8 +277,7 @@ impl<const D: usize> StepHook<D> for SurfaceStrain {
         let (world, dt) = (&mut *moment.world, moment.dt);
         self.strain(world)?;
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let explained = world.free.get(EXPLAINED_DEFICIT)?;
-        let mass = world.free.get(fields::MASS)?;
+        let (explained, mass) = world.free.all((EXPLAINED_DEFICIT, fields::MASS))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.sum_renormalisation();
         let length = self.time * world.kernel.smoothing_length();

@@ -113,10 +113,7 @@ impl<const D: usize> BodyResponse<D> {
                  the most: multiply `run.safety` by {:.2}, or take a heavier body or less viscosity",
                 0.8 * MOST / share
             );
-            return Err(StepError::Stage {
-                stage: "friction of a light body".into(),
-                reason,
-            });
+            return Err(StepError::stage("friction of a light body", reason));
         }
         let matrix = DMatrix::identity(columns.len(), columns.len()) + coupled;
         let factor = matrix.clone().try_inverse().and_then(|m| m.cholesky());
@@ -133,16 +130,21 @@ impl<const D: usize> BodyResponse<D> {
             rows,
             roots: roots
                 .column_iter()
-                .map(|c| Vector6::from_fn(|k, _| c[k]))
+                .map(|c| c.fixed_rows::<6>(0).into_owned())
                 .collect(),
             ahead,
         }))
     }
 
+    /// Change of the body's velocity by Bᵀu.
+    fn pulled(&self, push: &Vector6<f64>, dt: f64) -> Vector6<f64> {
+        let pull = |r: &Vector6<f64>| r * (dt * r.dot(push));
+        self.roots.iter().map(pull).sum()
+    }
+
     /// Change of the body's velocity without the friction at the end of the step.
     fn freely(&self, dt: f64) -> Vector6<f64> {
-        let pull = |r: &Vector6<f64>| r * (dt * r.dot(&self.before));
-        self.ahead - self.roots.iter().map(pull).sum::<Vector6<f64>>()
+        self.ahead - self.pulled(&self.before, dt)
     }
 }
 
@@ -187,8 +189,7 @@ impl<const D: usize> Bodies<D> {
     pub fn carry(&self, world: &mut World<D>, u: &[Vect<D>], dt: f64) -> Result<(), StepError> {
         for one in &self.0 {
             let push = pushed(world, &one.rows, u)?;
-            let pull = |r: &Vector6<f64>| r * (dt * r.dot(&push));
-            let change = one.freely(dt) + one.roots.iter().map(pull).sum::<Vector6<f64>>();
+            let change = one.freely(dt) + one.pulled(&push, dt);
             let bodies = world.walls.bodies.iter_mut();
             let same = |body: &&mut FreeBody<D>| body.walls == one.body.walls;
             bodies.filter(same).for_each(|body| body.expected = change);

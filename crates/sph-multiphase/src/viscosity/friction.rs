@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::{
     BoundTerm, Contacts, Elements, Lane, LanePair, Neighbourhood, Pair, PairSum, PairTerm,
-    Particles, Rates, World, add_scaled, dot, minus, scaled, splat, vector,
+    Particles, Rates, WallPoints, World, add_scaled, dot, minus, scaled, splat, vector,
 };
 
 use crate::viscosity::{BoundViscosity, OwnViscosity, ViscositySource};
@@ -12,7 +12,7 @@ mod choice;
 mod coupling;
 mod walls;
 
-pub use choice::{Across, Choice, OnLattice, PairOperator, WallTerm};
+pub use choice::{Across, Choice, OnLattice, WallTerm};
 
 /// A viscous operator as a sum over pairs: the force on a per volume is
 /// 1/γ_a Σ_b θ_b η̄_ab f(V_a, V_b, u_ab, r_ab), plus the wall's.
@@ -23,6 +23,12 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     const DIRECTIONAL: bool = true;
     /// True if any part of the force is along the relative velocity: else α is skipped.
     const EVEN: bool = true;
+    /// Its [stiffness](crate::viscosity::ViscousOperator::stiffness).
+    const STIFFNESS: f64;
+    /// True if it [leaves rotations](crate::viscosity::ViscousOperator::leaves_rotations) alone.
+    const LEAVES_ROTATIONS: bool = false;
+    /// The choices of the scene.
+    fn choice(self) -> Choice;
     /// α, 1/m², and β, 1/m⁴, of f(u) = α u + β (u·r) r, from the volumes here and there, r² and F.
     fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
     /// f, 1/m² times the relative velocity u_ab, of several particles.
@@ -82,7 +88,7 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 
 /// The term of a pair formula with a source of viscosities.
 #[derive(Clone, Copy, Debug)]
-pub struct ViscousTerm<F>(pub F, pub ViscositySource, pub Choice);
+pub struct ViscousTerm<F>(pub F, pub ViscositySource);
 
 impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
     type Bound<'a> = BoundFriction<'a, D, F>;
@@ -93,16 +99,14 @@ impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
 
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::VELOCITY)
-            .both(fields::VOLUME)
-            .both(fields::DENSITY)
+            .both((fields::VELOCITY, fields::VOLUME, fields::DENSITY))
             .here(fields::MASS)
             .where_there(fields::WALL_FRICTION)
             .and(self.1.access())
     }
 
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
-        let points = &world.walls.points;
+        let choice = self.0.choice();
         Ok(BoundFriction {
             friction: self.0,
             velocity: world.free.get(fields::VELOCITY)?,
@@ -110,11 +114,7 @@ impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
             density: world.free.get(fields::DENSITY)?,
             mass: world.free.get(fields::MASS)?,
             viscosity: self.1.bind(world)?,
-            wall_velocity: &points.viscous_velocity,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            wall_friction_factor: &points.friction_factor,
-            wall_slip: &points.slip,
+            points: &world.walls.points,
             wall_friction: match world.walls.elements.wall_function.is_empty() {
                 true => &[],
                 false => world.free.get(fields::WALL_FRICTION)?,
@@ -123,8 +123,8 @@ impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
             contacts: &world.walls.contacts,
             rubs: rubs(world),
             open: open(world),
-            corrected: self.2.wall_term == WallTerm::Corrected,
-            scale: self.2.on_lattice.scale(self.0, world),
+            corrected: choice.wall_term == WallTerm::Corrected,
+            scale: choice.on_lattice.scale(self.0, world),
             spacing: world.spacing,
         })
     }
@@ -139,15 +139,12 @@ fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
 
 /// True if the fluid rubs any wall: all may be free-slip.
 fn rubs<const D: usize>(world: &World<D>) -> bool {
-    let elements = &world.walls.elements;
-    let mut friction_factors = world
-        .walls
-        .points
+    let (points, elements) = (&world.walls.points, &world.walls.elements);
+    let mut factors = points
         .friction_factor
         .iter()
         .chain(&elements.friction_factor);
-    friction_factors.any(|friction_factor| *friction_factor != 0.0)
-        || elements.wall_function.contains(&true)
+    factors.any(|factor| *factor != 0.0) || elements.wall_function.contains(&true)
 }
 
 /// [`ViscousTerm`] with its columns.
@@ -158,11 +155,7 @@ pub struct BoundFriction<'a, const D: usize, F> {
     density: &'a [f64],
     mass: &'a [f64],
     viscosity: BoundViscosity<'a>,
-    wall_velocity: &'a [Vect<D>],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    wall_friction_factor: &'a [f64],
-    wall_slip: &'a [(f64, Vect<D>)],
+    points: &'a WallPoints<D>,
     /// Of wall functions; empty where no wall has one.
     wall_friction: &'a [f64],
     elements: &'a Elements<D>,
@@ -265,14 +258,13 @@ impl<const D: usize, F: PairFriction<D>> PairSum<D> for BoundFriction<'_, D, F> 
     ) {
         let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
         let densities = [own.density, density];
-        let mean = self
-            .friction
-            .means(&self.viscosity, &own.viscosity, j, densities);
+        let friction = self.friction;
+        let mean = friction.means(&self.viscosity, &own.viscosity, j, densities);
         let relative = minus(&own.velocity, &self.velocity[j]);
-        let of_pair = self.friction.forces(own.volume, volume, &relative, pair);
+        let of_pair = friction.forces(own.volume, volume, &relative, pair);
         add_scaled(force, &of_pair, mean);
         if own.near {
-            let shear = self.friction.shears(own.volume, volume, &own.along, pair);
+            let shear = friction.shears(own.volume, volume, &own.along, pair);
             add_scaled(discrete, &pair.separation, shear);
         }
     }
@@ -285,9 +277,9 @@ impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for BoundFriction<'_, D, F
         let mut sum = Sum::new(sum);
         if self.rubs {
             for (v, pair) in at.wall.pairs() {
-                let (share, volume) = (self.wall_share[v], self.wall_volume[v]);
+                let (share, volume) = (self.points.share[v], self.points.volume[v]);
                 let rubbing = self.rubbing(v, &pair);
-                let relative = here.velocity - self.wall_velocity[v];
+                let relative = here.velocity - self.points.viscous_velocity[v];
                 let force = self.friction.force(here.volume, volume, &relative, &pair);
                 sum.force += force * (rubbing * here.viscosity.eta);
                 let shear = self.friction.shear(here.volume, volume, &here.along, &pair);

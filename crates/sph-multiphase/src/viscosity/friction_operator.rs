@@ -1,36 +1,14 @@
 //! The left side of a system with implicit friction: products in lanes, and a matrix where one is needed.
 
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use sph_core::Vect;
-use sph_neighbours::{CouplingsAt, Neighbourhood, Owned, Space, Visitor};
+use sph_neighbours::{CouplingsAt, Owned, Space, Visitor};
 
 use crate::linear::{
-    Assembly, Block, Diagonal, Entries, Entry, Halved, Halves, Matrix, Operator, Pattern, Rows,
-    Values,
+    Assembly, Block, Diagonal, Entries, Entry, Halved, Halves, Matrix, Operator, Rows, Values,
+    coupling_ratio,
 };
-use crate::viscosity::{BoundCoupling, CouplingRow};
-
-/// An entry of a friction's matrix: a number, or a block where components are mixed.
-pub trait FrictionEntry<const D: usize>: Entry<D> {
-    /// W and s of walls.
-    fn walls(coupling: &dyn BoundCoupling<D>, rows: &Neighbourhood<'_, D>) -> CouplingRow<Self, D>;
-}
-
-impl<const D: usize> FrictionEntry<D> for f64 {
-    fn walls(coupling: &dyn BoundCoupling<D>, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
-        coupling.scalar_walls(rows)
-    }
-}
-
-impl<const D: usize> FrictionEntry<D> for Block<D> {
-    fn walls(
-        coupling: &dyn BoundCoupling<D>,
-        rows: &Neighbourhood<'_, D>,
-    ) -> CouplingRow<Block<D>, D> {
-        coupling.block_walls(rows)
-    }
-}
 
 /// Matrices of former systems.
 #[derive(Default)]
@@ -55,32 +33,15 @@ pub(crate) enum RowsOf<'a, const D: usize> {
 ///
 /// Products take the couplings as they are kept. [`assembled`](Operator::assembled) writes the matrix down when it is first asked for.
 pub struct FrictionOperator<'a, const D: usize> {
-    couplings: CouplingsAt<'a, D>,
-    coupling_bytes: usize,
-    rows: RowsOf<'a, D>,
-    matrix: OnceLock<Matrix<D>>,
-    matrices: &'a Mutex<Matrices<D>>,
-    space: &'a Space<D>,
+    pub(crate) couplings: CouplingsAt<'a, D>,
+    pub(crate) coupling_bytes: usize,
+    pub(crate) rows: RowsOf<'a, D>,
+    pub(crate) matrix: OnceLock<Matrix<D>>,
+    pub(crate) matrices: &'a Mutex<Matrices<D>>,
+    pub(crate) space: &'a Space<D>,
 }
 
-impl<'a, const D: usize> FrictionOperator<'a, D> {
-    pub(crate) fn new(
-        couplings: CouplingsAt<'a, D>,
-        coupling_bytes: usize,
-        rows: RowsOf<'a, D>,
-        matrices: &'a Mutex<Matrices<D>>,
-        space: &'a Space<D>,
-    ) -> Self {
-        FrictionOperator {
-            couplings,
-            coupling_bytes,
-            rows,
-            matrix: OnceLock::new(),
-            matrices,
-            space,
-        }
-    }
-
+impl<const D: usize> FrictionOperator<'_, D> {
     /// Memory of couplings and diagonals, and of the matrix if there is one.
     pub fn bytes(&self) -> usize {
         let rows = match self.rows {
@@ -94,22 +55,17 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
     fn written(&self) -> Matrix<D> {
         let mut matrices = held(self.matrices);
         match self.rows {
-            RowsOf::Scalar(own, _) => {
-                let (pattern, values) = self.of_pairs(own, &mut matrices.scalar);
-                Matrix::on(pattern, Entries::Scalar(values))
-            }
-            RowsOf::Block(own, _) => {
-                let (pattern, values) = self.of_pairs(own, &mut matrices.block);
-                Matrix::on(pattern, Entries::Block(values))
-            }
+            RowsOf::Scalar(own, _) => self.of_pairs(own, &mut matrices.scalar, Entries::Scalar),
+            RowsOf::Block(own, _) => self.of_pairs(own, &mut matrices.block, Entries::Block),
         }
     }
 
-    fn of_pairs<E: FrictionEntry<D>>(
+    fn of_pairs<E: Entry<D>>(
         &self,
         own: &[E],
         assembly: &mut Assembly<E, D>,
-    ) -> (Arc<Pattern>, Values<E>) {
+        entries: fn(Values<E>) -> Entries<D>,
+    ) -> Matrix<D> {
         let size = [self.couplings.blocks(), own.len()];
         assembly.fill_blocks(size, |block, rows| {
             let mut writer = Writer {
@@ -122,7 +78,7 @@ impl<'a, const D: usize> FrictionOperator<'a, D> {
             self.couplings.each(block, &mut writer);
         });
         let values = std::mem::take(&mut assembly.values);
-        (assembly.pattern.clone(), values)
+        Matrix::on(assembly.pattern.clone(), entries(values))
     }
 }
 
@@ -160,7 +116,7 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
         let entry = E::central(even, along, separation);
         let counts = self.owned.has(self.particle) && self.owned.has(neighbour as usize);
         if !counts {
-            self.left_out = self.left_out.plus(&entry);
+            self.left_out = self.left_out + entry;
         }
         self.rows.couple(neighbour, &entry, counts);
     }
@@ -168,7 +124,7 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
     fn end(&mut self, particle: usize) {
         let own = match self.owned.all() {
             true => self.own[particle],
-            false => self.own[particle].plus(&self.left_out),
+            false => self.own[particle] + self.left_out,
         };
         self.rows.end(own, Vect::zeros());
     }
@@ -177,16 +133,7 @@ impl<E: Entry<D>, const D: usize> Visitor<D> for Writer<'_, E, D> {
 /// Largest of Σ C over the rest of the diagonal, of blocks with the means of their diagonals: Σ C is the whole less the
 /// row's own part.
 fn stiffness<E: Entry<D>, const D: usize>(own: &[E], whole: &[E]) -> f64 {
-    let mean = |entry: &E| (0..D).map(|k| entry.component(k, k)).sum::<f64>() / D as f64;
-    let row = |(own, whole): (&E, &E)| {
-        let left = mean(own);
-        let coupled = mean(whole) - left;
-        match coupled > 0.0 {
-            true if left > 0.0 => coupled / left,
-            true => f64::INFINITY,
-            false => 0.0,
-        }
-    };
+    let row = |(own, whole): (&E, &E)| coupling_ratio(whole.mean() - own.mean(), own.mean());
     own.iter().zip(whole).map(row).fold(0.0, f64::max)
 }
 
@@ -199,14 +146,10 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
     }
 
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
+        let couplings = &self.couplings;
         match self.rows {
-            RowsOf::Scalar(own, _) => {
-                self.couplings.sums(x, y, |i, sum| x[i] * own[i] + sum);
-            }
-            RowsOf::Block(own, _) => {
-                self.couplings
-                    .sums(x, y, |i, sum| own[i].apply(&x[i]) + sum);
-            }
+            RowsOf::Scalar(own, _) => couplings.sums(x, y, |i, sum| x[i] * own[i] + sum),
+            RowsOf::Block(own, _) => couplings.sums(x, y, |i, sum| own[i].apply(&x[i]) + sum),
         }
         self.space.refresh(y);
     }

@@ -1,12 +1,14 @@
 //! The linear system of a step with implicit friction, and the memory of those before.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{Cluster, CouplingRows, CouplingWriter, Couplings, MOST, Space, Weak, World};
+use sph_neighbours::{
+    Cluster, CouplingRows, CouplingWriter, Couplings, MOST, Neighbourhood, Space, Weak, World,
+};
 
-use crate::linear::Block;
-use crate::viscosity::friction_operator::{FrictionEntry, FrictionOperator, Matrices, RowsOf};
+use crate::linear::{Block, Entry};
+use crate::viscosity::friction_operator::{FrictionOperator, Matrices, RowsOf};
 use crate::viscosity::{BoundCoupling, Coupling, CouplingRow};
 
 /// Coupling of a pair over its smaller mass up to which it is taken explicitly: hundreds of neighbours together are far from
@@ -25,26 +27,12 @@ pub struct FrictionSystem<const D: usize> {
     pub right: Vec<Vect<D>>,
     couplings: Couplings,
     limit: Vec<f64>,
-    scalar: Diagonals<f64>,
-    block: Diagonals<Block<D>>,
+    /// M + θΔt W, and the same with the couplings of a row to others; so is `block`.
+    scalar: [Vec<f64>; 2],
+    block: [Vec<Block<D>>; 2],
     mixes: bool,
     dt: f64,
     matrices: Mutex<Matrices<D>>,
-}
-
-/// M + θΔt W, and the same with the couplings of a row to others.
-struct Diagonals<E> {
-    own: Vec<E>,
-    whole: Vec<E>,
-}
-
-impl<E> Default for Diagonals<E> {
-    fn default() -> Self {
-        Diagonals {
-            own: Vec::new(),
-            whole: Vec::new(),
-        }
-    }
 }
 
 /// The part of friction at the end of a step.
@@ -112,11 +100,12 @@ impl<const D: usize> FrictionSystem<D> {
                 ahead,
                 dt,
             };
-            let couplings = &mut self.couplings;
-            let right = &mut self.right;
+            let (couplings, right) = (&mut self.couplings, &mut self.right);
+            let scalar_walls = |rows: &Neighbourhood<'_, D>| bound.scalar_walls(rows);
+            let block_walls = |rows: &Neighbourhood<'_, D>| bound.block_walls(rows);
             match self.mixes {
-                false => part.fill(world, couplings, &mut self.scalar, right),
-                true => part.fill(world, couplings, &mut self.block, right),
+                false => part.fill(world, couplings, &mut self.scalar, right, scalar_walls),
+                true => part.fill(world, couplings, &mut self.block, right, block_walls),
             }
         })
     }
@@ -124,8 +113,8 @@ impl<const D: usize> FrictionSystem<D> {
     /// θΔt W over Δt of a particle, N s/m: the friction of walls.
     pub(crate) fn of_walls(&self, particle: usize) -> Block<D> {
         let own = match self.mixes {
-            false => Block::<D>::identity() * self.scalar.own[particle],
-            true => self.block.own[particle],
+            false => Block::<D>::identity() * self.scalar[0][particle],
+            true => self.block[0][particle],
         };
         (own - Block::<D>::identity() * self.mass[particle]) / self.dt
     }
@@ -140,80 +129,78 @@ impl<const D: usize> FrictionSystem<D> {
         space: &'a Space<D>,
     ) -> Result<FrictionOperator<'a, D>, StepError> {
         let rows = match self.mixes {
-            false => RowsOf::Scalar(&self.scalar.own, &self.scalar.whole),
-            true => RowsOf::Block(&self.block.own, &self.block.whole),
+            false => RowsOf::Scalar(&self.scalar[0], &self.scalar[1]),
+            true => RowsOf::Block(&self.block[0], &self.block[1]),
         };
-        let couplings = &self.couplings;
-        Ok(FrictionOperator::new(
-            couplings.at(world)?,
-            couplings.bytes(),
+        Ok(FrictionOperator {
+            couplings: self.couplings.at(world)?,
+            coupling_bytes: self.couplings.bytes(),
             rows,
-            &self.matrices,
+            matrix: OnceLock::new(),
+            matrices: &self.matrices,
             space,
-        ))
+        })
     }
 }
 
 impl<const D: usize> Part<'_, D> {
-    fn fill<E: FrictionEntry<D>>(
+    fn fill<E: Entry<D>>(
         &self,
         world: &World<D>,
         couplings: &mut Couplings,
-        diagonals: &mut Diagonals<E>,
+        [own, whole]: &mut [Vec<E>; 2],
         right: &mut Vec<Vect<D>>,
+        of_walls: impl Fn(&Neighbourhood<'_, D>) -> CouplingRow<E, D> + Sync,
     ) -> Result<(), StepError> {
-        let Diagonals { own, whole } = diagonals;
         let rows = self.mass.len();
         own.resize(rows, E::ZERO);
         whole.resize(rows, E::ZERO);
         right.resize(rows, Vect::zeros());
         let rows = (&mut own[..], &mut whole[..], &mut right[..]);
-        couplings.fill(
-            world,
-            self.coupling.kinds(),
-            rows,
-            |cluster, keeper, rows| {
-                self.add(cluster, keeper, rows);
-            },
-        )
+        let kinds = self.coupling.kinds();
+        couplings.fill(world, kinds, rows, |cluster, keeper, rows| {
+            self.add(cluster, keeper, rows, &of_walls);
+        })
     }
 
     /// Mγ + θΔt W, the same with Σ C, and Δt s with the force of the weak pairs, for the members of a cluster.
-    fn add<E: FrictionEntry<D>>(
+    fn add<E: Entry<D>>(
         &self,
         cluster: &mut Cluster<'_, D>,
         keeper: &mut CouplingWriter<'_>,
         (own, whole, right): CouplingRows<'_, E, E, Vect<D>>,
+        of_walls: &impl Fn(&Neighbourhood<'_, D>) -> CouplingRow<E, D>,
     ) {
         self.coupling.strengths(cluster, keeper.numbers);
         let tallies = keeper.keep(cluster, self.ahead, self.weak);
-        let walls = self.walls::<E>(cluster);
+        let walls = self.walls(cluster, of_walls);
         for (k, i) in cluster.members().enumerate() {
-            own[k] = E::unit(self.mass[i]).plus(&walls[k].wall.times(self.ahead));
-            whole[k] = own[k].plus(&E::from_block(&tallies[k].kept));
+            own[k] = E::unit(self.mass[i]) + walls[k].wall * self.ahead;
+            whole[k] = own[k] + E::from_block(&tallies[k].kept);
             right[k] = (walls[k].source + tallies[k].weak) * self.dt;
         }
     }
 
     /// W and s of all members; those after the last one are nothing.
-    fn walls<E: FrictionEntry<D>>(
+    fn walls<E: Entry<D>>(
         &self,
         cluster: &mut Cluster<'_, D>,
+        of_walls: impl Fn(&Neighbourhood<'_, D>) -> CouplingRow<E, D>,
     ) -> [CouplingRow<E, D>; MOST] {
         let nothing = CouplingRow {
             wall: E::ZERO,
             source: Vect::zeros(),
         };
         let mut walls = [nothing; MOST];
-        let coupling = self.coupling;
-        if cluster.members().any(|i| coupling.walls_need_neighbours(i)) {
-            cluster.rows(|k, rows| walls[k] = E::walls(coupling, rows));
+        let needs = |i| self.coupling.walls_need_neighbours(i);
+        if cluster.members().any(needs) {
+            cluster.rows(|k, rows| walls[k] = of_walls(rows));
         } else {
             for (k, walls) in walls.iter_mut().enumerate().take(cluster.members().len()) {
                 let rows = cluster.walls(k);
                 // Most particles are far from all walls.
                 if !(rows.wall.index.is_empty() && rows.contacts.is_empty()) {
-                    *walls = E::walls(coupling, &rows);
+                    *walls = of_walls(&rows);
                 }
             }
         }

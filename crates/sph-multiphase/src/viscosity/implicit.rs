@@ -93,10 +93,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             false => outer.iterations.max(1),
         };
         let mut ahead = std::mem::take(&mut self.ahead);
-        put(
-            &mut ahead,
-            world.free.get(fields::VELOCITY)?.iter().copied(),
-        );
+        world.free.get(fields::VELOCITY)?.clone_into(&mut ahead);
         self.give_way(world, [earlier, &ahead], dt)?;
         let (mut iterations, mut change) = (0, f64::INFINITY);
         while iterations < most && change > outer.tolerance {
@@ -107,10 +104,7 @@ impl<const D: usize> ImplicitViscosity<D> {
                 }
             }
             let mut velocity = std::mem::take(&mut self.velocity);
-            put(
-                &mut velocity,
-                world.free.get(fields::VELOCITY)?.iter().copied(),
-            );
+            world.free.get(fields::VELOCITY)?.clone_into(&mut velocity);
             if self.lagged.stiffens {
                 stiffen(world, &mut self.plain)?;
             }
@@ -149,12 +143,10 @@ impl<const D: usize> ImplicitViscosity<D> {
         [earlier, ahead]: [&[Vect<D>]; 2],
         dt: f64,
     ) -> Result<(), StepError> {
-        let elements = &world.walls.elements;
-        let mut friction_factors = elements.friction_factor.iter().zip(&elements.wall);
-        let rubs = |wall: usize| world.walls.bodies.iter().any(|body| body.is(wall));
-        if !friction_factors
-            .any(|(friction_factor, wall)| *friction_factor > 0.0 && rubs(*wall as usize))
-        {
+        let (elements, bodies) = (&world.walls.elements, &world.walls.bodies);
+        let is_body = |wall: &u32| bodies.iter().any(|body| body.is(*wall as usize));
+        let mut each = elements.friction_factor.iter().zip(&elements.wall);
+        if !each.any(|(factor, wall)| *factor > 0.0 && is_body(wall)) {
             return Ok(());
         }
         let share = self.scheme.implicit_share();
@@ -227,10 +219,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         let bytes = operator.bytes();
         drop(operator);
         system.right = right;
-        let report = solved.map_err(|e| StepError::Stage {
-            stage: Self::NAME.into(),
-            reason: e.to_string(),
-        })?;
+        let report = solved.map_err(|error| StepError::stage(Self::NAME, error))?;
         let seconds = start.elapsed().as_secs_f64();
         self.solves.add(&report, seconds, bytes);
         Ok(())
@@ -250,8 +239,7 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
         match self.lagged.stiffens {
             false => access,
             true => access
-                .here(fields::VOLUME)
-                .here(fields::STRAIN_RATE)
+                .here((fields::VOLUME, fields::STRAIN_RATE))
                 .here(fields::ELASTIC_STIFFNESS)
                 .writes(fields::VISCOSITY),
         }
@@ -267,8 +255,7 @@ impl<const D: usize> StepHook<D> for ImplicitViscosity<D> {
             return done;
         }
         let velocity = moment.world.free.get(fields::VELOCITY)?;
-        self.earlier.clear();
-        self.earlier.extend_from_slice(velocity);
+        velocity.clone_into(&mut self.earlier);
         Ok(())
     }
     fn bytes(&self, world: &mut World<D>, dt: f64) -> Result<usize, StepError> {
@@ -336,8 +323,7 @@ fn relative_change<const D: usize>(
     velocity: &[Vect<D>],
     dt: f64,
 ) -> Result<f64, StepError> {
-    let mass = world.free.get(fields::MASS)?;
-    let last = world.free.get(fields::VELOCITY)?;
+    let (mass, last) = world.free.all((fields::MASS, fields::VELOCITY))?;
     let kick = dt * dt * (world.gravity + world.driving).norm_squared();
     let sums = world.sums(|i| {
         let (u, l, m) = (velocity[i], last[i], mass[i]);

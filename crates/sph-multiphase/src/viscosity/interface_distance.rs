@@ -1,7 +1,7 @@
 //! Distance of particles from the next phase.
 
 use rayon::prelude::*;
-use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields};
+use sph_core::{Access, Field, Scalar, Stage, fields, stage};
 use sph_kernels::Sampler;
 use sph_neighbours::{Around, Values, World, walk_into};
 
@@ -12,16 +12,6 @@ pub const INTERFACE_DISTANCE: Field<Scalar> =
 
 /// Least distance over the support's radius: no particle is on the interface itself.
 const LEAST: f64 = 1e-3;
-
-/// d from c(d) = Σ_other V w / Σ V w, c being the share of the kernel beyond a plane at d.
-///
-/// On a lattice with h = 2δr the distance of the first rows is met to 1 % of δr; at curved
-/// interfaces to δr²/R.
-#[derive(Default)]
-pub struct InterfaceDistance {
-    beyond: Option<KernelTail>,
-    mixed: InterfaceParticles,
-}
 
 /// Particles with another phase within the reach of their list; phases change with the lists only.
 #[derive(Default)]
@@ -48,30 +38,25 @@ impl InterfaceParticles {
     }
 }
 
-impl Declares for InterfaceDistance {
-    fn name(&self) -> String {
-        "distance from the interface".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .both(fields::PHASE)
-            .writes(INTERFACE_DISTANCE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for InterfaceDistance {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+/// d from c(d) = Σ_other V w / Σ V w, c being the share of the kernel beyond a plane at d.
+///
+/// On a lattice with h = 2δr the distance of the first rows is met to 1 % of δr; at curved
+/// interfaces to δr²/R.
+pub(super) fn interface_distance<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::VOLUME, fields::PHASE))
+        .writes(INTERFACE_DISTANCE);
+    let (mut beyond, mut mixed) = (None, InterfaceParticles::default());
+    let name = "distance from the interface";
+    stage(name, access, move |world: &mut World<D>| {
         let mut distance = world.free.take(INTERFACE_DISTANCE)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let phase = world.free.get(fields::PHASE)?;
+        let (volume, phase) = world.free.all((fields::VOLUME, fields::PHASE))?;
         let kernel = &*world.kernel;
         let own = kernel.value_at_zero();
-        let beyond = self.beyond.get_or_insert_with(|| KernelTail::new(kernel));
+        let beyond = beyond.get_or_insert_with(|| KernelTail::new(kernel));
         let lists = world.lists.nearest();
-        self.mixed.refresh(world, phase);
-        let mixed = &self.mixed.near;
+        mixed.refresh(world, phase);
+        let mixed = &mixed.near;
         let unlike = |i: usize, j: &u32| phase[*j as usize] != phase[i];
         let near = |i: usize| mixed[i] && lists.candidates(i).iter().any(|j| unlike(i, j));
         // First the shares, where they differ from 0.
@@ -91,7 +76,7 @@ impl<const D: usize> Stage<World<D>> for InterfaceDistance {
         let all = distance.par_iter_mut().with_min_len(1024);
         all.for_each(|d| *d = beyond.distance(*d));
         Ok(world.free.put(INTERFACE_DISTANCE, distance)?)
-    }
+    })
 }
 
 /// The share of the kernel beyond a plane, tabulated over the distance.

@@ -3,7 +3,7 @@
 use sph_core::{parameters, plugin};
 use sph_neighbours::Lane;
 
-use crate::viscosity::friction::{Across, Choice, OnLattice, PairFriction, PairOperator, WallTerm};
+use crate::viscosity::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
 use crate::viscosity::{BoundViscosity, OwnViscosity, ViscousOperatorEntry, Within};
 
 /// L_a = c/γ_a Σ_b θ_b (V_a² + V_b²)/V_a η̃_ab F_ab [u_ab + (u_ab·e)e] plus the wall's friction, as
@@ -44,13 +44,10 @@ pub enum Strength {
     Literal,
 }
 
-impl<const D: usize> PairOperator<D> for KrimiViscosity {
-    type Formula = BetweenStresses;
+impl<const D: usize> PairFriction<D> for KrimiViscosity {
+    const NAME: &'static str = "Krimi viscosity";
     const STIFFNESS: f64 = 1.65;
-    fn formula(&self) -> BetweenStresses {
-        BetweenStresses(self.strength)
-    }
-    fn choice(&self) -> Choice {
+    fn choice(self) -> Choice {
         Choice {
             wall_term: self.wall_term,
             // Scaled to be exact, the literal strength would not be literal.
@@ -62,27 +59,13 @@ impl<const D: usize> PairOperator<D> for KrimiViscosity {
             within: Within::Harmonic,
         }
     }
-}
-
-/// c (V_a² + V_b²)/V_a F_ab [u_ab + (u_ab·e)e]: the pair formula of [`KrimiViscosity`].
-#[derive(Clone, Copy, Debug)]
-pub struct BetweenStresses(pub Strength);
-
-impl BetweenStresses {
-    #[inline(always)]
-    fn strength(self, dimension: usize) -> f64 {
-        match self.0 {
-            Strength::Corrected => (dimension + 2) as f64 / (dimension + 3) as f64,
-            Strength::Literal => 1.0,
-        }
-    }
-}
-
-impl<const D: usize> PairFriction<D> for BetweenStresses {
-    const NAME: &'static str = "Krimi viscosity";
     #[inline(always)]
     fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2] {
-        let even = L::splat(self.strength(D)) * (volume + there * there / volume) * factor;
+        let strength = match self.strength {
+            Strength::Corrected => (D + 2) as f64 / (D + 3) as f64,
+            Strength::Literal => 1.0,
+        };
+        let even = L::splat(strength) * (volume + there * there / volume) * factor;
         [even, even / distance2.max(L::splat(f64::MIN_POSITIVE))]
     }
     #[inline(always)]
@@ -98,7 +81,7 @@ impl<const D: usize> PairFriction<D> for BetweenStresses {
     }
     #[inline(always)]
     fn at_element(self, _: f64, _: f64) -> f64 {
-        match self.0 {
+        match self.strength {
             Strength::Corrected => 1.0,
             Strength::Literal => (D + 3) as f64 / (D + 2) as f64,
         }

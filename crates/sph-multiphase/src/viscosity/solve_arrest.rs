@@ -41,10 +41,8 @@ impl SolveArrest {
         }
         let free = &world.free;
         let (mass, volume) = (free.get(fields::MASS)?, free.get(fields::VOLUME)?);
-        let velocity = free.get(fields::VELOCITY)?;
-        let viscosity = free.get(fields::VISCOSITY)?;
-        let stiffness = free.get(fields::ELASTIC_STIFFNESS)?;
-        let rate = free.get(fields::STRAIN_RATE)?;
+        let (velocity, viscosity) = free.all((fields::VELOCITY, fields::VISCOSITY))?;
+        let (stiffness, rate) = free.all((fields::ELASTIC_STIFFNESS, fields::STRAIN_RATE))?;
         let [all, taken, power, lawful] = world.sums(|i| match stiffness[i] > 0.0 {
             false => [0.0; 4],
             true => {
@@ -79,9 +77,7 @@ impl SolveArrest {
     /// Reason that a finished run has no result, if too much was held.
     pub(crate) fn verdict(&self) -> Option<StepError> {
         let told = self.warning()?;
-        Some(StepError::Stage {
-            stage: "elasticity at the end of the step".into(),
-            reason: format!("{told}; or allow it with `numerics.delayed_yield = true`"),
-        })
+        let why = format!("{told}; or allow it with `numerics.delayed_yield = true`");
+        Some(StepError::stage("elasticity at the end of the step", why))
     }
 }

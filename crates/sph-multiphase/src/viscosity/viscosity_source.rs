@@ -37,10 +37,9 @@ impl ViscositySource {
         match self {
             Self::Uniform(_) => Access::none(),
             Self::PerParticle(_) => Access::none().both(fields::VISCOSITY),
-            Self::InSeries(_) => Access::none()
-                .both(fields::VISCOSITY)
-                .both(fields::PHASE)
-                .both(INTERFACE_DISTANCE),
+            Self::InSeries(_) => {
+                Access::none().both((fields::VISCOSITY, fields::PHASE, INTERFACE_DISTANCE))
+            }
         }
     }
 

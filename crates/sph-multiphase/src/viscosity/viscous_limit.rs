@@ -22,8 +22,7 @@ impl<const D: usize> Limiter<D> for ViscousLimit {
         let kinematic_viscosity = match self.constant {
             true => self.largest,
             false => {
-                let viscosity = world.free.get(fields::VISCOSITY)?;
-                let density = world.free.get(fields::DENSITY)?;
+                let (viscosity, density) = world.free.all((fields::VISCOSITY, fields::DENSITY))?;
                 let both = viscosity.par_iter().zip(density).with_min_len(1024);
                 let present = both.map(|(eta, rho)| eta / rho).reduce(|| 0.0, f64::max);
                 // Before the first evaluation the bounds of the laws alone are known.

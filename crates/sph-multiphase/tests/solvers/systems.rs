@@ -39,13 +39,13 @@ fn system<const D: usize, E: Entry<D>>(
             let apart = points[i] - points[j];
             if apart.norm() < reach {
                 let mean = 2.0 * eta(i) * eta(j) / (eta(i) + eta(j));
-                let c = entry(&mut random, &apart.normalize()).times(mean);
+                let c = entry(&mut random, &apart.normalize()) * mean;
                 rows[i].push(j as u32);
                 rows[j].push(i as u32);
-                entries[i].push(c.times(-1.0));
-                entries[j].push(c.transposed().times(-1.0));
-                diagonal[i] = diagonal[i].plus(&c);
-                diagonal[j] = diagonal[j].plus(&c);
+                entries[i].push(c * -1.0);
+                entries[j].push(c.transposed() * -1.0);
+                diagonal[i] = diagonal[i] + c;
+                diagonal[j] = diagonal[j] + c;
             }
         }
     }

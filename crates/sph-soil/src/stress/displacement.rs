@@ -1,7 +1,7 @@
 //! The elastic force of a displacement.
 
 use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
-use sph_multiphase::viscosity::{OnLattice, PairFriction, WithTransposed};
+use sph_multiphase::viscosity::{EspanolRevenga, OnLattice, PairFriction};
 use sph_neighbours::{
     BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
     Rates, World, dot, minus,
@@ -118,7 +118,7 @@ impl<const D: usize> PairTerm<D> for DisplacementForce {
             wall_share: &points.share,
             wall_friction_factor: &points.friction_factor,
             elements: &world.walls.elements,
-            scale: self.choice.on_lattice.scale(WithTransposed, world),
+            scale: (self.choice.on_lattice).scale(EspanolRevenga::default(), world),
             spacing: world.spacing,
         })
     }
@@ -198,7 +198,7 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
             .where_positive(there.where_positive(mean, zero), zero);
         let apart = minus(&own.displacement, &self.displacement[j]);
         let volume = L::splat(self.volume[j]);
-        let force = WithTransposed.forces(own.volume, volume, &apart, pair);
+        let force = EspanolRevenga::default().forces(own.volume, volume, &apart, pair);
         let turn = self.turn[j] * solid.share;
         for (k, (sum, force)) in sum.iter_mut().zip(force).enumerate() {
             let mut turned = [zero; D];
@@ -220,7 +220,8 @@ impl<const D: usize> BoundTerm<D> for BoundDisplacement<'_, D> {
         let stiffness = self.solids[i].stiffness();
         let mut sum = Sum::new(sum);
         for (v, pair) in at.wall.pairs() {
-            let force = WithTransposed.force(volume, self.wall_volume[v], &displacement, &pair);
+            let there = self.wall_volume[v];
+            let force = EspanolRevenga::default().force(volume, there, &displacement, &pair);
             let rubbing = self.wall_share[v] * self.wall_friction_factor[v];
             sum.force += force * (rubbing * self.scale * stiffness);
         }

@@ -2,39 +2,15 @@
 
 use std::f64::consts::PI;
 
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_core::{Access, Stage, StepError, Vect, fields, stage};
 use sph_kernels::Sampler;
 use sph_neighbours::{Around, Values, World, walk_some};
 
 use crate::columns::{BED_DISTANCE, BED_FRICTION_VELOCITY};
 use crate::wall::{LEAST_DISTANCE, WallLaw};
 
-/// [`BED_FRICTION_VELOCITY`] and [`BED_DISTANCE`] of particles within a spacing of a bed.
-pub(crate) struct BedShear {
-    /// Number of the bed's phase.
-    pub bed: u32,
-    /// ν of every phase, m²/s; none of those without a bed.
-    pub viscosities: Vec<Option<f64>>,
-    /// The law.
-    pub law: WallLaw,
-    /// Shares of the kernel beyond a plane at equal steps of the distance, from 0 to the support radius; filled at first need.
-    pub shares: Vec<f64>,
-}
-
 /// Steps of the table and of its integrals.
 const STEPS: usize = 200;
-
-impl BedShear {
-    /// Of a bed.
-    pub fn new(bed: u32, viscosities: Vec<Option<f64>>, law: WallLaw) -> Self {
-        BedShear {
-            bed,
-            viscosities,
-            law,
-            shares: Vec::new(),
-        }
-    }
-}
 
 /// Share of the kernel that lies beyond a plane at a distance, m: ∫ w(r) A(r) dr over the caps A of spheres, by Simpson's rule.
 fn kernel_beyond(kernel: &dyn Sampler, distance: f64) -> f64 {
@@ -77,92 +53,82 @@ struct BedView<const D: usize> {
     slip: Vect<D>,
 }
 
-impl BedShear {
-    fn bed_view<const D: usize>(
-        &self,
-        world: &World<D>,
-        viscosities: impl Fn(usize) -> Option<f64> + Sync,
-    ) -> Result<Vec<Option<Option<BedView<D>>>>, StepError> {
-        let phase = world.free.get(fields::PHASE)?;
-        let velocity = world.free.get(fields::VELOCITY)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let points = &world.walls.points;
-        let own = world.kernel.value_at_zero();
-        let radius = world.kernel.support_radius();
-        let wanted = |i: usize| viscosities(i).is_some();
-        walk_some(world, Values::Both, wanted, |around: &Around<'_, D>| {
-            let (rows, i) = (&around.rows, around.rows.particle);
-            let mut filling = volume[i] * own;
-            let (mut share, mut momentum) = (0.0, Vect::<D>::zeros());
-            let mut towards = Vect::<D>::zeros();
-            for (k, (&j, w)) in rows.free.index.iter().zip(around.free).enumerate() {
-                let part = volume[j as usize] * w;
-                filling += part;
-                if phase[j as usize] == self.bed {
-                    share += part;
-                    momentum += velocity[j as usize] * part;
-                    let slope = volume[j as usize] * rows.free.factor[k];
-                    towards += rows.free.separation[k] * slope;
-                }
+/// The bed of the phase `bed` as particles with a viscosity see it; `shares` are those of the kernel beyond planes.
+fn bed_view<const D: usize>(
+    world: &World<D>,
+    (bed, shares): (u32, &[f64]),
+    viscosities: impl Fn(usize) -> Option<f64> + Sync,
+) -> Result<Vec<Option<Option<BedView<D>>>>, StepError> {
+    let (phase, velocity) = world.free.all((fields::PHASE, fields::VELOCITY))?;
+    let volume = world.free.get(fields::VOLUME)?;
+    let points = &world.walls.points;
+    let own = world.kernel.value_at_zero();
+    let radius = world.kernel.support_radius();
+    let wanted = |i: usize| viscosities(i).is_some();
+    walk_some(world, Values::Both, wanted, |around: &Around<'_, D>| {
+        let (rows, i) = (&around.rows, around.rows.particle);
+        let mut filling = volume[i] * own;
+        let (mut share, mut momentum) = (0.0, Vect::<D>::zeros());
+        let mut towards = Vect::<D>::zeros();
+        for (k, (&j, w)) in rows.free.index.iter().zip(around.free).enumerate() {
+            let part = volume[j as usize] * w;
+            filling += part;
+            if phase[j as usize] == bed {
+                share += part;
+                momentum += velocity[j as usize] * part;
+                let slope = volume[j as usize] * rows.free.factor[k];
+                towards += rows.free.separation[k] * slope;
             }
-            for (&v, w) in rows.wall.index.iter().zip(around.wall) {
-                filling += points.share[v as usize] * points.volume[v as usize] * w;
-            }
-            let normal = towards.try_normalize(0.0)?;
-            let filling = (filling * rows.inverse_renormalisation).max(1.0);
-            let distance = distance_of(&self.shares, radius, share / filling);
-            let slip = velocity[i] - momentum / share;
-            (distance < world.spacing).then(|| BedView {
-                distance: distance.max(LEAST_DISTANCE * world.spacing),
-                slip: slip - normal * slip.dot(&normal),
-            })
+        }
+        for (&v, w) in rows.wall.index.iter().zip(around.wall) {
+            filling += points.share[v as usize] * points.volume[v as usize] * w;
+        }
+        let normal = towards.try_normalize(0.0)?;
+        let filling = (filling * rows.inverse_renormalisation).max(1.0);
+        let distance = distance_of(shares, radius, share / filling);
+        let slip = velocity[i] - momentum / share;
+        (distance < world.spacing).then(|| BedView {
+            distance: distance.max(LEAST_DISTANCE * world.spacing),
+            slip: slip - normal * slip.dot(&normal),
         })
-    }
+    })
 }
 
-impl Declares for BedShear {
-    fn name(&self) -> String {
-        "rough bed".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::POSITION)
-            .both(fields::PHASE)
-            .both(fields::VELOCITY)
-            .both(fields::VOLUME)
-            .where_there(fields::RENORMALISATION)
-            .writes(BED_FRICTION_VELOCITY)
-            .writes(BED_DISTANCE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for BedShear {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        if self.shares.is_empty() {
+/// [`BED_FRICTION_VELOCITY`] and [`BED_DISTANCE`] of particles within a spacing of a bed of the phase `bed`; ν of every phase,
+/// m²/s, none of those without a bed.
+pub(crate) fn bed_shear<const D: usize>(
+    bed: u32,
+    viscosities: Vec<Option<f64>>,
+    law: WallLaw,
+) -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here(fields::POSITION)
+        .both((fields::PHASE, fields::VELOCITY, fields::VOLUME))
+        .where_there(fields::RENORMALISATION)
+        .writes((BED_FRICTION_VELOCITY, BED_DISTANCE));
+    // Shares of the kernel beyond a plane at equal steps of the distance, from 0 to the support radius; filled at first need.
+    let mut shares = Vec::new();
+    stage("rough bed", access, move |world: &mut World<D>| {
+        if shares.is_empty() {
             let radius = world.kernel.support_radius();
             let at = |k: usize| kernel_beyond(&*world.kernel, radius * k as f64 / STEPS as f64);
-            self.shares = (0..=STEPS).map(at).collect();
+            shares = (0..=STEPS).map(at).collect();
         }
         let mut friction = world.free.take(BED_FRICTION_VELOCITY)?;
         let mut distances = world.free.take(BED_DISTANCE)?;
         let phase = world.free.get(fields::PHASE)?;
-        let viscosity = |i: usize| self.viscosities[phase[i] as usize];
-        let seen = self.bed_view(world, viscosity)?;
+        let viscosity = |i: usize| viscosities[phase[i] as usize];
+        let seen = bed_view(world, (bed, &shares[..]), viscosity)?;
         for (i, seen) in seen.into_iter().enumerate() {
             (friction[i], distances[i]) = (0.0, f64::INFINITY);
             let (Some(nu), Some(Some(seen))) = (viscosity(i), seen) else {
                 continue;
             };
-            let found = self
-                .law
-                .friction_velocity(seen.slip.norm(), seen.distance, nu);
-            friction[i] = found.map_err(|error| StepError::Stage {
-                stage: "rough bed".into(),
-                reason: error.to_string(),
-            })?;
+            let found = law.friction_velocity(seen.slip.norm(), seen.distance, nu);
+            friction[i] = found.map_err(|error| StepError::stage("rough bed", error))?;
             distances[i] = seen.distance;
         }
         world.free.put(BED_FRICTION_VELOCITY, friction)?;
         Ok(world.free.put(BED_DISTANCE, distances)?)
-    }
+    })
 }

@@ -1,29 +1,19 @@
 //! Share of the production that counts at free surfaces.
 
-use sph_core::{Access, Declares, Stage, StepError, fields};
+use sph_core::{Access, Stage, fields, stage};
 use sph_neighbours::{Around, Values, World, walk};
 
 use crate::columns::SURFACE_SHARE;
 
 /// [`SURFACE_SHARE`] = 2C − 1 within 0 and 1, with the concentration C = Σ V w/γ: 1 inside, ½ at a flat free surface. Gradients
 /// there are sums over half a support, and drops are not turbulent. Source: ours.
-pub(crate) struct SurfaceShare;
-
-impl Declares for SurfaceShare {
-    fn name(&self) -> String {
-        "surface share".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::POSITION)
-            .both(fields::VOLUME)
-            .where_there(fields::RENORMALISATION)
-            .writes(SURFACE_SHARE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for SurfaceShare {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+pub(crate) fn surface_share<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here(fields::POSITION)
+        .both(fields::VOLUME)
+        .where_there(fields::RENORMALISATION)
+        .writes(SURFACE_SHARE);
+    stage("surface share", access, |world: &mut World<D>| {
         let volume = world.free.get(fields::VOLUME)?;
         let points = &world.walls.points;
         let own = world.kernel.value_at_zero();
@@ -38,5 +28,5 @@ impl<const D: usize> Stage<World<D>> for SurfaceShare {
             (2.0 * filling * rows.inverse_renormalisation - 1.0).clamp(0.0, 1.0)
         })?;
         Ok(world.free.put(SURFACE_SHARE, shares)?)
-    }
+    })
 }

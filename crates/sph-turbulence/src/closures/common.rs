@@ -1,47 +1,45 @@
 //! Common refusals, needs and remarks of all closures.
 
 use sph_contribution::{Offer, Refusal, Report, Setting};
-use sph_core::{Access, Stage, suggestion};
+use sph_core::{Access, StepError, fields, stage, suggestion};
 use sph_neighbours::World;
 
-use super::phases::{BedEddies, PhaseFilter, acting, check, viscosities};
-use crate::bed::{BedShear, RoughBed};
-use crate::distance::WallDistance;
+use super::phases::{BedEddies, acting, check, viscosities};
+use crate::bed::{RoughBed, bed_shear};
+use crate::columns::BED;
+use crate::distance::wall_distance;
 use crate::kind::KIND;
 
-/// Distances from walls that a closure reads.
-#[derive(Clone, Debug)]
-pub(crate) struct Distances {
-    /// Walls that count; all, if empty.
-    pub walls: Vec<String>,
-    /// Beyond it no value is needed, m.
-    pub within: f64,
-}
-
 /// State behind the stage of a closure.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ClosureCommon {
+#[derive(Default)]
+pub(crate) struct ClosureCommon<'a> {
     /// Name of the plugin.
     pub name: &'static str,
     /// Names of the phases that it acts on; empty in a scene of one.
-    pub phases: Vec<String>,
+    pub phases: &'a [String],
     /// A bed that is a rough wall.
-    pub bed: Option<RoughBed>,
-    /// Distances that it reads.
-    pub distances: Option<Distances>,
+    pub bed: Option<&'a RoughBed>,
+    /// Walls from which it reads distances, all if there are none, and beyond what distance it needs no value, m.
+    pub distances: Option<(&'a [String], f64)>,
     /// True if it resolves eddies, which are of three dimensions.
     pub eddies_in_space: bool,
 }
 
-impl ClosureCommon {
+/// True if a wall of elements rubs by itself.
+pub(crate) fn rubs<const D: usize>(setting: &Setting<'_, D>) -> bool {
+    let factors = &setting.world.walls.elements.friction_factor;
+    factors.iter().any(|factor| *factor > 0.0)
+}
+
+impl ClosureCommon<'_> {
     /// Refuses phases that no closure is for.
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
-        check(self.name, &self.phases, setting)?;
-        if let Some(bed) = &self.bed {
-            bed.check(&self.phases, setting)?;
+        check(self.name, self.phases, setting)?;
+        if let Some(bed) = self.bed {
+            bed.check(self.phases, setting)?;
         }
-        if let Some(distances) = &self.distances {
+        if let Some((named, _)) = self.distances {
             let walls = &setting.world.walls;
             if walls.elements.centre.is_empty() {
                 let why = format!(
@@ -51,7 +49,7 @@ impl ClosureCommon {
                 );
                 return refused("", why);
             }
-            let mut strange = distances.walls.iter().filter(|n| !walls.names.contains(n));
+            let mut strange = named.iter().filter(|n| !walls.names.contains(n));
             if let Some(name) = strange.next() {
                 let near = suggestion(name, walls.names.iter().map(String::as_str));
                 return refused("walls", format!("there is no wall `{name}`{near}"));
@@ -60,36 +58,54 @@ impl ClosureCommon {
         Ok(())
     }
 
-    /// Offers the stage of a closure, where there are several phases only in its own; the stages of distances and of the
-    /// bed, if it reads them; and a word at the end, if it has one.
+    /// Offers the stage of a closure, of a name in plans and the columns that it reads, which sets the eddy viscosities, Pa s:
+    /// none in phases on which it does not act, neither in soils nor in fluids that are not named. Besides the stages of
+    /// distances and of the bed, if it reads them; and a word at the end, if it has one.
     ///
     /// # Errors
     /// The key of what no closure is for.
     pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,
-        stage: impl Stage<World<D>> + 'static,
+        (name, mut access): (&'static str, Access),
+        set: impl Fn(&World<D>, &mut [f64]) -> Result<(), StepError> + Send + 'static,
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
         self.check(setting)?;
-        match acting(&self.phases, setting) {
-            None => offer.stage(stage),
-            Some(acts) => {
-                let bed = self.bed.as_ref().map(|bed| BedEddies {
-                    law: bed.law(),
-                    viscosities: viscosities(&self.phases, setting),
-                });
-                offer.stage(PhaseFilter { stage, acts, bed });
+        let acts = acting(self.phases, setting);
+        let bed = self.bed.map(|bed| BedEddies {
+            law: bed.law(),
+            viscosities: viscosities(self.phases, setting),
+        });
+        access = access.writes(fields::EDDY_VISCOSITY);
+        if acts.is_some() {
+            access = access.here(fields::PHASE);
+        }
+        if bed.is_some() {
+            access = access.here(fields::DENSITY).here(BED);
+        }
+        offer.stage(stage(name, access, move |world: &mut World<D>| {
+            let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+            set(world, &mut eddies)?;
+            if let Some(acts) = &acts {
+                let phase = world.free.get(fields::PHASE)?;
+                let all = eddies.iter_mut().zip(phase);
+                let others = all.filter(|(_, phase)| !acts[**phase as usize]);
+                others.for_each(|(eddy, _)| *eddy = 0.0);
             }
+            if let Some(bed) = &bed {
+                bed.set(world, &mut eddies)?;
+            }
+            Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+        }));
+        if let Some((walls, within)) = self.distances {
+            offer.stage(wall_distance(walls.to_vec(), within));
         }
-        if let Some(d) = &self.distances {
-            offer.stage(WallDistance::new(&d.walls, d.within));
-        }
-        if let Some(bed) = &self.bed {
+        if let Some(bed) = self.bed {
             let number = setting.phases.iter().position(|p| *p == bed.phase);
-            let own = viscosities(&self.phases, setting);
             let number = number.unwrap_or_default() as u32;
-            offer.stage(BedShear::new(number, own, bed.law()));
+            let own = viscosities(self.phases, setting);
+            offer.stage(bed_shear(number, own, bed.law()));
         }
         if self.eddies_in_space && D == 2 {
             let warning = format!(

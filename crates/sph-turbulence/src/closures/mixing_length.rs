@@ -1,11 +1,11 @@
 //! Prandtl's mixing length.
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
+use sph_core::{Access, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
-use super::common::{ClosureCommon, Distances};
+use super::common::ClosureCommon;
 use super::length::Length;
 use crate::bed::RoughBed;
 use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
@@ -61,19 +61,6 @@ impl MixingLength {
         }
     }
 
-    fn common(&self) -> ClosureCommon {
-        ClosureCommon {
-            name: "mixing-length",
-            phases: self.phases.clone(),
-            bed: self.bed.clone(),
-            distances: Some(Distances {
-                walls: self.walls.clone(),
-                within: self.length().farthest(),
-            }),
-            eddies_in_space: false,
-        }
-    }
-
     /// Strain rate, 1/s, that counts at a distance, m.
     fn strain_rate(&self, rate: f64, distance: f64, friction: f64, spacing: f64) -> f64 {
         let at = |friction: f64| friction / (self.karman * distance);
@@ -83,27 +70,10 @@ impl MixingLength {
             None => rate,
         }
     }
-}
 
-impl Declares for MixingLength {
-    fn name(&self) -> String {
-        "mixing length".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::DENSITY)
-            .here(fields::STRAIN_RATE)
-            .here(WALL_DISTANCE)
-            .where_there(FRICTION_VELOCITY)
-            .writes(fields::EDDY_VISCOSITY)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for MixingLength {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let rates = world.free.get(fields::STRAIN_RATE)?;
+    /// Sets the eddy viscosities, Pa s.
+    fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
+        let (density, rates) = world.free.all((fields::DENSITY, fields::STRAIN_RATE))?;
         let distance = world.free.get(WALL_DISTANCE)?;
         let friction = match world.free.has(FRICTION_VELOCITY.name) {
             true => world.free.get(FRICTION_VELOCITY)?,
@@ -117,13 +87,25 @@ impl<const D: usize> Stage<World<D>> for MixingLength {
             let rate = self.strain_rate(rates[i], z, friction, world.spacing);
             *eddy = density[i] * length.at(z).powi(2) * rate;
         }
-        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+        Ok(())
     }
 }
 
 impl<const D: usize> Contribution<D> for MixingLength {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.common().offer_to(setting, self.clone(), offer)
+        let common = ClosureCommon {
+            name: "mixing-length",
+            phases: &self.phases,
+            bed: self.bed.as_ref(),
+            distances: Some((&self.walls[..], self.length().farthest())),
+            ..ClosureCommon::default()
+        };
+        let access = Access::none()
+            .here((fields::DENSITY, fields::STRAIN_RATE, WALL_DISTANCE))
+            .where_there(FRICTION_VELOCITY);
+        let own = self.clone();
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("mixing length", access), set, offer)
     }
 }
 

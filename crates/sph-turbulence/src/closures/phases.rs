@@ -1,10 +1,10 @@
 //! Phases on which a closure acts.
 
 use sph_contribution::{Refusal, Setting};
-use sph_core::{Access, Declares, Stage, StepError, fields, suggestion};
+use sph_core::{Access, StepError, fields, suggestion};
 use sph_neighbours::World;
 
-use crate::columns::{BED_DISTANCE, BED_FRICTION_VELOCITY};
+use crate::columns::BED;
 use crate::kind::KIND;
 use crate::wall::WallLaw;
 
@@ -94,6 +94,14 @@ impl<'a> Kinematic<'a> {
         Ok(Kinematic { of_phase, phase })
     }
 
+    /// With the column that tells phases apart, where there are several.
+    pub fn access(of_phase: &[Option<f64>], access: Access) -> Access {
+        match of_phase.len() {
+            1 => access,
+            _ => access.here(fields::PHASE),
+        }
+    }
+
     /// That of a particle.
     pub fn at(&self, i: usize) -> Option<f64> {
         self.of_phase[self.phase.map_or(0, |p| p[i] as usize)]
@@ -103,16 +111,6 @@ impl<'a> Kinematic<'a> {
 /// True if it acts on a phase of a name.
 pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
     named.is_empty() || named.iter().any(|name| name == phase)
-}
-
-/// The stage of a closure, and no eddies in other phases: neither in soils nor in fluids that are not named.
-pub(crate) struct PhaseFilter<S> {
-    /// The closure's.
-    pub stage: S,
-    /// Marks of phases on which it acts.
-    pub acts: Vec<bool>,
-    /// A bed that is a rough wall.
-    pub bed: Option<BedEddies>,
 }
 
 /// Eddies that make the shear of a rough bed.
@@ -125,11 +123,13 @@ pub(crate) struct BedEddies {
 
 impl BedEddies {
     /// η_t of (η + η_t) u_t/z = ρu*², where the laminar share is less than that.
-    fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
-        let friction = world.free.get(BED_FRICTION_VELOCITY)?;
-        let distance = world.free.get(BED_DISTANCE)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let phase = world.free.get(fields::PHASE)?;
+    pub fn set<const D: usize>(
+        &self,
+        world: &World<D>,
+        eddies: &mut [f64],
+    ) -> Result<(), StepError> {
+        let (friction, distance) = world.free.all(BED)?;
+        let (density, phase) = world.free.all((fields::DENSITY, fields::PHASE))?;
         for i in (0..eddies.len()).filter(|i| friction[*i] > 0.0) {
             let Some(nu) = self.viscosities[phase[i] as usize] else {
                 continue;
@@ -139,38 +139,5 @@ impl BedEddies {
             eddies[i] = density[i] * (both - nu).max(0.0);
         }
         Ok(())
-    }
-}
-
-impl<S: Declares> Declares for PhaseFilter<S> {
-    fn name(&self) -> String {
-        self.stage.name()
-    }
-    fn access(&self) -> Access {
-        let access = self.stage.access().here(fields::PHASE);
-        match self.bed {
-            Some(_) => access
-                .here(fields::DENSITY)
-                .here(BED_FRICTION_VELOCITY)
-                .here(BED_DISTANCE),
-            None => access,
-        }
-    }
-}
-
-impl<const D: usize, S: Stage<World<D>>> Stage<World<D>> for PhaseFilter<S> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        self.stage.run(world)?;
-        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-        let phase = world.free.get(fields::PHASE)?;
-        for (eddy, phase) in eddies.iter_mut().zip(phase) {
-            if !self.acts[*phase as usize] {
-                *eddy = 0.0;
-            }
-        }
-        if let Some(bed) = &self.bed {
-            bed.set(world, &mut eddies)?;
-        }
-        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
     }
 }

@@ -1,15 +1,15 @@
 //! Smagorinsky's closure of large-eddy simulations.
 
 use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
-use sph_core::{Access, Declares, Field, Scalar, Stage, StepError, fields, parameters, plugin};
+use sph_core::{Access, Field, Scalar, StepError, fields, parameters, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
-use super::common::ClosureCommon;
+use super::common::{ClosureCommon, rubs};
 use super::filter::FilterLength;
 use super::last_strain::StrainRecorder;
 use super::phases::viscosities;
-use super::wall_units::WallUnits;
+use super::wall_units::wall_units;
 use crate::bed::RoughBed;
 use crate::columns::{DAMPING_UNITS, LAST_STRAIN};
 use crate::kind::KIND;
@@ -96,36 +96,8 @@ impl Smagorinsky {
         }
     }
 
-    fn common(&self) -> ClosureCommon {
-        ClosureCommon {
-            name: "smagorinsky",
-            phases: self.phases.clone(),
-            bed: self.bed.clone(),
-            distances: None,
-            eddies_in_space: true,
-        }
-    }
-}
-
-impl Declares for Smagorinsky {
-    fn name(&self) -> String {
-        "smagorinsky".into()
-    }
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .here(fields::DENSITY)
-            .here(self.strain_rate())
-            .writes(fields::EDDY_VISCOSITY);
-        match self.damping {
-            Damping::None => access,
-            Damping::VanDriest => access.here(DAMPING_UNITS),
-        }
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for Smagorinsky {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+    /// Sets the eddy viscosities, Pa s.
+    fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
         let rates = world.free.get(self.strain_rate())?;
@@ -138,7 +110,7 @@ impl<const D: usize> Stage<World<D>> for Smagorinsky {
             let all = eddies.iter_mut().zip(units);
             all.for_each(|(eddy, z)| *eddy *= Self::damped(*z).powi(2));
         }
-        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+        Ok(())
     }
 }
 
@@ -150,18 +122,27 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
         }
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.common().offer_to(setting, self.clone(), offer)?;
+        let common = ClosureCommon {
+            name: "smagorinsky",
+            phases: &self.phases,
+            bed: self.bed.as_ref(),
+            eddies_in_space: true,
+            ..ClosureCommon::default()
+        };
+        let mut access = Access::none().here((fields::DENSITY, self.strain_rate()));
+        if self.damping == Damping::VanDriest {
+            access = access.here(DAMPING_UNITS);
+        }
+        let own = self.clone();
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("smagorinsky", access), set, offer)?;
         if self.strain_of == StrainOf::LastStep {
             offer.hook(StrainRecorder);
         }
         if self.damping != Damping::VanDriest {
             return Ok(());
         }
-        let friction_factors = &setting.world.walls.elements.friction_factor;
-        if !friction_factors
-            .iter()
-            .any(|friction_factor| *friction_factor > 0.0)
-        {
+        if !rubs(setting) {
             return Err(Refusal::at_key(
                 KIND,
                 "damping",
@@ -169,10 +150,7 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
                  `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
             ));
         }
-        offer.stage(WallUnits {
-            viscosities: viscosities(&self.phases, setting),
-            tree: None,
-        });
+        offer.stage(wall_units(viscosities(&self.phases, setting)));
         Ok(())
     }
 }

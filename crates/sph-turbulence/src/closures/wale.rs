@@ -3,13 +3,14 @@
 use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
+use sph_core::{Access, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::common::ClosureCommon;
 use super::filter::FilterLength;
 use crate::bed::RoughBed;
+use crate::in_space::in_space;
 
 /// η_t = ρ (C_w Δ)² (S^d:S^d)^{3/2} / ((S:S)^{5/2} + (S^d:S^d)^{5/4}), with S the strain rate,
 /// S^d = ½(g² + g²ᵀ) − ⅓ tr(g²) 1 and the velocity gradient g.
@@ -45,22 +46,9 @@ pub struct Wale {
 }
 
 impl Wale {
-    fn common(&self) -> ClosureCommon {
-        ClosureCommon {
-            name: "wale",
-            phases: self.phases.clone(),
-            bed: self.bed.clone(),
-            distances: None,
-            eddies_in_space: true,
-        }
-    }
-
     /// ν_t, m²/s, for a velocity gradient, 1/s, with a filter of a width, m.
     pub fn kinematic<const D: usize>(&self, width: f64, gradient: &SMatrix<f64, D, D>) -> f64 {
-        let g = Matrix3::from_fn(|i, j| match i < D && j < D {
-            true => gradient[(i, j)],
-            false => 0.0,
-        });
+        let g = in_space(gradient);
         let squared = g * g;
         let third = squared.trace() / 3.0;
         let shear = (squared + squared.transpose()) * 0.5 - Matrix3::identity() * third;
@@ -72,36 +60,32 @@ impl Wale {
             false => 0.0,
         }
     }
-}
 
-impl Declares for Wale {
-    fn name(&self) -> String {
-        "wale".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::DENSITY)
-            .here(fields::VELOCITY_GRADIENT)
-            .writes(fields::EDDY_VISCOSITY)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for Wale {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
+    /// Sets the eddy viscosities, Pa s.
+    fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
         let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
         let all = eddies.par_iter_mut().zip(density).zip(gradients);
         all.with_min_len(512)
             .for_each(|((eddy, rho), g)| *eddy = rho * self.kinematic(width, g));
-        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+        Ok(())
     }
 }
 
 impl<const D: usize> Contribution<D> for Wale {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.common().offer_to(setting, self.clone(), offer)
+        let common = ClosureCommon {
+            name: "wale",
+            phases: &self.phases,
+            bed: self.bed.as_ref(),
+            eddies_in_space: true,
+            ..ClosureCommon::default()
+        };
+        let access = Access::none().here((fields::DENSITY, fields::VELOCITY_GRADIENT));
+        let own = self.clone();
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("wale", access), set, offer)
     }
 }
 

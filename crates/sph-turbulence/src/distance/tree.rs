@@ -1,7 +1,7 @@
 //! The nearest wall element of a point, by a tree.
 
 use sph_core::{BoxTree, Vect};
-use sph_neighbours::{Domain, WallSet};
+use sph_neighbours::{Domain, WallSet, World};
 
 use super::simplex::squared_distance;
 
@@ -51,6 +51,28 @@ impl<const D: usize> ElementTree<D> {
             best = self.tree.nearest(x.into(), within2, squared).or(best);
         }
         best.map(|(squared, k)| (squared.sqrt(), self.element[k]))
+    }
+}
+
+/// A tree that is kept while the walls stay.
+#[derive(Default)]
+pub(crate) struct KeptTree<const D: usize>(
+    /// With the places of the wall points that it is of.
+    Option<(ElementTree<D>, Vec<Vect<D>>)>,
+);
+
+impl<const D: usize> KeptTree<D> {
+    /// Of the present places of all elements that count.
+    pub fn of(&mut self, world: &World<D>, counts: impl Fn(usize) -> bool) -> &ElementTree<D> {
+        let (walls, places) = (&world.walls, &world.walls.points.position);
+        self.0.take_if(|(_, of)| of != places);
+        let made = || {
+            (
+                ElementTree::new(walls, &world.domain, counts),
+                places.clone(),
+            )
+        };
+        &self.0.get_or_insert_with(made).0
     }
 }
 

@@ -64,8 +64,7 @@ impl<const D: usize, const N: usize> PairTerm<D> for Diffusion<N> {
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::VISCOSITY)
-            .both(fields::EDDY_VISCOSITY)
+            .both((fields::VISCOSITY, fields::EDDY_VISCOSITY))
             .here(fields::DENSITY)
             .neighbours(fields::VOLUME);
         (0..N).fold(access, |access, n| access.both(VALUE[n]).writes(RATE[n]))
@@ -152,8 +151,7 @@ pub(crate) struct DiffusionLimit(
 impl<const D: usize> Limiter<D> for DiffusionLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let viscosity = world.free.get(fields::VISCOSITY)?.iter();
-        let density = world.free.get(fields::DENSITY)?;
-        let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
+        let (density, eddies) = world.free.all((fields::DENSITY, fields::EDDY_VISCOSITY))?;
         let all = viscosity.zip(density).zip(eddies);
         let acting = all.filter(|(_, eddies)| **eddies > 0.0);
         let both = acting.map(|((eta, rho), _)| eta / rho);

@@ -2,23 +2,15 @@
 
 use nalgebra::{Matrix3, SMatrix};
 
+use crate::in_space::in_space;
+
 /// R_ij = k (⅔ δ_ij + a_ij), a = β_1 S* + β_4 (S*Ω* − Ω*S*) with S* = τS, Ω* = ½τ(∂u_i/∂x_j − ∂u_j/∂x_i), τ = k/ε:
 ///
 /// β_1 = −(6/5) N/(N² − 2 II_Ω), β_4 = −(6/5)/(N² − 2 II_Ω), and N the largest root of
 /// N³ − c₁'N² − (27/10 II_S + 2 II_Ω) N + 2c₁' II_Ω = 0, c₁' = 9/4 (c₁ − 1).
 ///
 /// Of a mean flow in the plane. Source: Wallin and Johansson 2000, Eq. 3.9–3.16, 4.1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AlgebraicStress {
-    /// c₁.
-    pub c_1: f64,
-}
-
-impl Default for AlgebraicStress {
-    fn default() -> Self {
-        AlgebraicStress { c_1: 1.8 }
-    }
-}
+pub struct AlgebraicStress;
 
 /// Stresses from a velocity gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,9 +35,12 @@ impl Anisotropy {
 }
 
 impl AlgebraicStress {
+    /// c₁.
+    pub const C_1: f64 = 1.8;
+
     /// N of II_S = tr S*² and II_Ω = tr Ω*² ≤ 0.
-    pub fn root(&self, strain: f64, turn: f64) -> f64 {
-        let c = 2.25 * (self.c_1 - 1.0);
+    pub fn root(strain: f64, turn: f64) -> f64 {
+        let c = 2.25 * (Self::C_1 - 1.0);
         let p_1 = (c * c / 27.0 + 0.45 * strain - 2.0 / 3.0 * turn) * c;
         let p_2 = p_1 * p_1 - (c * c / 9.0 + 0.9 * strain + 2.0 / 3.0 * turn).powi(3);
         if p_2 >= 0.0 {
@@ -56,20 +51,13 @@ impl AlgebraicStress {
     }
 
     /// The stresses of a velocity gradient, 1/s, at a time τ = k/ε, s.
-    pub fn anisotropy<const D: usize>(
-        &self,
-        gradient: &SMatrix<f64, D, D>,
-        time: f64,
-    ) -> Anisotropy {
-        let g = Matrix3::from_fn(|i, j| match i < D && j < D {
-            true => gradient[(i, j)] * time,
-            false => 0.0,
-        });
+    pub fn anisotropy<const D: usize>(gradient: &SMatrix<f64, D, D>, time: f64) -> Anisotropy {
+        let g = in_space(gradient) * time;
         let trace = Matrix3::identity() * (g.trace() / 3.0);
         let s = (g + g.transpose()) * 0.5 - trace;
         let o = (g - g.transpose()) * 0.5;
         let (strain, turn) = ((s * s).trace(), (o * o).trace());
-        let n = self.root(strain, turn);
+        let n = Self::root(strain, turn);
         let below = n * n - 2.0 * turn;
         let [beta_1, beta_4] = [-1.2 * n / below, -1.2 / below];
         let across = (s * o - o * s) * beta_4;
@@ -90,7 +78,7 @@ mod tests {
     use super::*;
 
     fn shear(time: f64) -> Anisotropy {
-        AlgebraicStress::default().anisotropy(&Matrix2::new(0.0, 1.0, 0.0, 0.0), time)
+        AlgebraicStress::anisotropy(&Matrix2::new(0.0, 1.0, 0.0, 0.0), time)
     }
 
     /// Page §3.8, `earsm-homogeneous`: in shear with P = ε, −a_12 τ du/dz = 1, at τ du/dz = 3.387: N = 4.05, a_12 = −0.295,
@@ -116,11 +104,10 @@ mod tests {
 
     #[test]
     fn its_n_solves_the_cubic() {
-        let model = AlgebraicStress::default();
         let c = 1.8;
         for strain in [0.0, 0.1, 1.0, 30.0, 1e4] {
             for turn in [0.0, -0.1, -1.0, -30.0, -1e4] {
-                let n = model.root(strain, turn);
+                let n = AlgebraicStress::root(strain, turn);
                 let rest = n.powi(3) - c * n * n - (2.7 * strain + 2.0 * turn) * n + 2.0 * c * turn;
                 let scale = n.abs().powi(3) + c * n * n + (2.7 * strain - 2.0 * turn) * n.abs()
                     - 2.0 * c * turn;

@@ -4,20 +4,19 @@ use rayon::prelude::*;
 use sph_contribution::{
     Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
 };
-use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_core::{Access, Evolved, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;
-use super::near::{BedSide, refuse_negative};
-use crate::bed::RoughBed;
-use crate::bed::SurfaceShare;
-use crate::closures::common::{ClosureCommon, Distances};
+use super::near::{beside_bed, refuse_negative};
+use crate::bed::{RoughBed, surface_share};
+use crate::closures::common::{ClosureCommon, rubs};
 use crate::closures::length::Length;
 use crate::closures::phases::{Kinematic, acts_on, viscosities};
 use crate::columns::{
-    FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE,
+    BED, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE,
 };
 use crate::kind::KIND;
 
@@ -43,7 +42,7 @@ pub struct KLength {
     #[parameter(unit: "m²/s²", above: 0.0)]
     pub energy: f64,
     /// Von Kármán's κ.
-    #[parameter(default: crate::wall::karman(), unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.14")]
+    #[parameter(default: crate::wall::WallLaw::default().karman, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.14")]
     pub karman: f64,
     /// Depth H of an open channel.
     #[parameter(unit: "m", above: 0.0, source: "Issa 2004, Eq. 6.19")]
@@ -75,19 +74,6 @@ impl KLength {
             longest: self.longest,
         }
     }
-
-    fn common(&self) -> ClosureCommon {
-        ClosureCommon {
-            name: "k-length",
-            phases: self.phases.clone(),
-            bed: self.bed.clone(),
-            distances: Some(Distances {
-                walls: self.walls.clone(),
-                within: self.length().farthest(),
-            }),
-            eddies_in_space: false,
-        }
-    }
 }
 
 /// L of a column of distances.
@@ -96,48 +82,28 @@ fn at(length: &Length, distance: f64, spacing: f64) -> f64 {
 }
 
 /// ε = C_μ^¾ k^{3/2}/L, m²/s³.
-fn dissipation(model: &KEpsilonModel, energy: f64, length: f64) -> f64 {
-    model.c_mu.powf(0.75) * energy * energy.sqrt() / length
+fn dissipation(energy: f64, length: f64) -> f64 {
+    KEpsilonModel::C_MU.powf(0.75) * energy * energy.sqrt() / length
 }
 
 /// k after `dt` seconds of a share of the production at a strain rate, and dissipation.
-fn after(
-    model: &KEpsilonModel,
-    energy: f64,
-    length: f64,
-    [strain_rate, share]: [f64; 2],
-    dt: f64,
-) -> f64 {
-    let dissipated = dissipation(model, energy, length);
-    let produced = share * model.production(energy, dissipated, strain_rate);
+fn after(energy: f64, length: f64, [strain_rate, share]: [f64; 2], dt: f64) -> f64 {
+    let dissipated = dissipation(energy, length);
+    let produced = share * KEpsilonModel::production(energy, dissipated, strain_rate);
     (energy + dt * produced) / (1.0 + dt * dissipated / energy)
 }
 
-impl Declares for KLength {
-    fn name(&self) -> String {
-        "k-length".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::DENSITY)
-            .here(TURBULENT_ENERGY)
-            .here(WALL_DISTANCE)
-            .writes(fields::EDDY_VISCOSITY)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for KLength {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-        let (model, length) = (KEpsilonModel::default(), self.length());
-        let density = world.free.get(fields::DENSITY)?;
-        let energy = world.free.get(TURBULENT_ENERGY)?;
+impl KLength {
+    /// Sets the eddy viscosities, Pa s.
+    fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
+        let length = self.length();
+        let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
         let distance = world.free.get(WALL_DISTANCE)?;
         for (i, eddy) in eddies.iter_mut().enumerate() {
             let length = at(&length, distance[i], world.spacing);
-            *eddy = density[i] * model.c_mu.powf(0.25) * energy[i].sqrt() * length;
+            *eddy = density[i] * KEpsilonModel::C_MU.powf(0.25) * energy[i].sqrt() * length;
         }
-        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+        Ok(())
     }
 }
 
@@ -148,15 +114,18 @@ impl<const D: usize> Contribution<D> for KLength {
         vec![OwnColumn::scalar(TURBULENT_ENERGY, move |b| start(b.phase)).positive()]
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.common().offer_to(setting, self.clone(), offer)?;
-        let rubs = setting
-            .world
-            .walls
-            .elements
-            .friction_factor
-            .iter()
-            .any(|g| *g > 0.0);
-        if rubs && setting.phases.len() == 1 {
+        let common = ClosureCommon {
+            name: "k-length",
+            phases: &self.phases,
+            bed: self.bed.as_ref(),
+            distances: Some((&self.walls[..], self.length().farthest())),
+            ..ClosureCommon::default()
+        };
+        let access = Access::none().here((fields::DENSITY, TURBULENT_ENERGY, WALL_DISTANCE));
+        let own = self.clone();
+        let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
+        common.offer_to(setting, ("k-length", access), set, offer)?;
+        if rubs(setting) && setting.phases.len() == 1 {
             return Err(Refusal::at_key(
                 KIND,
                 "",
@@ -169,18 +138,16 @@ impl<const D: usize> Contribution<D> for KLength {
             rate: TURBULENT_ENERGY_RATE,
         });
         if self.damped_at_surfaces {
-            offer.stage(SurfaceShare);
+            offer.stage(surface_share());
         }
         offer.term(Diffusion {
-            sigma: [KEpsilonModel::default().sigma_k],
+            sigma: [KEpsilonModel::SIGMA_K],
             wall_flux: None,
         });
         offer.limiter(DiffusionLimit(setting.viscous));
         offer.hook(Sources {
-            length: self.length(),
+            closure: self.clone(),
             viscosities: viscosities(&self.phases, setting),
-            damped: self.damped_at_surfaces,
-            bed: self.bed.is_some(),
         });
         offer.remedy = Some("look at k at the start: the eddy viscosity is 0.55 √k L".into());
         Ok(())
@@ -189,13 +156,9 @@ impl<const D: usize> Contribution<D> for KLength {
 
 /// Production and dissipation after diffusion, and wall values.
 struct Sources {
-    length: Length,
+    closure: KLength,
     /// ν of every phase, m²/s; none of those that it does not act on.
     viscosities: Vec<Option<f64>>,
-    /// True if production is damped at surfaces.
-    damped: bool,
-    /// True if there is a bed that is a rough wall.
-    bed: bool,
 }
 
 impl<const D: usize> StepHook<D> for Sources {
@@ -204,22 +167,16 @@ impl<const D: usize> StepHook<D> for Sources {
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .here(fields::STRAIN_RATE)
-            .here(fields::POSITION)
-            .here(fields::IDENTITY)
-            .here(WALL_DISTANCE)
-            .here(TURBULENT_ENERGY)
+            .here((fields::STRAIN_RATE, fields::POSITION, fields::IDENTITY))
+            .here((WALL_DISTANCE, TURBULENT_ENERGY))
             .where_there(FRICTION_VELOCITY)
+            .where_there(BED)
             .writes(TURBULENT_ENERGY);
-        let access = match self.damped {
+        let access = match self.closure.damped_at_surfaces {
             true => access.here(SURFACE_SHARE),
             false => access,
         };
-        let access = match self.viscosities.len() {
-            1 => access,
-            _ => access.here(fields::PHASE),
-        };
-        BedSide::access(self.bed, access)
+        Kinematic::access(&self.viscosities, access)
     }
     fn phases(&self) -> &'static [StepPhase] {
         &[StepPhase::AfterKick]
@@ -230,32 +187,29 @@ impl<const D: usize> StepHook<D> for Sources {
         let viscosity = Kinematic::from_world(&self.viscosities, world)?;
         let acts = |i: usize| viscosity.at(i).is_some();
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
-        let model = KEpsilonModel::default();
-        let (length, spacing) = (self.length, world.spacing);
-        let share = match self.damped {
+        let (length, spacing) = (self.closure.length(), world.spacing);
+        let share = match self.closure.damped_at_surfaces {
             true => world.free.get(SURFACE_SHARE)?,
             false => &[],
         };
-        let bed = BedSide::new(self.bed, world)?;
-        let rates = world.free.get(fields::STRAIN_RATE)?;
-        let distance = world.free.get(WALL_DISTANCE)?;
+        let bed = world.free.all(BED).ok();
+        let (rates, distance) = world.free.all((fields::STRAIN_RATE, WALL_DISTANCE))?;
         let all = energy.par_iter_mut().zip(rates).zip(distance).enumerate();
         all.with_min_len(1024).for_each(|(i, ((k, rate), z))| {
             if acts(i) {
                 let share = share.get(i).copied().unwrap_or(1.0);
-                *k = after(&model, *k, at(&length, *z, spacing), [*rate, share], dt);
-                if let Some([u, _]) = bed.at(i) {
-                    *k = u * u / model.c_mu.sqrt();
+                *k = after(*k, at(&length, *z, spacing), [*rate, share], dt);
+                if let Some([u, _]) = beside_bed(bed, i) {
+                    *k = u * u / KEpsilonModel::C_MU.sqrt();
                 }
             }
         });
         if world.free.has(FRICTION_VELOCITY.name) {
             let friction = world.free.get(FRICTION_VELOCITY)?;
-            let near = friction.iter().zip(distance);
-            for (k, (u, _)) in
-                (energy.iter_mut().zip(near)).filter(|(_, (u, z))| **u > 0.0 && **z < spacing)
-            {
-                *k = u * u / model.c_mu.sqrt();
+            for (k, (u, z)) in energy.iter_mut().zip(friction.iter().zip(distance)) {
+                if *u > 0.0 && *z < spacing {
+                    *k = u * u / KEpsilonModel::C_MU.sqrt();
+                }
             }
         }
         Ok(world.free.put(TURBULENT_ENERGY, energy)?)
@@ -269,21 +223,22 @@ mod tests {
     /// P = ε with S = u*/(κz) and L = κz at k = u*²/√C_μ: it stays, and ν_t = κu*z.
     #[test]
     fn the_logarithmic_layer_is_in_balance() {
-        let model = KEpsilonModel::default();
         let (u, length): (f64, f64) = (0.05, 0.41 * 0.013);
-        let k = u * u / model.c_mu.sqrt();
-        let next = after(&model, k, length, [u / length, 1.0], 1.0);
+        let k = u * u / KEpsilonModel::C_MU.sqrt();
+        let next = after(k, length, [u / length, 1.0], 1.0);
         assert!((next / k - 1.0).abs() < 1e-12);
-        assert!((model.c_mu.powf(0.25) * k.sqrt() * length / (u * length) - 1.0).abs() < 1e-12);
+        assert!(
+            (KEpsilonModel::C_MU.powf(0.25) * k.sqrt() * length / (u * length) - 1.0).abs() < 1e-12
+        );
     }
 
     /// dk/dt = −C_μ^¾ k^{3/2}/L: √k = √k₀/(1 + C_μ^¾ √k₀ t/(2L)).
     #[test]
     fn without_strain_it_decays() {
-        let (model, length, end) = (KEpsilonModel::default(), 0.1, 2.0);
+        let (length, end) = (0.1, 2.0);
         let steps = 20_000;
         let k = (0..steps).fold(0.04, |k, _| {
-            after(&model, k, length, [0.0, 1.0], end / f64::from(steps))
+            after(k, length, [0.0, 1.0], end / f64::from(steps))
         });
         let exact = 0.04 / (1.0 + 0.09f64.powf(0.75) * 0.2 * end / (2.0 * length)).powi(2);
         assert!((k / exact - 1.0).abs() < 1e-3, "{k}, {exact}");

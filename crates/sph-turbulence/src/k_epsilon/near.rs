@@ -1,44 +1,14 @@
 //! Walls and beds of transported scalars, and refusals.
 
-use sph_core::{Access, StepError, fields};
+use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
 use crate::closures::phases::Kinematic;
-use crate::columns::{BED_DISTANCE, BED_FRICTION_VELOCITY};
 
-/// u* and the distance of particles on a bed that is a rough wall.
-pub(crate) struct BedSide<'a> {
-    columns: Option<[&'a [f64]; 2]>,
-}
-
-impl<'a> BedSide<'a> {
-    /// The columns it reads, if there is such a bed.
-    pub fn access(bed: bool, access: Access) -> Access {
-        match bed {
-            true => access.here(BED_FRICTION_VELOCITY).here(BED_DISTANCE),
-            false => access,
-        }
-    }
-
-    /// Of a world.
-    pub fn new<const D: usize>(bed: bool, world: &'a World<D>) -> Result<Self, StepError> {
-        let columns = match bed {
-            true => Some([
-                world.free.get(BED_FRICTION_VELOCITY)?,
-                world.free.get(BED_DISTANCE)?,
-            ]),
-            false => None,
-        };
-        Ok(BedSide { columns })
-    }
-
-    /// u*, m/s, and the distance, m, of a particle next to the bed.
-    pub fn at(&self, i: usize) -> Option<[f64; 2]> {
-        let both = self
-            .columns
-            .map(|[friction, distance]| [friction[i], distance[i]]);
-        both.filter(|[friction, _]| *friction > 0.0)
-    }
+/// u*, m/s, and the distance, m, of a particle next to a bed that is a rough wall, from the columns of such a bed.
+pub(crate) fn beside_bed(columns: Option<(&[f64], &[f64])>, i: usize) -> Option<[f64; 2]> {
+    let (friction, distance) = columns?;
+    (friction[i] > 0.0).then(|| [friction[i], distance[i]])
 }
 
 /// Nothing is cut off: a step whose diffusion takes more than there is fails, and is taken again in shorter ones.
@@ -75,17 +45,12 @@ pub(crate) fn rubbed<const D: usize>(world: &World<D>, viscosities: &[Option<f64
         elements.friction_factor[s] > 0.0 && elements.wall_function.get(s) != Some(&true)
     };
     let of = |i: usize| {
-        walls
-            .contacts
-            .of_particle(i)
-            .iter()
-            .find(|c| rubs(c.element as usize))
+        let mut contacts = walls.contacts.of_particle(i).iter();
+        contacts.find(|c| rubs(c.element as usize))
     };
     let particles = walls.contacts.particles.iter().map(|p| *p as usize);
-    let met = particles
-        .filter(|i| viscosity.at(*i).is_some())
-        .find_map(of);
-    let Some(met) = met else {
+    let mut turbulent = particles.filter(|i| viscosity.at(*i).is_some());
+    let Some(met) = turbulent.find_map(of) else {
         return Vec::new();
     };
     let name = &walls.names[elements.wall[met.element as usize] as usize];

@@ -2,20 +2,20 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Birth, Contribution, Offer, OwnColumn, Refusal, Setting};
-use sph_core::{Access, Declares, Evolved, Stage, StepError, fields, plugin};
+use sph_core::{Access, Evolved, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 use sph_soil::stress::StressDivergence;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::earsm::AlgebraicStress;
-use super::extra_stress::ExtraStress;
+use super::extra_stress::extra_stress;
 use super::model::{KEpsilonModel, Variant};
 use super::realisable::RealisableModel;
 use super::start::ChannelStart;
 use super::work::{AtWall, Sources};
-use crate::bed::{RoughBed, SurfaceShare};
-use crate::closures::common::ClosureCommon;
+use crate::bed::{RoughBed, surface_share};
+use crate::closures::common::{ClosureCommon, rubs};
 use crate::closures::phases::{acts_on, viscosities};
 use crate::columns::{
     DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
@@ -80,82 +80,46 @@ pub struct KEpsilon {
 }
 
 impl KEpsilon {
-    fn common(&self) -> ClosureCommon {
-        ClosureCommon {
-            name: "k-epsilon",
-            phases: self.phases.clone(),
-            bed: self.bed.clone(),
-            ..ClosureCommon::default()
-        }
-    }
-
     /// k and ε at the start, at a height; none if the scene has none.
     fn start(&self, height: f64) -> Option<[f64; 2]> {
-        let model = KEpsilonModel::default();
         match (self.channel, self.energy, self.dissipation) {
-            (Some(channel), None, None) => Some(channel.at(&model, self.karman, height)),
+            (Some(channel), None, None) => Some(channel.at(self.karman, height)),
             (None, Some(k), Some(e)) => Some([k, e]),
             _ => None,
         }
     }
 }
 
-/// [`fields::EDDY_VISCOSITY`] of k and ε.
-struct EddyStage(Variant);
-
-impl Declares for EddyStage {
-    fn name(&self) -> String {
-        "k-epsilon".into()
-    }
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .here(fields::DENSITY)
-            .here(TURBULENT_ENERGY)
-            .here(DISSIPATION)
-            .writes(fields::EDDY_VISCOSITY);
-        match self.0 {
-            Variant::Standard => access,
-            Variant::Realisable | Variant::ExplicitAlgebraic => {
-                access.here(fields::VELOCITY_GRADIENT)
-            }
-        }
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for EddyStage {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-        let model = KEpsilonModel::default();
-        let density = world.free.get(fields::DENSITY)?;
-        let energy = world.free.get(TURBULENT_ENERGY)?;
+impl Variant {
+    /// Sets the eddy viscosities of k and ε, Pa s.
+    fn set<const D: usize>(self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
+        let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
         let dissipation = world.free.get(DISSIPATION)?;
-        let gradients = match self.0 {
+        let gradients = match self {
             Variant::Standard => &[],
             _ => world.free.get(fields::VELOCITY_GRADIENT)?,
         };
-        let (realisable, algebraic) = (RealisableModel::default(), AlgebraicStress::default());
-        let c_mu = |i: usize, time: f64| match self.0 {
-            Variant::Standard => model.c_mu,
-            Variant::Realisable => realisable.c_mu(&gradients[i], time),
-            Variant::ExplicitAlgebraic => algebraic.anisotropy(&gradients[i], time).c_mu(),
+        let c_mu = |i: usize, time: f64| match self {
+            Variant::Standard => KEpsilonModel::C_MU,
+            Variant::Realisable => RealisableModel::c_mu(&gradients[i], time),
+            Variant::ExplicitAlgebraic => AlgebraicStress::anisotropy(&gradients[i], time).c_mu(),
         };
         let all = eddies.par_iter_mut().enumerate();
         all.with_min_len(512).for_each(|(i, eddy)| {
             let time = energy[i] / dissipation[i];
             *eddy = density[i] * c_mu(i, time) * energy[i] * time;
         });
-        Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
+        Ok(())
     }
 }
 
 impl<const D: usize> Contribution<D> for KEpsilon {
     fn columns(&self) -> Vec<OwnColumn<D>> {
         let at = |own: KEpsilon, k: usize| {
-            move |birth: &Birth<'_, D>| match acts_on(&own.phases, birth.phase) {
-                true => own
-                    .start(birth.position[D - 1])
-                    .map_or(0.0, |start| start[k]),
-                false => 0.0,
+            move |birth: &Birth<'_, D>| {
+                let start = own.start(birth.position[D - 1]);
+                let start = start.filter(|_| acts_on(&own.phases, birth.phase));
+                start.map_or(0.0, |start| start[k])
             }
         };
         vec![
@@ -164,8 +128,19 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         ]
     }
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        self.common()
-            .offer_to(setting, EddyStage(self.variant), offer)?;
+        let common = ClosureCommon {
+            name: "k-epsilon",
+            phases: &self.phases,
+            bed: self.bed.as_ref(),
+            ..ClosureCommon::default()
+        };
+        let mut access = Access::none().here((fields::DENSITY, TURBULENT_ENERGY, DISSIPATION));
+        if self.variant != Variant::Standard {
+            access = access.here(fields::VELOCITY_GRADIENT);
+        }
+        let variant = self.variant;
+        let set = move |world: &World<D>, eddies: &mut [f64]| variant.set(world, eddies);
+        common.offer_to(setting, ("k-epsilon", access), set, offer)?;
         if self.start(0.0).is_none() {
             return Err(Refusal::at_key(
                 KIND,
@@ -173,14 +148,7 @@ impl<const D: usize> Contribution<D> for KEpsilon {
                 "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
             ));
         }
-        let rubs = setting
-            .world
-            .walls
-            .elements
-            .friction_factor
-            .iter()
-            .any(|g| *g > 0.0);
-        if rubs && setting.phases.len() == 1 {
+        if rubs(setting) && setting.phases.len() == 1 {
             return Err(Refusal::at_key(
                 KIND,
                 "",
@@ -195,15 +163,15 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         let both = both.map(|(value, rate)| Evolved { value, rate });
         offer.transported.extend(both);
         if self.damped_at_surfaces || self.surface_depth.is_some() {
-            offer.stage(SurfaceShare);
+            offer.stage(surface_share());
         }
         let through = self.at_wall == AtWall::BothFluxes;
         offer.term(Diffusion {
             sigma: self.variant.sigmas(),
-            wall_flux: through.then_some(KEpsilonModel::default().c_mu),
+            wall_flux: through.then_some(KEpsilonModel::C_MU),
         });
         if self.variant == Variant::ExplicitAlgebraic {
-            offer.stage(ExtraStress);
+            offer.stage(extra_stress());
             offer.term(StressDivergence {
                 name: "stress of eddies",
                 stress: EDDY_STRESS,
@@ -217,7 +185,6 @@ impl<const D: usize> Contribution<D> for KEpsilon {
             viscosities: viscosities(&self.phases, setting),
             damped: self.damped_at_surfaces,
             surface_depth: self.surface_depth,
-            bed: self.bed.is_some(),
         });
         let remedy = "look at k and ε at the start: the eddy viscosity is 0.09 k²/ε";
         offer.remedy = Some(remedy.into());

@@ -25,10 +25,10 @@ const LEAST_SHARE: f64 = 1e-3;
 
 impl ChannelStart {
     /// k and ε at a height.
-    pub fn at(&self, model: &KEpsilonModel, karman: f64, height: f64) -> [f64; 2] {
+    pub fn at(&self, karman: f64, height: f64) -> [f64; 2] {
         let share = (height - self.bottom) / self.depth;
         let share = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
-        let at_wall = model.at_wall(self.friction_velocity, share * self.depth, karman);
+        let at_wall = KEpsilonModel::at_wall(self.friction_velocity, share * self.depth, karman);
         at_wall.map(|value| value * (1.0 - share))
     }
 }
@@ -40,18 +40,17 @@ mod tests {
     /// Page §3.7: ν_t = κu*z(1 − z/H).
     #[test]
     fn its_eddies_are_those_of_the_channel() {
-        let model = KEpsilonModel::default();
         let start = ChannelStart {
             friction_velocity: 0.05,
             depth: 0.4,
             bottom: -1.0,
         };
         for z in [0.01, 0.2, 0.39] {
-            let [k, e] = start.at(&model, 0.41, z - 1.0);
+            let [k, e] = start.at(0.41, z - 1.0);
             let exact = 0.41 * 0.05 * z * (1.0 - z / 0.4);
-            assert!((model.eddy_viscosity(k, e) / exact - 1.0).abs() < 1e-12);
+            assert!((KEpsilonModel::eddy_viscosity(k, e) / exact - 1.0).abs() < 1e-12);
         }
-        let [k, e] = start.at(&model, 0.41, 5.0);
+        let [k, e] = start.at(0.41, 5.0);
         assert!(k > 0.0 && e > 0.0);
     }
 }

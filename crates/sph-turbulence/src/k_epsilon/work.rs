@@ -6,10 +6,12 @@ use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::World;
 
 use super::model::{KEpsilonModel, Variant};
-use super::near::{BedSide, refuse_negative, rubbed};
+use super::near::{beside_bed, refuse_negative, rubbed};
 use super::realisable::RealisableModel;
 use crate::closures::phases::Kinematic;
-use crate::columns::{DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS};
+use crate::columns::{
+    BED, DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS,
+};
 
 /// Values of k and ε within a spacing of walls with a wall function.
 #[parameters]
@@ -37,15 +39,6 @@ pub(crate) struct Sources {
     pub damped: bool,
     /// Depth of a channel at whose surface ε is a value, m.
     pub surface_depth: Option<f64>,
-    /// True if there is a bed that is a rough wall.
-    pub bed: bool,
-}
-
-/// Conditions of a particle next to a wall with a wall function.
-#[derive(Clone, Copy)]
-struct WallConditions {
-    friction_velocity: f64,
-    distance: f64,
 }
 
 /// Strain rates of a particle.
@@ -70,51 +63,43 @@ impl Sources {
 
     /// k and ε after a step within the flow.
     fn inside(&self, [k, e]: [f64; 2], strained: StrainRates, dt: f64) -> [f64; 2] {
-        let model = KEpsilonModel::default();
         let share = if self.damped { strained.share } else { 1.0 };
         let of_eddies = || share * strained.eddies * strained.rate.powi(2);
         match self.variant {
             Variant::Standard => {
-                let produced = share * model.production(k, e, strained.rate);
-                model.produced(k, e, produced, dt)
+                let produced = share * KEpsilonModel::production(k, e, strained.rate);
+                KEpsilonModel::produced(k, e, produced, dt)
             }
-            Variant::ExplicitAlgebraic => model.produced(k, e, of_eddies(), dt),
-            Variant::Realisable => RealisableModel::default().after(
-                [k, e],
-                of_eddies(),
-                strained.rate,
-                strained.viscosity,
-                dt,
-            ),
+            Variant::ExplicitAlgebraic => KEpsilonModel::produced(k, e, of_eddies(), dt),
+            Variant::Realisable => {
+                RealisableModel::after([k, e], of_eddies(), strained.rate, strained.viscosity, dt)
+            }
         }
     }
 
-    /// k and ε after a step.
+    /// k and ε after a step; `near` is u* and the distance of a wall with a wall function.
     fn after(
         &self,
-        both: [f64; 2],
+        [k, e]: [f64; 2],
         strained: StrainRates,
-        near: Option<WallConditions>,
+        near: Option<[f64; 2]>,
         dt: f64,
     ) -> [f64; 2] {
-        let model = KEpsilonModel::default();
-        let Some(near) = near else {
-            let [k, e] = self.inside(both, strained, dt);
+        let Some([u, z]) = near else {
+            let [k, e] = self.inside([k, e], strained, dt);
             return match self.surface_depth {
-                Some(depth) if strained.share < AT_SURFACE => [k, model.at_surface(k, depth)],
+                Some(depth) if strained.share < AT_SURFACE => {
+                    [k, KEpsilonModel::at_surface(k, depth)]
+                }
                 _ => [k, e],
             };
         };
         match self.at_wall {
-            AtWall::Values => model.at_wall(near.friction_velocity, near.distance, self.karman),
-            AtWall::Flux => {
-                let [k, _] = both;
-                model.with_flux(k, near.friction_velocity, near.distance, self.karman, dt)
-            }
+            AtWall::Values => KEpsilonModel::at_wall(u, z, self.karman),
+            AtWall::Flux => KEpsilonModel::with_flux(k, u, z, self.karman, dt),
             AtWall::BothFluxes => {
-                let [k, e] = both;
-                let (u, z) = (near.friction_velocity, near.distance);
-                model.produced(k, e, model.wall_production(k, u, z, self.karman), dt)
+                let produced = KEpsilonModel::wall_production(k, u, z, self.karman);
+                KEpsilonModel::produced(k, e, produced, dt)
             }
         }
     }
@@ -126,26 +111,17 @@ impl<const D: usize> StepHook<D> for Sources {
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .here(fields::STRAIN_RATE)
-            .here(fields::EDDY_VISCOSITY)
-            .here(fields::DENSITY)
-            .here(fields::POSITION)
-            .here(fields::IDENTITY)
-            .here(TURBULENT_ENERGY)
-            .here(DISSIPATION)
-            .where_there(FRICTION_VELOCITY)
-            .where_there(WALL_UNITS)
-            .writes(TURBULENT_ENERGY)
-            .writes(DISSIPATION);
+            .here((fields::STRAIN_RATE, fields::EDDY_VISCOSITY))
+            .here((fields::DENSITY, fields::POSITION, fields::IDENTITY))
+            .here((TURBULENT_ENERGY, DISSIPATION))
+            .where_there((FRICTION_VELOCITY, WALL_UNITS))
+            .where_there(BED)
+            .writes((TURBULENT_ENERGY, DISSIPATION));
         let access = match self.sees_surfaces() {
             true => access.here(SURFACE_SHARE),
             false => access,
         };
-        let access = BedSide::access(self.bed, access);
-        match self.viscosities.len() {
-            1 => access,
-            _ => access.here(fields::PHASE),
-        }
+        Kinematic::access(&self.viscosities, access)
     }
     fn phases(&self) -> &'static [StepPhase] {
         &[StepPhase::AfterKick]
@@ -166,23 +142,16 @@ impl<const D: usize> StepHook<D> for Sources {
             false => &[],
         };
         let walls = match world.free.has(FRICTION_VELOCITY.name) {
-            true => Some((
-                world.free.get(FRICTION_VELOCITY)?,
-                world.free.get(WALL_UNITS)?,
-            )),
+            true => Some(world.free.all((FRICTION_VELOCITY, WALL_UNITS))?),
             false => None,
         };
-        let bed = BedSide::new(self.bed, world)?;
+        let bed = world.free.all(BED).ok();
         let near = |i: usize, nu: f64| {
-            let of_wall = walls.as_ref().and_then(|(friction, units)| {
+            let of_wall = walls.and_then(|(friction, units)| {
                 let distance = units[i] * nu / friction[i];
                 (friction[i] > 0.0 && distance < world.spacing).then_some([friction[i], distance])
             });
-            let [friction_velocity, distance] = of_wall.or_else(|| bed.at(i))?;
-            Some(WallConditions {
-                friction_velocity,
-                distance,
-            })
+            of_wall.or_else(|| beside_bed(bed, i))
         };
         let both = energy.par_iter_mut().zip(&mut dissipation).enumerate();
         both.with_min_len(1024).for_each(|(i, (k, e))| {

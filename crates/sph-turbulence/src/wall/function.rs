@@ -5,7 +5,7 @@ use sph_core::{Access, StepError, Work, fields, plugin, suggestion};
 use sph_neighbours::World;
 
 use super::law::WallLaw;
-use super::stage::WallShear;
+use super::stage::wall_shear;
 use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 
 contribution_kind!(
@@ -53,18 +53,6 @@ pub struct LogLaw {
     /// D of fully rough walls.
     #[parameter(default: WallLaw::default().rough, unit: "1", above: 0.0, source: "Issa 2004, Eq. 6.29")]
     pub rough_constant: f64,
-}
-
-pub(crate) fn karman() -> f64 {
-    WallLaw::default().karman
-}
-
-pub(crate) fn smooth() -> f64 {
-    WallLaw::default().smooth
-}
-
-pub(crate) fn rough() -> f64 {
-    WallLaw::default().rough
 }
 
 impl LogLaw {
@@ -137,12 +125,9 @@ impl<const D: usize> Contribution<D> for LogLaw {
             ));
         }
         offer.goals.push(fields::WALL_FRICTION.any());
-        let viscous = |nu: &Option<f64>| nu.filter(|nu| *nu > 0.0);
-        offer.stage(WallShear {
-            law: self.law(),
-            walls: self.walls.clone(),
-            viscosities: setting.viscosities.iter().map(viscous).collect(),
-        });
+        let viscous = |nu: &Option<f64>| nu.filter(|_| is_viscous(nu));
+        let viscosities = setting.viscosities.iter().map(viscous).collect();
+        offer.stage(wall_shear(self.law(), self.walls.clone(), viscosities));
         let read = Access::none().here(WALL_UNITS).here(FRICTION_VELOCITY);
         offer.report(read, |world| range(world).unwrap_or_default());
         Ok(())

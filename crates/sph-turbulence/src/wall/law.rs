@@ -2,41 +2,10 @@
 
 use thiserror::Error;
 
-/// Errors of a friction velocity that cannot be solved for.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum WallLawError {
-    /// A distance that is none.
-    #[error("the distance from the wall is {0} m where a positive number was expected")]
-    Distance(f64),
-    /// A viscosity that is none.
-    #[error("the kinematic viscosity is {0} m²/s where a positive number was expected")]
-    Viscosity(f64),
-    /// A speed that is none.
-    #[error("the speed along the wall is {0} m/s where a number from 0 on was expected")]
-    Speed(f64),
-    /// A place where the rough law has no velocity.
-    #[error(
-        "the distance of {distance} m from the wall is within its roughness, where the law has no velocity: more than \
-         {least} m was expected"
-    )]
-    WithinRoughness {
-        /// The given value, m.
-        distance: f64,
-        /// Least height of the velocity of the fully rough law, m.
-        least: f64,
-    },
-    /// Constants that are none.
-    #[error("{name} is {value} where {expected} was expected")]
-    Constant {
-        /// Name of the constant.
-        name: &'static str,
-        /// The given value.
-        value: f64,
-        /// The valid range.
-        expected: &'static str,
-    },
-}
+/// A number of which the law can make nothing.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{0}")]
+pub struct WallLawError(String);
 
 /// u⁺(z⁺) near a smooth or rough wall, from the wall to the logarithmic layer:
 ///
@@ -85,25 +54,24 @@ impl WallLaw {
     /// # Errors
     /// Names the first that is wrong.
     pub fn check(&self) -> Result<(), WallLawError> {
-        let constant = |name, value: f64, good: bool, expected| match good && value.is_finite() {
-            true => Ok(()),
-            false => Err(WallLawError::Constant {
-                name,
-                value,
-                expected,
-            }),
-        };
-        let positive = "a positive number";
-        constant("karman", self.karman, self.karman > 0.0, positive)?;
-        constant("smooth", self.smooth, self.smooth > 0.0, positive)?;
-        constant("rough", self.rough, self.rough > 0.0, positive)?;
-        let from_zero = "a number from 0 on";
-        constant(
-            "roughness",
-            self.roughness,
-            self.roughness >= 0.0,
-            from_zero,
-        )
+        let (positive, from_zero) = ("a positive number", "a number from 0 on");
+        for (name, value, good, expected) in [
+            ("karman", self.karman, self.karman > 0.0, positive),
+            ("smooth", self.smooth, self.smooth > 0.0, positive),
+            ("rough", self.rough, self.rough > 0.0, positive),
+            (
+                "roughness",
+                self.roughness,
+                self.roughness >= 0.0,
+                from_zero,
+            ),
+        ] {
+            if !(good && value.is_finite()) {
+                let text = format!("{name} is {value} where {expected} was expected");
+                return Err(WallLawError(text));
+            }
+        }
+        Ok(())
     }
 
     /// ΔB and its derivative by ln k_s⁺.
@@ -162,23 +130,28 @@ impl WallLaw {
         distance: f64,
         viscosity: f64,
     ) -> Result<f64, WallLawError> {
-        if !(distance > 0.0 && distance.is_finite()) {
-            return Err(WallLawError::Distance(distance));
-        }
-        if !(viscosity > 0.0 && viscosity.is_finite()) {
-            return Err(WallLawError::Viscosity(viscosity));
-        }
-        if !(speed >= 0.0 && speed.is_finite()) {
-            return Err(WallLawError::Speed(speed));
-        }
         let least = self.least_distance();
-        if distance <= least {
-            return Err(WallLawError::WithinRoughness { distance, least });
-        }
-        if speed == 0.0 {
+        let wrong = if !(distance > 0.0 && distance.is_finite()) {
+            format!(
+                "the distance from the wall is {distance} m where a positive number was expected"
+            )
+        } else if !(viscosity > 0.0 && viscosity.is_finite()) {
+            format!(
+                "the kinematic viscosity is {viscosity} m²/s where a positive number was expected"
+            )
+        } else if !(speed >= 0.0 && speed.is_finite()) {
+            format!("the speed along the wall is {speed} m/s where a number from 0 on was expected")
+        } else if distance <= least {
+            format!(
+                "the distance of {distance} m from the wall is within its roughness, where the law has no velocity: more \
+                 than {least} m was expected"
+            )
+        } else if speed == 0.0 {
             return Ok(0.0);
-        }
-        Ok(self.solve(speed, distance, viscosity))
+        } else {
+            return Ok(self.solve(speed, distance, viscosity));
+        };
+        Err(WallLawError(wrong))
     }
 
     /// The root of u* u⁺ − u, which grows with u*.

@@ -39,22 +39,19 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let refused = |reason: String| StepError::Stage {
-            stage: "probe `friction-velocity`".into(),
-            reason,
-        };
+        let refused = |why: &str| StepError::stage("probe `friction-velocity`", why);
         let walls = &world.walls;
         if !walls.names.contains(&self.wall) {
             let near = suggestion(&self.wall, walls.names.iter().map(String::as_str));
-            return Err(refused(format!("there is no wall `{}`{near}", self.wall)));
+            let why = format!("there is no wall `{}`{near}", self.wall);
+            return Err(refused(&why));
         }
         if !world.free.has(FRICTION_VELOCITY.name) {
             let why =
                 "no wall of this scene has a wall function: name one, `[wall-function.log-law]`";
-            return Err(refused(why.into()));
+            return Err(refused(why));
         }
-        let friction = world.free.get(FRICTION_VELOCITY)?;
-        let units = world.free.get(WALL_UNITS)?;
+        let (friction, units) = world.free.all((FRICTION_VELOCITY, WALL_UNITS))?;
         let of_it = |s: u32| {
             let elements = &walls.elements;
             let marked = elements.wall_function.get(s as usize) == Some(&true);

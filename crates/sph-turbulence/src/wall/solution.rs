@@ -3,7 +3,6 @@
 use sph_core::{Vect, plugin};
 use sph_probes::{Solution, SolutionEntry};
 
-use super::function::{karman, rough, smooth};
 use super::law::WallLaw;
 
 /// u = u* u⁺(z u*/ν, k_s u*/ν) along x: the law of the wall over a flat bed, which in a wide open channel holds up to the
@@ -26,13 +25,13 @@ pub struct LogLawFlow {
     #[parameter(default, unit: "m")]
     pub bottom: f64,
     /// Von Kármán's κ.
-    #[parameter(default: karman(), unit: "1", above: 0.0)]
+    #[parameter(default: WallLaw::default().karman, unit: "1", above: 0.0)]
     pub karman: f64,
     /// B of a smooth bed.
-    #[parameter(default: smooth(), unit: "1")]
+    #[parameter(default: WallLaw::default().smooth, unit: "1")]
     pub smooth_constant: f64,
     /// D of a fully rough bed.
-    #[parameter(default: rough(), unit: "1")]
+    #[parameter(default: WallLaw::default().rough, unit: "1")]
     pub rough_constant: f64,
 }
 
@@ -60,15 +59,16 @@ mod tests {
     /// Page §4.5 and §4.7: 1.4677 and 0.8749 m/s at the surface of the smooth and the rough channel.
     #[test]
     fn surfaces_have_the_speeds_of_the_page() {
+        let law = WallLaw::default();
         let at = |roughness: f64, height: f64| {
             let flow = LogLawFlow {
                 friction_velocity: 0.05,
                 kinematic_viscosity: 1e-6,
                 roughness,
                 bottom: 0.1,
-                karman: karman(),
-                smooth_constant: smooth(),
-                rough_constant: rough(),
+                karman: law.karman,
+                smooth_constant: law.smooth,
+                rough_constant: law.rough,
             };
             let place = Vect::from([3.0, 0.1 + height]);
             Solution::<2>::velocity(&flow, &place, 0.0).expect("a velocity")

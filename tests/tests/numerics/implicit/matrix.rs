@@ -1,7 +1,7 @@
 //! The matrix is the explicit term's: the same accelerations, symmetric, positive definite.
 
 use sph_core::{System, Vect, fields};
-use sph_multiphase::linear::{Cholesky, Diagonal, Entries, Entry, LinearSolver, Matrix, Operator};
+use sph_multiphase::linear::{Block, Cholesky, Diagonal, Entries, LinearSolver, Matrix, Operator};
 use sph_multiphase::viscosity::{
     Choice, EspanolRevenga, FrictionOperator, FrictionSystem, HuAdamsViscosity, KrimiViscosity,
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
@@ -255,10 +255,8 @@ fn is_symmetric_and_definite<const D: usize>(world: &World<D>, viscosity: Viscos
         match &mut matrix.entries {
             Entries::Scalar(v) => v.diagonal.iter_mut().for_each(|d| *d += mass),
             Entries::Block(v) => {
-                let unit = Entry::<D>::unit(mass);
-                v.diagonal
-                    .iter_mut()
-                    .for_each(|d| *d = Entry::<D>::plus(d, &unit));
+                let unit = Block::<D>::identity() * mass;
+                v.diagonal.iter_mut().for_each(|d| *d += unit);
             }
         }
         let right = vec![Vect::repeat(1.0); matrix.rows()];

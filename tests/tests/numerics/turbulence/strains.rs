@@ -119,9 +119,7 @@ fn normal_stresses_of_eddies_push_across_layers() {
     let (_, _, without, _) = accelerations("standard");
     let normal = |y: f64| {
         let gradient = Matrix2::new(0.0, RATE * (TAU * y).cos(), 0.0, 0.0);
-        AlgebraicStress::default()
-            .anisotropy(&gradient, time)
-            .across[(1, 1)]
+        AlgebraicStress::anisotropy(&gradient, time).across[(1, 1)]
     };
     let push = |y: f64| -k * (normal(y + 1e-5) - normal(y - 1e-5)) / 2e-5;
     let largest = (0..100).map(|n| push(n as f64 / 100.0)).fold(0.0, f64::max);

@@ -7,7 +7,7 @@ use sph_contribution::Stages;
 use sph_neighbours::{lattice_sum, rows_sum};
 
 use super::{PairFriction, ViscousTerm};
-use crate::viscosity::interface_distance::InterfaceDistance;
+use crate::viscosity::interface_distance::interface_distance;
 use crate::viscosity::{Coupling, Viscosity, ViscositySource, ViscousOperator, Within};
 
 /// Friction at semi-analytical walls.
@@ -88,70 +88,33 @@ pub struct Choice {
     pub within: Within,
 }
 
-/// An operator that is a sum of one formula over pairs.
-pub trait PairOperator<const D: usize>: Send {
-    /// The formula of a pair.
-    type Formula: PairFriction<D>;
-    /// Its [stiffness](ViscousOperator::stiffness).
-    const STIFFNESS: f64;
-    /// True if it [leaves rotations](ViscousOperator::leaves_rotations) alone.
-    const LEAVES_ROTATIONS: bool = false;
-    /// The formula.
-    fn formula(&self) -> Self::Formula;
-    /// The choices of the scene.
-    fn choice(&self) -> Choice;
-}
-
-impl<const D: usize, O: PairOperator<D>> ViscousOperator<D> for O {
+impl<const D: usize, F: PairFriction<D>> ViscousOperator<D> for F {
     fn term(&self, viscosity: Viscosity) -> Box<dyn Interaction<D>> {
-        self.choice().term(self.formula(), viscosity)
+        Box::new(ViscousTerm(*self, self.choice().source(viscosity)))
     }
     fn coupling(&self, viscosity: Viscosity) -> Box<dyn Coupling<D>> {
-        self.choice().coupling(self.formula(), viscosity)
+        Box::new(ViscousTerm(*self, self.choice().source(viscosity)))
     }
     fn stages(&self, viscosity: Viscosity) -> Stages<D> {
-        self.choice().stages(viscosity)
+        match self.choice().source(viscosity) {
+            ViscositySource::InSeries(_) => vec![Box::new(interface_distance())],
+            _ => Vec::new(),
+        }
     }
     fn stiffness(&self) -> f64 {
-        O::STIFFNESS
+        F::STIFFNESS
     }
     fn leaves_rotations(&self) -> bool {
-        O::LEAVES_ROTATIONS
+        F::LEAVES_ROTATIONS
     }
 }
 
 impl Choice {
-    /// The term of a sweep.
-    pub fn term<const D: usize, F: PairFriction<D>>(
-        self,
-        friction: F,
-        viscosity: Viscosity,
-    ) -> Box<dyn Interaction<D>> {
-        Box::new(ViscousTerm(friction, self.source(viscosity), self))
-    }
-
-    /// The same friction as rows of a matrix.
-    pub fn coupling<const D: usize, F: PairFriction<D>>(
-        self,
-        friction: F,
-        viscosity: Viscosity,
-    ) -> Box<dyn Coupling<D>> {
-        Box::new(ViscousTerm(friction, self.source(viscosity), self))
-    }
-
     fn source(self, viscosity: Viscosity) -> ViscositySource {
         match (viscosity, self.across) {
             (Viscosity::Uniform(eta), _) => ViscositySource::Uniform(eta),
             (Viscosity::PerPhase, Across::Series) => ViscositySource::InSeries(self.within),
             _ => ViscositySource::PerParticle(self.within),
-        }
-    }
-
-    /// The stages the term needs.
-    pub fn stages<const D: usize>(self, viscosity: Viscosity) -> Stages<D> {
-        match (viscosity, self.across) {
-            (Viscosity::PerPhase, Across::Series) => vec![Box::new(InterfaceDistance::default())],
-            _ => Vec::new(),
         }
     }
 }

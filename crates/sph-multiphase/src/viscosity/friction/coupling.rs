@@ -30,10 +30,41 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     #[inline(always)]
     fn at_point(&self, here: &OwnValues<D>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
         let (distance2, factor) = (pair.distance2, pair.factor);
-        let strengths = self
-            .friction
-            .strengths(here.volume, there, distance2, factor);
+        let friction = self.friction;
+        let strengths = friction.strengths(here.volume, there, distance2, factor);
         strengths.map(|s| -(s * eta))
+    }
+
+    /// W and s of walls; `at_element` gives the friction on an element, and the velocity to which it draws the particle, from
+    /// the normal, the velocity of the element and its friction along the wall.
+    fn walls<E: Entry<D>>(
+        &self,
+        rows: &Neighbourhood<'_, D>,
+        at_element: impl Fn(&OwnValues<D>, &Vect<D>, Vect<D>, f64) -> (E, Vect<D>),
+    ) -> CouplingRow<E, D> {
+        let here = self.own_values(rows.particle);
+        let scale = self.scale * here.volume;
+        let (mut wall, mut source) = (E::ZERO, Vect::zeros());
+        for (v, pair) in rows.wall.pairs() {
+            let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
+            let [even, along] = self.at_point(&here, self.points.volume[v], &pair, rubbing);
+            let friction = E::central(even, along, &pair.separation);
+            wall = wall + friction;
+            source += friction.apply(&self.points.viscous_velocity[v]);
+        }
+        let correction = self.correction_of(&here, rows);
+        for contact in rows.contacts {
+            let normal = &self.elements.normal[contact.element as usize];
+            let moving = self.elements.velocity_at(&contact);
+            let friction = correction * self.weight(&here, &contact);
+            let (friction, drawn) = at_element(&here, normal, moving, friction);
+            wall = wall + friction;
+            source += friction.apply(&drawn);
+        }
+        CouplingRow {
+            wall: wall * scale,
+            source: source * scale,
+        }
     }
 
     /// κ from the sums of the explicit term.
@@ -49,9 +80,9 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             sum.discrete += pair.separation * shear;
         }
         for (v, pair) in rows.wall.pairs() {
-            let there = self.wall_volume[v];
+            let there = self.points.volume[v];
             let shear = self.friction.shear(volume, there, &here.along, &pair);
-            sum.discrete += pair.separation * (self.wall_share[v] * shear);
+            sum.discrete += pair.separation * (self.points.share[v] * shear);
         }
         for contact in rows.contacts {
             if !self.is_open(contact.element) {
@@ -63,38 +94,29 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 }
 
 /// α, β and their norm of pairs.
-struct Strengths<'a, 'b, const D: usize, F>(&'a BoundFriction<'b, D, F>);
-
-/// Values of a particle in a pair.
-#[derive(Clone, Copy)]
-struct Own<L> {
-    volume: L,
-    density: L,
-    viscosity: OwnViscosity<L>,
-}
-
-impl<const D: usize, F: PairFriction<D>> PairNumbers<D, 3> for Strengths<'_, '_, D, F> {
-    type Own<L: Lane> = Own<L>;
+impl<const D: usize, F: PairFriction<D>> PairNumbers<D, 3> for BoundFriction<'_, D, F> {
+    /// V, ρ and η.
+    type Own<L: Lane> = (L, L, OwnViscosity<L>);
 
     #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Own<L> {
-        let bound = self.0;
-        Own {
-            volume: all.numbers(bound.volume),
-            density: all.numbers(bound.density),
-            viscosity: bound.viscosity.own(all),
-        }
+    fn own<L: Lane>(&self, all: Particles) -> (L, L, OwnViscosity<L>) {
+        let (volume, density) = (all.numbers(self.volume), all.numbers(self.density));
+        (volume, density, self.viscosity.own(all))
     }
 
     #[inline(always)]
-    fn numbers<L: Lane>(&self, here: &Own<L>, j: usize, pair: &LanePair<D, L>) -> [L; 3] {
-        let bound = self.0;
-        let densities = [here.density, L::splat(bound.density[j])];
-        let friction = bound.friction;
-        let mean = friction.means(&bound.viscosity, &here.viscosity, j, densities);
-        let there = L::splat(bound.volume[j]);
-        let [even, along] = friction.strengths(here.volume, there, pair.distance2, pair.factor);
-        let eta = L::splat(-bound.scale) * here.volume * mean;
+    fn numbers<L: Lane>(
+        &self,
+        (volume, density, viscosity): &(L, L, OwnViscosity<L>),
+        j: usize,
+        pair: &LanePair<D, L>,
+    ) -> [L; 3] {
+        let densities = [*density, L::splat(self.density[j])];
+        let friction = self.friction;
+        let mean = friction.means(&self.viscosity, viscosity, j, densities);
+        let there = L::splat(self.volume[j]);
+        let [even, along] = friction.strengths(*volume, there, pair.distance2, pair.factor);
+        let eta = L::splat(-self.scale) * *volume * mean;
         let [even, along] = [even * eta, along * eta];
         // A particle is infinitely far from itself, and the norm would not be a number.
         let norm = even.abs() + along.abs() * pair.distance2;
@@ -112,7 +134,7 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, 
     }
 
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>) {
-        cluster.numbers(&Strengths(self), out);
+        cluster.numbers(self, out);
     }
 
     fn walls_need_neighbours(&self, particle: usize) -> bool {
@@ -120,54 +142,16 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, 
     }
 
     fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
-        let here = self.own_values(rows.particle);
-        let scale = self.scale * here.volume;
-        let (mut wall, mut source) = (0.0, Vect::zeros());
-        for (v, pair) in rows.wall.pairs() {
-            let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
-            let [friction, _] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
-            wall += friction;
-            source += self.wall_velocity[v] * friction;
-        }
-        let correction = self.correction_of(&here, rows);
-        for contact in rows.contacts {
-            let s = contact.element as usize;
-            let normal = &self.elements.normal[s];
-            let moving = self.elements.velocity_at(&contact);
-            let friction = correction * self.weight(&here, &contact);
+        self.walls(rows, |here, normal, moving, friction| {
             let leaving = (here.velocity - moving).dot(normal);
-            wall += friction;
-            source += (moving + normal * leaving) * friction;
-        }
-        CouplingRow {
-            wall: scale * wall,
-            source: source * scale,
-        }
+            (friction, moving + normal * leaving)
+        })
     }
 
     fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<Block<D>, D> {
-        let here = self.own_values(rows.particle);
-        let scale = self.scale * here.volume;
-        let (mut wall, mut source) = (Block::zeros(), Vect::zeros());
-        for (v, pair) in rows.wall.pairs() {
-            let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
-            let [even, along] = self.at_point(&here, self.wall_volume[v], &pair, rubbing);
-            let friction = Block::central(even, along, &pair.separation);
-            wall += friction;
-            source += friction * self.wall_velocity[v];
-        }
-        let correction = self.correction_of(&here, rows);
-        for contact in rows.contacts {
-            let s = contact.element as usize;
-            let normal = &self.elements.normal[s];
+        self.walls(rows, |_, normal, moving, friction| {
             let along = Block::identity() - normal * normal.transpose();
-            let friction = along * (correction * self.weight(&here, &contact));
-            wall += friction;
-            source += friction * self.elements.velocity_at(&contact);
-        }
-        CouplingRow {
-            wall: wall * scale,
-            source: source * scale,
-        }
+            (along * friction, moving)
+        })
     }
 }

@@ -43,16 +43,6 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         nearest
     }
 
-    /// Unit vector along the velocity relative to an element, in its plane.
-    #[inline(always)]
-    pub(super) fn slip_direction(&self, i: usize, nearest: &Contact<D>) -> Vect<D> {
-        let s = nearest.element as usize;
-        let slip = self.velocity[i] - self.elements.velocity_at(nearest);
-        let normal = &self.elements.normal[s];
-        let slip = slip - normal * slip.dot(normal);
-        slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
-    }
-
     /// Friction per tangential velocity at an element, before κ: 2 η |∇γ_as|/δr; 2 τ_w/u_t |∇γ_as| of a wall function.
     #[inline(always)]
     pub(super) fn weight(&self, here: &OwnValues<D>, contact: &Contact<D>) -> f64 {
@@ -75,8 +65,8 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     /// Share of a wall point's friction that counts.
     #[inline(always)]
     pub(super) fn rubbing(&self, v: usize, pair: &Pair<D>) -> f64 {
-        let mut rubbing = self.wall_share[v] * self.wall_friction_factor[v];
-        if let Some((slip, normal)) = self.wall_slip.get(v) {
+        let mut rubbing = self.points.share[v] * self.points.friction_factor[v];
+        if let Some((slip, normal)) = self.points.slip.get(v) {
             // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
             let distance = pair.separation.dot(normal).max(self.spacing);
             rubbing *= distance / (distance + slip);
@@ -112,16 +102,17 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         };
         distance.max(LEAST_DISTANCE * self.spacing)
     }
-}
 
-impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     /// Unit vector along the slip past the nearest wall, where it is needed.
     #[inline(always)]
     pub(super) fn slip(&self, i: usize, nearest: Option<&Contact<D>>) -> Vect<D> {
-        match (F::DIRECTIONAL, nearest) {
-            (true, Some(nearest)) => self.slip_direction(i, nearest),
-            _ => Vect::zeros(),
-        }
+        let Some(nearest) = nearest.filter(|_| F::DIRECTIONAL) else {
+            return Vect::zeros();
+        };
+        let slip = self.velocity[i] - self.elements.velocity_at(nearest);
+        let normal = &self.elements.normal[nearest.element as usize];
+        let slip = slip - normal * slip.dot(normal);
+        slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
     }
 
     #[inline(always)]
