@@ -144,10 +144,8 @@ mod tests {
             let x = [0.03, 0.11, -0.06].map(|f| 0.1 * (f64::from(k) * (1.0 + 37.0 * f)).sin());
             let apart = Vect::<3>::from(x);
             let along = apart - n * apart.dot(&n);
-            let u = slope
-                .iter()
-                .zip(along.iter())
-                .fold(at_place, |u, (s, x)| u + s * *x);
+            let both = slope.iter().zip(along.iter());
+            let u = both.fold(at_place, |u, (s, x)| u + s * *x);
             row.add(&n, &apart, spacing, [0.7 + 0.1 * f64::from(k), 1.0], &u);
         }
         let off = row.velocity(spacing).map(|u| (u - at_place).norm());
@@ -159,13 +157,8 @@ mod tests {
         let n = Vect::<3>::new(0.0, 0.0, 1.0);
         let mut row = Row::<3>::default();
         for x in [-0.1, 0.1] {
-            row.add(
-                &n,
-                &Vect::<3>::new(x, 0.0, 0.05),
-                0.1,
-                [1.0, 1.0],
-                &Vect::<3>::new(0.0, 0.0, 2.0),
-            );
+            let apart = Vect::<3>::new(x, 0.0, 0.05);
+            row.add(&n, &apart, 0.1, [1.0, 1.0], &(n * 2.0));
         }
         assert_eq!(row.velocity(0.1).map(|u| u[2]), Some(2.0));
         assert_eq!(Row::<3>::default().velocity(0.1), None);

@@ -10,7 +10,6 @@ mod absorption;
 mod dispersion;
 mod face;
 mod maker;
-mod near_field;
 mod orbits;
 mod paddle;
 mod reflection;

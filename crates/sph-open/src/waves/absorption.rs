@@ -116,10 +116,8 @@ mod tests {
     /// The reflected part of a wave of the amplitude 1 that runs against the paddle: with X = −H η/(iω) and
     /// η = 2 + (i e₀ + E) X it is (1 − (e₀ + i E) H/ω)/(1 + (e₀ − i E) H/ω).
     fn comes_back(paddle: Paddle, omega: f64, response: [f64; 2]) -> f64 {
-        let e0 = paddle.transfer(
-            crate::waves::wavenumber(omega, WATER[0], WATER[1]),
-            WATER[0],
-        );
+        let k = crate::waves::wavenumber(omega, WATER[0], WATER[1]);
+        let e0 = paddle.transfer(k, WATER[0]);
         let e = paddle.near_field(omega, WATER[0], WATER[1]);
         let [re, im] = response.map(|h| h / omega);
         let times = |e: f64| [e0 * re - e * im, e0 * im + e * re];
@@ -181,10 +179,7 @@ mod tests {
         assert!(state[0].abs() < 1e-12, "{state:?}");
         // At the start the crest of first order is a cos φ, that of second order and E X come on top.
         let first = 0.03 * 0.4_f64.cos();
-        assert!(
-            made(0.0) > first && made(0.0) < 1.5 * first,
-            "{}",
-            made(0.0)
-        );
+        let start = made(0.0);
+        assert!(start > first && start < 1.5 * first, "{start}");
     }
 }

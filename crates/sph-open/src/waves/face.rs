@@ -40,12 +40,9 @@ impl<const D: usize> Face<D> {
             largest.unwrap_or(0.0)
         };
         let front = most(&|p| p.dot(&along));
-        let side = |p: &Vect<D>| {
-            if D == 3 {
-                p[1] * along[0] - p[0] * along[1]
-            } else {
-                0.0
-            }
+        let side = |p: &Vect<D>| match D {
+            3 => p[1] * along[0] - p[0] * along[1],
+            _ => 0.0,
         };
         let sideways = [-most(&|p| -side(p)), most(&side)];
         if D == 3 && sideways[1] <= sideways[0] {
@@ -140,12 +137,10 @@ mod tests {
             let now = face.moved(plan, [0.01, -0.3], 2.0);
             let [way, velocity] = face.free_motion(&now, &plan);
             assert!((way - 0.01).abs() < 1e-15 && (velocity + 0.3).abs() < 1e-15);
-            let top = now.movement((Vect::<3>::new(0.0, 0.0, 0.5)).into());
-            assert!(
-                (top.velocity.dot(&face.along) + 0.2).abs() < 2e-2,
-                "{}",
-                top.velocity
-            );
+            let top = now
+                .movement((Vect::<3>::new(0.0, 0.0, 0.5)).into())
+                .velocity;
+            assert!((top.dot(&face.along) + 0.2).abs() < 2e-2, "{top}");
         }
     }
 }
