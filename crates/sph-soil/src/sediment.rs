@@ -10,17 +10,14 @@
 mod balance;
 mod bed_shear;
 mod grains;
-mod laws;
 mod moving_bed;
 mod plugins;
-mod slope;
 mod suspension;
 
 pub use balance::{Balance, Packing, balance};
-pub use grains::Grains;
+pub use grains::{Grains, critical_ratio};
 pub use moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
 pub use plugins::{EngelundFredsoe, MeyerPeterMuller, VanRijn, WongParker};
-pub use slope::critical_ratio;
 pub use suspension::{
     BodyConcentration, Carried, HinderedSettling, PickUp, PickUpVanRijn, Settling, SettlingLaw,
     Suspended, SuspensionEntry, ZysermanFredsoe, pair_flux,

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::Vect;
-use sph_neighbours::{Contact, Elements, Lane, LanePair, Neighbourhood, WallPoints, WallSet};
+use sph_neighbours::{Contact, Elements, Neighbourhood, WallPoints, WallSet};
 
 use crate::stress::{NeighbourSums, VelocityGradient};
 
@@ -31,28 +31,18 @@ struct Slipping<const D: usize> {
 const WALLS: usize = 0;
 const OPEN: usize = 1;
 
-impl<const D: usize> Default for Gathered<D> {
+impl<const D: usize> Gathered<D> {
+    /// Of free neighbours.
     #[inline(always)]
-    fn default() -> Self {
+    pub(crate) fn new(free: LaneSums<f64, D>) -> Self {
         let nothing = Slipping {
             sums: [SMatrix::zeros(); 2],
             facing: Vect::zeros(),
         };
         Gathered {
-            sums: [SMatrix::zeros(); 2],
+            sums: free.map(|free| SMatrix::from_fn(|i, k| free[i][k])),
             slipping: [nothing; 2],
         }
-    }
-}
-
-impl<const D: usize> Gathered<D> {
-    /// With sums of further free neighbours.
-    #[inline(always)]
-    pub(crate) fn with(mut self, free: LaneSums<f64, D>) -> Self {
-        for (sum, free) in self.sums.iter_mut().zip(&free) {
-            *sum += SMatrix::from_fn(|i, k| free[i][k]);
-        }
-        self
     }
 
     /// With the walls near a particle.
@@ -162,26 +152,3 @@ impl<const D: usize> Slipping<D> {
 
 /// Sums of several particles. That of positions is symmetric, but half of it is no faster: its rows fill no vectors.
 pub type LaneSums<L, const D: usize> = [[[L; D]; D]; 2];
-
-/// Adds a free neighbour.
-#[inline(always)]
-pub(crate) fn add_free<const D: usize, L: Lane>(
-    own: &[L; D],
-    velocity: &Vect<D>,
-    volume: f64,
-    pair: &LanePair<D, L>,
-    [of_velocities, of_positions]: &mut LaneSums<L, D>,
-) {
-    let share = L::splat(volume) * pair.factor;
-    let mut weight = pair.separation;
-    for w in &mut weight {
-        *w = *w * share;
-    }
-    for i in 0..D {
-        let rise = L::splat(velocity[i]) - own[i];
-        for k in 0..D {
-            of_velocities[i][k] += rise * weight[k];
-            of_positions[i][k] -= pair.separation[i] * weight[k];
-        }
-    }
-}

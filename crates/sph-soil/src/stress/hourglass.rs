@@ -3,8 +3,7 @@
 use nalgebra::SMatrix;
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot,
-    pair_term,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot, pair_term,
 };
 
 /// m_a a = 2 Σ_b θ_b μ_ab V_aV_b F_ab [u_ab − (G_a + G_b) r_ab/2] over neighbours that are elastic.
@@ -19,13 +18,6 @@ use sph_neighbours::{
 pub struct HourglassDamping {
     /// μ/h by phase number, Pa s/m; 0 where it is not elastic.
     pub strength: Vec<f64>,
-}
-
-impl HourglassDamping {
-    /// As a term of a sweep.
-    pub fn boxed<const D: usize>(strength: Vec<f64>) -> Box<dyn Interaction<D>> {
-        Box::new(HourglassDamping { strength })
-    }
 }
 
 /// [`HourglassDamping`] with its columns.

@@ -231,16 +231,9 @@ impl<const D: usize> Solve<D> {
         world: &mut World<D>,
         scratch: &mut Scratch,
     ) -> Result<Report, StepError> {
-        let Scratch {
-            parts,
-            assembly,
-            pressure: x,
-            scratch_pool,
-        } = scratch;
-        let scratch_pool = &*scratch_pool;
-        self.parts(world, parts)?;
         let space = world.space()?;
-        self.refresh(world, &space, parts)?;
+        self.parts(world, &space, &mut scratch.parts)?;
+        let (parts, assembly) = (&scratch.parts, &mut scratch.assembly);
         let system = Couplings {
             owned: space.owned(),
             parts,
@@ -250,26 +243,21 @@ impl<const D: usize> Solve<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_solved(i),
-            |rows, cluster| system.add(cluster, rows, scratch_pool),
+            |rows, cluster| system.add(cluster, rows, &scratch.scratch_pool),
             |rows, others| others.for_each(|i| system.add_known(i, rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let mut pressure = world.free.take(self.target)?;
+        let x = &mut scratch.pressure;
         x.clear();
-        x.extend(
-            pressure
-                .iter()
-                .zip(&*parts)
-                .map(|(p, part)| start(*p, part)),
-        );
+        let both = pressure.iter().zip(parts);
+        x.extend(both.map(|(p, part)| start(*p, part)));
         let sources = &assembly.sources;
         let system = ParticleMatrix::new(&matrix, &space, None);
         let solved = self.solver.solve(&system, sources, x);
-        pressure
-            .iter_mut()
-            .zip(&*x)
-            .for_each(|(p, x)| *p = x[0].max(0.0));
+        let both = pressure.iter_mut().zip(&*x);
+        both.for_each(|(p, x)| *p = x[0].max(0.0));
         world.free.put(self.target, pressure)?;
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
@@ -279,9 +267,7 @@ impl<const D: usize> Solve<D> {
             reason: e.to_string(),
         })
     }
-}
 
-impl<const D: usize> Solve<D> {
     /// True if a multiple of the interval has passed within the last step: the same for a run that was interrupted.
     fn due(&self, world: &World<D>) -> bool {
         let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
@@ -290,51 +276,35 @@ impl<const D: usize> Solve<D> {
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
     }
 
-    /// Δρ of every particle, kg/m³; `None` where it is no soil.
-    fn densities<'a>(
-        &'a self,
-        world: &'a World<D>,
-    ) -> Result<impl Fn(usize) -> Option<f64> + Sync + 'a, StepError> {
+    /// The roles of all particles; marks of copies at the surface are those of their owners.
+    fn parts(
+        &self,
+        world: &World<D>,
+        space: &Space<D>,
+        parts: &mut Vec<Part>,
+    ) -> Result<(), StepError> {
+        let volume = world.free.get(fields::VOLUME)?;
         let phase = match self.buoyant.len() {
             1 => None,
             _ => Some(world.free.get(fields::PHASE)?),
         };
         let soils = &self.buoyant[..];
-        Ok(move |i: usize| soils[phase.map_or(0, |p| p[i] as usize)])
-    }
-
-    /// Addend to Δρ in the pressure of surface particles, m²/s².
-    fn top(&self, world: &World<D>) -> f64 {
+        let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
         let depth = (self.surface_depth * world.spacing).max(self.least_depth);
-        depth * world.gravity.norm()
-    }
-
-    /// Refreshes the marks of copies at the surface by those of their owners.
-    fn refresh(
-        &self,
-        world: &World<D>,
-        space: &Space<D>,
-        parts: &mut [Part],
-    ) -> Result<(), StepError> {
-        let (buoyant, top) = (self.densities(world)?, self.top(world));
-        let surface = |part: &Part| matches!(part, Part::Surface(..));
-        let of = |i: usize, surface: bool| Part::new(buoyant(i), surface, top);
-        space.refresh_marked(parts, surface, of);
-        Ok(())
-    }
-
-    fn parts(&self, world: &World<D>, parts: &mut Vec<Part>) -> Result<(), StepError> {
-        let volume = world.free.get(fields::VOLUME)?;
-        let (buoyant, top) = (self.densities(world)?, self.top(world));
+        // Over Δρ the pressure of surface particles, m²/s².
+        let top = depth * world.gravity.norm();
         let positions = world.free.get(fields::POSITION)?;
         let soil = |j: usize| buoyant(j).is_some();
         let grains = Grains { volume, soil };
         parts.clear();
         parts.resize(volume.len(), Part::Outside);
         walk_in_lanes(world, &grains, soil, parts, |sums, rows| {
-            let outward = grains.outward(world, sums.0, rows);
-            let surface = grains.at_surface(world, positions, (outward, sums.1), rows);
+            let (_, surface) = grains.surface(world, positions, sums, rows);
             Part::new(buoyant(rows.particle), surface, top)
-        })
+        })?;
+        let surface = |part: &Part| matches!(part, Part::Surface(..));
+        let of = |i: usize, surface: bool| Part::new(buoyant(i), surface, top);
+        space.refresh_marked(parts, surface, of);
+        Ok(())
     }
 }

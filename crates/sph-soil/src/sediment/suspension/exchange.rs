@@ -4,8 +4,8 @@ use sph_core::bed::{Bed, horizontal};
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::hindered::HinderedSettling;
-use super::pick_up::PickUp;
+use super::plugins::PickUp;
+use super::settling::HinderedSettling;
 use crate::sediment::Grains;
 use crate::sediment::bed_shear::WET;
 
@@ -70,15 +70,11 @@ impl BedExchange {
         for pass in &all {
             concentration[pass.particle] += (pass.lifted - pass.settled) / volume(pass.particle);
         }
-        let net: Vec<_> = all
+        let net = all
             .iter()
-            .map(|pass| (pass.place, pass.settled - pass.lifted))
-            .collect();
-        for (place, change) in world
-            .sums_by_place(&net, bed.grid.len())?
-            .iter()
-            .enumerate()
-        {
+            .map(|pass| (pass.place, pass.settled - pass.lifted));
+        let changes = world.sums_by_place(&net.collect::<Vec<_>>(), bed.grid.len())?;
+        for (place, change) in changes.iter().enumerate() {
             bed.lifted -= change;
             match bed.held[place] {
                 true => bed.fed -= change,
@@ -99,9 +95,8 @@ impl BedExchange {
         let volume = world.free.get(fields::VOLUME)?;
         let (walls, owned) = (&world.walls, world.owned());
         let elements = &walls.elements;
-        let rates: Vec<[f64; 2]> = (0..bed.grid.len())
-            .map(|place| self.rate(bed, place))
-            .collect();
+        let places = 0..bed.grid.len();
+        let rates: Vec<[f64; 2]> = places.map(|place| self.rate(bed, place)).collect();
         // Each with the part of the bed, seen from above, that is the particle's, and its height over it.
         let mut parts: Vec<(Pass, f64, f64)> = Vec::new();
         for &particle in &walls.contacts.particles {
@@ -128,11 +123,8 @@ impl BedExchange {
                 }
             }
         }
-        let weights: Vec<_> = parts
-            .iter()
-            .map(|(pass, part, _)| (pass.place, *part))
-            .collect();
-        let weights = world.sums_by_place(&weights, bed.grid.len())?;
+        let weights = parts.iter().map(|(pass, part, _)| (pass.place, *part));
+        let weights = world.sums_by_place(&weights.collect::<Vec<_>>(), bed.grid.len())?;
         let filled = parts.into_iter().map(|(pass, part, distance)| {
             let area = bed.grid.area(pass.place);
             let own = dt * area * part / weights[pass.place].max(WET * 0.5 * area);
@@ -151,17 +143,13 @@ impl BedExchange {
     fn rate(&self, bed: &Bed, place: usize) -> [f64; 2] {
         let [x, y] = bed.shear[place];
         let friction_velocity = x.hypot(y).sqrt();
-        let rate = self.law.rate(
+        let (excess, speed) = (
             bed.shields(place) - bed.critical[place],
-            self.critical,
-            &self.grains,
             self.settling.speed,
         );
+        let rate = self.law.rate(excess, self.critical, &self.grains, speed);
         match rate > 0.0 {
-            true => {
-                let rouse = self.schmidt * self.settling.speed / (KARMAN * friction_velocity);
-                [rate, rouse]
-            }
+            true => [rate, self.schmidt * speed / (KARMAN * friction_velocity)],
             false => [0.0; 2],
         }
     }

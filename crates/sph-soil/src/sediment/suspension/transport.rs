@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::{Around, Neighbourhood, Values, World, walk};
 
-use super::hindered::HinderedSettling;
+use super::settling::HinderedSettling;
 
 /// Volume of grains that passes down from the upper of two particles per time, over their coupling 2 V_aV_b |F_ab|, m²/s·1:
 ///
@@ -14,7 +14,6 @@ use super::hindered::HinderedSettling;
 ///
 /// `drop` is the height Δz between the two, m, `diffusivity` D in m²/s. Source: Scharfetter and Gummel 1969 for dilute grains;
 /// the sum with Godunov's flux is ours.
-#[must_use]
 pub fn pair_flux(
     settling: &HinderedSettling,
     [above, below]: [Carried; 2],
@@ -44,7 +43,6 @@ pub struct Carried {
 
 impl Carried {
     /// Those of a concentration.
-    #[must_use]
     pub fn new(settling: &HinderedSettling, concentration: f64) -> Self {
         Carried {
             concentration,
@@ -143,12 +141,8 @@ impl Transport {
                     true => [grains[a], grains[b]],
                     false => [grains[b], grains[a]],
                 };
-                let flux = pair_flux(
-                    &self.settling,
-                    both,
-                    drop.abs(),
-                    0.5 * (mixing[a] + mixing[b]),
-                );
+                let diffusivity = 0.5 * (mixing[a] + mixing[b]);
+                let flux = pair_flux(&self.settling, both, drop.abs(), diffusivity);
                 // 2 V_aV_b |F_ab| (1/γ_a + 1/γ_b)/2.
                 let coupling = volume[a] * volume[b] * -pair.factor * (inverse(a) + inverse(b));
                 coupling * if drop >= 0.0 { flux } else { -flux }
