@@ -4,9 +4,8 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::adjacent_fluid::AdjacentFluid;
 use crate::faces::{Faces, as_share};
-use crate::row::Row;
+use crate::row::{AdjacentFluid, Row};
 use crate::{FaceElement, FluidMean, Moment};
 
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.

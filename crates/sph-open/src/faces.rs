@@ -7,10 +7,9 @@ use sph_kernels::Sampler;
 use sph_neighbours::{Passed, WallSet};
 use sph_rheology::state::Laws;
 
-use crate::adjacent_fluid::AdjacentFluid;
 use crate::cells::cells;
 use crate::memory::{Memory, Totals};
-use crate::row::near;
+use crate::row::{AdjacentFluid, near};
 use crate::{FaceElement, FaceValues, FluidMean, OpenBoundary};
 
 /// Largest delay of insertion and removal, as a share of a row: lists are built anew where particles come or go, and

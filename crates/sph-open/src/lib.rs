@@ -11,7 +11,6 @@
 )]
 #![doc = include_str!("../README.md")]
 
-mod adjacent_fluid;
 mod air;
 mod budget;
 mod cells;

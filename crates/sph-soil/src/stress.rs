@@ -22,13 +22,11 @@ pub(crate) mod contribution;
 mod coulomb;
 mod displacement;
 mod divergence;
-mod effective_pressure;
 mod elastic;
 mod elastic_force;
 mod elastic_sub_steps;
 mod gathered;
 mod gradient;
-mod hourglass;
 mod laplace;
 mod law_inputs;
 mod law_stages;
@@ -40,8 +38,7 @@ pub use blended::Blended;
 pub use contribution::ElasticWaveLimit;
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
-pub use divergence::{Divergence, StressDivergence};
-pub use effective_pressure::{EffectivePressureEntry, PorePressure, Soils};
+pub use divergence::{Divergence, HourglassDamping, StressDivergence};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;
@@ -49,8 +46,7 @@ pub use gradient::{
     Isotropic, NeighbourSums, Renormalised, SymmetricDifference, VelocityGradient,
     VelocityGradientEntry,
 };
-pub use hourglass::HourglassDamping;
-pub use laplace::{Laplace, PressureSolver};
+pub use laplace::{EffectivePressureEntry, Laplace, PorePressure, PressureSolver, Soils};
 pub use law_inputs::{Blend, LawInputs};
 pub use law_stages::{CarriedStress, ImplicitElasticStress, ViscosityStage, Yielded};
 pub use strain_rate::{GradientStage, StrainRate, StrainRateTerm};

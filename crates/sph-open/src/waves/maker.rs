@@ -10,8 +10,7 @@ use sph_core::{Vect, plugin};
 use sph_neighbours::DepthGauge;
 
 use crate::refuse;
-use crate::waves::absorption::{Absorption, MEAN_WAY};
-use crate::waves::face::{Face, forward};
+use crate::waves::absorption::{Absorption, Face, MEAN_WAY, forward};
 use crate::waves::paddle::Paddle;
 use crate::waves::superposition::{Component, Waves, second_order};
 
@@ -144,7 +143,7 @@ impl<const D: usize> WaveMaker<D> {
 
     /// The motion at the still level, m.
     fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> MoverResult<Vec<SinePart>> {
-        let waves = self.waves.components(depth, gravity);
+        let waves = self.waves.components(depth, gravity, 0.0);
         let Some(first) = waves.first() else {
             let why = "there is no wave in the `band`: `repeat` is too short";
             return refuse("waves", why);
@@ -187,7 +186,7 @@ impl<const D: usize> WaveMaker<D> {
             return refuse("absorb", "the paddle has no breadth across the waves");
         };
         let [_, period] = self.waves.size();
-        let waves = self.waves.components(water[0], water[1]);
+        let waves = self.waves.components(water[0], water[1], 0.0);
         let second = self.second_order(paddle, water[0], &waves)?;
         let least = MEAN_WAY * reach / (water[0] * water[1]).sqrt();
         let timing = (ramp, period, least);

@@ -71,10 +71,7 @@ impl Orbits {
 
     /// The water at a height over the still level, m, where the surface is at `elevation`; above it its velocity.
     pub fn at(&self, z: f64, elevation: f64, time: f64, share: f64) -> Water {
-        let top = match self.second {
-            true => elevation.max(0.0),
-            false => 0.0,
-        };
+        let top = if self.second { elevation.max(0.0) } else { 0.0 };
         let water = self.extrapolated(z.min(top), time, share);
         let pressure = match z < elevation {
             // Above the still level the first order has the pressure of the still level, and the weight of the water

@@ -199,14 +199,9 @@ impl Waves {
         }
     }
 
-    /// The linear waves of which they consist, in water of a depth, m, at rest.
-    pub fn components(&self, depth: f64, gravity: f64) -> Vec<Component> {
-        self.components_on(depth, gravity, 0.0)
-    }
-
-    /// The same in water that runs with them, or against them, at the velocity `current`, m/s. Those that no current lets run
-    /// against it are left out.
-    pub fn components_on(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
+    /// The linear waves of which they consist, in water of a depth, m, that runs with them, or against them, at the velocity
+    /// `current`, m/s. Those that no current lets run against it are left out.
+    pub fn components(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
         let one = |frequency: f64, amplitude: f64, phase: f64| {
             let omega = TAU * frequency;
             Some(Component {
@@ -216,25 +211,22 @@ impl Waves {
                 phase,
             })
         };
+        let sea = |height: f64, period: f64, enhancement: f64| Jonswap {
+            height,
+            peak: 1.0 / period,
+            enhancement,
+        };
         match self {
             Waves::Regular(w) => Vec::from_iter(one(1.0 / w.period, 0.5 * w.height, 0.0)),
             Waves::Irregular(w) => {
-                let sea = Jonswap {
-                    height: w.height,
-                    peak: 1.0 / w.period,
-                    enhancement: w.enhancement,
-                };
+                let sea = sea(w.height, w.period, w.enhancement);
                 let all = sea.components(1.0 / w.repeat, w.band.map(|f| f / w.period));
                 let both = all.into_iter().zip(phases(w.seed));
                 both.filter_map(|([f, a], phase)| one(f, a, phase))
                     .collect()
             }
             Waves::Focused(w) => {
-                let sea = Jonswap {
-                    height: 1.0,
-                    peak: 1.0 / w.period,
-                    enhancement: w.enhancement,
-                };
+                let sea = sea(1.0, w.period, w.enhancement);
                 let [low, high] = w.band.map(|f| f / w.period);
                 let all = sea.components((high - low) / GROUP, [low, high]);
                 let whole: f64 = all.iter().map(|[_, a]| a * a).sum();
@@ -272,7 +264,7 @@ mod tests {
             time: 9.0,
         });
         assert_eq!(waves.check(0.5, 9.81, 0.0), Ok(()));
-        let all = waves.components(0.5, 9.81);
+        let all = waves.components(0.5, 9.81, 0.0);
         assert!((level(&all, 3.0, 9.0) - 0.08).abs() < 1e-14);
         for [x, t] in [[3.0, 9.6], [2.5, 9.0], [3.0, 3.0], [0.0, 9.0]] {
             assert!(level(&all, x, t) < 0.07, "{x} {t}");
@@ -290,7 +282,7 @@ mod tests {
                 band: [0.5, 2.0],
                 seed,
             })
-            .components(0.5, 9.81)
+            .components(0.5, 9.81, 0.0)
         };
         let all = sea(7);
         assert_eq!(all, sea(7));

@@ -120,7 +120,7 @@ impl WaveFace {
         let mut waves = Vec::new();
         if let Some(asked) = &self.waves {
             asked.check(depth, gravity, self.current)?;
-            waves = asked.components_on(depth, gravity, self.current);
+            waves = asked.components(depth, gravity, self.current);
             if waves.is_empty() {
                 let why = "there is no wave in the `band`: `repeat` is too short";
                 return refuse("waves", why);

@@ -64,10 +64,7 @@ impl<const D: usize> Contribution<D> for Pores<D> {
             true => 1.0 - bodies.get(birth.body).copied().unwrap_or(settings.porosity),
             false => 0.0,
         };
-        let excess = move |birth: &Birth<'_, D>| match birth.phase == soil {
-            true => load,
-            false => 0.0,
-        };
+        let excess = move |birth: &Birth<'_, D>| if birth.phase == soil { load } else { 0.0 };
         vec![
             OwnColumn::scalar(PACKING, packing.clone()),
             OwnColumn::scalar(GRAIN_VOLUME, move |birth| {

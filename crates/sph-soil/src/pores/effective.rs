@@ -111,10 +111,7 @@ impl PlasticShare {
         let stress = world.free.get(fields::ELASTIC_STRESS)?;
         let stress: Vec<_> = stress.iter().map(|t| *t * (1.0 / YIELDS)).collect();
         let yielding = self.0.yielding(world, &stress)?;
-        let share = |y: &Yielding| match y.held < 1.0 {
-            true => 1.0,
-            false => y.friction,
-        };
+        let share = |y: &Yielding| if y.held < 1.0 { 1.0 } else { y.friction };
         Ok(yielding.iter().map(share).collect())
     }
 }

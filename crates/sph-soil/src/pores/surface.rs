@@ -1,6 +1,6 @@
 //! The surface of a soil and the walls through which its pores drain and are fed.
 
-use sph_core::{StepError, Vect, fields};
+use sph_core::{StepError, fields};
 use sph_neighbours::{Rows, Surroundings, World, walk_in_lanes};
 
 use crate::stress::soil_surface::Grains;
@@ -15,14 +15,6 @@ pub(crate) struct Outlet {
     pub fluid: Vec<(u32, f64)>,
 }
 
-/// Part of the kernel of a particle that is beyond the soil.
-#[derive(Clone, Copy, Default)]
-struct Exposure {
-    /// |N|, 1/m.
-    missing: f64,
-    at_surface: bool,
-}
-
 /// The outlets of a soil, in ascending order: particles within a support of its surface. With `fluid` only those that it touches.
 pub(crate) fn outlets<const D: usize>(
     world: &World<D>,
@@ -32,10 +24,16 @@ pub(crate) fn outlets<const D: usize>(
 ) -> Result<Vec<Outlet>, StepError> {
     let volume = world.free.get(fields::VOLUME)?;
     let positions = world.free.get(fields::POSITION)?;
-    let exposures = exposures(world, soil, volume, positions)?;
+    let grains = Grains { volume, soil };
+    // |N|, 1/m, of the part of the kernel beyond the soil; and whether a particle is at the surface.
+    let mut exposures = vec![(0.0, false); volume.len()];
+    walk_in_lanes(world, &grains, soil, &mut exposures, |sums, rows| {
+        let (outward, at_surface) = grains.surface(world, positions, sums, rows);
+        (outward.norm(), at_surface)
+    })?;
     let limit = world.kernel.support_radius().powi(2);
     let mut near = vec![false; volume.len()];
-    for i in (0..volume.len()).filter(|&i| exposures[i].at_surface) {
+    for i in (0..volume.len()).filter(|&i| exposures[i].1) {
         near[i] = true;
         for &j in world.lists.nearest().candidates(i) {
             let j = j as usize;
@@ -46,7 +44,7 @@ pub(crate) fn outlets<const D: usize>(
     let surroundings = Surroundings::new(world)?;
     let mut rows = Rows::default();
     let outlet = |i: usize| {
-        let missing = exposures[i].missing;
+        let missing = exposures[i].0;
         let mut shares = Vec::new();
         if let Some(fluid) = fluid {
             let free = surroundings.neighbourhood(i, &mut rows).free;
@@ -69,24 +67,6 @@ pub(crate) fn outlets<const D: usize>(
         .filter(|&i| near[i])
         .filter_map(outlet)
         .collect())
-}
-
-fn exposures<const D: usize>(
-    world: &World<D>,
-    soil: &(impl Fn(usize) -> bool + Sync),
-    volume: &[f64],
-    positions: &[Vect<D>],
-) -> Result<Vec<Exposure>, StepError> {
-    let grains = Grains { volume, soil };
-    let mut exposures = vec![Exposure::default(); volume.len()];
-    walk_in_lanes(world, &grains, soil, &mut exposures, |sums, rows| {
-        let (outward, at_surface) = grains.surface(world, positions, sums, rows);
-        Exposure {
-            missing: outward.norm(),
-            at_surface,
-        }
-    })?;
-    Ok(exposures)
 }
 
 /// Particles before a wall with the flux per pressure and mobility from the wall to them, m^(d−2): 2 V |∇γ_as|/d_as.

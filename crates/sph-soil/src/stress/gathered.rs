@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::Vect;
-use sph_neighbours::{Contact, Elements, Neighbourhood, WallPoints, WallSet};
+use sph_neighbours::{Neighbourhood, WallSet};
 
 use crate::stress::{NeighbourSums, VelocityGradient};
 
@@ -32,67 +32,44 @@ const WALLS: usize = 0;
 const OPEN: usize = 1;
 
 impl<const D: usize> Gathered<D> {
-    /// Of free neighbours.
+    /// Of free neighbours, and of the walls near a particle with this velocity.
     #[inline(always)]
-    pub(crate) fn new(free: LaneSums<f64, D>) -> Self {
-        let nothing = Slipping {
-            sums: [SMatrix::zeros(); 2],
-            facing: Vect::zeros(),
-        };
-        Gathered {
-            sums: free.map(|free| SMatrix::from_fn(|i, k| free[i][k])),
-            slipping: [nothing; 2],
-        }
-    }
-
-    /// With the walls near a particle.
-    #[inline(always)]
-    pub(crate) fn with_walls(
-        mut self,
+    pub(crate) fn new(
+        free: LaneSums<f64, D>,
         own: &Vect<D>,
         walls: &WallSet<D>,
         at: &Neighbourhood<'_, D>,
     ) -> Self {
+        let nothing = Slipping {
+            sums: [SMatrix::zeros(); 2],
+            facing: Vect::zeros(),
+        };
+        let mut all = Gathered {
+            sums: free.map(|free| SMatrix::from_fn(|i, k| free[i][k])),
+            slipping: [nothing; 2],
+        };
+        let (points, elements) = (&walls.points, &walls.elements);
         for (v, pair) in at.wall.pairs() {
-            self.point(own, &walls.points, v, &pair.separation, pair.factor);
+            let (apart, share) = (pair.separation, points.share[v] * points.volume[v]);
+            let weight = (apart * (share * pair.factor)).transpose();
+            let velocity = (points.viscous_velocity[v] - own) * weight;
+            let kind = if points.ports { OPEN } else { WALLS };
+            all.add([velocity, -apart * weight], points.friction_factor[v], kind);
         }
         for contact in at.contacts {
-            self.element(own, &walls.elements, &contact);
+            let s = contact.element as usize;
+            let weight = -contact.gradient.transpose();
+            let foot = elements.normal[s] * contact.distance;
+            let velocity = (elements.velocity_at(&contact) - own) * weight;
+            let friction_factor = elements.friction_factor[s];
+            let kind = match elements.open.get(s) {
+                Some(true) => OPEN,
+                _ => WALLS,
+            };
+            all.add([velocity, -foot * weight], friction_factor, kind);
+            all.slipping[kind].facing += contact.gradient * (1.0 - friction_factor);
         }
-        self
-    }
-
-    /// Adds a wall point at r_a − r_v with its F.
-    #[inline(always)]
-    fn point(
-        &mut self,
-        own: &Vect<D>,
-        points: &WallPoints<D>,
-        v: usize,
-        apart: &Vect<D>,
-        factor: f64,
-    ) {
-        let share = points.share[v] * points.volume[v];
-        let weight = (apart * (share * factor)).transpose();
-        let velocity = (points.viscous_velocity[v] - own) * weight;
-        let kind = if points.ports { OPEN } else { WALLS };
-        self.add([velocity, -apart * weight], points.friction_factor[v], kind);
-    }
-
-    /// Adds a wall element.
-    #[inline(always)]
-    fn element(&mut self, own: &Vect<D>, elements: &Elements<D>, contact: &Contact<D>) {
-        let s = contact.element as usize;
-        let weight = -contact.gradient.transpose();
-        let foot = elements.normal[s] * contact.distance;
-        let velocity = (elements.velocity_at(contact) - own) * weight;
-        let friction_factor = elements.friction_factor[s];
-        let kind = match elements.open.get(s) {
-            Some(true) => OPEN,
-            _ => WALLS,
-        };
-        self.add([velocity, -foot * weight], friction_factor, kind);
-        self.slipping[kind].facing += contact.gradient * (1.0 - friction_factor);
+        all
     }
 
     #[inline(always)]

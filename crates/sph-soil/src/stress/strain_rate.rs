@@ -146,7 +146,7 @@ impl<const D: usize> BoundGradient<'_, D> {
     #[inline(always)]
     fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
         let own = &self.velocity[at.particle];
-        let gathered = Gathered::new(free).with_walls(own, self.walls, at);
+        let gathered = Gathered::new(free, own, self.walls, at);
         gathered.gradient(self.formula, at.inverse_renormalisation)
     }
 }

@@ -88,25 +88,6 @@ impl<const D: usize> SuspensionOfScene<D> {
         })
     }
 
-    /// Refuses laws that lift grains where there is no bed or no eddy to carry them.
-    fn check_lifting(&self, lifts: bool) -> Result<(), Refusal> {
-        if lifts && self.bed.is_none() {
-            return refused(
-                "",
-                "grains are lifted off a bed, and this scene has none: expected a wall with `[wall.NAME.erodible]` and a law of \
-                 bed load such as `[bed-load.engelund-fredsoe]`, or `[suspension.settling]`",
-            );
-        }
-        if lifts && !self.has_eddies {
-            return refused(
-                "",
-                "eddies carry grains off a bed, and this scene has none: expected a closure such as `[eddy-viscosity.k-epsilon]`, \
-                 or `[suspension.settling]`",
-            );
-        }
-        Ok(())
-    }
-
     /// Concentration of grains that lie: 1 − n of the bed, or 0.6.
     fn solid(&self) -> f64 {
         self.bed.map_or(PACKING, |bed| 1.0 - bed.porosity)
@@ -152,7 +133,16 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
             let why = "grains without weight do not settle: give the scene `gravity`";
             return refused("", why);
         }
-        self.check_lifting(law.lifts())?;
+        if law.lifts() && self.bed.is_none() {
+            let why = "grains are lifted off a bed, and this scene has none: expected a wall with `[wall.NAME.erodible]` and a \
+                       law of bed load such as `[bed-load.engelund-fredsoe]`, or `[suspension.settling]`";
+            return refused("", why);
+        }
+        if law.lifts() && !self.has_eddies {
+            let why = "eddies carry grains off a bed, and this scene has none: expected a closure such as \
+                       `[eddy-viscosity.k-epsilon]`, or `[suspension.settling]`";
+            return refused("", why);
+        }
         let (water, viscosity, density) = carrier(setting, KIND)?;
         let grains = self.grains(viscosity, density, gravity)?;
         let solid = self.solid();
@@ -223,7 +213,7 @@ struct TransportLimit(Transport);
 impl<const D: usize> Limiter<D> for TransportLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let radius = world.kernel.support_radius();
-        let mixing = self.0.largest_mixing(world)?;
+        let mixing = self.0.mixing(world)?.into_iter().fold(0.0, f64::max);
         let rate = 12.0 * self.0.settling.speed / radius + 56.0 * mixing / radius.powi(2);
         Ok(StepLimit::new("suspension", 1.0 / rate))
     }

@@ -66,8 +66,20 @@ impl BedExchange {
                 pass.lifted *= lifting;
             }
         }
-        self.limit_to_stock(world, bed, &mut all, dt)?;
-        for pass in &all {
+        let lifted: Vec<_> = all.iter().map(|pass| (pass.place, pass.lifted)).collect();
+        let lifted = world.sums_by_place(&lifted, bed.grid.len())?;
+        // No place gives more than lies over the rock when bed load has moved.
+        let share = |place: usize| {
+            let depth = bed.level(place) + dt * bed.rate[place] - bed.rock;
+            let stock = depth.max(0.0) * self.solid * bed.grid.area(place);
+            match !bed.held[place] && lifted[place] > stock {
+                true => stock / lifted[place],
+                false => 1.0,
+            }
+        };
+        let shares: Vec<f64> = (0..bed.grid.len()).map(share).collect();
+        for pass in &mut all {
+            pass.lifted *= shares[pass.place];
             concentration[pass.particle] += (pass.lifted - pass.settled) / volume(pass.particle);
         }
         let net = all
@@ -152,29 +164,5 @@ impl BedExchange {
             true => [rate, self.schmidt * speed / (KARMAN * friction_velocity)],
             false => [0.0; 2],
         }
-    }
-
-    /// Lets no place give more than lies over the rock when bed load has moved.
-    fn limit_to_stock<const D: usize>(
-        &self,
-        world: &World<D>,
-        bed: &Bed,
-        all: &mut [Pass],
-        dt: f64,
-    ) -> Result<(), StepError> {
-        let lifted: Vec<_> = all.iter().map(|pass| (pass.place, pass.lifted)).collect();
-        let lifted = world.sums_by_place(&lifted, bed.grid.len())?;
-        let share = |place: usize| {
-            let depth = bed.level(place) + dt * bed.rate[place] - bed.rock;
-            let stock = depth.max(0.0) * self.solid * bed.grid.area(place);
-            match !bed.held[place] && lifted[place] > stock {
-                true => stock / lifted[place],
-                false => 1.0,
-            }
-        };
-        let shares: Vec<f64> = (0..bed.grid.len()).map(share).collect();
-        all.iter_mut()
-            .for_each(|pass| pass.lifted *= shares[pass.place]);
-        Ok(())
     }
 }

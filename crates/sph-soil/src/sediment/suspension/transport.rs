@@ -87,7 +87,7 @@ impl Transport {
     }
 
     /// D of a particle, m²/s.
-    fn mixing<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+    pub fn mixing<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let Some(schmidt) = self.schmidt else {
             return Ok(vec![self.diffusivity; world.free.len()]);
         };
@@ -98,31 +98,17 @@ impl Transport {
             .collect())
     }
 
-    /// The largest D, m²/s.
-    pub fn largest_mixing<const D: usize>(&self, world: &World<D>) -> Result<f64, StepError> {
-        Ok(self.mixing(world)?.into_iter().fold(0.0, f64::max))
-    }
-
-    /// True if particles carry grains.
-    pub fn carriers<const D: usize>(
-        &self,
-        world: &World<D>,
-    ) -> Result<Option<Vec<bool>>, StepError> {
-        let Some(own) = self.phase else {
-            return Ok(None);
-        };
-        let phase = world.free.get(fields::PHASE)?.iter();
-        Ok(Some(phase.map(|p| *p == own).collect()))
-    }
-
     /// Concentrations after a step of `dt` seconds: C_a − Δt/V⁰_a Σ_b Φ_ab with V⁰ = m/ρ₀ and Φ_ab = −Φ_ba.
     pub fn step<const D: usize>(&self, world: &World<D>, dt: f64) -> Result<Vec<f64>, StepError> {
         let concentration = world.free.get(fields::CONCENTRATION)?;
         let volume = world.free.get(fields::VOLUME)?;
         let mass = world.free.get(fields::MASS)?;
         let mixing = self.mixing(world)?;
-        let carriers = self.carriers(world)?;
-        let carries = |i: usize| carriers.as_ref().is_none_or(|all| all[i]);
+        let phase = match self.phase {
+            Some(own) => Some((own, world.free.get(fields::PHASE)?)),
+            None => None,
+        };
+        let carries = |i: usize| phase.is_none_or(|(own, phase)| phase[i] == own);
         let inverse = world.free.get(fields::RENORMALISATION).ok();
         let inverse = |i: usize| inverse.map_or(1.0, |gamma| 1.0 / gamma[i]);
         let carried = |c: &f64| Carried::new(&self.settling, *c);

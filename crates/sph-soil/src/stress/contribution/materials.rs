@@ -120,9 +120,7 @@ impl<const D: usize> Materials<D> {
     /// The gradient of the phases whose laws read it, or of all if others read it too.
     pub(crate) fn gradient_stage(&self, read: &[AnyField]) -> Option<GradientStage<D>> {
         let formula = self.gradient.clone()?;
-        let of_gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        let others = self.eddies || read.iter().any(|f| of_gradients.contains(f));
-        let phases = match others {
+        let phases = match self.eddies || includes_gradients(read) {
             true => None,
             false => {
                 let phases: Arc<[bool]> = self.laws.iter().map(|l| reads_gradients(&**l)).collect();
@@ -135,11 +133,14 @@ impl<const D: usize> Materials<D> {
     /// True if no stage reads strain rates before the interactions, which may then leave them for terms that do it
     /// later.
     pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
-        let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        self.eddies
-            && !self.laws.iter().any(|law| reads_gradients(&**law))
-            && !read.iter().any(|field| gradients.contains(field))
+        self.eddies && !self.laws.iter().any(|law| reads_gradients(&**law)) && !includes_gradients(read)
     }
+}
+
+/// True if a velocity gradient or a strain rate is among columns.
+fn includes_gradients(read: &[AnyField]) -> bool {
+    let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+    read.iter().any(|field| gradients.contains(field))
 }
 
 fn reads_gradients(law: &dyn Rheology) -> bool {
