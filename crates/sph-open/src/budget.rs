@@ -43,20 +43,16 @@ impl<const D: usize> Faces<D> {
                 volume = mass / self.at_rest(q);
                 self.memory.mass[k * phases + q] += mass;
                 self.memory.totals[face * phases + q].entered.add(mass);
-            } else if normal < 0.0 {
+            } else if normal < 0.0 || dry {
                 for q in 0..phases {
-                    let part = self.mix[k * phases + q];
-                    let density = self.density(k, q);
+                    let (part, density) = (self.looked[k].mix[q], self.density(k, q));
                     let port = &mut self.memory.mass[k * phases + q];
                     let error = *port - density * lacking * part;
-                    let mass = density * -normal * wetted * dt * part + error * faded;
+                    let mass = match normal < 0.0 {
+                        true => density * -normal * wetted * dt * part + error * faded,
+                        false => *port,
+                    };
                     *port -= mass;
-                    volume -= mass / self.at_rest(q);
-                    self.memory.totals[face * phases + q].left.add(mass);
-                }
-            } else if dry {
-                for q in 0..phases {
-                    let mass = std::mem::take(&mut self.memory.mass[k * phases + q]);
                     volume -= mass / self.at_rest(q);
                     self.memory.totals[face * phases + q].left.add(mass);
                 }
@@ -103,11 +99,7 @@ impl<const D: usize> Faces<D> {
                 if entered == 0.0 && left == 0.0 && born == 0.0 && died == 0.0 {
                     continue;
                 }
-                let masses = face
-                    .elements
-                    .clone()
-                    .map(|k| self.memory.mass[k * count + q]);
-                let held: f64 = masses.sum();
+                let held = self.held(face, q);
                 let missing = entered - left - (born - died) - held;
                 whole[0] += missing;
                 whole[1] += entered + left.abs();
@@ -125,10 +117,9 @@ impl<const D: usize> Faces<D> {
                 all.insert(face.name.clone(), volumes);
             }
         }
-        let unbalanced = if whole[1] > 0.0 {
-            whole[0].abs() / whole[1]
-        } else {
-            0.0
+        let unbalanced = match whole[1] > 0.0 {
+            true => whole[0].abs() / whole[1],
+            false => 0.0,
         };
         all.insert("unbalanced".into(), json!(unbalanced));
         Json::Object(all)

@@ -25,10 +25,9 @@ pub(crate) fn cells<const D: usize>(walls: &WallSet<D>, face: &str) -> Vec<Cell<
     let elements = &walls.elements;
     let own = |s: &u32| walls.names[elements.wall[*s as usize] as usize] == face;
     let own: Vec<u32> = (0..elements.centre.len() as u32).filter(own).collect();
-    let pairs = if D == 2 {
-        own.iter().map(|s| vec![*s]).collect()
-    } else {
-        paired(walls, &own)
+    let pairs = match D {
+        2 => own.iter().map(|s| vec![*s]).collect(),
+        _ => paired(walls, &own),
     };
     let mut cells: Vec<Cell<D>> = pairs.into_iter().map(|p| cell(walls, p)).collect();
     if D == 2 {
@@ -213,10 +212,8 @@ mod tests {
         walls.elements.wall[4] = 1;
         walls.names.push("other".into());
         let cells = cells(&walls, "face");
-        let at: Vec<_> = cells
-            .iter()
-            .map(|c| [c.place.along, c.place.across])
-            .collect();
+        let at = cells.iter().map(|c| [c.place.along, c.place.across]);
+        let at: Vec<_> = at.collect();
         assert_eq!(at, [[0.25, 0.5], [0.75, 0.5]]);
         assert_eq!(cells[0].place.rectangle, Some([2.0, 1.0]));
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sph_boundary::MoverRefusal;
 use sph_core::{Vect, contract};
 
 /// An element of an open face.
@@ -115,32 +116,19 @@ pub struct Moment<const D: usize> {
 impl<const D: usize> Moment<D> {
     /// Height of a place against gravity, m.
     pub fn height(&self, place: &Vect<D>) -> f64 {
-        let g = self.gravity.norm();
-        if g > 0.0 {
-            -self.gravity.dot(place) / g
-        } else {
-            0.0
+        match self.gravity.norm() {
+            g if g > 0.0 => -self.gravity.dot(place) / g,
+            _ => 0.0,
         }
     }
 }
 
-/// A key of a law's table, and its fault.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OpenRefusal {
-    /// The key in the table; the table itself, if empty.
-    pub key: String,
-    /// The defect and its remedy.
-    pub why: String,
-}
+/// A key of a law's table, and its fault: of the same form as that of a mover.
+pub type OpenRefusal = MoverRefusal;
 
-impl OpenRefusal {
-    /// Of a key.
-    pub fn at_key(key: impl Into<String>, why: impl Into<String>) -> Self {
-        OpenRefusal {
-            key: key.into(),
-            why: why.into(),
-        }
-    }
+/// The refusal of a key.
+pub(crate) fn refuse<T>(key: &str, why: impl Into<String>) -> Result<T, OpenRefusal> {
+    Err(OpenRefusal::at_key(key, why))
 }
 
 /// The fluid that comes in.

@@ -1,15 +1,18 @@
-//! Open faces as a piece of physics.
+//! Open faces as a piece of physics, and their work within a step.
 
 use std::sync::{Arc, Mutex};
 
 use sph_boundary::Wall;
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
-use sph_core::Vect;
+use sph_contribution::{
+    Contribution, Gate, Newborn, Offer, Refusal, Report, Setting, StepHook, StepMoment, StepPhase,
+    even_out,
+};
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::World;
 use sph_rheology::state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
-use crate::memory::Memory;
-use crate::passing::FacePassing;
+use crate::flux::OPEN_FLUX;
 use crate::walls::OpenWalls;
 use crate::{Entering, OpenBoundary, OpenRefusal};
 
@@ -54,29 +57,7 @@ pub fn open<const D: usize>(
         backgrounds: laws.iter().map(|law| at_reference(&**law)).collect(),
         whole: laws.iter().map(|l| l.reference().density * cell).collect(),
         spacing,
-        support: 0.0,
-        elements: Vec::new(),
-        open: Vec::new(),
-        places: Vec::new(),
-        face_of: Vec::new(),
-        smooth: Vec::new(),
-        inside: Vec::new(),
-        present: Vec::new(),
-        outside: Vec::new(),
-        asked: Vec::new(),
-        rows: Vec::new(),
-        mix: Vec::new(),
-        full: Vec::new(),
-        stands: Vec::new(),
-        at_port: Vec::new(),
-        lacking: Vec::new(),
-        lacks: Vec::new(),
-        nearest: Vec::new(),
-        memory: Memory::new(0, 0, 0),
-        kicks: Vec::new(),
-        before: Vec::new(),
-        looked: Vec::new(),
-        due: false,
+        ..Faces::default()
     };
     let faces = Arc::new(Mutex::new(faces));
     let walls = OpenWalls {
@@ -164,11 +145,9 @@ impl<const D: usize> OpenBoundaries<D> {
 impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if !setting.kicks_once {
-            return Err(Refusal::at_key(
-                "integrator",
-                "",
-                "open faces let mass through once per step: take `[integrator.symplectic-euler]`",
-            ));
+            let why =
+                "open faces let mass through once per step: take `[integrator.symplectic-euler]`";
+            return Err(Refusal::at_key("integrator", "", why));
         }
         let passing = FacePassing {
             faces: self.faces.clone(),
@@ -178,5 +157,111 @@ impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
         offer.hook(passing.clone());
         offer.gate(passing);
         Ok(())
+    }
+}
+
+const NAME: &str = "open boundaries";
+
+/// Lets mass through.
+#[derive(Clone)]
+pub(crate) struct FacePassing<const D: usize> {
+    pub faces: SharedFaces<D>,
+    /// True if densities are sums, which change with particles that come and go.
+    pub summed: bool,
+    pub phases: Vec<String>,
+}
+
+impl<const D: usize> FacePassing<D> {
+    fn columns(&self) -> Access {
+        let access = Access::none()
+            .both(fields::POSITION)
+            .both(fields::VOLUME)
+            .here(fields::VELOCITY)
+            .here(fields::MASS)
+            .here(fields::DENSITY)
+            .here(fields::RENORMALISATION)
+            .here(fields::IDENTITY)
+            .writes(fields::VELOCITY)
+            .where_there(fields::PHASE);
+        match self.summed {
+            false => access,
+            true => access
+                .here(OPEN_FLUX)
+                .here(fields::DENSITY_CONSTANT)
+                .remembers(OPEN_FLUX)
+                .writes(fields::DENSITY_CONSTANT),
+        }
+    }
+}
+
+impl<const D: usize> StepHook<D> for FacePassing<D> {
+    fn name(&self) -> String {
+        NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        self.columns()
+    }
+
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
+        let mut faces = lock(&self.faces);
+        faces.balance(world, dt)?;
+        if self.summed {
+            faces.advance_densities(world, dt)?;
+        }
+        faces.pass(dt);
+        faces.ask(world.time, dt);
+        faces.remember(dt);
+        Ok(())
+    }
+
+    fn report(&self, _: &World<D>) -> Report {
+        let faces = lock(&self.faces);
+        Report {
+            // Without an evaluation of the faces there are none.
+            counts: (!faces.memory.volumes.is_empty()).then(|| faces.budget(&self.phases)),
+            summary: Some("open_boundaries"),
+            warnings: faces.differences(),
+            ..Report::default()
+        }
+    }
+}
+
+impl<const D: usize> Gate<D> for FacePassing<D> {
+    fn name(&self) -> String {
+        NAME.into()
+    }
+
+    fn access(&self) -> Access {
+        self.columns()
+    }
+
+    fn exits(&self) -> Vec<String> {
+        let faces = lock(&self.faces);
+        faces.faces.iter().map(|f| f.name.clone()).collect()
+    }
+
+    fn departures(
+        &mut self,
+        world: &mut World<D>,
+        _dt: f64,
+    ) -> Result<Vec<(u32, usize)>, StepError> {
+        let gone = lock(&self.faces).leaving(world)?;
+        even_out(world, &gone.places, 1.0)?;
+        Ok(gone.here)
+    }
+
+    fn births(&mut self, world: &mut World<D>, _dt: f64) -> Result<Vec<Newborn<D>>, StepError> {
+        let mut faces = lock(&self.faces);
+        let born = faces.due_particles();
+        let places: Vec<Vect<D>> = born.iter().map(|b| b.position).collect();
+        even_out(world, &places, -1.0)?;
+        world.walls.passed = faces.passed(&world.walls);
+        Ok(born)
     }
 }

@@ -35,13 +35,10 @@ impl<const D: usize> Faces<D> {
         }
         let mut kicks = std::mem::take(&mut self.kicks);
         kicks.resize(world.free.len(), Vect::zeros());
-        let (mass, volume) = (
-            world.free.get(fields::MASS)?,
-            world.free.get(fields::VOLUME)?,
-        );
-        let taken: Vec<f64> = (0..self.elements.len())
-            .map(|k| self.taken_out(k))
-            .collect();
+        let mass = world.free.get(fields::MASS)?;
+        let volume = world.free.get(fields::VOLUME)?;
+        let elements = 0..self.elements.len();
+        let taken: Vec<f64> = elements.map(|k| self.taken_out(k)).collect();
         let mut before = std::mem::take(&mut self.before);
         before.resize(world.free.len(), 0.0);
         for &i in &world.walls.contacts.particles {

@@ -17,27 +17,6 @@ const NEAREST: [f64; 2] = [0.8, 0.9];
 /// Least distance of a new particle from the face, over the spacing: on the fluid's side under any rounding.
 const IN_FRONT: f64 = 1e-6;
 
-/// A particle behind a face.
-struct PassedParticle<const D: usize> {
-    particle: u32,
-    face: usize,
-    phase: usize,
-    mass: f64,
-    /// Distance, m.
-    depth: f64,
-    ports: [(usize, Vect<D>); 2],
-}
-
-impl<const D: usize> PassedParticle<D> {
-    /// Share of its mass that the second port gets.
-    fn part(&self) -> f64 {
-        let [(_, apart), second] = self.ports;
-        let between = apart - second.1;
-        let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
-        if part.is_finite() { part } else { 0.0 }
-    }
-}
-
 /// Particles that pass faces at the end of a step.
 #[derive(Default)]
 pub(crate) struct Exits<const D: usize> {
@@ -47,10 +26,12 @@ pub(crate) struct Exits<const D: usize> {
     pub places: Vec<Vect<D>>,
 }
 
-/// Data of a particle that leaves.
+/// A particle behind a face.
+#[derive(Clone, Copy)]
 struct LeavingParticle<const D: usize> {
     identity: u64,
     ports: [usize; 2],
+    /// Share of its mass that the second port gets.
     part: f64,
     phase: usize,
     mass: f64,
@@ -78,28 +59,11 @@ impl<const D: usize> Words for LeavingParticle<D> {
     }
 }
 
-/// All leavers, in the order of identities: copies of others' particles are counted where they are at home.
-fn of_all<const D: usize>(
-    world: &World<D>,
-    behind: &[PassedParticle<D>],
-) -> Result<Vec<LeavingParticle<D>>, StepError> {
-    let (position, identity) = (
-        world.free.get(fields::POSITION)?,
-        world.free.get(fields::IDENTITY)?,
-    );
-    let owned = world.owned();
-    let counts = |b: &&PassedParticle<D>| owned.has(b.particle as usize);
-    let leaver = |b: &PassedParticle<D>| LeavingParticle {
-        identity: u64::from(identity[b.particle as usize]),
-        ports: b.ports.map(|(port, _)| port),
-        part: b.part(),
-        phase: b.phase,
-        mass: b.mass,
-        place: position[b.particle as usize],
-    };
-    let mut all = world.of_all(behind.iter().filter(counts).map(leaver).collect())?;
-    all.sort_unstable_by_key(|leaver| leaver.identity);
-    Ok(all)
+/// Share of a particle's mass that the second of two ports gets, by the ways from them to it.
+fn second_share<const D: usize>([apart, second]: [Vect<D>; 2]) -> f64 {
+    let between = apart - second;
+    let part = (apart.dot(&between) / between.norm_squared()).clamp(0.0, 1.0);
+    if part.is_finite() { part } else { 0.0 }
 }
 
 impl<const D: usize> Faces<D> {
@@ -109,10 +73,9 @@ impl<const D: usize> Faces<D> {
         for (k, (pressure, velocity)) in self.memory.mean.iter_mut().enumerate() {
             let law = &self.faces[self.face_of[k]].law;
             if let Some(memory) = law.memory() {
-                let part = if begins {
-                    1.0
-                } else {
-                    1.0 - (-dt / memory).exp()
+                let part = match begins {
+                    true => 1.0,
+                    false => 1.0 - (-dt / memory).exp(),
                 };
                 *pressure += (self.inside[k].pressure - *pressure) * part;
                 *velocity += (self.inside[k].velocity - *velocity) * part;
@@ -138,7 +101,7 @@ impl<const D: usize> Faces<D> {
     pub fn leaving(&mut self, world: &World<D>) -> Result<Exits<D>, StepError> {
         let behind = self.passed_particles(world)?;
         let late = (0..self.elements.len()).filter_map(|k| self.ripeness(k));
-        let depths = behind.iter().map(|b| b.depth / self.spacing);
+        let depths = behind.iter().map(|(_, depth, _)| depth / self.spacing);
         let mut late = [late.chain(depths).fold(0.0, f64::max)];
         world.largest(&mut late)?;
         self.due = late[0] >= LATE;
@@ -146,22 +109,32 @@ impl<const D: usize> Faces<D> {
             return Ok(Exits::default());
         }
         let phases = self.whole.len();
-        let all = of_all(world, &behind)?;
+        // In the order of identities; copies of others' particles are counted where they are at home.
+        let owned = world.owned();
+        let own = behind.iter().filter(|(p, ..)| owned.has(*p as usize));
+        let mut all = world.of_all(own.map(|(.., b)| *b).collect())?;
+        all.sort_unstable_by_key(|b| b.identity);
         for b in &all {
             self.memory.mass[b.ports[0] * phases + b.phase] += (1.0 - b.part) * b.mass;
             self.memory.mass[b.ports[1] * phases + b.phase] += b.part * b.mass;
             let face = self.face_of[b.ports[0]];
             self.memory.totals[face * phases + b.phase].died.add(b.mass);
         }
+        let here = behind.iter();
+        let here = here.map(|(p, _, b)| (*p, self.face_of[b.ports[0]]));
         Ok(Exits {
-            here: behind.iter().map(|b| (b.particle, b.face)).collect(),
+            here: here.collect(),
             places: all.iter().map(|b| b.place).collect(),
         })
     }
 
-    /// Particles behind an open face.
-    fn passed_particles(&self, world: &World<D>) -> Result<Vec<PassedParticle<D>>, StepError> {
+    /// Particles behind an open face, each with its distance from it, m.
+    fn passed_particles(
+        &self,
+        world: &World<D>,
+    ) -> Result<Vec<(u32, f64, LeavingParticle<D>)>, StepError> {
         let position = world.free.get(fields::POSITION)?;
+        let identity = world.free.get(fields::IDENTITY)?;
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();
         let mut all = Vec::new();
@@ -181,14 +154,15 @@ impl<const D: usize> Faces<D> {
             if height >= 0.0 || (apart - normal * height).norm() > self.spacing {
                 continue;
             }
-            all.push(PassedParticle {
-                particle: p,
-                face: self.face_of[first],
+            let leaving = LeavingParticle {
+                identity: u64::from(identity[p as usize]),
+                ports: ports.map(|(port, _)| port),
+                part: second_share(ports.map(|(_, way)| way)),
                 phase: phase.map_or(0, |q| q[p as usize] as usize),
                 mass: mass[p as usize],
-                depth: -height,
-                ports,
-            });
+                place: *x,
+            };
+            all.push((p, -height, leaving));
         }
         Ok(all)
     }
@@ -207,16 +181,13 @@ impl<const D: usize> Faces<D> {
             let open = contacts.map(|c| self.open[c.element as usize]);
             open.filter(|k| *k != CLOSED).map(|k| k as usize)
         };
-        let least = |a: (usize, Vect<D>), b: (usize, Vect<D>)| {
-            if b.1.norm_squared() < a.1.norm_squared() {
-                b
-            } else {
-                a
-            }
+        let nearer = |a: &(usize, Vect<D>), b: &(usize, Vect<D>)| {
+            let [a, b] = [a, b].map(|(_, way)| way.norm_squared());
+            a.total_cmp(&b)
         };
-        let first = open().map(|k| (k, way(k))).reduce(least)?;
+        let first = open().map(|k| (k, way(k))).min_by(nearer)?;
         let of_it = |k: &usize| *k != first.0 && self.face_of[*k] == self.face_of[first.0];
-        let second = open().filter(of_it).map(|k| (k, way(k))).reduce(least);
+        let second = open().filter(of_it).map(|k| (k, way(k))).min_by(nearer);
         Some([first, second.unwrap_or(first)])
     }
 
@@ -234,12 +205,11 @@ impl<const D: usize> Faces<D> {
         // What is in the port beyond the half is already in front of it.
         let late = self.memory.mass[k * self.whole.len() + q] / self.whole[q] - RIPE;
         let [pushed, let_in] = NEAREST;
-        let least = if self.outside[k].imposed {
-            pushed
-        } else {
-            let_in
+        let least = match self.outside[k].imposed {
+            true => pushed,
+            false => let_in,
         };
-        let room = self.nearest[k] / self.spacing - least;
+        let room = self.looked[k].nearest / self.spacing - least;
         (late >= 0.0 && room >= 0.0).then_some(late.min(room))
     }
 

@@ -4,9 +4,8 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::World;
 
-use crate::adjacent_fluid::AdjacentFluid;
 use crate::faces::{Faces, as_share};
-use crate::row::Row;
+use crate::row::{AdjacentFluid, Row};
 use crate::{FaceElement, FluidMean, Moment};
 
 /// Least Σ V w of the fluid before an element, of the ½ of a filled half space, for a mean that means something.
@@ -22,26 +21,17 @@ const BATCH: usize = 16;
 impl<const D: usize> Faces<D> {
     /// Measures the fluid in front of all elements, and evaluates the laws.
     pub fn look(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let phases = self.whole.len();
         let columns = Columns::new(world)?;
         let mut looked = std::mem::take(&mut self.looked);
         looked.resize_with(self.elements.len(), || self.nothing(0));
-        looked
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(BATCH)
-            .for_each_init(Scratch::default, |room, (k, seen)| {
-                self.means_before(world, &columns, k, room, seen);
-            });
+        let all = looked.par_iter_mut().enumerate().with_min_len(BATCH);
+        all.for_each_init(Scratch::default, |room, (k, seen)| {
+            self.means_before(world, &columns, k, room, seen);
+        });
         let looked = self.agreed(world, looked)?;
         for (k, seen) in looked.iter().enumerate() {
-            self.present[k] = seen.inside.velocity;
             self.inside[k] = self.arriving(k, seen);
-            self.rows[k] = seen.row;
-            self.lacks[k] = seen.lacks;
-            self.nearest[k] = seen.nearest;
             self.lacking[k] = as_share(seen.lacks);
-            self.mix[k * phases..(k + 1) * phases].copy_from_slice(&seen.mix);
         }
         self.looked = looked;
         let moment = Moment {
@@ -64,9 +54,8 @@ impl<const D: usize> Faces<D> {
                 self.draw_air(own);
             }
         }
-        let pressures: Vec<_> = (0..self.elements.len())
-            .map(|k| self.reflected(k))
-            .collect();
+        let elements = 0..self.elements.len();
+        let pressures: Vec<_> = elements.map(|k| self.reflected(k)).collect();
         for (outside, pressure) in self.outside.iter_mut().zip(pressures) {
             outside.pressure = pressure;
         }
@@ -121,6 +110,30 @@ impl<const D: usize> Faces<D> {
         inside.pressure + inside.impedance * (mean / whole - inside.velocity.dot(normal))
     }
 
+    /// The means of all [elements](sph_neighbours::OwnedElements), each where it counts.
+    fn agreed(
+        &self,
+        world: &World<D>,
+        looked: Vec<AdjacentFluid<D>>,
+    ) -> Result<Vec<AdjacentFluid<D>>, StepError> {
+        let owned = world.owned_elements()?;
+        let looks = |k: usize| {
+            let candidates = || world.lists.of_points.candidates(k);
+            owned.has_around(&self.places[k].centre, candidates)
+        };
+        world.agreed(looked, looks, |k| self.nothing(k))
+    }
+
+    /// The mean where no particle is near.
+    pub(crate) fn nothing(&self, k: usize) -> AdjacentFluid<D> {
+        let mut nothing = AdjacentFluid::new(self.whole.len());
+        if self.memory.dt > 0.0 {
+            let mean = self.memory.mean[k];
+            (nothing.inside.mean_pressure, nothing.inside.mean) = mean;
+        }
+        nothing
+    }
+
     /// Means over the fluid before an element.
     fn means_before(
         &self,
@@ -131,18 +144,19 @@ impl<const D: usize> Faces<D> {
         seen: &mut AdjacentFluid<D>,
     ) {
         let place = &self.places[k];
-        room.fill(
-            world,
-            columns.position,
-            place,
-            world.lists.of_points.candidates(k),
-        );
+        let candidates = world.lists.of_points.candidates(k);
+        room.fill(world, columns.position, place, candidates);
         let mix = &mut seen.mix;
         mix.clear();
         mix.resize(self.whole.len(), 0.0);
         let sums = &mut room.sums;
         sums.clear();
-        sums.resize(self.whole.len(), Sums::default());
+        let nothing = Sums {
+            pressure: 0.0,
+            density: 0.0,
+            velocity: Vect::zeros(),
+        };
+        sums.resize(self.whole.len(), nothing);
         let (mut filling, mut reach) = (0.0, 0.0);
         let mut row = Row::default();
         for ((j, apart), w) in room.near.iter().zip(&room.value) {
@@ -179,7 +193,7 @@ impl<const D: usize> Faces<D> {
         seen.inside = FluidMean {
             wet: filling >= WET,
             pressure: p,
-            filled: (row.volume() / (FULL * self.stands[k])).min(1.0),
+            filled: (row.volume() / (FULL * self.full[k].volume)).min(1.0),
             velocity: u,
             impedance: if z > 0.0 { z } else { 1.0 },
             density: rho,
@@ -189,7 +203,7 @@ impl<const D: usize> Faces<D> {
         seen.reach = reach;
         let nearest = room.distance2.iter().copied().fold(f64::INFINITY, f64::min);
         seen.nearest = nearest.sqrt();
-        seen.lacks = (self.full[k] - row.weight()) / self.at_port[k];
+        seen.lacks = (self.full[k].weight - row.weight()) / self.full[k].at_port;
         seen.row = row.velocity(self.spacing).unwrap_or(u);
     }
 }
@@ -226,17 +240,8 @@ struct Sums<const D: usize> {
     velocity: Vect<D>,
 }
 
-impl<const D: usize> Default for Sums<D> {
-    fn default() -> Self {
-        Sums {
-            pressure: 0.0,
-            density: 0.0,
-            velocity: Vect::zeros(),
-        }
-    }
-}
-
 /// Buffers of a task.
+#[derive(Default)]
 struct Scratch<const D: usize> {
     /// Particles within the support of an element's centre, and the ways from them to it, m.
     near: Vec<(usize, Vect<D>)>,
@@ -246,17 +251,6 @@ struct Scratch<const D: usize> {
     value: Vec<f64>,
     /// By phase.
     sums: Vec<Sums<D>>,
-}
-
-impl<const D: usize> Default for Scratch<D> {
-    fn default() -> Self {
-        Scratch {
-            near: Vec::new(),
-            distance2: Vec::new(),
-            value: Vec::new(),
-            sums: Vec::new(),
-        }
-    }
 }
 
 impl<const D: usize> Scratch<D> {

@@ -7,10 +7,9 @@ use sph_kernels::Sampler;
 use sph_neighbours::{Passed, WallSet};
 use sph_rheology::state::Laws;
 
-use crate::adjacent_fluid::AdjacentFluid;
 use crate::cells::cells;
-use crate::memory::Memory;
-use crate::row::near;
+use crate::memory::{Memory, Totals};
+use crate::row::{AdjacentFluid, near};
 use crate::{FaceElement, FaceValues, FluidMean, OpenBoundary};
 
 /// Largest delay of insertion and removal, as a share of a row: lists are built anew where particles come or go, and
@@ -54,7 +53,19 @@ pub(crate) struct Face<const D: usize> {
     pub elements: std::ops::Range<usize>,
 }
 
+/// The row of particles before an element where its face is full.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct FullRow {
+    /// Weight Σ V w of the [row](crate::row::Row).
+    pub weight: f64,
+    /// Volume that [stands](crate::row::row_weight) before the element, m^d.
+    pub volume: f64,
+    /// Weight of one row of particles that stands on the face.
+    pub at_port: f64,
+}
+
 /// All of them. Every element has a port at its centre: a wall point with the mass that is not in particles.
+#[derive(Default)]
 pub(crate) struct Faces<const D: usize> {
     pub faces: Vec<Face<D>>,
     /// Equations of state by phase.
@@ -75,27 +86,14 @@ pub(crate) struct Faces<const D: usize> {
     /// For every element those of its face near it, with their share in a mean over the support of a quantity that is
     /// constant along the normal.
     pub smooth: Vec<Vec<(u32, f64)>>,
+    /// Means before the elements, as late as they arrive at the face.
     pub inside: Vec<FluidMean<D>>,
-    /// Mean velocity before every element at this moment, m/s; those of `inside` are as late as they arrive at the face.
-    pub present: Vec<Vect<D>>,
+    /// The fluid before them at this moment.
+    pub looked: Vec<AdjacentFluid<D>>,
     pub outside: Vec<FaceValues<D>>,
     /// Volume per time that the law of every face [requests](OpenBoundary::asked), m³/s.
     pub asked: Vec<Option<f64>>,
-    /// Velocity of the row of particles in front of every element, m/s.
-    pub rows: Vec<Vect<D>>,
-    /// Shares of the phases in front of every element, phases innermost.
-    pub mix: Vec<f64>,
-    /// Weight of the row before every element where the face is full.
-    pub full: Vec<f64>,
-    /// Volume that [stands](crate::row::row_weight) before every element where the face is full, m^d.
-    pub stands: Vec<f64>,
-    /// Share of a whole particle at the port of every element in that weight.
-    pub at_port: Vec<f64>,
-    /// The missing part of the row before every element, over the weight of a row on the face: φ − ½ with a row at φ
-    /// δr.
-    pub lacks: Vec<f64>,
-    /// Distance of the particle that is nearest to the centre of every element, m.
-    pub nearest: Vec<f64>,
+    pub full: Vec<FullRow>,
     /// The [share](as_share) of a particle with which every port takes part in sums.
     pub lacking: Vec<f64>,
     pub memory: Memory<D>,
@@ -103,8 +101,6 @@ pub(crate) struct Faces<const D: usize> {
     pub kicks: Vec<Vect<D>>,
     /// Pressure that it takes out before every particle, Pa; zero in between.
     pub before: Vec<f64>,
-    /// The means before the elements, to be filled again.
-    pub looked: Vec<AdjacentFluid<D>>,
     /// True if particles come and go at the end of this step.
     pub due: bool,
 }
@@ -138,31 +134,17 @@ impl<const D: usize> Faces<D> {
             face.elements = first..self.elements.len();
         }
         walls.elements.open = self.open.iter().map(|k| *k != CLOSED).collect();
-        self.smooth = (0..self.places.len())
-            .map(|k| self.mean_weights(k, kernel))
-            .collect();
-        self.full = (0..self.places.len())
-            .map(|k| self.when_full(k, kernel))
-            .collect();
-        self.stands = (0..self.places.len())
-            .map(|k| self.standing_volume(k, kernel))
-            .collect();
-        self.at_port = (0..self.places.len())
-            .map(|k| self.at_port(k, kernel))
-            .collect();
+        let all = 0..self.places.len();
+        self.smooth = all.clone().map(|k| self.mean_weights(k, kernel)).collect();
+        self.full = all.map(|k| self.when_full(k, kernel)).collect();
         self.add_ports(walls);
         let (ports, phases) = (self.elements.len(), self.whole.len());
         self.inside = vec![FluidMean::nothing(); ports];
-        self.present = vec![Vect::zeros(); ports];
         self.outside = vec![FaceValues::dry(); ports];
         self.asked = vec![None; self.faces.len()];
-        self.rows = vec![Vect::zeros(); ports];
-        self.lacks = vec![0.0; ports];
-        self.nearest = vec![f64::INFINITY; ports];
-        self.mix = vec![0.0; ports * phases];
         self.lacking = vec![0.0; ports];
         self.memory = Memory::new(ports, phases, self.faces.len());
-        self.looked.clear();
+        self.looked = (0..ports).map(|k| self.nothing(k)).collect();
         walls.passed = self.passed(walls);
     }
 
@@ -188,43 +170,23 @@ impl<const D: usize> Faces<D> {
         self.places[j].measure * (0..rows).map(row).sum::<f64>()
     }
 
-    /// Weight Σ V w of the [row](crate::row::Row) before an element where its face is full.
-    fn when_full(&self, k: usize, kernel: &dyn Sampler) -> f64 {
-        let own = self.faces[self.face_of[k]].elements.clone();
-        let one = |j: usize| {
-            let apart = self.places[k].centre - self.places[j].centre;
-            near(apart.norm_squared(), self.spacing) * self.rows_before(k, j, kernel)
-        };
-        own.map(one).sum::<f64>() * self.spacing
-    }
-
-    /// Volume that [stands](crate::row::row_weight) before an element where its face is full, m^d.
-    fn standing_volume(&self, k: usize, kernel: &dyn Sampler) -> f64 {
-        let own = self.faces[self.face_of[k]].elements.clone();
-        let one = |j: usize| {
+    /// The row before an element where its face is full.
+    fn when_full(&self, k: usize, kernel: &dyn Sampler) -> FullRow {
+        let mut full = FullRow::default();
+        for j in self.faces[self.face_of[k]].elements.clone() {
             let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
-            match apart < kernel.support_radius().powi(2) {
-                true => near(apart, self.spacing) * self.places[j].measure,
-                false => 0.0,
+            if apart < kernel.support_radius().powi(2) {
+                let (beside, measure) = (near(apart, self.spacing), self.places[j].measure);
+                full.weight += beside * self.rows_before(k, j, kernel);
+                full.volume += beside * measure;
+                full.at_port += beside * measure * kernel.at(apart.sqrt()).0;
             }
-        };
-        own.map(one).sum::<f64>() * self.spacing
-    }
-
-    /// Weight of one row of particles that stands on the face.
-    fn at_port(&self, k: usize, kernel: &dyn Sampler) -> f64 {
-        let own = self.faces[self.face_of[k]].elements.clone();
-        let one = |j: usize| {
-            let apart = (self.places[k].centre - self.places[j].centre).norm_squared();
-            match apart < kernel.support_radius().powi(2) {
-                true => {
-                    let w = kernel.at(apart.sqrt()).0;
-                    near(apart, self.spacing) * self.places[j].measure * w
-                }
-                false => 0.0,
-            }
-        };
-        own.map(one).sum::<f64>() * self.spacing
+        }
+        FullRow {
+            weight: full.weight * self.spacing,
+            volume: full.volume * self.spacing,
+            at_port: full.at_port * self.spacing,
+        }
     }
 
     fn add_ports(&self, walls: &mut WallSet<D>) {
@@ -252,10 +214,8 @@ impl<const D: usize> Faces<D> {
 
     /// The phase that comes in at an element: the face's, or the largest one in front of it.
     pub fn phase(&self, element: usize) -> usize {
-        let phases = self.whole.len();
-        let mix = &self.mix[element * phases..(element + 1) * phases];
         let own = self.faces[self.face_of[element]].phase;
-        own.map_or_else(|| most(mix), |phase| phase as usize)
+        own.map_or_else(|| most(&self.looked[element].mix), |phase| phase as usize)
     }
 
     /// The phase whose sound arrives at an element before which the phases have these shares: that which comes in, or
@@ -286,10 +246,10 @@ impl<const D: usize> Faces<D> {
     /// The velocity with which fluid passes an element, m/s: the imposed one, or that of the row in front of it plus
     /// the law's addend.
     pub fn through(&self, element: usize) -> Vect<D> {
-        let outside = &self.outside[element];
+        let (outside, before) = (&self.outside[element], &self.looked[element]);
         match outside.imposed {
             true => outside.velocity,
-            false => self.rows[element] + (outside.velocity - self.present[element]),
+            false => before.row + (outside.velocity - before.inside.velocity),
         }
     }
 
@@ -328,28 +288,25 @@ impl<const D: usize> Faces<D> {
     /// Passed mass, face by face and phase by phase.
     pub fn passed(&self, walls: &WallSet<D>) -> Vec<Passed> {
         let phases = self.whole.len();
-        let mut all = Vec::with_capacity(self.memory.totals.len());
-        for (t, totals) in self.memory.totals.iter().enumerate() {
-            let (f, phase) = (t / phases, t % phases);
-            let face = &self.faces[f];
-            let held = face
-                .elements
-                .clone()
-                .map(|k| self.memory.mass[k * phases + phase]);
-            let wall = walls
-                .names
-                .iter()
-                .position(|n| *n == face.name)
-                .unwrap_or(0);
-            all.push(Passed {
-                wall: wall as u32,
+        let of_phase = |(t, totals): (usize, &Totals)| {
+            let (face, phase) = (&self.faces[t / phases], t % phases);
+            let wall = walls.names.iter().position(|n| *n == face.name);
+            Passed {
+                wall: wall.unwrap_or(0) as u32,
                 phase: phase as u32,
                 entered: totals.entered.value(),
                 left: totals.left.value(),
-                held: held.sum(),
-            });
-        }
-        all
+                held: self.held(face, phase),
+            }
+        };
+        let all = self.memory.totals.iter().enumerate();
+        all.map(of_phase).collect()
+    }
+
+    /// Mass of a phase at the ports of a face, kg.
+    pub fn held(&self, face: &Face<D>, phase: usize) -> f64 {
+        let at = |k: usize| self.memory.mass[k * self.whole.len() + phase];
+        face.elements.clone().map(at).sum()
     }
 }
 

@@ -1,20 +1,16 @@
 //! The laws that are built in.
 
-mod flow_rate;
-mod level;
 mod outflow;
 mod pressure;
 mod velocity_inlet;
 
-pub use flow_rate::FlowRate;
-pub use level::Level;
 pub use outflow::Outflow;
-pub use pressure::Pressure;
-pub use velocity_inlet::VelocityInlet;
+pub use pressure::{Level, Pressure};
+pub use velocity_inlet::{FlowRate, VelocityInlet};
 
 use sph_core::Vect;
 
-use crate::{FaceElement, FaceValues, FluidMean, OpenRefusal, OpenSetting};
+use crate::{FaceElement, FaceValues, FluidMean, OpenRefusal, OpenSetting, refuse};
 
 /// A velocity that is imposed along the normal.
 pub(crate) fn imposed_velocity<const D: usize>(
@@ -90,15 +86,12 @@ impl OpenSetting<'_> {
     pub fn check_phase(&self, phase: &Option<String>) -> Result<(), OpenRefusal> {
         let names = || self.phases.iter().map(String::as_str);
         match phase {
-            None => Ok(()),
-            Some(name) if names().any(|n| n == name) => Ok(()),
-            Some(name) => {
+            Some(name) if !names().any(|n| n == name) => {
                 let near = sph_core::suggestion(name, names());
-                Err(OpenRefusal::at_key(
-                    "phase",
-                    format!("there is no phase `{name}`{near}"),
-                ))
+                let why = format!("there is no phase `{name}`{near}");
+                refuse("phase", why)
             }
+            _ => Ok(()),
         }
     }
 
@@ -108,15 +101,13 @@ impl OpenSetting<'_> {
     /// The key that was given.
     pub fn check_speed(&self, key: &str, speed: f64) -> Result<(), OpenRefusal> {
         let sound = self.sound_speed;
-        match speed.abs() < sound {
-            true => Ok(()),
-            false => Err(OpenRefusal::at_key(
-                key,
-                format!(
-                    "the fluid would pass with {speed:.4} m/s, and its speed of sound is {sound:.4} m/s: raise \
-                     `speed_of_sound` of the phase to ten times the largest speed"
-                ),
-            )),
+        if speed.abs() < sound {
+            return Ok(());
         }
+        let why = format!(
+            "the fluid would pass with {speed:.4} m/s, and its speed of sound is {sound:.4} m/s: raise \
+             `speed_of_sound` of the phase to ten times the largest speed"
+        );
+        refuse(key, why)
     }
 }

@@ -11,14 +11,11 @@
 )]
 #![doc = include_str!("../README.md")]
 
-mod adjacent_fluid;
-mod agreed;
 mod air;
 mod budget;
 mod cells;
 mod contract;
 mod contribution;
-mod course;
 mod evenness;
 mod exits;
 mod face_values;
@@ -26,12 +23,12 @@ mod faces;
 mod flux;
 mod laws;
 mod memory;
-mod passing;
 mod profile;
 mod row;
 mod walls;
 pub mod waves;
 
+pub(crate) use contract::refuse;
 pub use contract::{
     Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
     OpenRefusal, OpenSetting,

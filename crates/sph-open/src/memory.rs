@@ -19,6 +19,11 @@ impl Sum {
         self.sum = next;
     }
 
+    fn each(&mut self, visit: &mut impl FnMut(&mut f64)) {
+        visit(&mut self.sum);
+        visit(&mut self.lost);
+    }
+
     pub fn value(&self) -> f64 {
         self.sum + self.lost
     }
@@ -71,8 +76,6 @@ pub(crate) struct Memory<const D: usize> {
     pub dt: f64,
 }
 
-const PER_TOTAL: usize = 8;
-const PER_FACE: usize = 5;
 /// In the place of a time that has not come.
 const NEVER: f64 = -1.0;
 
@@ -90,76 +93,50 @@ impl<const D: usize> Memory<D> {
         }
     }
 
+    /// Calls a function with every value, in the order in which they are saved.
+    fn each(&mut self, mut visit: impl FnMut(&mut f64)) {
+        self.mass.iter_mut().for_each(&mut visit);
+        for (pressure, velocity) in self.mean.iter_mut().chain(&mut self.arrived) {
+            visit(pressure);
+            velocity.iter_mut().for_each(&mut visit);
+        }
+        let slow = self.slow.iter_mut().chain(&mut self.current);
+        slow.for_each(&mut visit);
+        for t in &mut self.totals {
+            for sum in [&mut t.entered, &mut t.left, &mut t.born, &mut t.died] {
+                sum.each(&mut visit);
+            }
+        }
+        for v in &mut self.volumes {
+            v.asked.each(&mut visit);
+            v.passed.each(&mut visit);
+            let mut dry = v.dry.unwrap_or(NEVER);
+            visit(&mut dry);
+            v.dry = (dry >= 0.0).then_some(dry);
+        }
+        visit(&mut self.dt);
+    }
+
     /// Number of values.
-    pub fn count(&self) -> usize {
-        let of_faces = PER_TOTAL * self.totals.len() + PER_FACE * self.volumes.len();
-        self.mass.len() + (2 * (D + 1) + 2) * self.mean.len() + of_faces + 1
+    pub fn count(&mut self) -> usize {
+        let mut count = 0;
+        self.each(|_| count += 1);
+        count
     }
 
     /// All of it.
-    pub fn numbers(&self, to: &mut Vec<f64>) {
-        to.extend(&self.mass);
-        for (pressure, velocity) in self.mean.iter().chain(&self.arrived) {
-            to.push(*pressure);
-            to.extend(velocity.iter());
-        }
-        to.extend(&self.slow);
-        to.extend(&self.current);
-        for t in &self.totals {
-            for sum in [t.entered, t.left, t.born, t.died] {
-                to.extend([sum.sum, sum.lost]);
-            }
-        }
-        for v in &self.volumes {
-            for sum in [v.asked, v.passed] {
-                to.extend([sum.sum, sum.lost]);
-            }
-            to.push(v.dry.unwrap_or(NEVER));
-        }
-        to.push(self.dt);
+    pub fn numbers(&mut self, to: &mut Vec<f64>) {
+        self.each(|x| to.push(*x));
     }
 
     /// Takes the values of [`numbers`](Self::numbers); returns whether it could.
     pub fn put_back(&mut self, from: &[f64]) -> bool {
-        if from.len() != self.count() || from.iter().any(|x| !x.is_finite()) {
-            return false;
+        let fits = from.len() == self.count() && from.iter().all(|x| x.is_finite());
+        if fits {
+            let mut from = from.iter();
+            self.each(|x| *x = *from.next().unwrap_or(x));
         }
-        let (mass, rest) = from.split_at(self.mass.len());
-        let (mean, rest) = rest.split_at((D + 1) * self.mean.len());
-        let (arrived, rest) = rest.split_at((D + 1) * self.arrived.len());
-        let (slow, rest) = rest.split_at(self.slow.len());
-        self.mass.copy_from_slice(mass);
-        self.slow.copy_from_slice(slow);
-        let (current, rest) = rest.split_at(self.current.len());
-        self.current.copy_from_slice(current);
-        let both = |to: &mut [(f64, Vect<D>)], from: &[f64]| {
-            let all = to.iter_mut().zip(from.chunks_exact(D + 1));
-            all.for_each(|(to, from)| *to = (from[0], Vect::from_column_slice(&from[1..])));
-        };
-        both(&mut self.mean, mean);
-        both(&mut self.arrived, arrived);
-        let sum = |n: &[f64], k: usize| Sum {
-            sum: n[k],
-            lost: n[k + 1],
-        };
-        let (totals, rest) = rest.split_at(PER_TOTAL * self.totals.len());
-        for (t, n) in self.totals.iter_mut().zip(totals.chunks_exact(PER_TOTAL)) {
-            *t = Totals {
-                entered: sum(n, 0),
-                left: sum(n, 2),
-                born: sum(n, 4),
-                died: sum(n, 6),
-            };
-        }
-        for (v, n) in self.volumes.iter_mut().zip(rest.chunks_exact(PER_FACE)) {
-            *v = Volumes {
-                asked: sum(n, 0),
-                passed: sum(n, 2),
-                dry: (n[4] >= 0.0).then_some(n[4]),
-            };
-        }
-        self.dt = from[from.len() - 1];
-        true
+        fits
     }
 }
 
@@ -193,10 +170,7 @@ mod tests {
         let mut sum = Sum::default();
         sum.add(1e6);
         (0..1_000_000).for_each(|_| sum.add(1e-11));
-        assert!(
-            (sum.value() - 1e6 - 1e-5).abs() < 1e-9 * 1e-5 + 1.2e-10,
-            "{}",
-            sum.value() - 1e6
-        );
+        let error = sum.value() - 1e6 - 1e-5;
+        assert!(error.abs() < 1e-9 * 1e-5 + 1.2e-10, "{error}");
     }
 }

@@ -1,9 +1,8 @@
-//! Profiles along a face.
+//! Profiles along a face, and numbers that follow the time.
 
 use sph_core::{parameters, rectangular_duct};
 
-use crate::course::{check_table, interpolated};
-use crate::{FaceElement, OpenRefusal, OpenSetting};
+use crate::{FaceElement, OpenRefusal, OpenSetting, refuse};
 
 /// Distribution of a velocity along a face, as factors of it.
 ///
@@ -46,48 +45,48 @@ impl Profile {
                 let from = [(s - 0.5) * sides[0], (t - 0.5) * sides[1]];
                 rectangular_duct(from, half) / rectangular_duct([0.0; 2], half)
             }
+            _ => self.by_numbers(s, t),
+        }
+    }
+
+    /// The factor of a profile that is named by numbers; 1 of others.
+    fn by_numbers(&self, s: f64, t: f64) -> f64 {
+        match self {
             Profile::Polynomial(c) => polynomial(c, s),
             Profile::Surface(c) => {
                 let rows: Vec<f64> = c.iter().map(|c| polynomial(c, t)).collect();
                 polynomial(&rows, s)
             }
             Profile::Table(table) => interpolated(table, s),
+            Profile::Uniform | Profile::Parabola | Profile::Duct => 1.0,
         }
     }
 
     /// The largest factor.
     pub(crate) fn largest(&self) -> f64 {
-        let at = |s: f64, t: f64| match self {
-            Profile::Uniform | Profile::Parabola | Profile::Duct => 1.0,
-            Profile::Polynomial(c) => polynomial(c, s),
-            Profile::Surface(c) => {
-                let rows: Vec<f64> = c.iter().map(|c| polynomial(c, t)).collect();
-                polynomial(&rows, s)
-            }
-            Profile::Table(table) => interpolated(table, s),
-        };
         let (along, across) = match self {
             Profile::Surface(_) => (100, 100),
             _ => (1000, 0),
         };
         let part = |k: usize, of: usize| k as f64 / of.max(1) as f64;
         let all = (0..=along).flat_map(|i| (0..=across).map(move |j| (i, j)));
-        all.map(|(i, j)| at(part(i, along), part(j, across)).abs())
+        all.map(|(i, j)| self.by_numbers(part(i, along), part(j, across)).abs())
             .fold(0.0, f64::max)
     }
 
     /// Refuses a profile of another dimension than the scene's.
     pub(crate) fn check(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
-        let refused = |why: &str| Err(OpenRefusal::at_key("profile", why));
-        match self {
-            Profile::Polynomial(c) if c.iter().any(|c| !c.is_finite()) => {
-                return refused("a coefficient is not finite");
-            }
-            Profile::Surface(c) if c.iter().flatten().any(|c| !c.is_finite()) => {
-                return refused("a coefficient is not finite");
-            }
-            Profile::Table(table) => check_table("profile.table", table)?,
-            _ => {}
+        let refused = |why: &str| refuse("profile", why);
+        let finite = match self {
+            Profile::Polynomial(c) => c.iter().all(|c| c.is_finite()),
+            Profile::Surface(c) => c.iter().flatten().all(|c| c.is_finite()),
+            _ => true,
+        };
+        if !finite {
+            return refused("a coefficient is not finite");
+        }
+        if let Profile::Table(table) = self {
+            check_table("profile.table", table)?;
         }
         match (self, setting.dimension) {
             (Profile::Duct, 2) => refused("a channel in the plane has the profile `parabola`"),
@@ -108,19 +107,82 @@ impl Profile {
         match self {
             Profile::Uniform => Ok(()),
             _ if flat => Ok(()),
-            _ => Err(OpenRefusal::at_key(
+            _ => refuse(
                 "profile",
                 "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
                  `uniform`, or draw the face as a `box` with its other five sides in `open`",
-            )),
+            ),
         }
     }
 }
 
+/// Straight lines between points of a table; beyond its ends the value is that of the end.
+pub(crate) fn interpolated(table: &[[f64; 2]], x: f64) -> f64 {
+    let after = table.partition_point(|[at, _]| *at <= x);
+    match (after.checked_sub(1).map(|k| table[k]), table.get(after)) {
+        (Some([a, f]), Some([b, g])) => f + (g - f) * (x - a) / (b - a),
+        (Some([_, f]), None) => f,
+        (None, Some([_, g])) => *g,
+        (None, None) => 1.0,
+    }
+}
+
+/// Refuses tables that are no function.
+pub(crate) fn check_table(key: &str, table: &[[f64; 2]]) -> Result<(), OpenRefusal> {
+    let rises = table.windows(2).all(|w| w[0][0] < w[1][0]);
+    let finite = table.iter().flatten().all(|x| x.is_finite());
+    if table.is_empty() || !rises || !finite {
+        let why = "a table has pairs of finite numbers, the first of them rising";
+        return refuse(key, why);
+    }
+    Ok(())
+}
+
+/// Times, s, and factors of a value between which it goes straight: `[[0, 0], [0.5, 1], [10, 1]]`.
+pub(crate) type FactorTable = Option<Vec<[f64; 2]>>;
+
+/// The factor at a time.
+pub(crate) fn factor(course: &FactorTable, time: f64) -> f64 {
+    course
+        .as_ref()
+        .map_or(1.0, |table| interpolated(table, time))
+}
+
+/// The least and the largest of a value over its course.
+pub(crate) fn range(course: &FactorTable, value: f64) -> [f64; 2] {
+    let table = course.as_deref().unwrap_or(&[[0.0, 1.0]]);
+    let all = || table.iter().map(|[_, factor]| value * factor);
+    [
+        all().fold(f64::INFINITY, f64::min),
+        all().fold(f64::NEG_INFINITY, f64::max),
+    ]
+}
+
+/// Refuses a course that does not last as long as the run.
+pub(crate) fn check_course(
+    course: &FactorTable,
+    setting: &OpenSetting<'_>,
+) -> Result<(), OpenRefusal> {
+    let Some(table) = course else {
+        return Ok(());
+    };
+    check_table("over_time", table)?;
+    let (first, last) = (table[0][0], table[table.len() - 1][0]);
+    if first <= 0.0 && last >= setting.end {
+        return Ok(());
+    }
+    let why = format!(
+        "the table lasts from {first} s to {last} s, and the run from 0 to {} s: add what is missing",
+        setting.end
+    );
+    refuse("over_time", why)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::*;
     use sph_core::Vect;
+
+    use super::*;
 
     fn place<const D: usize>(along: f64, across: f64, sides: [f64; 2]) -> FaceElement<D> {
         FaceElement {
@@ -162,5 +224,14 @@ mod tests {
         let at = |s: f64, t: f64| Profile::Duct.at(&place::<3>(s, t, [40.0, 1.0]));
         assert!((at(0.5, 0.5) - 1.0).abs() < 1e-12);
         assert!((at(0.4, 0.25) - 0.75).abs() < 1e-6, "{}", at(0.4, 0.25));
+    }
+
+    #[test]
+    fn tables_are_straight_between_their_points_and_stay_beyond() {
+        let table = [[0.0, 1.0], [2.0, 3.0]];
+        assert_eq!(
+            [-1.0, 0.0, 0.5, 2.0, 9.0].map(|x| interpolated(&table, x)),
+            [1.0, 1.0, 1.5, 3.0, 3.0]
+        );
     }
 }

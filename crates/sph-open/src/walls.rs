@@ -111,10 +111,8 @@ impl<const D: usize> WallMotion<D> for OpenWalls<D> {
         let own = states.now.len().checked_sub(faces.memory.count());
         let back = own.is_some_and(|own| faces.memory.put_back(&states.now[own..]));
         if !back {
-            let wall = faces
-                .faces
-                .first()
-                .map_or(String::new(), |f| f.name.clone());
+            let wall = faces.faces.first().map(|f| f.name.clone());
+            let wall = wall.unwrap_or_default();
             return Err(BoundaryError::Motion { wall });
         }
         walls.passed = faces.passed(walls);

@@ -1,16 +1,8 @@
 //! Wave flumes: makers of waves, and gauges of reflected waves.
-//!
-//! * [`WaveMaker`] is the mover of a piston or a flap ([`Paddle`]), for [`Waves`] of every kind.
-//! * [`ReflectionProbe`] separates the two directions ([`separated`]).
-//! * [`WaveFace`] is the law of an open face through which waves come and go, on a current.
-//! * [`StandingWave`] is a wave between two walls, as a start and as a reference.
-//! * [`wavenumber`] is the dispersion of linear waves, [`Jonswap`] a spectrum.
 
 mod absorption;
 mod dispersion;
-mod face;
 mod maker;
-mod near_field;
 mod orbits;
 mod paddle;
 mod reflection;

@@ -25,42 +25,32 @@
 //! assert_eq!(viscosity, [251.0, 1.5]);
 //! ```
 
-mod bingham;
-mod carreau;
-mod casson;
-mod cone;
 mod contract;
-mod cross;
 mod drucker_prager;
 mod elastic;
-mod herschel_bulkley;
+mod generalised_newtonian;
 pub mod jaumann;
 mod mohr_coulomb;
 mod mu_i;
 #[cfg(feature = "plugins")]
 mod nature;
 mod newtonian;
-mod power_law;
 mod regularisation;
 pub mod rheometer;
 pub mod state;
+mod yield_stress;
 
-pub use bingham::Bingham;
-pub use carreau::Carreau;
-pub use casson::Casson;
-pub use cone::Cone;
 #[cfg(feature = "plugins")]
 pub use contract::RheologyEntry;
 pub use contract::{Elastic, Gradient, Inputs, Needs, Rheology, Yielding};
-pub use cross::Cross;
-pub use drucker_prager::DruckerPrager;
+pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::ElasticSolid;
-pub use herschel_bulkley::HerschelBulkley;
+pub use generalised_newtonian::{Carreau, Cross, GeneralisedNewtonian, PowerLaw};
 pub use mohr_coulomb::MohrCoulomb;
 pub use mu_i::{MuI, MuIRegularisation};
 pub use newtonian::Newtonian;
-pub use power_law::PowerLaw;
 pub use regularisation::Regularisation;
+pub use yield_stress::{Bingham, Casson, HerschelBulkley};
 
 #[cfg(feature = "plugins")]
 use sph_core::{parameters, plugin};

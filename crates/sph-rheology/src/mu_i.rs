@@ -109,9 +109,8 @@ pub enum MuIRegularisation {
 impl MuI {
     /// t_i at a positive pressure, s.
     pub fn inertial_time(&self, pressure: f64) -> f64 {
-        let heavier = self
-            .grain_density
-            .max(self.fluid_density * self.drag_coefficient);
+        let fluid = self.fluid_density * self.drag_coefficient;
+        let heavier = self.grain_density.max(fluid);
         let fall = self.grain_diameter * (heavier / pressure).sqrt();
         fall.max(self.fluid_viscosity / pressure)
     }

@@ -5,14 +5,12 @@
 
 mod compressible_grains;
 mod eos;
-mod lifted;
 mod linear;
 mod tait;
 
 pub use compressible_grains::CompressibleGrains;
 #[cfg(feature = "plugins")]
 pub use eos::EquationOfStateEntry;
-pub use eos::{BoundState, EquationOfState, Laws, Reference};
-pub use lifted::{Lift, Lifted};
+pub use eos::{BoundState, EquationOfState, Laws, Lift, Lifted, Reference};
 pub use linear::Linear;
 pub use tait::Tait;

@@ -4,10 +4,8 @@
 //! friction that goes with it. [`RouxRadjai`] and [`PlasticPressure`] share a [`CriticalState`]; they differ in the place at
 //! which dilation acts. The packing itself is a column of [`pores`](crate::pores).
 
-mod contract;
 mod critical_state;
 mod plugins;
 
-pub use contract::{Dilatancy, DilatancyEntry, Dilation, GrainState};
-pub use critical_state::{CriticalState, Equilibrium};
-pub use plugins::{PlasticPressure, RouxRadjai};
+pub use critical_state::{CriticalState, Dilation, Equilibrium, GrainState};
+pub use plugins::{Dilatancy, DilatancyEntry, PlasticPressure, RouxRadjai};

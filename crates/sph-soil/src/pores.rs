@@ -7,22 +7,15 @@
 
 mod contract;
 mod contribution;
-mod darcy;
 mod drainage;
-mod drained;
 mod effective;
-mod feeds;
-mod plastic_share;
+mod plugins;
 mod pore_flow;
-mod soil_phase;
 mod surface;
-mod surface_distance;
 mod swelling;
-mod system;
 
 pub use contract::{
     DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, Permeability, PoreModel,
     PorePressureEntry, PoreSettings, Skeleton, Supply,
 };
-pub use darcy::Darcy;
-pub use drained::Drained;
+pub use plugins::{Darcy, Drained};

@@ -17,59 +17,39 @@
 
 mod adjoint;
 mod bed_system;
-mod blend;
 mod blended;
-mod carried_stress;
 pub(crate) mod contribution;
 mod coulomb;
 mod displacement;
 mod divergence;
-mod effective_pressure;
 mod elastic;
 mod elastic_force;
 mod elastic_sub_steps;
 mod gathered;
 mod gradient;
-mod gradient_stage;
-mod hourglass;
-mod isotropic;
 mod laplace;
 mod law_inputs;
-mod pore_pressure;
-mod renormalised;
+mod law_stages;
 pub(crate) mod soil_surface;
 mod strain_rate;
-mod strain_rate_term;
-mod symmetric_difference;
-mod viscosity;
-mod wave_limit;
-mod yielded;
 
 pub use adjoint::{AdjointDivergence, StressCorrection};
-pub use blend::Blend;
 pub use blended::Blended;
-pub use carried_stress::{CarriedStress, ImplicitElasticStress};
+pub use contribution::ElasticWaveLimit;
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
-pub use divergence::{Divergence, StressDivergence};
-pub use effective_pressure::{EffectivePressureEntry, Soils};
+pub use divergence::{Divergence, HourglassDamping, StressDivergence};
 pub use elastic::ElasticMotion;
 pub use elastic_force::{ElasticForce, ElasticForceEntry};
 pub use elastic_sub_steps::ElasticSubSteps;
-pub use gradient::{NeighbourSums, VelocityGradient, VelocityGradientEntry};
-pub use gradient_stage::GradientStage;
-pub use hourglass::HourglassDamping;
-pub use isotropic::Isotropic;
-pub use laplace::{Laplace, PressureSolver};
-pub use law_inputs::LawInputs;
-pub use pore_pressure::PorePressure;
-pub use renormalised::Renormalised;
-pub use strain_rate::StrainRate;
-pub use strain_rate_term::StrainRateTerm;
-pub use symmetric_difference::SymmetricDifference;
-pub use viscosity::ViscosityStage;
-pub use wave_limit::ElasticWaveLimit;
-pub use yielded::Yielded;
+pub use gradient::{
+    Isotropic, NeighbourSums, Renormalised, SymmetricDifference, VelocityGradient,
+    VelocityGradientEntry,
+};
+pub use laplace::{EffectivePressureEntry, Laplace, PorePressure, PressureSolver, Soils};
+pub use law_inputs::{Blend, LawInputs};
+pub use law_stages::{CarriedStress, ImplicitElasticStress, ViscosityStage, Yielded};
+pub use strain_rate::{GradientStage, StrainRate, StrainRateTerm};
 
 /// The laws of a scene, in the order of the phase numbers.
 pub type Rheologies = std::sync::Arc<[Box<dyn sph_rheology::Rheology>]>;

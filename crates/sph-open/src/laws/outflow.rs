@@ -5,7 +5,7 @@ use sph_core::plugin;
 use crate::laws::imposed_pressure;
 use crate::{
     FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal,
-    OpenSetting,
+    OpenSetting, refuse,
 };
 
 /// Fluid leaves, and sound with it.
@@ -41,14 +41,14 @@ pub struct Outflow {
 impl<const D: usize> OpenBoundary<D> for Outflow {
     fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
         match (self.velocity, self.memory) {
-            (None, None) => Err(OpenRefusal::at_key(
+            (None, None) => refuse(
                 "",
                 "it needs the `velocity` far away, or the `memory` over which the fluid's own is averaged",
-            )),
-            (Some(_), Some(_)) => Err(OpenRefusal::at_key(
+            ),
+            (Some(_), Some(_)) => refuse(
                 "memory",
                 "the velocity far away is given, and nothing is averaged: take one of the two out",
-            )),
+            ),
             (velocity, _) => setting.check_speed("velocity", velocity.unwrap_or(0.0)),
         }
     }

@@ -1,11 +1,11 @@
-//! A velocity that is imposed.
+//! A velocity, or a flow rate, that is imposed.
 
 use std::collections::BTreeMap;
 
 use sph_core::plugin;
 
-use crate::course::{FactorTable, check_course, factor, range};
 use crate::laws::imposed_velocity;
+use crate::profile::{FactorTable, check_course, factor, range};
 use crate::{
     Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
     OpenRefusal, OpenSetting, Profile,
@@ -79,5 +79,78 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         let now = self.velocity * factor(&self.over_time, moment.time);
         let one = |place: &FaceElement<D>| imposed_velocity(place, now * self.profile.at(place));
         places.iter().map(one).collect()
+    }
+}
+
+/// A volume per time passes through the part of the face that has fluid in front of it, at any level.
+///
+/// Velocities are those of a [`VelocityInlet`], scaled so that they have the rate.
+///
+/// ```toml
+/// [wall.inlet.open-boundary.flow-rate]
+/// rate = 0.05                      # m³/s, here m²/s
+/// ```
+#[plugin(OpenBoundaryEntry [2, 3], "flow-rate", "a volume per time passes", source: "Ferrand et al. 2017", cfg(not(test)))]
+pub struct FlowRate {
+    /// Volume into the fluid per time: m³/s, in two dimensions m²/s.
+    pub rate: f64,
+    /// Distribution of the velocity along the face.
+    #[parameter(default)]
+    pub profile: Profile,
+    /// Times, s, and factors of the rate, straight between them; it must cover the run.
+    #[parameter(default)]
+    pub over_time: FactorTable,
+    /// Name of the phase that comes in; that of the fluid in front of the face if left out.
+    #[parameter(default)]
+    pub phase: Option<String>,
+    /// Values with which columns of particles begin that come in, by their names, in SI units.
+    #[parameter(default)]
+    pub values: BTreeMap<String, f64>,
+}
+
+impl<const D: usize> OpenBoundary<D> for FlowRate {
+    fn prepare(&self, setting: &OpenSetting<'_>) -> Result<(), OpenRefusal> {
+        setting.check_phase(&self.phase)?;
+        self.profile.check(setting)?;
+        check_course(&self.over_time, setting)?;
+        setting.check_speed("rate", 0.0)
+    }
+    fn fit(&self, places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
+        self.profile.fit(places)
+    }
+    fn entering(&self) -> Entering {
+        Entering {
+            phase: self.phase.clone(),
+            values: self.values.clone(),
+        }
+    }
+    fn lets_out(&self) -> bool {
+        range(&self.over_time, self.rate)[0] < 0.0
+    }
+    fn asked(&self, _: &[FaceElement<D>], time: f64) -> Option<f64> {
+        Some(self.rate * factor(&self.over_time, time))
+    }
+    fn outside(
+        &self,
+        places: &[FaceElement<D>],
+        inside: &[FluidMean<D>],
+        moment: &Moment<D>,
+    ) -> Vec<FaceValues<D>> {
+        let now = self.rate * factor(&self.over_time, moment.time);
+        let each = || places.iter().zip(inside);
+        let weight = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
+        let wetted = each().filter(|(_, i)| i.wet);
+        let wet: f64 = wetted.map(|(p, i)| weight(p) * i.filled).sum();
+        // Through less than an element there would be a jet.
+        let wet = wet.max(places.iter().map(weight).sum::<f64>() / places.len() as f64);
+        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| match inside.wet && wet > 0.0
+        {
+            true => FaceValues {
+                share: Some(inside.filled),
+                ..imposed_velocity(place, now / wet * self.profile.at(place))
+            },
+            false => FaceValues::dry(),
+        };
+        each().map(one).collect()
     }
 }

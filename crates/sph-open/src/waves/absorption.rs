@@ -1,11 +1,127 @@
-//! A paddle that absorbs waves that come back to it.
+//! A paddle that absorbs waves that come back to it: the gauge of its face, and its motion besides the prescribed one.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use sph_boundary::{Course, SinePart};
+use sph_boundary::{Course, Drawing, MoverSetting, RigidState, SinePart};
+use sph_core::Vect;
+use sph_neighbours::DepthGauge;
 
 use crate::waves::Paddle;
 use crate::waves::superposition::Component;
+
+/// Unit axis about which a flap turns forward, up × along; along z in the plane.
+pub(crate) fn forward<const D: usize>(along: &Vect<D>) -> [f64; 3] {
+    match D {
+        2 => [0.0, 0.0, -along[0]],
+        _ => [-along[1], along[0], 0.0],
+    }
+}
+
+/// The face of a paddle as it is drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Face<const D: usize> {
+    along: Vect<D>,
+    /// A point of it, the lowest one that moves, m.
+    place: Vect<D>,
+    /// Height of the still level over the hinge, m; none for a piston.
+    arm: Option<f64>,
+    reach: f64,
+    sideways: [f64; 2],
+}
+
+impl<const D: usize> Face<D> {
+    /// The foremost of a wall; none if it has no breadth.
+    pub fn foremost(
+        setting: &MoverSetting<'_, D>,
+        along: Vect<D>,
+        hinge: Option<Vect<D>>,
+        level: f64,
+        reach: f64,
+    ) -> Option<Self> {
+        let points = setting.pieces().flat_map(Drawing::points);
+        let points: Vec<Vect<D>> = points.map(Vect::from).collect();
+        let most = |of: &dyn Fn(&Vect<D>) -> f64| {
+            let largest = points.iter().map(of).reduce(f64::max);
+            largest.unwrap_or(0.0)
+        };
+        let front = most(&|p| p.dot(&along));
+        let side = |p: &Vect<D>| match D {
+            3 => p[1] * along[0] - p[0] * along[1],
+            _ => 0.0,
+        };
+        let sideways = [-most(&|p| -side(p)), most(&side)];
+        if D == 3 && sideways[1] <= sideways[0] {
+            return None;
+        }
+        let origin = hinge.unwrap_or_else(Vect::zeros);
+        Some(Face {
+            along,
+            place: origin + along * (front - origin.dot(&along)),
+            arm: hinge.map(|h| level - h[D - 1]),
+            reach,
+            sideways,
+        })
+    }
+
+    /// The depth gauge of the face.
+    pub fn gauge(&self, now: &RigidState<D>) -> DepthGauge<D> {
+        let [way, _] = self.movement(now);
+        let (place, lean) = match self.arm {
+            None => (self.place + self.along * way, 0.0),
+            Some(arm) => (self.place, (way / arm).tan()),
+        };
+        DepthGauge {
+            place,
+            along: self.along,
+            lean,
+            reach: self.reach,
+            sideways: self.sideways,
+        }
+    }
+
+    /// Way and velocity at the still level, m and m/s; of a flap the arc.
+    fn movement(&self, state: &RigidState<D>) -> [f64; 2] {
+        let Some(arm) = self.arm else {
+            let way = Vect::from(state.pose.translation).dot(&self.along);
+            return [way, state.velocity.dot(&self.along)];
+        };
+        let up = state.pose.rotation.map(|row| row[D - 1]);
+        let angle = Vect::from(up).dot(&self.along).atan2(up[D - 1]);
+        let axis = forward(&self.along);
+        let rate: f64 = (0..3).map(|k| axis[k] * state.angular_velocity[k]).sum();
+        [arm * angle, arm * rate]
+    }
+
+    /// Way and velocity besides the prescribed motion.
+    pub fn free_motion(&self, now: &RigidState<D>, plan: &RigidState<D>) -> [f64; 2] {
+        let (now, plan) = (self.movement(now), self.movement(plan));
+        [now[0] - plan[0], now[1] - plan[1]]
+    }
+
+    /// The prescribed motion, and a way, a velocity and an acceleration besides.
+    pub fn moved(
+        &self,
+        plan: RigidState<D>,
+        [way, velocity]: [f64; 2],
+        acceleration: f64,
+    ) -> RigidState<D> {
+        let Some(arm) = self.arm else {
+            let mut state = plan;
+            let along = self.along * way;
+            (0..D).for_each(|k| state.pose.translation[k] += along[k]);
+            state.velocity += self.along * velocity;
+            state.acceleration += self.along * acceleration;
+            return state;
+        };
+        let axis = forward(&self.along);
+        let mut state = plan.turned_by(axis.map(|e| e * way / arm));
+        for (k, e) in axis.iter().enumerate() {
+            state.angular_velocity[k] += e * velocity / arm;
+            state.angular_acceleration[k] += e * acceleration / arm;
+        }
+        state
+    }
+}
 
 /// Within how many periods the paddle is led back to where it would be without waves that come back.
 const PERIODS: f64 = 10.0;
@@ -51,21 +167,18 @@ impl Absorption {
         let mut parts = Vec::new();
         for w in waves {
             let moved = w.amplitude / paddle.transfer(w.wavenumber, depth);
-            let sine = |amplitude: f64, phase: f64| SinePart {
+            let sine = |amplitude: f64, times: f64, phase: f64| SinePart {
                 amplitude,
-                frequency: w.frequency,
+                frequency: times * w.frequency,
                 phase,
             };
-            parts.push(sine(w.amplitude, w.phase + FRAC_PI_2));
+            parts.push(sine(w.amplitude, 1.0, w.phase + FRAC_PI_2));
             let stays = paddle.near_field(w.frequency, depth, gravity);
-            parts.push(sine(moved * stays, w.phase));
+            parts.push(sine(moved * stays, 1.0, w.phase));
             if second {
                 // The bound wave of twice the frequency (Stokes).
-                parts.push(SinePart {
-                    amplitude: w.amplitude * w.amplitude * w.wavenumber * w.bound(depth),
-                    frequency: 2.0 * w.frequency,
-                    phase: 2.0 * w.phase + FRAC_PI_2,
-                });
+                let bound = w.amplitude * w.amplitude * w.wavenumber * w.bound(depth);
+                parts.push(sine(bound, 2.0, 2.0 * w.phase + FRAC_PI_2));
             }
         }
         let begins = |p: &SinePart| p.amplitude * p.phase.sin();
@@ -111,15 +224,35 @@ impl Absorption {
 mod tests {
     use super::*;
 
+    /// An added motion can be read off again, of a piston and of a flap, along any direction.
+    #[test]
+    fn an_added_motion_is_read_back() {
+        for arm in [None, Some(0.5)] {
+            let face = Face::<3> {
+                along: Vect::<3>::new(0.6, -0.8, 0.0),
+                place: Vect::zeros(),
+                arm,
+                reach: 0.1,
+                sideways: [0.0, 1.0],
+            };
+            let plan = face.moved(RigidState::default(), [0.02, 0.1], 0.0);
+            let now = face.moved(plan, [0.01, -0.3], 2.0);
+            let [way, velocity] = face.free_motion(&now, &plan);
+            assert!((way - 0.01).abs() < 1e-15 && (velocity + 0.3).abs() < 1e-15);
+            let top = now
+                .movement((Vect::<3>::new(0.0, 0.0, 0.5)).into())
+                .velocity;
+            assert!((top.dot(&face.along) + 0.2).abs() < 2e-2, "{top}");
+        }
+    }
+
     const WATER: [f64; 2] = [0.5, 9.81];
 
     /// The reflected part of a wave of the amplitude 1 that runs against the paddle: with X = −H η/(iω) and
     /// η = 2 + (i e₀ + E) X it is (1 − (e₀ + i E) H/ω)/(1 + (e₀ − i E) H/ω).
     fn comes_back(paddle: Paddle, omega: f64, response: [f64; 2]) -> f64 {
-        let e0 = paddle.transfer(
-            crate::waves::wavenumber(omega, WATER[0], WATER[1]),
-            WATER[0],
-        );
+        let k = crate::waves::wavenumber(omega, WATER[0], WATER[1]);
+        let e0 = paddle.transfer(k, WATER[0]);
         let e = paddle.near_field(omega, WATER[0], WATER[1]);
         let [re, im] = response.map(|h| h / omega);
         let times = |e: f64| [e0 * re - e * im, e0 * im + e * re];
@@ -181,10 +314,7 @@ mod tests {
         assert!(state[0].abs() < 1e-12, "{state:?}");
         // At the start the crest of first order is a cos φ, that of second order and E X come on top.
         let first = 0.03 * 0.4_f64.cos();
-        assert!(
-            made(0.0) > first && made(0.0) < 1.5 * first,
-            "{}",
-            made(0.0)
-        );
+        let start = made(0.0);
+        assert!(start > first && start < 1.5 * first, "{start}");
     }
 }

@@ -9,10 +9,10 @@ use sph_boundary::{
 use sph_core::{Vect, plugin};
 use sph_neighbours::DepthGauge;
 
-use crate::waves::absorption::{Absorption, MEAN_WAY};
-use crate::waves::face::{Face, forward};
+use crate::refuse;
+use crate::waves::absorption::{Absorption, Face, MEAN_WAY, forward};
 use crate::waves::paddle::Paddle;
-use crate::waves::superposition::{Component, Waves};
+use crate::waves::superposition::{Component, Waves, second_order};
 
 /// A paddle that makes waves: a piston that slides, or a flap that turns about its `hinge`.
 ///
@@ -82,20 +82,14 @@ struct Feedback<const D: usize> {
 
 type MoverResult<T> = Result<T, MoverRefusal>;
 
-fn refuse<T>(key: &str, why: impl Into<String>) -> MoverResult<T> {
-    Err(MoverRefusal::at_key(key, why))
-}
-
 impl<const D: usize> WaveMaker<D> {
     /// Depth of the water and size of gravity.
     fn water(&self, setting: &MoverSetting<'_, D>) -> MoverResult<[f64; 2]> {
         let gravity = setting.gravity;
         let g = -gravity[D - 1];
         if !(g > 0.0 && gravity.norm() <= g * (1.0 + 1e-12)) {
-            return refuse(
-                "",
-                "waves need gravity, downwards along the last axis: set `numerics.gravity`",
-            );
+            let why = "waves need gravity, downwards along the last axis: set `numerics.gravity`";
+            return refuse("", why);
         }
         let depth = self.level - self.floor;
         if !(depth > 0.0 && depth.is_finite()) {
@@ -106,9 +100,8 @@ impl<const D: usize> WaveMaker<D> {
 
     /// The direction of the waves.
     fn direction(&self) -> MoverResult<Vect<D>> {
-        let along = match &self.along {
-            None => return Ok(Vect::from_fn(|k, _| if k == 0 { 1.0 } else { 0.0 })),
-            Some(along) => along,
+        let Some(along) = &self.along else {
+            return Ok(Vect::from_fn(|k, _| if k == 0 { 1.0 } else { 0.0 }));
         };
         if along.len() != D {
             let why = format!("{} numbers where {D} were expected", along.len());
@@ -129,10 +122,8 @@ impl<const D: usize> WaveMaker<D> {
             return Ok(Paddle::Piston);
         };
         if hinge.len() != D || hinge.iter().any(|x| !x.is_finite()) {
-            return refuse(
-                "hinge",
-                format!("a place of {D} finite numbers was expected"),
-            );
+            let why = format!("a place of {D} finite numbers was expected");
+            return refuse("hinge", why);
         }
         match hinge[D - 1] < self.level {
             true => Ok(Paddle::Flap(hinge[D - 1] - self.floor)),
@@ -141,34 +132,21 @@ impl<const D: usize> WaveMaker<D> {
     }
 
     /// True if the motion has the correction of second order.
-    fn second_order(&self, paddle: Paddle, depth: f64, first: &Component) -> MoverResult<bool> {
+    fn second_order(&self, paddle: Paddle, depth: f64, waves: &[Component]) -> MoverResult<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
-        match self.order {
-            Some(1) => return Ok(false),
-            None if !fits => return Ok(false),
-            Some(2) if !fits => {
-                return refuse(
-                    "order",
-                    "second order is for regular waves of a piston: take 1",
-                );
-            }
-            None | Some(2) => {}
-            Some(other) => return refuse("order", format!("1 or 2 was expected, not {other}")),
-        }
-        match first.fits_second_order(depth) {
-            Ok(()) => Ok(true),
-            Err(why) => refuse("order", why),
+        let unfit = "second order is for regular waves of a piston: take 1";
+        match waves.is_empty() {
+            true => Ok(false),
+            false => second_order(waves, depth, self.order, (fits, unfit)),
         }
     }
 
     /// The motion at the still level, m.
     fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> MoverResult<Vec<SinePart>> {
-        let waves = self.waves.components(depth, gravity);
+        let waves = self.waves.components(depth, gravity, 0.0);
         let Some(first) = waves.first() else {
-            return refuse(
-                "waves",
-                "there is no wave in the `band`: `repeat` is too short",
-            );
+            let why = "there is no wave in the `band`: `repeat` is too short";
+            return refuse("waves", why);
         };
         let part = |w: &Component| SinePart {
             amplitude: w.amplitude / paddle.transfer(w.wavenumber, depth),
@@ -176,7 +154,7 @@ impl<const D: usize> WaveMaker<D> {
             phase: w.phase,
         };
         let mut parts: Vec<SinePart> = waves.iter().map(part).collect();
-        if self.second_order(paddle, depth, first)? {
+        if self.second_order(paddle, depth, &waves)? {
             let kd = first.wavenumber * depth;
             let height = 2.0 * first.amplitude;
             let bound = 3.0 * kd.cosh() / kd.sinh().powi(3);
@@ -208,11 +186,8 @@ impl<const D: usize> WaveMaker<D> {
             return refuse("absorb", "the paddle has no breadth across the waves");
         };
         let [_, period] = self.waves.size();
-        let waves = self.waves.components(water[0], water[1]);
-        let second = match waves.first() {
-            Some(first) => self.second_order(paddle, water[0], first)?,
-            None => false,
-        };
+        let waves = self.waves.components(water[0], water[1], 0.0);
+        let second = self.second_order(paddle, water[0], &waves)?;
         let least = MEAN_WAY * reach / (water[0] * water[1]).sqrt();
         let timing = (ramp, period, least);
         Ok(Some(Feedback {
@@ -225,8 +200,7 @@ impl<const D: usize> WaveMaker<D> {
 impl<const D: usize> Mover<D> for WaveMaker<D> {
     fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> MoverResult<()> {
         let water = self.water(setting)?;
-        let faulty = |(key, why): (&str, String)| MoverRefusal::at_key(key, why);
-        self.waves.check(water[0], water[1], 0.0).map_err(faulty)?;
+        self.waves.check(water[0], water[1], 0.0)?;
         let [_, period] = self.waves.size();
         let ramp = self.ramp.unwrap_or(2.0 * period);
         if !(ramp >= 0.0 && ramp.is_finite()) {
@@ -288,4 +262,96 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    fn setting<const D: usize>() -> MoverSetting<'static, D> {
+        MoverSetting {
+            wall: "paddle",
+            fluid: &[],
+            walls: &[],
+            spacing: 0.02,
+            smoothing_length: 0.04,
+            densities: [1000.0; 2],
+            sound_speed: 20.0,
+            gravity: Vect::from_fn(|k, _| if k + 1 == D { -9.81 } else { 0.0 }),
+            flush: true,
+        }
+    }
+
+    fn maker<const D: usize>(text: &str) -> WaveMaker<D> {
+        toml::from_str(text).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    const REGULAR: &str = "level = 0.5\nwaves = { regular = { height = 0.06, period = 1.4 } }\n";
+
+    /// The stroke of `wavemaker-2d`: 58.85 mm of height for 50 mm.
+    #[test]
+    fn a_piston_has_the_stroke_of_linear_theory() {
+        let mut piston = maker::<2>(&format!("{REGULAR}order = 1\nramp = 0\n"));
+        piston.prepare(&setting()).expect("settled");
+        let at = |t: f64| piston.next(&piston.start(), &Load::of_gravity(Vect::zeros()), t, 0.0);
+        let stroke = at(0.35).pose.translation[0] - at(1.05).pose.translation[0];
+        let transfer = 0.06 / stroke;
+        let k = crate::waves::wavenumber(std::f64::consts::TAU / 1.4, 0.5, 9.81);
+        assert!((transfer / Paddle::Piston.transfer(k, 0.5) - 1.0).abs() < 1e-12);
+        assert!(at(0.0).velocity[0] > 0.0 && at(0.0).pose.translation[0] == 0.0);
+    }
+
+    /// In long waves the fluid of a wave of steady form has u = c η/(d + η) at all depths (Goring 1978): of second order,
+    /// X₂ = (b − a²/d)/(2kd) sin 2ωt, with b the second harmonic of Stokes' wave.
+    #[test]
+    fn second_order_is_that_of_long_waves_where_they_are_long() {
+        let (depth, period, a) = (0.5, 40.0, 1e-6);
+        let text = format!(
+            "level = {depth}\nwaves = {{ regular = {{ height = {}, period = {period} }} }}",
+            2.0 * a
+        );
+        let piston = maker::<2>(&text);
+        let parts = piston.strokes(Paddle::Piston, [depth, 9.81]);
+        let parts = parts.expect("parts");
+        let k = crate::waves::wavenumber(std::f64::consts::TAU / period, depth, 9.81);
+        let kd: f64 = k * depth;
+        let b = a * a * k * kd.cosh() * (2.0 + (2.0 * kd).cosh()) / (4.0 * kd.sinh().powi(3));
+        let long = (b - a * a / depth) / (2.0 * kd);
+        let error = (parts[1].amplitude / long - 1.0).abs();
+        assert!(error < kd.powi(4), "{error} of {kd}");
+    }
+
+    #[test]
+    fn a_flap_turns_its_top_the_way_the_waves_run() {
+        let flap = format!("{REGULAR}hinge = [0.0, 0.1]\nramp = 0\n");
+        let mut plane = maker::<2>(&flap);
+        plane.prepare(&setting()).expect("settled");
+        let top = plane.next(&plane.start(), &Load::of_gravity(Vect::zeros()), 0.1, 0.0);
+        assert!(top.movement([0.0, 0.5]).velocity[0] > 0.0);
+        let text = format!("{REGULAR}hinge = [0.0, 0.0, 0.1]\nalong = [3, 4, 0]\nramp = 0\n");
+        let mut space = maker::<3>(&text);
+        space.prepare(&setting()).expect("settled");
+        let top = space.next(&space.start(), &Load::of_gravity(Vect::zeros()), 0.1, 0.0);
+        let u = top.movement([0.0, 0.0, 0.5]).velocity;
+        assert!(u[0] > 0.0 && (u[0] * 4.0 - u[1] * 3.0).abs() < 1e-12, "{u}");
+    }
+
+    #[test]
+    fn impossible_wave_makers_are_refused_at_their_key() {
+        let refused = |text: &str| {
+            let mut maker = maker::<2>(text);
+            maker.prepare(&setting()).expect_err("refused").key
+        };
+        assert_eq!(refused(&REGULAR.replace("0.5", "-0.5")), "level");
+        assert_eq!(refused(&REGULAR.replace("0.06", "0.6")), "waves.regular");
+        assert_eq!(refused(&format!("{REGULAR}hinge = [0.0, 0.7]")), "hinge");
+        let flap = format!("{REGULAR}hinge = [0.0, 0.0]\norder = 2");
+        assert_eq!(refused(&flap), "order");
+        assert_eq!(refused(&format!("{REGULAR}along = [0.0, 1.0]")), "along");
+        assert_eq!(refused(&REGULAR.replace("1.4", "6.0")), "order");
+        let mut dry = maker::<2>(REGULAR);
+        let none = MoverSetting {
+            gravity: Vect::zeros(),
+            ..setting()
+        };
+        let refusal = dry.prepare(&none).expect_err("refused");
+        assert!(refusal.why.contains("gravity"));
+    }
+}

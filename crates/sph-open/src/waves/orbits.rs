@@ -71,10 +71,7 @@ impl Orbits {
 
     /// The water at a height over the still level, m, where the surface is at `elevation`; above it its velocity.
     pub fn at(&self, z: f64, elevation: f64, time: f64, share: f64) -> Water {
-        let top = match self.second {
-            true => elevation.max(0.0),
-            false => 0.0,
-        };
+        let top = if self.second { elevation.max(0.0) } else { 0.0 };
         let water = self.extrapolated(z.min(top), time, share);
         let pressure = match z < elevation {
             // Above the still level the first order has the pressure of the still level, and the weight of the water
@@ -131,22 +128,29 @@ impl Orbits {
 mod tests {
     use super::*;
 
-    /// One wave, its phase that of the place kx.
-    fn orbits(amplitude: f64, kx: f64) -> Orbits {
-        let (depth, gravity, current) = (0.5, 9.81, 0.3);
-        let k = crate::waves::wavenumber_on(5.2, depth, gravity, current).expect("a wave");
+    /// One wave.
+    fn wave(
+        [depth, current]: [f64; 2],
+        [amplitude, frequency, wavenumber, phase]: [f64; 4],
+    ) -> Orbits {
         Orbits {
             depth,
-            gravity,
+            gravity: 9.81,
             current,
             waves: vec![Component {
                 amplitude,
-                frequency: 5.2,
-                wavenumber: k,
-                phase: -kx,
+                frequency,
+                wavenumber,
+                phase,
             }],
             second: true,
         }
+    }
+
+    /// One wave, its phase that of the place kx.
+    fn orbits(amplitude: f64, kx: f64) -> Orbits {
+        let k = crate::waves::wavenumber_on(5.2, 0.5, 9.81, 0.3).expect("a wave");
+        wave([0.5, 0.3], [amplitude, 5.2, k, -kx])
     }
 
     /// Errors of p = 0 and of η_t + u η_x = w at the surface, over all phases.
@@ -181,18 +185,7 @@ mod tests {
     /// In deep water waves of second order have no potential of twice the frequency, and the crest is ½ a²k higher.
     #[test]
     fn deep_water_has_the_crest_of_stokes() {
-        let all = Orbits {
-            depth: 50.0,
-            gravity: 9.81,
-            current: 0.0,
-            waves: vec![Component {
-                amplitude: 0.1,
-                frequency: 9.81_f64.sqrt(),
-                wavenumber: 1.0,
-                phase: 0.0,
-            }],
-            second: true,
-        };
+        let all = wave([50.0, 0.0], [0.1, 9.81_f64.sqrt(), 1.0, 0.0]);
         assert!((all.elevation(0.0, 1.0) - 0.105).abs() < 1e-12);
         let below = all.at(-1.0, 0.105, 0.0, 1.0);
         let linear = 0.1 * 9.81_f64.sqrt() * (-1.0_f64).exp();

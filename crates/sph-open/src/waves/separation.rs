@@ -85,10 +85,8 @@ mod tests {
         let found = separated(k, &gauges).expect("a solution");
         for c in 0..2 {
             assert!((found.incident[c] - incident[c]).abs() < 1e-15, "{found:?}");
-            assert!(
-                (found.reflected[c] - reflected[c]).abs() < 1e-15,
-                "{found:?}"
-            );
+            let error = (found.reflected[c] - reflected[c]).abs();
+            assert!(error < 1e-15, "{found:?}");
         }
     }
 

@@ -67,10 +67,8 @@ mod tests {
         let all = SEA.components(0.02, [0.35, 2.1]);
         let energy: f64 = all.iter().map(|[_, a]| 0.5 * a * a).sum();
         assert!((4.0 * energy.sqrt() / 0.1 - 1.0).abs() < 1e-12);
-        let peak = all
-            .iter()
-            .max_by(|a, b| a[1].total_cmp(&b[1]))
-            .expect("one");
+        let peak = all.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        let peak = peak.expect("one");
         assert!((peak[0] - 0.7).abs() < 1e-12, "{peak:?}");
     }
 

@@ -2,8 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use sph_boundary::MoverRefusal;
 use sph_core::parameters;
 
+use crate::refuse;
 use crate::waves::dispersion::wavenumber_on;
 use crate::waves::spectrum::{Jonswap, phases};
 
@@ -27,23 +29,40 @@ impl Component {
         // cosh 2x = 1 + 2 sinh² x.
         0.25 * coth * (3.0 * (coth * coth - 1.0) + 2.0)
     }
+}
 
-    /// Checks that regular waves are so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
-    ///
-    /// # Errors
-    /// The reason that it does not fit.
-    pub(crate) fn fits_second_order(&self, depth: f64) -> Result<(), String> {
-        let length = TAU / self.wavenumber;
-        let ursell = 2.0 * self.amplitude * length * length / depth.powi(3);
-        let limit = 8.0 * PI.powi(2) / 3.0;
-        match ursell < limit {
-            true => Ok(()),
-            false => Err(format!(
-                "the waves are too long and high for second order: H L²/d³ = {ursell:.1}, and Madsen's limit is \
-                 {limit:.1}; take `order = 1`, or lower waves"
-            )),
-        }
+/// True if waves are of second order: if the `order` is 2, or none is named and it `fits` them; `unfit` is the refusal where it
+/// does not. Regular waves are to be so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
+///
+/// # Errors
+/// The key `order`.
+pub(crate) fn second_order(
+    waves: &[Component],
+    depth: f64,
+    order: Option<u8>,
+    (fits, unfit): (bool, &str),
+) -> Result<bool, MoverRefusal> {
+    match order {
+        Some(1) => return Ok(false),
+        None if !fits => return Ok(false),
+        Some(2) if !fits => return refuse("order", unfit),
+        None | Some(2) => {}
+        Some(other) => return refuse("order", format!("1 or 2 was expected, not {other}")),
     }
+    let Some(first) = waves.first() else {
+        return Ok(false);
+    };
+    let length = TAU / first.wavenumber;
+    let ursell = 2.0 * first.amplitude * length * length / depth.powi(3);
+    let limit = 8.0 * PI.powi(2) / 3.0;
+    if ursell < limit {
+        return Ok(true);
+    }
+    let why = format!(
+        "the waves are too long and high for second order: H L²/d³ = {ursell:.1}, and Madsen's limit is {limit:.1}; take \
+         `order = 1`, or lower waves"
+    );
+    refuse("order", why)
 }
 
 /// The waves of a maker.
@@ -117,9 +136,6 @@ pub struct Focused {
 /// Number of waves of a focused group.
 const GROUP: f64 = 64.0;
 
-/// The wrong key of a table, with the reason.
-pub(crate) type Fault = (&'static str, String);
-
 impl Waves {
     /// Height and period that stand for the waves: those of regular waves, the significant height and the period of the peak of
     /// a sea, twice the crest of a group.
@@ -132,68 +148,60 @@ impl Waves {
     }
 
     /// Checks the numbers in water of a depth, m, that runs with the waves at the velocity `current`, m/s.
-    pub(crate) fn check(&self, depth: f64, gravity: f64, current: f64) -> Result<(), Fault> {
-        let [height, period] = self.size();
+    pub(crate) fn check(&self, depth: f64, gravity: f64, current: f64) -> Result<(), MoverRefusal> {
         let name = match self {
             Waves::Regular(_) => "waves.regular",
             Waves::Irregular(_) => "waves.irregular",
             Waves::Focused(_) => "waves.focused",
         };
+        let fault = self.fault(depth, gravity, current);
+        fault.map_or(Ok(()), |why| refuse(name, why))
+    }
+
+    /// The reason that the numbers do not fit, if they do not.
+    fn fault(&self, depth: f64, gravity: f64, current: f64) -> Option<String> {
+        let [height, period] = self.size();
         let positive = |x: f64| x > 0.0 && x.is_finite();
         if !positive(height) || !positive(period) {
-            return Err((name, "heights and periods are numbers above 0".into()));
+            return Some("heights and periods are numbers above 0".into());
         }
         let Some(k) = wavenumber_on(TAU / period, depth, gravity, current) else {
-            return Err((
-                name,
-                format!(
-                    "no wave with a period of {period} s runs against a current of {:.4} m/s in water {depth:.4} m deep",
-                    -current
-                ),
+            return Some(format!(
+                "no wave with a period of {period} s runs against a current of {:.4} m/s in water {depth:.4} m deep",
+                -current
             ));
         };
         let breaks = 0.142 * TAU / k * (k * depth).tanh();
         if height > breaks {
-            return Err((
-                name,
-                format!(
-                    "a wave of {height:.4} m breaks: with this period and depth none is higher than {breaks:.4} m (Miche)"
-                ),
+            return Some(format!(
+                "a wave of {height:.4} m breaks: with this period and depth none is higher than {breaks:.4} m (Miche)"
             ));
         }
         let (gamma, [low, high]) = match self {
-            Waves::Regular(_) => return Ok(()),
+            Waves::Regular(_) => return None,
             Waves::Irregular(w) => (w.enhancement, w.band),
             Waves::Focused(w) => (w.enhancement, w.band),
         };
         if !(gamma >= 1.0 && gamma.is_finite()) {
-            return Err((
-                name,
-                format!("`enhancement` is at least 1, and here {gamma}"),
-            ));
+            return Some(format!("`enhancement` is at least 1, and here {gamma}"));
         }
         if !(low > 0.0 && low < 1.0 && high > 1.0 && high.is_finite()) {
-            return Err((name, "`band` has a number below 1 and one above it".into()));
+            return Some("`band` has a number below 1 and one above it".into());
         }
         match self {
             Waves::Irregular(w) if !(w.repeat >= 5.0 * w.period && w.repeat.is_finite()) => {
-                Err((name, "`repeat` is to be five periods at least".into()))
+                Some("`repeat` is to be five periods at least".into())
             }
             Waves::Focused(w) if !(positive(w.at) && positive(w.time)) => {
-                Err((name, "`at` and `time` are numbers above 0".into()))
+                Some("`at` and `time` are numbers above 0".into())
             }
-            _ => Ok(()),
+            _ => None,
         }
     }
 
-    /// The linear waves of which they consist, in water of a depth, m, at rest.
-    pub fn components(&self, depth: f64, gravity: f64) -> Vec<Component> {
-        self.components_on(depth, gravity, 0.0)
-    }
-
-    /// The same in water that runs with them, or against them, at the velocity `current`, m/s. Those that no current lets run
-    /// against it are left out.
-    pub fn components_on(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
+    /// The linear waves of which they consist, in water of a depth, m, that runs with them, or against them, at the velocity
+    /// `current`, m/s. Those that no current lets run against it are left out.
+    pub fn components(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
         let one = |frequency: f64, amplitude: f64, phase: f64| {
             let omega = TAU * frequency;
             Some(Component {
@@ -203,27 +211,22 @@ impl Waves {
                 phase,
             })
         };
+        let sea = |height: f64, period: f64, enhancement: f64| Jonswap {
+            height,
+            peak: 1.0 / period,
+            enhancement,
+        };
         match self {
-            Waves::Regular(w) => one(1.0 / w.period, 0.5 * w.height, 0.0)
-                .into_iter()
-                .collect(),
+            Waves::Regular(w) => Vec::from_iter(one(1.0 / w.period, 0.5 * w.height, 0.0)),
             Waves::Irregular(w) => {
-                let sea = Jonswap {
-                    height: w.height,
-                    peak: 1.0 / w.period,
-                    enhancement: w.enhancement,
-                };
+                let sea = sea(w.height, w.period, w.enhancement);
                 let all = sea.components(1.0 / w.repeat, w.band.map(|f| f / w.period));
                 let both = all.into_iter().zip(phases(w.seed));
                 both.filter_map(|([f, a], phase)| one(f, a, phase))
                     .collect()
             }
             Waves::Focused(w) => {
-                let sea = Jonswap {
-                    height: 1.0,
-                    peak: 1.0 / w.period,
-                    enhancement: w.enhancement,
-                };
+                let sea = sea(1.0, w.period, w.enhancement);
                 let [low, high] = w.band.map(|f| f / w.period);
                 let all = sea.components((high - low) / GROUP, [low, high]);
                 let whole: f64 = all.iter().map(|[_, a]| a * a).sum();
@@ -261,7 +264,7 @@ mod tests {
             time: 9.0,
         });
         assert_eq!(waves.check(0.5, 9.81, 0.0), Ok(()));
-        let all = waves.components(0.5, 9.81);
+        let all = waves.components(0.5, 9.81, 0.0);
         assert!((level(&all, 3.0, 9.0) - 0.08).abs() < 1e-14);
         for [x, t] in [[3.0, 9.6], [2.5, 9.0], [3.0, 3.0], [0.0, 9.0]] {
             assert!(level(&all, x, t) < 0.07, "{x} {t}");
@@ -279,17 +282,15 @@ mod tests {
                 band: [0.5, 2.0],
                 seed,
             })
-            .components(0.5, 9.81)
+            .components(0.5, 9.81, 0.0)
         };
         let all = sea(7);
         assert_eq!(all, sea(7));
         assert_ne!(all, sea(8));
         assert!((level(&all, 2.0, 5.0) - level(&all, 2.0, 29.0)).abs() < 1e-12);
         let n = 2400;
-        let mean = (0..n)
-            .map(|j| level(&all, 2.0, 0.01 * j as f64).powi(2))
-            .sum::<f64>()
-            / n as f64;
+        let squares = (0..n).map(|j| level(&all, 2.0, 0.01 * j as f64).powi(2));
+        let mean = squares.sum::<f64>() / n as f64;
         assert!((4.0 * mean.sqrt() / 0.06 - 1.0).abs() < 1e-9, "{mean}");
     }
 
@@ -299,7 +300,7 @@ mod tests {
             height: 0.4,
             period: 1.2,
         });
-        let (key, why) = waves.check(0.5, 9.81, 0.0).expect_err("refused");
+        let MoverRefusal { key, why } = waves.check(0.5, 9.81, 0.0).expect_err("refused");
         assert!(key == "waves.regular" && why.contains("breaks"), "{why}");
     }
 }

@@ -7,10 +7,10 @@ use sph_core::{Vect, plugin};
 
 use crate::waves::dispersion::wavenumber_on;
 use crate::waves::orbits::Orbits;
-use crate::waves::superposition::Waves;
+use crate::waves::superposition::{Waves, second_order};
 use crate::{
     Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
-    OpenRefusal, OpenSetting,
+    OpenRefusal, OpenSetting, refuse,
 };
 
 /// Waves come in through the face on a current, and waves that come to it go out.
@@ -88,27 +88,12 @@ impl WaveFaceState {
     }
 }
 
-fn refuse<T>(key: &str, why: impl Into<String>) -> Result<T, OpenRefusal> {
-    Err(OpenRefusal::at_key(key, why))
-}
-
 impl WaveFace {
     /// True if the waves are of second order.
     fn second_order(&self, orbits: &Orbits) -> Result<bool, OpenRefusal> {
         let fits = matches!(self.waves, Some(Waves::Regular(_)));
-        match self.order {
-            Some(1) => return Ok(false),
-            None if !fits => return Ok(false),
-            Some(2) if !fits => {
-                return refuse("order", "second order is for regular waves: take 1");
-            }
-            None | Some(2) => {}
-            Some(other) => return refuse("order", format!("1 or 2 was expected, not {other}")),
-        }
-        match orbits.waves[0].fits_second_order(orbits.depth) {
-            Ok(()) => Ok(true),
-            Err(why) => refuse("order", why),
-        }
+        let unfit = "second order is for regular waves: take 1";
+        second_order(&orbits.waves, orbits.depth, self.order, (fits, unfit))
     }
 
     fn settled(&self, gravity: f64) -> Result<WaveFaceState, OpenRefusal> {
@@ -134,14 +119,11 @@ impl WaveFace {
         }
         let mut waves = Vec::new();
         if let Some(asked) = &self.waves {
-            let faulty = |(key, why): (&str, String)| OpenRefusal::at_key(key, why);
-            asked.check(depth, gravity, self.current).map_err(faulty)?;
-            waves = asked.components_on(depth, gravity, self.current);
+            asked.check(depth, gravity, self.current)?;
+            waves = asked.components(depth, gravity, self.current);
             if waves.is_empty() {
-                return refuse(
-                    "waves",
-                    "there is no wave in the `band`: `repeat` is too short",
-                );
+                let why = "there is no wave in the `band`: `repeat` is too short";
+                return refuse("waves", why);
             }
         }
         let mut orbits = Orbits {
@@ -212,13 +194,13 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
             };
             let tall = (side * level.norm()).max(f64::MIN_POSITIVE);
             match settled.yields {
-                true => FaceValues::yielding(
-                    place,
-                    inside,
-                    inside.density * water.pressure,
-                    velocity,
-                    inside.density * settled.speed,
-                ),
+                true => {
+                    let (p, z) = (
+                        inside.density * water.pressure,
+                        inside.density * settled.speed,
+                    );
+                    FaceValues::yielding(place, inside, p, velocity, z)
+                }
                 false => FaceValues {
                     velocity,
                     share: Some(((elevation - height) / tall + 0.5).clamp(0.0, 1.0)),
@@ -302,22 +284,16 @@ mod tests {
                 velocity: Vect::<2>::new(0.2 + out, 0.0),
                 impedance: 16_000.0,
                 density: 1000.0,
-                mean: Vect::zeros(),
-                mean_pressure: 0.0,
+                ..FluidMean::nothing()
             };
             let moment = Moment {
                 time: 3.0,
                 gravity: Vect::<2>::new(0.0, -gravity),
             };
             let outside = law.outside(&[place], &[inside], &moment)[0];
-            let (p, u) = (
-                outside.pressure - inside.pressure,
-                outside.velocity - inside.velocity,
-            );
-            assert!(
-                p.abs() < 1e-9 && u.norm() < 1e-12,
-                "{height}: {p} Pa, {u} m/s"
-            );
+            let p = outside.pressure - inside.pressure;
+            let u = outside.velocity - inside.velocity;
+            assert!(p.abs() < 1e-9 && u.norm() < 1e-12, "{height}: {p}, {u}");
         }
     }
 }

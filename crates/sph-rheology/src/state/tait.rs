@@ -92,10 +92,8 @@ impl BoundState for BoundTait {
     }
 
     fn internal_energy(&self, density: f64) -> f64 {
-        let torn = self
-            .law
-            .tension_limit
-            .map(|limit| (limit, self.density(-limit)));
+        let limit = self.law.tension_limit;
+        let torn = limit.map(|limit| (limit, self.density(-limit)));
         match torn {
             // Where the tension is cut, the pressure is constant.
             Some((limit, least)) if density < least => {

@@ -1,9 +1,33 @@
-//! The laws of dilatancy as plugins.
+//! The kind of laws of dilatancy, and its plugins.
 
-use sph_core::plugin;
+use sph_core::{Work, contract, plugin};
 
-use super::contract::{Dilatancy, DilatancyEntry, Dilation, GrainState};
-use super::critical_state::CriticalState;
+use super::critical_state::{CriticalState, Dilation, GrainState};
+
+/// A law of dilatancy.
+pub trait Dilatancy: Send + Sync {
+    /// The expansion at a state.
+    fn dilation(&self, state: &GrainState) -> Dilation;
+    /// True if dilation adds friction to that of the rheology.
+    fn adds_friction(&self) -> bool {
+        false
+    }
+    /// The friction tan ψ that it adds, 1.
+    fn friction(&self, _: &GrainState) -> f64 {
+        0.0
+    }
+    /// Stiffness of the skeleton at an effective pressure, Pa, from that of its contacts.
+    fn modulus(&self, contacts: f64, pressure: f64) -> f64;
+    /// Packing that no state exceeds, 1.
+    fn densest(&self) -> f64;
+}
+
+contract!(
+    /// A law of dilatancy that a scene may name.
+    pub DilatancyEntry, "dilatancy", One, "the change of a soil's packing by shear", Dilatancy,
+    .absent("shear leaves the packing as it is if left out").ordered(121).works(Work::Others)
+    .idle("shear changes a packing, which is a state of the pores: add [pore-pressure.darcy] or [pore-pressure.drained]")
+);
 
 /// Dilation adds tan ψ = K (φ − φ_eq) to the coefficient of friction, φ̇ = −φ γ̇ tan ψ.
 ///

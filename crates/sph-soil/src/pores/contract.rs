@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::{Field, Scalar, Work, contract, parameters};
+use sph_core::{Access, Field, Scalar, StepError, Work, contract, fields, parameters};
+use sph_neighbours::World;
 
 use crate::seepage::PoreResistance;
 
@@ -141,3 +142,36 @@ contract!(
     pub PorePressureEntry, "pore-pressure", One, "the packing of a soil and the pressure in its pores", PoreModel,
     .absent("constant porosity, and pores at rest, if left out").ordered(122).works(Work::Others)
 );
+
+/// The phase with the pores; `None` where a scene has one phase.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SoilPhase(pub Option<u32>);
+
+impl SoilPhase {
+    /// The columns that [`mask`](Self::mask) reads.
+    pub fn access(self) -> Access {
+        match self.0 {
+            None => Access::none(),
+            Some(_) => Access::none().both(fields::PHASE),
+        }
+    }
+
+    /// Its particles.
+    pub fn mask<const D: usize>(self, world: &World<D>) -> Result<SoilMask<'_>, StepError> {
+        Ok(SoilMask(match self.0 {
+            None => None,
+            Some(number) => Some((world.free.get(fields::PHASE)?, number)),
+        }))
+    }
+}
+
+/// The particles of the phase with the pores.
+#[derive(Clone, Copy)]
+pub(crate) struct SoilMask<'a>(Option<(&'a [u32], u32)>);
+
+impl SoilMask<'_> {
+    /// True for a particle of the soil.
+    pub fn has(self, i: usize) -> bool {
+        self.0.is_none_or(|(phase, number)| phase[i] == number)
+    }
+}

@@ -9,14 +9,12 @@ use sph_core::{fields, suggestion};
 
 use super::contract::{
     EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PorePressureEntry,
-    PoreSettings, Supply,
+    PoreSettings, SoilPhase, Supply,
 };
 use super::drainage::{Drainage, Scratch};
-use super::effective::{DilatantFriction, GrainPressure};
-use super::plastic_share::PlasticShare;
+use super::effective::{DilatantFriction, GrainPressure, PlasticShare};
 use super::pore_flow::PoreFlow;
-use super::soil_phase::SoilPhase;
-use super::surface_distance::SurfaceDistance;
+use super::surface::SurfaceDistance;
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, DilatancyEntry};
 use crate::seepage::{Exchange, Phase};
@@ -25,7 +23,7 @@ use crate::stress::{LawInputs, contribution::Materials};
 const KIND: &str = "pore-pressure";
 
 /// The pores of one soil, with its law of dilatancy.
-struct Pores {
+struct Pores<const D: usize> {
     settings: PoreSettings,
     law: Option<Arc<dyn Dilatancy>>,
     law_inputs: LawInputs,
@@ -36,49 +34,37 @@ struct Pores {
 }
 
 #[cfg(not(test))]
-contributes!("pore-pressure", PoresOf);
+contributes!("pore-pressure", Pores);
 
-/// [`Pores`] in D dimensions.
-struct PoresOf<const D: usize>(Pores);
-
-impl<const D: usize> FromPlugins<D> for PoresOf<D> {
+impl<const D: usize> FromPlugins<D> for Pores<D> {
     fn from_plugins(plugins: &Plugins) -> Option<Self> {
         if !plugins.names(KIND) {
             return None;
         }
-        let law = plugins
-            .names("dilatancy")
-            .then(|| plugins.one::<D, DilatancyEntry>());
-        Some(PoresOf(Pores {
+        let dilates = plugins.names("dilatancy");
+        let law = dilates.then(|| plugins.one::<D, DilatancyEntry>());
+        Some(Pores {
             settings: plugins.one::<D, PorePressureEntry>()?.settings(),
             law: law.flatten().map(Arc::from),
             law_inputs: Materials::<D>::from_plugins(plugins)?.law_inputs(),
             effective: plugins.names("effective-pressure"),
             seeps: plugins.names("seepage"),
-        }))
+        })
     }
 }
 
-impl<const D: usize> Contribution<D> for PoresOf<D> {
+impl<const D: usize> Contribution<D> for Pores<D> {
     fn columns(&self) -> Vec<OwnColumn<D>> {
-        let PoreSettings {
-            soil,
-            porosity,
-            bodies,
-            skeleton,
-            ..
-        } = self.0.settings.clone();
-        let borne = skeleton.filter(|s| !s.consolidated);
+        let settings = self.settings.clone();
+        let (soil, bodies) = (settings.soil, settings.bodies);
+        let borne = settings.skeleton.filter(|s| !s.consolidated);
         let load = borne.map_or(0.0, |s| s.load);
         let name = soil.clone();
         let packing = move |birth: &Birth<'_, D>| match birth.phase == name {
-            true => 1.0 - bodies.get(birth.body).copied().unwrap_or(porosity),
+            true => 1.0 - bodies.get(birth.body).copied().unwrap_or(settings.porosity),
             false => 0.0,
         };
-        let excess = move |birth: &Birth<'_, D>| match birth.phase == soil {
-            true => load,
-            false => 0.0,
-        };
+        let excess = move |birth: &Birth<'_, D>| if birth.phase == soil { load } else { 0.0 };
         vec![
             OwnColumn::scalar(PACKING, packing.clone()),
             OwnColumn::scalar(GRAIN_VOLUME, move |birth| {
@@ -90,43 +76,41 @@ impl<const D: usize> Contribution<D> for PoresOf<D> {
     }
 
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let pores = &self.0;
-        let settings = &pores.settings;
-        let soil = pores.soil(setting)?;
+        let settings = &self.settings;
+        let soil = self.soil(setting)?;
         let only = setting.phases.len() == 1;
         let phase = SoilPhase((!only).then_some(soil as u32));
         let reference = setting.laws[soil].reference();
         let load = settings.skeleton.as_ref().map_or(0.0, |s| s.load);
         offer.stage(GrainPressure { soil: phase, load });
-        if let Some(friction) = pores.friction(soil, phase)? {
+        if let Some(friction) = self.friction(soil, phase)? {
             offer.stage(friction);
         }
         let kernel = &setting.world.kernel;
-        let elastic = pores.law_inputs.laws[soil].elastic().is_some();
+        let elastic = self.law_inputs.laws[soil].elastic().is_some();
         let skeleton = settings.skeleton.clone();
-        let supply = pores.supply(setting)?;
+        let supply = self.supply(setting)?;
         offer.hook(PoreFlow {
             soil: phase,
-            law: pores.law.clone(),
-            plastic: elastic.then(|| PlasticShare(pores.law_inputs.clone())),
+            law: self.law.clone(),
+            plastic: elastic.then(|| PlasticShare(self.law_inputs.clone())),
             drainage: skeleton.map(|s| Drainage::new(s, supply, &reference)),
-            swelling: pores.swelling(setting, soil)?,
+            swelling: self.swelling(setting, soil)?,
             density: setting.density.value,
             distance: SurfaceDistance::new::<D>(kernel.support_radius(), &|r| kernel.at(r).0),
             scratch: Scratch::default(),
         });
         let why = "the pressure in the pores could not be solved for: raise `pore-pressure.darcy.iterations`, or \
                    loosen its `tolerance`";
-        offer
-            .remedies_of_failures
-            .push(("pore pressure", why.into()));
+        let remedy = ("pore pressure", why.into());
+        offer.remedies_of_failures.push(remedy);
         Ok(())
     }
 }
 
-impl Pores {
+impl<const D: usize> Pores<D> {
     /// Number of the phase with the pores.
-    fn soil<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<usize, Refusal> {
+    fn soil(&self, setting: &Setting<'_, D>) -> Result<usize, Refusal> {
         let settings = &self.settings;
         if !self.effective {
             let why = "the pressure in the pores is one beside that of the grains: add [effective-pressure.laplace]";
@@ -160,13 +144,10 @@ impl Pores {
         let Some(law) = &self.law else {
             return Ok(soil);
         };
-        let all = settings
-            .bodies
-            .iter()
-            .map(|(name, n)| (format!("bodies.{name}"), *n));
-        let mut all = [("porosity".to_string(), settings.porosity)]
-            .into_iter()
-            .chain(all);
+        let bodies = settings.bodies.iter();
+        let bodies = bodies.map(|(name, n)| (format!("bodies.{name}"), *n));
+        let all = std::iter::once(("porosity".to_string(), settings.porosity));
+        let mut all = all.chain(bodies);
         let dense = |n: f64| 1.0 - n >= law.densest();
         match all.find(|(_, n)| dense(*n)) {
             None => Ok(soil),
@@ -199,16 +180,9 @@ impl Pores {
     }
 
     /// The wall that feeds the pores.
-    fn supply<const D: usize>(
-        &self,
-        setting: &Setting<'_, D>,
-    ) -> Result<Option<(u32, Supply)>, Refusal> {
-        let supply = self
-            .settings
-            .skeleton
-            .as_ref()
-            .and_then(|s| s.supply.clone());
-        let Some(supply) = supply else {
+    fn supply(&self, setting: &Setting<'_, D>) -> Result<Option<(u32, Supply)>, Refusal> {
+        let skeleton = self.settings.skeleton.as_ref();
+        let Some(supply) = skeleton.and_then(|s| s.supply.clone()) else {
             return Ok(None);
         };
         let walls = &setting.world.walls;
@@ -225,11 +199,7 @@ impl Pores {
         Ok(Some((found as u32, supply)))
     }
 
-    fn swelling<const D: usize>(
-        &self,
-        setting: &Setting<'_, D>,
-        soil: usize,
-    ) -> Result<Option<Swelling>, Refusal> {
+    fn swelling(&self, setting: &Setting<'_, D>, soil: usize) -> Result<Option<Swelling>, Refusal> {
         let settings = &self.settings;
         if !settings.swelling {
             return Ok(None);
@@ -239,23 +209,9 @@ impl Pores {
                        [formulation.hu-adams], or `swelling = false`";
             return Err(Refusal::at_key(KIND, "swelling", why));
         }
-        let fluid = match &settings.water {
-            None => None,
-            Some(name) => {
-                let water = setting.phase_number(KIND, "water", name)?;
-                if water == soil {
-                    let why = format!("`{name}` is the soil: name the phase in its pores");
-                    return Err(Refusal::at_key(KIND, "water", why));
-                }
-                let reference = setting.laws[water].reference();
-                Some(Phase {
-                    soil: soil as u32,
-                    water: water as u32,
-                    density: reference.density,
-                    sound_speed: reference.sound_speed,
-                })
-            }
-        };
+        let water = settings.water.as_ref();
+        let fluid = water.map(|name| Phase::new(setting, KIND, soil, name));
+        let fluid = fluid.transpose()?;
         let of_fluid = fluid.map_or(WATER, |phase| phase.density);
         Ok(Some(Swelling {
             density: settings.fluid_density.unwrap_or(of_fluid),

@@ -1,11 +1,14 @@
-//! The effective pressure of a soil whose pores are not at rest.
+//! The effective pressure of a soil whose pores are not at rest, and the plastic share of its strain rate.
 
 use sph_core::{Access, Declares, Stage, StepError, fields};
 use sph_neighbours::World;
+use sph_rheology::Yielding;
 
-use super::contract::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING};
-use super::soil_phase::SoilPhase;
+use super::contract::{
+    DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, SoilPhase,
+};
 use crate::dilatancy::{Dilatancy, GrainState};
+use crate::stress::LawInputs;
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.
 pub(crate) struct GrainPressure {
@@ -86,5 +89,29 @@ impl<const D: usize> Stage<World<D>> for DilatantFriction {
             *out *= (1.0 + angle / self.friction).max(0.0);
         }
         Ok(world.free.put(FRICTION_PRESSURE, out)?)
+    }
+}
+
+/// Plastic shares of soils with an elastic part: strain that the skeleton takes back moves no grain past another.
+///
+/// The share is 1 where the remembered stress reaches the yield stress within 1 %, and that of the liquid elsewhere.
+pub(crate) struct PlasticShare(pub LawInputs);
+
+/// Share of the yield stress from which a material yields.
+const YIELDS: f64 = 0.99;
+
+impl PlasticShare {
+    /// The columns that it reads.
+    pub fn access(&self) -> Access {
+        self.0.access().here(fields::ELASTIC_STRESS)
+    }
+
+    /// Plastic shares of all particles.
+    pub fn shares<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let stress = world.free.get(fields::ELASTIC_STRESS)?;
+        let stress: Vec<_> = stress.iter().map(|t| *t * (1.0 / YIELDS)).collect();
+        let yielding = self.0.yielding(world, &stress)?;
+        let share = |y: &Yielding| if y.held < 1.0 { 1.0 } else { y.friction };
+        Ok(yielding.iter().map(share).collect())
     }
 }

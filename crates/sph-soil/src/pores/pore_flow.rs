@@ -8,13 +8,11 @@ use sph_neighbours::World;
 
 use super::contract::{
     DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
+    SoilPhase,
 };
 use super::drainage::{Drainage, Scratch};
-use super::feeds::feeds;
-use super::plastic_share::PlasticShare;
-use super::soil_phase::SoilPhase;
-use super::surface::{Outlet, outlets};
-use super::surface_distance::SurfaceDistance;
+use super::effective::PlasticShare;
+use super::surface::{Outlet, SurfaceDistance, feeds, outlets};
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
 
@@ -108,16 +106,13 @@ impl PoreFlow {
 
     /// The expansion of a particle at a pressure; none without a law.
     fn dilation(&self, packing: f64, strain_rate: f64, pressure: f64) -> Dilation {
-        let none = Dilation {
-            rate: 0.0,
-            slope: 0.0,
-        };
         let state = GrainState {
             packing,
             strain_rate,
             pressure,
         };
-        self.law.as_ref().map_or(none, |law| law.dilation(&state))
+        let law = self.law.as_ref();
+        law.map_or_else(Dilation::default, |law| law.dilation(&state))
     }
 
     /// Plastic strain rates; empty without a law.
@@ -126,17 +121,11 @@ impl PoreFlow {
             return Ok(Vec::new());
         }
         let rates = world.free.get(fields::STRAIN_RATE)?;
-        match &self.plastic {
-            None => Ok(rates.to_vec()),
-            Some(plastic) => {
-                let shares = plastic.shares(world)?;
-                Ok(rates
-                    .iter()
-                    .zip(shares)
-                    .map(|(rate, share)| rate * share)
-                    .collect())
-            }
-        }
+        let Some(plastic) = &self.plastic else {
+            return Ok(rates.to_vec());
+        };
+        let both = rates.iter().zip(plastic.shares(world)?);
+        Ok(both.map(|(rate, share)| rate * share).collect())
     }
 
     /// Growth of every particle by dilation at the drained pressure.
@@ -174,31 +163,22 @@ impl PoreFlow {
             let soil = self.soil.mask(world)?;
             let water = self.swelling.as_ref().and_then(|s| s.fluid);
             let phase = world.free.get(fields::PHASE).ok();
-            let fluid = water
-                .zip(phase)
-                .map(|(w, p)| move |i: usize| p[i] == w.water);
+            let both = water.zip(phase);
+            let fluid = both.map(|(w, p)| move |i: usize| p[i] == w.water);
             let fluid = fluid.as_ref().map(|f| f as &dyn Fn(usize) -> bool);
             outlets(world, &|i| soil.has(i), fluid, &self.distance)?
         };
         self.coefficients(world, drainage, &outlets, dt, scratch)?;
         drainage.solve(world, scratch)?;
-        let Scratch {
-            mobility,
-            excess,
-            storage,
-            fed,
-            product,
-            growth,
-            ..
-        } = scratch;
+        let (mobility, excess, growth) = (&scratch.mobility, &scratch.excess, &mut scratch.growth);
         growth.clear();
         // Storage and the law's share are no flux.
-        let grown = product.iter().zip(&*excess).zip(&*storage);
+        let grown = scratch.product.iter().zip(excess).zip(&scratch.storage);
         growth.extend(grown.map(|((flux, p), storage)| dt * (storage * p[0] - flux[0])));
         for (i, grown) in growth.iter_mut().enumerate() {
             match mobility[i] == 0.0 {
                 true => *grown = 0.0,
-                false => *grown += dt * fed[i],
+                false => *grown += dt * scratch.fed[i],
             }
         }
         let outflow = |outlet: &Outlet| {
@@ -242,10 +222,9 @@ impl PoreFlow {
         x.clear();
         x.extend(excess.iter().map(|p| Vect::<1>::from([*p])));
         for i in (0..volume.len()).filter(|&i| soil.has(i)) {
-            let before = if earlier[i] < 0.0 {
-                drained[i]
-            } else {
-                earlier[i]
+            let before = match earlier[i] < 0.0 {
+                true => drained[i],
+                false => earlier[i],
             };
             let pressure = (before + skeleton.load - excess[i]).max(0.0);
             let rate = strain_rate.get(i).copied().unwrap_or(0.0);

@@ -46,7 +46,6 @@ struct Way {
 /// `flux` is the volume of grains without pores per width and time at the places, m²/s.
 ///
 /// Source: Exner 1925; slides by exchange of volume are ours.
-#[must_use]
 pub fn balance(bed: &Bed, flux: &[[f64; 2]], packing: &Packing, dt: f64) -> Balance {
     let solid = 1.0 - packing.porosity;
     let ways = ways(bed);
@@ -64,11 +63,8 @@ pub fn balance(bed: &Bed, flux: &[[f64; 2]], packing: &Packing, dt: f64) -> Bala
     }
     // Volume of the grains over the rock.
     let stock = |place: usize| {
-        let depth = bed.level(place) - bed.rock;
-        (
-            depth.max(0.0) * solid * bed.grid.area(place),
-            bed.held[place],
-        )
+        let depth = (bed.level(place) - bed.rock).max(0.0);
+        (depth * solid * bed.grid.area(place), bed.held[place])
     };
     let share = |place: usize| match stock(place) {
         (stock, false) if leaving[place] > stock => stock / leaving[place],
@@ -237,10 +233,8 @@ mod tests {
         }
         let grown = volume(&sand) - before;
         // What comes in at the first place, less what goes out at the last but one.
-        assert!(
-            (grown - 0.1 * (0.0 - 1e-4 * 18.0)).abs() < 1e-15,
-            "{grown:e}"
-        );
+        let error = (grown - 0.1 * (0.0 - 1e-4 * 18.0)).abs();
+        assert!(error < 1e-15, "{grown:e}");
         assert!((fed - grown).abs() < 1e-15);
     }
 

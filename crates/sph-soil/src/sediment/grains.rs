@@ -1,4 +1,4 @@
-//! Grains of one size in water.
+//! Grains of one size in water, and the threshold of their motion on a slope.
 
 /// Grains of one size in a fluid, as laws of transport know them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,13 +20,11 @@ impl Grains {
     }
 
     /// D* = d ((s − 1) g/ν²)^(1/3).
-    #[must_use]
     pub fn dimensionless_diameter(&self) -> f64 {
         self.diameter * (self.submerged_gravity() / self.viscosity.powi(2)).cbrt()
     }
 
     /// Shields number θ = u*²/((s − 1) g d) of a friction velocity squared, m²/s².
-    #[must_use]
     pub fn shields(&self, friction_velocity_squared: f64) -> f64 {
         friction_velocity_squared / (self.submerged_gravity() * self.diameter)
     }
@@ -34,7 +32,6 @@ impl Grains {
     /// Shields number at which grains of a flat bed begin to move: 0.30/(1 + 1.2 D*) + 0.055 (1 − e^(−0.020 D*)).
     ///
     /// Source: Soulsby and Whitehouse 1997, Eq. 77 of Soulsby 1997.
-    #[must_use]
     pub fn critical_shields(&self) -> f64 {
         let d = self.dimensionless_diameter();
         0.30 / (1.0 + 1.2 * d) + 0.055 * (1.0 - (-0.020 * d).exp())
@@ -43,7 +40,6 @@ impl Grains {
     /// Speed at which one grain settles in still fluid, m/s: ν/d (√(10.36² + 1.049 D*³) − 10.36).
     ///
     /// Source: Soulsby 1997, Eq. 102.
-    #[must_use]
     pub fn settling_velocity(&self) -> f64 {
         let cube = self.dimensionless_diameter().powi(3);
         // Without cancellation for small grains.
@@ -54,15 +50,34 @@ impl Grains {
     /// Speed at which a small sphere settles in still fluid, m/s: (s − 1) g d²/(18 ν).
     ///
     /// Source: Stokes 1851.
-    #[must_use]
     pub fn stokes_velocity(&self) -> f64 {
         self.submerged_gravity() * self.diameter.powi(2) / (18.0 * self.viscosity)
     }
 
     /// √((s − 1) g d³), m²/s: the volume of grains per width and time at q* = 1.
-    #[must_use]
     pub fn unit_transport(&self) -> f64 {
         (self.submerged_gravity() * self.diameter.powi(3)).sqrt()
+    }
+}
+
+/// Critical Shields number on a slope over that of a flat bed:
+///
+/// (cos ψ sin β + √(cos²β tan²φ − sin²ψ sin²β))/tan φ
+///
+/// with the angle β of the slope, φ of repose, and ψ between the flow and the way up. 0 where grains slide without a flow.
+///
+/// `gradient` is ∇z, `direction` the unit vector of the flow in the plane, `repose` tan φ.
+///
+/// Source: Soulsby 1997, Eq. 80a.
+pub fn critical_ratio(gradient: [f64; 2], direction: [f64; 2], repose: f64) -> f64 {
+    let along = gradient[0] * direction[0] + gradient[1] * direction[1];
+    let across = gradient[0] * direction[1] - gradient[1] * direction[0];
+    let cosine = 1.0 / (1.0 + along * along + across * across).sqrt();
+    // cos ψ sin β = ∇z·e cos β, sin ψ sin β = |∇z × e| cos β.
+    let held = repose * repose - across * across;
+    match held > 0.0 {
+        true => (cosine * (along + held.sqrt()) / repose).max(0.0),
+        false => 0.0,
     }
 }
 
@@ -102,5 +117,22 @@ mod tests {
         assert!((grains.shields(0.0025) - 0.308_896).abs() < 1e-5);
         assert!((grains.unit_transport() - (1.65 * 9.81 * 1.25e-10_f64).sqrt()).abs() < 1e-18);
         assert!((grains.dimensionless_diameter() - 10.304).abs() < 1e-2);
+    }
+
+    /// Up and down the slope sin(φ ± β)/sin φ, across it cos β √(1 − tan²β/tan²φ); 0 at the angle of repose.
+    #[test]
+    fn it_has_the_forms_along_and_across_a_slope() {
+        let phi = 32_f64.to_radians();
+        for degrees in [0.0, 5.0, 15.0, 31.0_f64] {
+            let beta = degrees.to_radians();
+            let slope = beta.tan();
+            let ratio = |direction| critical_ratio([slope, 0.0], direction, phi.tan());
+            assert!((ratio([1.0, 0.0]) - (phi + beta).sin() / phi.sin()).abs() < 1e-14);
+            assert!((ratio([-1.0, 0.0]) - (phi - beta).sin() / phi.sin()).abs() < 1e-14);
+            let across = beta.cos() * (1.0 - (slope / phi.tan()).powi(2)).sqrt();
+            assert!((ratio([0.0, 1.0]) - across).abs() < 1e-14);
+        }
+        assert_eq!(critical_ratio([0.7, 0.0], [-1.0, 0.0], 0.6), 0.0);
+        assert_eq!(critical_ratio([0.7, 0.0], [0.0, 1.0], 0.6), 0.0);
     }
 }

@@ -10,8 +10,7 @@ use sph_neighbours::World;
 
 use super::balance::{Packing, balance};
 use super::bed_shear::shear;
-use super::grains::Grains;
-use super::slope::critical_ratio;
+use super::grains::{Grains, critical_ratio};
 
 /// A law of bed load.
 pub trait BedLoadLaw: Send {
@@ -71,14 +70,12 @@ pub struct MovingBed {
 
 impl MovingBed {
     /// Critical Shields number of a flat bed of its grains.
-    #[must_use]
     pub fn critical(&self, grains: &Grains) -> f64 {
         let own = || grains.critical_shields();
         self.critical_shields.unwrap_or_else(own)
     }
 
     /// Its grains in a fluid of this kinematic viscosity (m²/s), density (kg/m³) and gravity (m/s²).
-    #[must_use]
     pub fn grains(&self, viscosity: f64, density: f64, gravity: f64) -> Grains {
         Grains {
             diameter: self.grain_diameter,
@@ -123,7 +120,7 @@ pub(super) fn carrier<const D: usize>(
 
 impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
+        let refused = |key: &str, why: &str| Err(Refusal::at_key(KIND, key, why));
         let Some(law) = self.law.take() else {
             return Ok(());
         };
@@ -131,14 +128,12 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
         let world = setting.world;
         if world.walls.beds.is_empty() {
             let why = "no wall of this scene is a bed: give one `[wall.NAME.erodible]`";
-            return refused("", why.into());
+            return refused("", why);
         }
         let gravity = world.gravity.norm();
         if gravity == 0.0 {
-            return refused(
-                "",
-                "grains without weight have no threshold: give the scene `gravity`".into(),
-            );
+            let why = "grains without weight have no threshold: give the scene `gravity`";
+            return refused("", why);
         }
         let (_, viscosity, density) = carrier(setting, KIND)?;
         if moving.grain_density <= density {
@@ -146,7 +141,7 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
                 "grains of {} kg/m³ float in a fluid of {density} kg/m³",
                 moving.grain_density
             );
-            return refused("grain_density", why);
+            return refused("grain_density", &why);
         }
         let thickest = |bed: &Bed| bed.drawn.iter().fold(0.0, |a: f64, z| a.max(z - bed.rock));
         for bed in &world.walls.beds {
@@ -156,7 +151,7 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
                     "the bed `{name}` is nowhere thicker than {:.3e} m, less than a grain: lower its `rock`",
                     thickest(bed)
                 );
-                return refused("grain_diameter", why);
+                return refused("grain_diameter", &why);
             }
         }
         if !self.has_shear {
@@ -165,7 +160,7 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
                 "the shear on a bed is that of a wall function, and this scene has none: expected \
                  `[wall-function.log-law]` with `walls = [\"{name}\"]`"
             );
-            return refused("", why);
+            return refused("", &why);
         }
         offer.goals.push(fields::WALL_FRICTION.any());
         offer.hook(BedLoad {
@@ -236,15 +231,12 @@ impl BedLoad {
         for (mean, now) in bed.shear.iter_mut().zip(now) {
             *mean = [0, 1].map(|k| mean[k] + share * (now[k] - mean[k]));
         }
-        bed.transport = (0..bed.grid.len())
-            .map(|place| self.flux(bed, place))
-            .collect();
+        let places = 0..bed.grid.len();
+        bed.transport = places.clone().map(|k| self.flux(bed, k)).collect();
         if world.time < self.bed.start {
             return Ok(());
         }
-        bed.critical = (0..bed.grid.len())
-            .map(|place| self.threshold(bed, place))
-            .collect();
+        bed.critical = places.map(|k| self.threshold(bed, k)).collect();
         let cell = bed.grid.cell[0];
         let packing = Packing {
             porosity: self.bed.porosity,

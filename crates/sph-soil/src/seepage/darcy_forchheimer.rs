@@ -4,11 +4,10 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{fields, plugin};
 use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
 
-use crate::seepage::contract::SeepageEntry;
-use crate::seepage::exchange::Exchange;
-use crate::seepage::net::Phase;
+use crate::seepage::SeepageEntry;
+use crate::seepage::exchange::{Exchange, Phase};
 use crate::seepage::pore_resistance::PoreResistance;
-use crate::seepage::pore_water::{PoreWater, Seeps};
+use crate::seepage::pore_water::Seeps;
 
 /// C q̇ + a q + b |q| q = −∇p + ρ_w (g − Du_s/Dt), div q = 0 in the soil.
 ///
@@ -101,28 +100,15 @@ const KIND: &str = "seepage";
 impl<const D: usize> Contribution<D> for DarcyForchheimer {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         if setting.density.value != fields::DENSITY_CONSTANT {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "particles give and take mass, which is known with densities that are sums over positions: take \
-                 [formulation.hu-adams]",
-            ));
+            let why = "particles give and take mass, which is known with densities that are sums over positions: take \
+                       [formulation.hu-adams]";
+            return Err(Refusal::at_key(KIND, "", why));
         }
-        let number = |key: &str, name: &str| setting.phase_number(KIND, key, name);
-        let (soil, water) = (number("soil", &self.soil)?, number("water", &self.water)?);
-        if soil == water {
-            let why = format!("`{}` is the soil: name the phase in its pores", self.water);
-            return Err(Refusal::at_key(KIND, "water", why));
-        }
-        let reference = setting.laws[water].reference();
-        let water = PoreWater {
-            resistance: self.resistance(reference.density)?,
-            phase: Phase {
-                soil: soil as u32,
-                water: water as u32,
-                density: reference.density,
-                sound_speed: reference.sound_speed,
-            },
+        let soil = setting.phase_number(KIND, "soil", &self.soil)?;
+        let phase = Phase::new(setting, KIND, soil, &self.water)?;
+        offer.hook(Seeps {
+            resistance: self.resistance(phase.density)?,
+            phase,
             solver: ConjugateGradient {
                 preconditioner: Preconditioner::IncompleteDiagonal,
                 tolerance: self.tolerance,
@@ -134,9 +120,6 @@ impl<const D: usize> Contribution<D> for DarcyForchheimer {
                 limit: self.size_limit,
                 remedy: "raise `evening` or `size_limit` of [seepage], or take a finer spacing",
             },
-        };
-        offer.hook(Seeps {
-            water,
             density: setting.density.value,
             earlier: Vec::new(),
         });

@@ -8,18 +8,9 @@ use sph_multiphase::linear::{
 };
 use sph_neighbours::{Around, Neighbourhood, World, trusted_inverse, walk_some};
 
-use crate::seepage::contract::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
-use crate::seepage::exchange::Exchange;
-use crate::seepage::net::{Link, Net, Phase};
+use crate::seepage::exchange::{Exchange, Link, Net, Phase};
 use crate::seepage::pore_resistance::PoreResistance;
-
-/// The flow of one water through one soil.
-pub(crate) struct PoreWater {
-    pub resistance: PoreResistance,
-    pub phase: Phase,
-    pub solver: ConjugateGradient,
-    pub exchange: Exchange,
-}
+use crate::seepage::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 
 /// The columns that links are made of.
 struct Columns<'a, const D: usize> {
@@ -34,9 +25,12 @@ struct Columns<'a, const D: usize> {
     dt: f64,
 }
 
-/// Water in the pores of the soil of a scene.
+/// The flow of one water through the pores of one soil.
 pub(crate) struct Seeps<const D: usize> {
-    pub water: PoreWater,
+    pub resistance: PoreResistance,
+    pub phase: Phase,
+    pub solver: ConjugateGradient,
+    pub exchange: Exchange,
     /// The scalar that the formulation integrates for the density.
     pub density: Field<Scalar>,
     /// Velocities before the kick.
@@ -71,7 +65,7 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
     /// Lets the water flow for the time of a kick, and hands mass and momentum over.
     fn run(&mut self, phase: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         if phase == StepPhase::AfterKick {
-            return self.water.advance(moment.world, &self.earlier, moment.dt);
+            return self.advance(moment.world, moment.dt);
         }
         let velocity = moment.world.free.get(fields::VELOCITY)?;
         self.earlier.clear();
@@ -80,9 +74,8 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
     }
     /// Warns where sizes beside the soil differ so much that the flux is too small.
     fn report(&self, world: &World<D>) -> Report {
-        let uneven = Exchange::most_uneven(world, &self.water.phase)
-            .ok()
-            .flatten();
+        let uneven = Exchange::most_uneven(world, &self.phase);
+        let uneven = uneven.ok().flatten();
         let uneven = uneven.filter(|(_, size)| (size - 1.0).abs() > UNEVEN);
         let warning = uneven.map(|(_, size)| {
             format!(
@@ -101,15 +94,9 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
 /// Differences in size up to which fluxes are right within 7 %.
 const UNEVEN: f64 = 0.04;
 
-impl PoreWater {
-    /// `earlier` is the velocity before the kick.
-    fn advance<const D: usize>(
-        &mut self,
-        world: &mut World<D>,
-        earlier: &[Vect<D>],
-        dt: f64,
-    ) -> Result<(), StepError> {
-        let mut net = self.net(world, earlier, dt)?;
+impl<const D: usize> Seeps<D> {
+    fn advance(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+        let mut net = self.net(world, dt)?;
         let pressure = self.pressures(world, &net)?;
         let slot = net.slots(world.free.len());
         for (links, p) in net.links.iter_mut().zip(&pressure) {
@@ -124,12 +111,7 @@ impl PoreWater {
     }
 
     /// All particles in the soil, and the water particles that have soil in reach.
-    fn net<const D: usize>(
-        &self,
-        world: &World<D>,
-        earlier: &[Vect<D>],
-        dt: f64,
-    ) -> Result<Net<D>, StepError> {
+    fn net(&self, world: &World<D>, dt: f64) -> Result<Net<D>, StepError> {
         let phase = world.free.get(fields::PHASE)?;
         let volume = world.free.get(fields::VOLUME)?;
         let shares = |wanted: &(dyn Fn(usize) -> bool + Sync)| {
@@ -151,35 +133,26 @@ impl PoreWater {
             volume,
             gamma: world.free.get(fields::RENORMALISATION).ok(),
             velocity: world.free.get(fields::VELOCITY)?,
-            earlier,
+            earlier: &self.earlier,
             flux: world.free.get(SEEPAGE_VELOCITY)?,
             depth: &depth,
             body: world.gravity + world.driving,
             dt,
         };
         let takes_part = |i: usize| touched[i] || phase[i] == self.phase.soil;
-        let all = walk_some(
-            world,
-            sph_neighbours::Values::Gradient,
-            takes_part,
-            |around| self.links(&columns, &around.rows),
-        )?;
-        let (mut particles, mut rows) = (Vec::new(), Vec::new());
-        for (i, links) in all.into_iter().enumerate() {
-            if let Some(links) = links {
-                particles.push(i as u32);
-                rows.push(links);
-            }
-        }
-        Ok(Net {
-            particles,
-            links: rows,
-        })
+        let gradient = sph_neighbours::Values::Gradient;
+        let all = walk_some(world, gradient, takes_part, |around| {
+            self.links(&columns, &around.rows)
+        })?;
+        let all = all.into_iter().enumerate();
+        let taking_part = all.filter_map(|(i, links)| Some((i as u32, links?)));
+        let (particles, links) = taking_part.unzip();
+        Ok(Net { particles, links })
     }
 
     /// Excess over one half of the share of its own phase around a particle, which is its depth behind the surface
     /// between soil and water over some length; and the water within reach of soil.
-    fn depth<const D: usize>(
+    fn depth(
         &self,
         phase: &[u32],
         volume: &[f64],
@@ -206,11 +179,7 @@ impl PoreWater {
     }
 
     /// The links of a particle, sorted by neighbours. Both ends of a link find the same numbers, or their opposites.
-    fn links<const D: usize>(
-        &self,
-        columns: &Columns<'_, D>,
-        rows: &Neighbourhood<'_, D>,
-    ) -> Vec<Link<D>> {
+    fn links(&self, columns: &Columns<'_, D>, rows: &Neighbourhood<'_, D>) -> Vec<Link<D>> {
         let (a, density) = (rows.particle, self.phase.density);
         let Columns { phase, volume, .. } = columns;
         let soil = |i: usize| phase[i] == self.phase.soil;
@@ -267,11 +236,7 @@ impl PoreWater {
 
     /// Pressures of the water for which the flux has no divergence in the soil, in the order of the net; those of water
     /// particles are given.
-    fn pressures<const D: usize>(
-        &mut self,
-        world: &mut World<D>,
-        net: &Net<D>,
-    ) -> Result<Vec<f64>, StepError> {
+    fn pressures(&mut self, world: &mut World<D>, net: &Net<D>) -> Result<Vec<f64>, StepError> {
         let mut seeping = world.free.take(SEEPAGE_PRESSURE)?;
         let phase = world.free.get(fields::PHASE)?;
         let present = world.free.get(fields::PRESSURE)?;
@@ -334,7 +299,7 @@ impl PoreWater {
     }
 
     /// q' = (C/Δt q − ∇p + ρ_w(g − Du/Dt))/(C/Δt + a + b|q|), with the gradient that fits the links best.
-    fn fluxes<const D: usize>(
+    fn fluxes(
         &self,
         world: &mut World<D>,
         net: &Net<D>,

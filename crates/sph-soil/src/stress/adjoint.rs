@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, SMatrix};
 use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates,
-    World, dot, scaled, walk_in_lanes,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
+    scaled, walk_in_lanes,
 };
 
 use crate::stress::strain_rate::in_space;
@@ -35,11 +35,9 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
         let elements = &world.walls.elements;
         let correction = |free: [[f64; D]; D], rows: &Neighbourhood<'_, D>| {
             let mut position = SMatrix::<f64, D, D>::from_fn(|i, k| free[i][k]);
-            for (k, &v) in rows.wall.index.iter().enumerate() {
-                let v = v as usize;
-                let apart = &rows.wall.separation[k];
-                let weight = points.share[v] * points.volume[v] * rows.wall.factor[k];
-                position -= apart * (apart * weight).transpose();
+            for (v, pair) in rows.wall.pairs() {
+                let weight = points.share[v] * points.volume[v] * pair.factor;
+                position -= pair.separation * (pair.separation * weight).transpose();
             }
             for contact in rows.contacts {
                 let foot = elements.normal[contact.element as usize] * contact.distance;
@@ -88,13 +86,6 @@ impl<const D: usize> PairSum<D> for FreePositions<'_> {
 /// Ours, by the principle of virtual work, after Bonet & Lok 1999, §4.
 #[derive(Clone, Copy, Debug)]
 pub struct AdjointDivergence;
-
-impl AdjointDivergence {
-    /// As a term of a sweep.
-    pub fn boxed<const D: usize>() -> Box<dyn Interaction<D>> {
-        Box::new(AdjointDivergence)
-    }
-}
 
 impl<const D: usize> PairTerm<D> for AdjointDivergence {
     type Bound<'a> = BoundAdjoint<'a, D>;

@@ -18,7 +18,6 @@ pub(crate) enum Part {
 }
 
 impl Part {
-    /// The pressure that is not solved for, Pa.
     /// Soil with a Δρ, at its surface or not; `top` over Δρ is the pressure there, m²/s².
     pub fn new(density: Option<f64>, surface: bool, top: f64) -> Self {
         match density {
@@ -28,6 +27,7 @@ impl Part {
         }
     }
 
+    /// The pressure that is not solved for, Pa.
     fn known(self) -> f64 {
         match self {
             Part::Surface(_, pressure) => pressure,

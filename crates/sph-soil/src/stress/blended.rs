@@ -24,14 +24,14 @@ impl<const D: usize> Blended<D> {
     /// is reaction (ours).
     pub fn friction(term: Box<dyn Interaction<D>>, laws: &Rheologies) -> Self {
         let blends = |law: &dyn sph_rheology::Rheology| law.elastic().is_some_and(|e| e.blends());
-        let apart: Vec<bool> = laws.iter().map(|law| !blends(&**law)).collect();
+        let mut apart: Vec<bool> = laws.iter().map(|law| !blends(&**law)).collect();
+        if !apart.contains(&true) {
+            apart.clear();
+        }
         Blended {
             term,
             share: fields::FRICTION_SHARE,
-            apart: match apart.contains(&true) {
-                true => apart,
-                false => Vec::new(),
-            },
+            apart,
         }
     }
 
@@ -48,15 +48,6 @@ impl<const D: usize> Blended<D> {
 /// Phases of all particles, and which of them act wholly.
 type ExemptPhases<'a> = (&'a [u32], &'a [bool]);
 
-impl<const D: usize> Blended<D> {
-    fn apart<'a>(&'a self, world: &'a World<D>) -> Result<Option<ExemptPhases<'a>>, StepError> {
-        match self.apart.is_empty() {
-            true => Ok(None),
-            false => Ok(Some((world.free.get(fields::PHASE)?, &self.apart))),
-        }
-    }
-}
-
 impl<const D: usize> Interaction<D> for Blended<D> {
     fn name(&self) -> String {
         format!("share of {}", self.term.name())
@@ -72,7 +63,10 @@ impl<const D: usize> Interaction<D> for Blended<D> {
 
     fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         let share = world.free.get(self.share)?;
-        let apart = self.apart(world)?;
+        let apart = match &self.apart[..] {
+            [] => None,
+            apart => Some((world.free.get(fields::PHASE)?, apart)),
+        };
         self.term.with_columns(world, &mut |term| {
             with(&BoundBlended { term, share, apart })
         })

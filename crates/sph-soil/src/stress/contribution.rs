@@ -3,7 +3,6 @@
 mod elasticity;
 mod friction;
 mod materials;
-mod straining;
-mod wall_friction;
 
+pub use elasticity::ElasticWaveLimit;
 pub(crate) use materials::Materials;

@@ -23,23 +23,14 @@ use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wa
 /// Source: Ghaïtanellis 2017, Eq. 4.115–4.123 (`literal`); the force of elements is ours.
 pub struct CoulombFriction {
     /// Marks of phases that rub, in the order of their numbers.
-    rubs: Vec<bool>,
+    pub(crate) rubs: Vec<bool>,
     /// The pressure that makes friction, Pa.
-    pressure: Field<Scalar>,
+    pub(crate) pressure: Field<Scalar>,
     /// Loads of the elements, of the state before the last kick.
-    pressed: Vec<f64>,
+    pub(crate) pressed: Vec<f64>,
 }
 
 impl CoulombFriction {
-    /// Of phases that rub, in the order of their numbers, with the pressure that makes friction.
-    pub fn new(rubs: Vec<bool>, pressure: Field<Scalar>) -> Self {
-        CoulombFriction {
-            rubs,
-            pressure,
-            pressed: Vec::new(),
-        }
-    }
-
     /// Loads of particles on walls at the state of the last evaluation; called before a kick.
     ///
     /// # Errors
@@ -58,15 +49,8 @@ impl CoulombFriction {
             let coulomb = elements.coulomb[c.element as usize];
             coulomb.coefficient > 0.0 && !coulomb.literal
         };
-        let slides = |i: usize| {
-            soil.rubs(i)
-                && world
-                    .walls
-                    .contacts
-                    .of_particle(i)
-                    .iter()
-                    .any(|c| rubbed(&c))
-        };
+        let own = |i: usize| world.walls.contacts.of_particle(i).iter();
+        let slides = |i: usize| soil.rubs(i) && own(i).any(|c| rubbed(&c));
         Ok(soil.pressed(&wall_parts(world, terms, slides)?))
     }
 
@@ -241,15 +225,10 @@ impl<const D: usize> Soil<'_, D> {
             false => 0,
         };
         let mut before = vec![ElementSums::default(); elements.centre.len() + corners];
-        for WallPart {
-            particle,
-            wall,
-            force,
-        } in parts
-        {
-            let i = *particle as usize;
+        for part in parts {
+            let i = part.particle as usize;
             let own = contacts.of_particle(i);
-            let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == *wall;
+            let on_wall = |c: &Contact<D>| elements.wall[c.element as usize] == part.wall;
             let all: f64 = own.iter().filter(on_wall).map(|c| c.gradient.norm()).sum();
             for contact in own.iter().filter(on_wall) {
                 let normal = &elements.normal[contact.element as usize];
@@ -257,7 +236,7 @@ impl<const D: usize> Soil<'_, D> {
                 for (place, share) in elements.places(&contact) {
                     let weight = self.volume[i] * gradient * share;
                     let sums = &mut before[place];
-                    sums.force -= force.dot(normal) * gradient / all * share;
+                    sums.force -= part.force.dot(normal) * gradient / all * share;
                     sums.weight += weight;
                     if let Some(effective) = self.effective {
                         let stress = self.stress.map(|t| t[i].apply(normal).dot(normal));

@@ -1,10 +1,10 @@
 //! The elastic force of a displacement.
 
-use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
+use sph_core::{Symmetric, Vect, fields, plugin};
 use sph_multiphase::viscosity::{EspanolRevenga, OnLattice, PairFriction};
 use sph_neighbours::{
-    BoundTerm, Elements, Interaction, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles,
-    Rates, World, dot, minus,
+    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
+    minus, pair_term,
 };
 
 use crate::stress::divergence::Sum;
@@ -72,56 +72,34 @@ pub struct DisplacementForce {
     choice: Displacement,
 }
 
-impl<const D: usize> PairTerm<D> for DisplacementForce {
-    type Bound<'a> = BoundDisplacement<'a, D>;
-
-    fn name(&self) -> String {
-        "elastic force of the displacement".into()
-    }
-
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .both(fields::ELASTIC_DISPLACEMENT)
-            .both(fields::STRESS_ROTATION)
-            .both(fields::SOLID_FRACTION)
-            .both(fields::VOLUME)
-            .here(fields::YIELD_FACTOR)
-            .here(fields::MASS);
-        match self.moduli.len() {
-            1 => access,
-            _ => access.both(fields::PHASE),
-        }
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundDisplacement<'a, D>, StepError> {
-        let phase = match self.moduli.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
-        let shares = world.free.get(fields::SOLID_FRACTION)?.iter().enumerate();
-        let solids = shares.map(|(i, share)| Solid {
-            modulus: self.moduli[phase.map_or(0, |p| p[i] as usize)],
-            share: match self.choice.blend {
-                Blend::Stresses => *share,
-                Blend::Forces => 1.0,
-            },
-        });
-        let points = &world.walls.points;
-        Ok(BoundDisplacement {
-            solids: solids.collect(),
-            displacement: world.free.get(fields::ELASTIC_DISPLACEMENT)?,
-            turn: world.free.get(fields::STRESS_ROTATION)?,
-            held: world.free.get(fields::YIELD_FACTOR)?,
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
-            wall_friction_factor: &points.friction_factor,
-            elements: &world.walls.elements,
-            scale: (self.choice.on_lattice).scale(EspanolRevenga::default(), world),
-            spacing: world.spacing,
-        })
-    }
+/// [`DisplacementForce`] with its columns.
+#[pair_term(DisplacementForce, "elastic force of the displacement")]
+pub struct BoundDisplacement<'a, const D: usize> {
+    #[value(&self.moduli)]
+    moduli: &'a [f64],
+    #[value(self.choice.blend)]
+    blend: Blend,
+    #[both(fields::PHASE, if self.moduli.len() > 1)]
+    phase: Option<&'a [u32]>,
+    #[both(fields::SOLID_FRACTION)]
+    share: &'a [f64],
+    #[both(fields::ELASTIC_DISPLACEMENT)]
+    displacement: &'a [Vect<D>],
+    #[both(fields::STRESS_ROTATION)]
+    turn: &'a [Symmetric],
+    #[here(fields::YIELD_FACTOR)]
+    held: &'a [f64],
+    #[both(fields::VOLUME)]
+    volume: &'a [f64],
+    #[here(fields::MASS)]
+    mass: &'a [f64],
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
+    /// Of the operator.
+    #[value(self.choice.on_lattice.scale(EspanolRevenga::default(), world))]
+    scale: f64,
+    #[value(world.spacing)]
+    spacing: f64,
 }
 
 /// The elastic part of a particle.
@@ -139,21 +117,17 @@ impl Solid {
     }
 }
 
-/// [`DisplacementForce`] with its columns.
-pub struct BoundDisplacement<'a, const D: usize> {
-    solids: Vec<Solid>,
-    displacement: &'a [Vect<D>],
-    turn: &'a [Symmetric],
-    held: &'a [f64],
-    volume: &'a [f64],
-    mass: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
-    wall_friction_factor: &'a [f64],
-    elements: &'a Elements<D>,
-    /// Of the operator.
-    scale: f64,
-    spacing: f64,
+impl<const D: usize> BoundDisplacement<'_, D> {
+    #[inline(always)]
+    fn solid(&self, i: usize) -> Solid {
+        Solid {
+            modulus: self.moduli[self.phase.map_or(0, |p| p[i] as usize)],
+            share: match self.blend {
+                Blend::Stresses => self.share[i],
+                Blend::Forces => 1.0,
+            },
+        }
+    }
 }
 
 /// The own values of a particle.
@@ -172,7 +146,7 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
 
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
-        let solid = |i: usize| self.solids[i];
+        let solid = |i: usize| self.solid(i);
         let [modulus, stiffness] = all.each(|i| [solid(i).modulus, solid(i).stiffness()]);
         Own {
             modulus,
@@ -185,7 +159,7 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
 
     #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
-        let solid = self.solids[j];
+        let solid = self.solid(j);
         let zero = L::splat(0.0);
         if solid.modulus == 0.0 || !zero.any_less(own.modulus) {
             return;
@@ -217,16 +191,17 @@ impl<const D: usize> BoundTerm<D> for BoundDisplacement<'_, D> {
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (displacement, volume) = (self.displacement[i], self.volume[i]);
-        let stiffness = self.solids[i].stiffness();
+        let stiffness = self.solid(i).stiffness();
         let mut sum = Sum::new(sum);
         for (v, pair) in at.wall.pairs() {
-            let there = self.wall_volume[v];
+            let points = &self.walls.points;
+            let there = points.volume[v];
             let force = EspanolRevenga::default().force(volume, there, &displacement, &pair);
-            let rubbing = self.wall_share[v] * self.wall_friction_factor[v];
+            let rubbing = points.share[v] * points.friction_factor[v];
             sum.force += force * (rubbing * self.scale * stiffness);
         }
         for contact in at.contacts {
-            let friction_factor = self.elements.friction_factor[contact.element as usize];
+            let friction_factor = self.walls.elements.friction_factor[contact.element as usize];
             let gradient = contact.gradient.norm();
             let stiffness = self.scale * stiffness * friction_factor;
             let distance = contact.distance.max(self.spacing);

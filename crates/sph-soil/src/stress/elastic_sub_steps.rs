@@ -25,38 +25,22 @@ use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
 ///
 /// Ours, after the multiple time steps of Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990.
 pub struct ElasticSubSteps<const D: usize> {
-    term: OutsideForce<D>,
-    motion: ElasticMotion<D>,
-    law_inputs: LawInputs,
-    longest: f64,
-    touched: Vec<bool>,
-    acceleration: Vec<Vect<D>>,
+    /// A force that reads no velocity.
+    pub(crate) term: OutsideForce<D>,
+    /// The motion of its stresses.
+    pub(crate) motion: ElasticMotion<D>,
+    pub(crate) law_inputs: LawInputs,
+    /// The longest sub-step, s.
+    pub(crate) longest: f64,
+    pub(crate) touched: Vec<bool>,
+    pub(crate) acceleration: Vec<Vect<D>>,
     /// Velocity of the drift less the last velocity.
-    mean: Vec<Vect<D>>,
+    pub(crate) mean: Vec<Vect<D>>,
     /// δ, by which τ is behind the velocity since the last kick, s.
-    behind: f64,
+    pub(crate) behind: f64,
 }
 
 impl<const D: usize> ElasticSubSteps<D> {
-    /// For a force that reads no velocity, the motion of its stresses, the laws of the scene, and the longest sub-step, s.
-    pub fn new(
-        term: OutsideForce<D>,
-        motion: ElasticMotion<D>,
-        law_inputs: LawInputs,
-        longest: f64,
-    ) -> Self {
-        ElasticSubSteps {
-            term,
-            motion,
-            law_inputs,
-            longest,
-            touched: Vec::new(),
-            acceleration: Vec::new(),
-            mean: Vec::new(),
-            behind: 0.0,
-        }
-    }
-
     /// The bound on sub-steps, for listings.
     pub(crate) fn bound(&self) -> String {
         format!(
@@ -81,12 +65,8 @@ impl<const D: usize> ElasticSubSteps<D> {
 
     /// Particles that carry stress or have a neighbour that does.
     fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let carries: Vec<bool> = self
-            .law_inputs
-            .laws
-            .iter()
-            .map(|l| l.elastic().is_some())
-            .collect();
+        let laws = self.law_inputs.laws.iter();
+        let carries: Vec<bool> = laws.map(|l| l.elastic().is_some()).collect();
         let touched = &mut self.touched;
         touched.clear();
         touched.resize(world.free.len(), true);

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use sph_core::Vect;
-use sph_neighbours::{Contact, Elements, Lane, LanePair, Neighbourhood, WallPoints, WallSet};
+use sph_neighbours::{Neighbourhood, WallSet};
 
 use crate::stress::{NeighbourSums, VelocityGradient};
 
@@ -31,78 +31,45 @@ struct Slipping<const D: usize> {
 const WALLS: usize = 0;
 const OPEN: usize = 1;
 
-impl<const D: usize> Default for Gathered<D> {
-    #[inline(always)]
-    fn default() -> Self {
-        let nothing = Slipping {
-            sums: [SMatrix::zeros(); 2],
-            facing: Vect::zeros(),
-        };
-        Gathered {
-            sums: [SMatrix::zeros(); 2],
-            slipping: [nothing; 2],
-        }
-    }
-}
-
 impl<const D: usize> Gathered<D> {
-    /// With sums of further free neighbours.
+    /// Of free neighbours, and of the walls near a particle with this velocity.
     #[inline(always)]
-    pub(crate) fn with(mut self, free: LaneSums<f64, D>) -> Self {
-        for (sum, free) in self.sums.iter_mut().zip(&free) {
-            *sum += SMatrix::from_fn(|i, k| free[i][k]);
-        }
-        self
-    }
-
-    /// With the walls near a particle.
-    #[inline(always)]
-    pub(crate) fn with_walls(
-        mut self,
+    pub(crate) fn new(
+        free: LaneSums<f64, D>,
         own: &Vect<D>,
         walls: &WallSet<D>,
         at: &Neighbourhood<'_, D>,
     ) -> Self {
+        let nothing = Slipping {
+            sums: [SMatrix::zeros(); 2],
+            facing: Vect::zeros(),
+        };
+        let mut all = Gathered {
+            sums: free.map(|free| SMatrix::from_fn(|i, k| free[i][k])),
+            slipping: [nothing; 2],
+        };
+        let (points, elements) = (&walls.points, &walls.elements);
         for (v, pair) in at.wall.pairs() {
-            self.point(own, &walls.points, v, &pair.separation, pair.factor);
+            let (apart, share) = (pair.separation, points.share[v] * points.volume[v]);
+            let weight = (apart * (share * pair.factor)).transpose();
+            let velocity = (points.viscous_velocity[v] - own) * weight;
+            let kind = if points.ports { OPEN } else { WALLS };
+            all.add([velocity, -apart * weight], points.friction_factor[v], kind);
         }
         for contact in at.contacts {
-            self.element(own, &walls.elements, &contact);
+            let s = contact.element as usize;
+            let weight = -contact.gradient.transpose();
+            let foot = elements.normal[s] * contact.distance;
+            let velocity = (elements.velocity_at(&contact) - own) * weight;
+            let friction_factor = elements.friction_factor[s];
+            let kind = match elements.open.get(s) {
+                Some(true) => OPEN,
+                _ => WALLS,
+            };
+            all.add([velocity, -foot * weight], friction_factor, kind);
+            all.slipping[kind].facing += contact.gradient * (1.0 - friction_factor);
         }
-        self
-    }
-
-    /// Adds a wall point at r_a − r_v with its F.
-    #[inline(always)]
-    fn point(
-        &mut self,
-        own: &Vect<D>,
-        points: &WallPoints<D>,
-        v: usize,
-        apart: &Vect<D>,
-        factor: f64,
-    ) {
-        let share = points.share[v] * points.volume[v];
-        let weight = (apart * (share * factor)).transpose();
-        let velocity = (points.viscous_velocity[v] - own) * weight;
-        let kind = if points.ports { OPEN } else { WALLS };
-        self.add([velocity, -apart * weight], points.friction_factor[v], kind);
-    }
-
-    /// Adds a wall element.
-    #[inline(always)]
-    fn element(&mut self, own: &Vect<D>, elements: &Elements<D>, contact: &Contact<D>) {
-        let s = contact.element as usize;
-        let weight = -contact.gradient.transpose();
-        let foot = elements.normal[s] * contact.distance;
-        let velocity = (elements.velocity_at(contact) - own) * weight;
-        let friction_factor = elements.friction_factor[s];
-        let kind = match elements.open.get(s) {
-            Some(true) => OPEN,
-            _ => WALLS,
-        };
-        self.add([velocity, -foot * weight], friction_factor, kind);
-        self.slipping[kind].facing += contact.gradient * (1.0 - friction_factor);
+        all
     }
 
     #[inline(always)]
@@ -162,26 +129,3 @@ impl<const D: usize> Slipping<D> {
 
 /// Sums of several particles. That of positions is symmetric, but half of it is no faster: its rows fill no vectors.
 pub type LaneSums<L, const D: usize> = [[[L; D]; D]; 2];
-
-/// Adds a free neighbour.
-#[inline(always)]
-pub(crate) fn add_free<const D: usize, L: Lane>(
-    own: &[L; D],
-    velocity: &Vect<D>,
-    volume: f64,
-    pair: &LanePair<D, L>,
-    [of_velocities, of_positions]: &mut LaneSums<L, D>,
-) {
-    let share = L::splat(volume) * pair.factor;
-    let mut weight = pair.separation;
-    for w in &mut weight {
-        *w = *w * share;
-    }
-    for i in 0..D {
-        let rise = L::splat(velocity[i]) - own[i];
-        for k in 0..D {
-            of_velocities[i][k] += rise * weight[k];
-            of_positions[i][k] -= pair.separation[i] * weight[k];
-        }
-    }
-}

@@ -1,9 +1,10 @@
-//! The effective pressure as a harmonic function of place.
+//! The pressure between the grains: its kind, that of the water in the pores, and a harmonic function of place.
 
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use rayon::prelude::*;
+use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{
-    Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, fields, parameters,
-    plugin,
+    Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, Work, fields,
+    parameters, plugin,
 };
 use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
@@ -12,10 +13,49 @@ use sph_multiphase::linear::{
 use sph_neighbours::{Space, World, walk_in_lanes};
 
 use crate::pores::DRAINED_PRESSURE;
-use crate::stress::PorePressure;
 use crate::stress::bed_system::{ClusterCoefficients, Couplings, Part, start};
-use crate::stress::effective_pressure::{EffectivePressureEntry, Soils};
 use crate::stress::soil_surface::Grains;
+
+/// Reference densities of the soils among the phases, kg/m³, in the order of the phase numbers; `None` for
+/// a phase whose law reads no pressure.
+pub type Soils = Vec<Option<f64>>;
+
+contribution_kind!(
+    /// An effective pressure that a scene may name: the pressure that makes friction in soils. One of its stages writes
+    /// [`EFFECTIVE_PRESSURE`](sph_core::fields::EFFECTIVE_PRESSURE).
+    pub EffectivePressureEntry, "effective-pressure", One, "the pressure between the grains of a soil",
+    .absent("that of the equation of state if left out").ordered(20).works(Work::Others)
+);
+
+/// q = p − p', Pa: the pressure p of the equation of state is that of grains and water together, the
+/// effective pressure p' that between the grains, 0 outside of soils.
+///
+/// Source: Ghaïtanellis 2017, Eq. 5.26.
+pub struct PorePressure;
+
+impl Declares for PorePressure {
+    fn name(&self) -> String {
+        "pore pressure".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(fields::PRESSURE)
+            .here(fields::EFFECTIVE_PRESSURE)
+            .writes(fields::PORE_PRESSURE)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for PorePressure {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut pore = world.free.take(fields::PORE_PRESSURE)?;
+        let whole = world.free.get(fields::PRESSURE)?;
+        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
+        let both = whole.par_iter().zip(effective);
+        let all = pore.par_iter_mut().zip(both).with_min_len(2048);
+        all.for_each(|(pore, (whole, effective))| *pore = whole - effective);
+        Ok(world.free.put(fields::PORE_PRESSURE, pore)?)
+    }
+}
 
 /// Solver of the effective pressure.
 #[parameters]
@@ -231,16 +271,9 @@ impl<const D: usize> Solve<D> {
         world: &mut World<D>,
         scratch: &mut Scratch,
     ) -> Result<Report, StepError> {
-        let Scratch {
-            parts,
-            assembly,
-            pressure: x,
-            scratch_pool,
-        } = scratch;
-        let scratch_pool = &*scratch_pool;
-        self.parts(world, parts)?;
         let space = world.space()?;
-        self.refresh(world, &space, parts)?;
+        self.parts(world, &space, &mut scratch.parts)?;
+        let (parts, assembly) = (&scratch.parts, &mut scratch.assembly);
         let system = Couplings {
             owned: space.owned(),
             parts,
@@ -250,26 +283,21 @@ impl<const D: usize> Solve<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_solved(i),
-            |rows, cluster| system.add(cluster, rows, scratch_pool),
+            |rows, cluster| system.add(cluster, rows, &scratch.scratch_pool),
             |rows, others| others.for_each(|i| system.add_known(i, rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let mut pressure = world.free.take(self.target)?;
+        let x = &mut scratch.pressure;
         x.clear();
-        x.extend(
-            pressure
-                .iter()
-                .zip(&*parts)
-                .map(|(p, part)| start(*p, part)),
-        );
+        let both = pressure.iter().zip(parts);
+        x.extend(both.map(|(p, part)| start(*p, part)));
         let sources = &assembly.sources;
         let system = ParticleMatrix::new(&matrix, &space, None);
         let solved = self.solver.solve(&system, sources, x);
-        pressure
-            .iter_mut()
-            .zip(&*x)
-            .for_each(|(p, x)| *p = x[0].max(0.0));
+        let both = pressure.iter_mut().zip(&*x);
+        both.for_each(|(p, x)| *p = x[0].max(0.0));
         world.free.put(self.target, pressure)?;
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
@@ -279,9 +307,7 @@ impl<const D: usize> Solve<D> {
             reason: e.to_string(),
         })
     }
-}
 
-impl<const D: usize> Solve<D> {
     /// True if a multiple of the interval has passed within the last step: the same for a run that was interrupted.
     fn due(&self, world: &World<D>) -> bool {
         let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
@@ -290,51 +316,35 @@ impl<const D: usize> Solve<D> {
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
     }
 
-    /// Δρ of every particle, kg/m³; `None` where it is no soil.
-    fn densities<'a>(
-        &'a self,
-        world: &'a World<D>,
-    ) -> Result<impl Fn(usize) -> Option<f64> + Sync + 'a, StepError> {
+    /// The roles of all particles; marks of copies at the surface are those of their owners.
+    fn parts(
+        &self,
+        world: &World<D>,
+        space: &Space<D>,
+        parts: &mut Vec<Part>,
+    ) -> Result<(), StepError> {
+        let volume = world.free.get(fields::VOLUME)?;
         let phase = match self.buoyant.len() {
             1 => None,
             _ => Some(world.free.get(fields::PHASE)?),
         };
         let soils = &self.buoyant[..];
-        Ok(move |i: usize| soils[phase.map_or(0, |p| p[i] as usize)])
-    }
-
-    /// Addend to Δρ in the pressure of surface particles, m²/s².
-    fn top(&self, world: &World<D>) -> f64 {
+        let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
         let depth = (self.surface_depth * world.spacing).max(self.least_depth);
-        depth * world.gravity.norm()
-    }
-
-    /// Refreshes the marks of copies at the surface by those of their owners.
-    fn refresh(
-        &self,
-        world: &World<D>,
-        space: &Space<D>,
-        parts: &mut [Part],
-    ) -> Result<(), StepError> {
-        let (buoyant, top) = (self.densities(world)?, self.top(world));
-        let surface = |part: &Part| matches!(part, Part::Surface(..));
-        let of = |i: usize, surface: bool| Part::new(buoyant(i), surface, top);
-        space.refresh_marked(parts, surface, of);
-        Ok(())
-    }
-
-    fn parts(&self, world: &World<D>, parts: &mut Vec<Part>) -> Result<(), StepError> {
-        let volume = world.free.get(fields::VOLUME)?;
-        let (buoyant, top) = (self.densities(world)?, self.top(world));
+        // Over Δρ the pressure of surface particles, m²/s².
+        let top = depth * world.gravity.norm();
         let positions = world.free.get(fields::POSITION)?;
         let soil = |j: usize| buoyant(j).is_some();
         let grains = Grains { volume, soil };
         parts.clear();
         parts.resize(volume.len(), Part::Outside);
         walk_in_lanes(world, &grains, soil, parts, |sums, rows| {
-            let outward = grains.outward(world, sums.0, rows);
-            let surface = grains.at_surface(world, positions, (outward, sums.1), rows);
+            let (_, surface) = grains.surface(world, positions, sums, rows);
             Part::new(buoyant(rows.particle), surface, top)
-        })
+        })?;
+        let surface = |part: &Part| matches!(part, Part::Surface(..));
+        let of = |i: usize, surface: bool| Part::new(buoyant(i), surface, top);
+        space.refresh_marked(parts, surface, of);
+        Ok(())
     }
 }

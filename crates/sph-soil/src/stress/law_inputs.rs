@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use sph_contribution::{ParticleEnergy, StoredEnergy};
-use sph_core::{Access, Field, Scalar, StepError, fields};
+use sph_core::{Access, Field, Scalar, StepError, Symmetric, fields, parameters};
 use sph_neighbours::{World, by_phase};
-use sph_rheology::{Inputs, Rheology};
+use sph_rheology::{Inputs, Rheology, Yielding};
 
-use crate::stress::{Blend, Rheologies};
+use crate::stress::Rheologies;
 
 /// The laws with the pressure that makes friction for them, and what they blend.
 #[derive(Clone)]
@@ -75,6 +75,21 @@ impl LawInputs {
         });
         Ok(())
     }
+
+    /// Yielding of all particles with these stresses; that of a solid without an elastic part.
+    pub(crate) fn yielding<const D: usize>(
+        &self,
+        world: &World<D>,
+        stress: &[Symmetric],
+    ) -> Result<Vec<Yielding>, StepError> {
+        let mut yielding = vec![Yielding::NONE; stress.len()];
+        self.each(world, &mut yielding, |law, inputs, run, out| {
+            if let Some(elastic) = law.elastic() {
+                elastic.yielding(inputs, &stress[run], out);
+            }
+        })?;
+        Ok(yielding)
+    }
 }
 
 impl<const D: usize> StoredEnergy<D> for LawInputs {
@@ -92,4 +107,15 @@ impl<const D: usize> StoredEnergy<D> for LawInputs {
             modulus.map_or(0.0, |g| volume * stress[i].contract(&stress[i]) / (4.0 * g))
         }))
     }
+}
+
+/// Blended quantities where a soil yields from a solid to a liquid.
+#[parameters]
+pub enum Blend {
+    /// div(ζτ_l + (1 − ζ)τ_s): a stress, so that action is reaction.
+    #[default]
+    Stresses,
+    /// ζ_a f_l + (1 − ζ_a) f_s, as printed: action is not reaction where ζ < 1. What water rubs off the soil is left
+    /// out of the blend. Not with an implicit viscosity.
+    Forces,
 }

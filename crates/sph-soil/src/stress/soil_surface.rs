@@ -44,45 +44,35 @@ impl<const D: usize, S: Fn(usize) -> bool + Sync> PairSum<D> for Grains<'_, S> {
 }
 
 impl<S: Fn(usize) -> bool> Grains<'_, S> {
-    /// Normal −Σ V ∇w of the soil, 1/m, towards the missing part of the kernel; walls count as filled.
-    pub fn outward<const D: usize>(
+    /// The normal −Σ V ∇w of the soil, 1/m, towards the missing part of the kernel, walls being filled; and whether no grain
+    /// and no wall is in the cone around it of a particle with these sums and walls. One without grains around, −Σ F = 0, is at
+    /// the surface.
+    ///
+    /// Source: the cone of Marrone et al. 2010, with neighbours of the soil only.
+    pub fn surface<const D: usize>(
         &self,
         world: &World<D>,
-        normal: [f64; D],
+        positions: &[Vect<D>],
+        (normal, grains): ([f64; D], f64),
         rows: &Neighbourhood<'_, D>,
-    ) -> Vect<D> {
+    ) -> (Vect<D>, bool) {
         let mut normal = Vect::from(normal);
         let points = &world.walls.points;
         // What is behind a wall counts as filled: the sum over a full neighbourhood is ∇γ.
-        for (k, &v) in rows.wall.index.iter().enumerate() {
-            let weight = points.share[v as usize] * points.volume[v as usize];
-            normal -= rows.wall.separation[k] * (weight * rows.wall.factor[k]);
+        for (v, pair) in rows.wall.pairs() {
+            normal -= pair.separation * (points.share[v] * points.volume[v] * pair.factor);
         }
         for contact in rows.contacts {
             normal += contact.gradient;
         }
-        normal
-    }
-
-    /// True if no grain and no wall is in the cone around the [`outward`](Self::outward) normal of a particle with these
-    /// walls. One without grains around, −Σ F = 0, is at the surface.
-    ///
-    /// Source: the cone of Marrone et al. 2010, with neighbours of the soil only.
-    pub fn at_surface<const D: usize>(
-        &self,
-        world: &World<D>,
-        positions: &[Vect<D>],
-        (outward, grains): (Vect<D>, f64),
-        rows: &Neighbourhood<'_, D>,
-    ) -> bool {
         if grains <= 0.0 {
-            return true;
+            return (normal, true);
         }
-        let size = outward.norm();
+        let size = normal.norm();
         if size * world.kernel.smoothing_length() < EVEN {
-            return false;
+            return (normal, false);
         }
-        let outward = outward / size;
+        let outward = normal / size;
         let within = |apart: &Vect<D>| -apart.dot(&outward) > cosine::<D>() * apart.norm();
         let (i, limit) = (rows.particle, world.kernel.support_radius().powi(2));
         let blocks = |j: usize| {
@@ -91,6 +81,7 @@ impl<S: Fn(usize) -> bool> Grains<'_, S> {
         };
         let mut candidates = world.lists.nearest().candidates(i).iter();
         let blocked = candidates.any(|j| blocks(*j as usize));
-        !blocked && !rows.wall.separation.iter().any(within)
+        let at_surface = !blocked && !rows.wall.separation.iter().any(within);
+        (normal, at_surface)
     }
 }

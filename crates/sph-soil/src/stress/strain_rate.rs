@@ -1,10 +1,80 @@
-//! The magnitude of the strain rate.
+//! The velocity gradient and the magnitude of the strain rate, by stages and by a term of the sweep.
+
+use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use rayon::prelude::*;
-use sph_core::{Access, Declares, Stage, StepError, Symmetric, fields};
-use sph_neighbours::World;
+use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields};
+use sph_neighbours::{
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World, pair_term,
+    scaled, walk_in_lanes,
+};
 use sph_rheology::Gradient;
+
+use crate::stress::VelocityGradient;
+use crate::stress::gathered::{Gathered, LaneSums};
+
+/// [`VELOCITY_GRADIENT`](fields::VELOCITY_GRADIENT) by a formula.
+///
+/// All phases count. Walls that do not rub take part in the gradient of the component normal to them alone.
+#[derive(Clone)]
+pub struct GradientStage<const D: usize> {
+    /// The formula.
+    pub formula: Arc<dyn VelocityGradient<D>>,
+    /// By phase number, whose gradients are read; those of the others are zero. All, if left out.
+    pub phases: Option<Arc<[bool]>>,
+}
+
+impl<const D: usize> GradientStage<D> {
+    /// For the particles of all phases.
+    pub fn everywhere(formula: Arc<dyn VelocityGradient<D>>) -> Self {
+        let phases = None;
+        GradientStage { formula, phases }
+    }
+}
+
+impl<const D: usize> Declares for GradientStage<D> {
+    fn name(&self) -> String {
+        "velocity gradient".into()
+    }
+    fn access(&self) -> Access {
+        let access = Access::none()
+            .both(fields::POSITION)
+            .both(fields::VELOCITY)
+            .neighbours(fields::VOLUME)
+            .writes(fields::VELOCITY_GRADIENT);
+        match self.phases {
+            Some(_) => access.here(fields::PHASE),
+            None => access,
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for GradientStage<D> {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut gradients = world.free.take(fields::VELOCITY_GRADIENT)?;
+        let read = match &self.phases {
+            Some(phases) => Some((phases, world.free.get(fields::PHASE)?)),
+            None => None,
+        };
+        if read.is_some() {
+            gradients.fill(SMatrix::zeros());
+        }
+        let wanted = |i: usize| read.is_none_or(|(phases, of)| phases[of[i] as usize]);
+        let all = BoundGradient {
+            formula: &*self.formula,
+            velocity: world.free.get(fields::VELOCITY)?,
+            volume: world.free.get(fields::VOLUME)?,
+            walls: &world.walls,
+            // Of the term alone.
+            slot: 0,
+        };
+        walk_in_lanes(world, &all, wanted, &mut gradients, |free, at| {
+            all.gradient(free, at)
+        })?;
+        Ok(world.free.put(fields::VELOCITY_GRADIENT, gradients)?)
+    }
+}
 
 /// γ̇ = √(2 D:D) with the deviatoric D = ½(G + Gᵀ) − ⅓ tr(G) I, out of the plane included.
 ///
@@ -13,12 +83,9 @@ pub struct StrainRate;
 
 /// A gradient in the plane, or in space, as one in space.
 pub fn in_space<const D: usize>(gradient: &SMatrix<f64, D, D>) -> Gradient {
-    let at = |i, j| {
-        if i < D && j < D {
-            gradient[(i, j)]
-        } else {
-            0.0
-        }
+    let at = |i, j| match i < D && j < D {
+        true => gradient[(i, j)],
+        false => 0.0,
     };
     std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)))
 }
@@ -48,6 +115,75 @@ impl<const D: usize> Stage<World<D>> for StrainRate {
         let all = rate.par_iter_mut().zip(gradient).with_min_len(2048);
         all.for_each(|(rate, g)| *rate = magnitude(g));
         Ok(world.free.put(fields::STRAIN_RATE, rate)?)
+    }
+}
+
+/// [`STRAIN_RATE`](fields::STRAIN_RATE) along with the interactions, for terms that read it after them: the walk over
+/// the neighbours, their distances and the gradients of the kernel are there already.
+#[derive(Clone)]
+pub struct StrainRateTerm<const D: usize> {
+    /// The formula of the gradient.
+    pub formula: Arc<dyn VelocityGradient<D>>,
+}
+
+/// Columns of a gradient: those of [`StrainRateTerm`].
+#[pair_term(StrainRateTerm<D>, "strain rate")]
+pub struct BoundGradient<'a, const D: usize> {
+    #[value(&*self.formula)]
+    formula: &'a dyn VelocityGradient<D>,
+    #[both(fields::VELOCITY)]
+    velocity: &'a [Vect<D>],
+    #[neighbours(fields::VOLUME)]
+    volume: &'a [f64],
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
+    #[rate(fields::STRAIN_RATE)]
+    slot: usize,
+}
+
+impl<const D: usize> BoundGradient<'_, D> {
+    /// The gradient at a particle, from the sums over its free neighbours.
+    #[inline(always)]
+    fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
+        let own = &self.velocity[at.particle];
+        let gathered = Gathered::new(free, own, self.walls, at);
+        gathered.gradient(self.formula, at.inverse_renormalisation)
+    }
+}
+
+impl<const D: usize> PairSum<D> for BoundGradient<'_, D> {
+    type Own<L: Lane> = [L; D];
+    type Sum<L: Lane> = LaneSums<L, D>;
+
+    #[inline(always)]
+    fn own<L: Lane>(&self, all: Particles) -> [L; D] {
+        all.vectors(self.velocity)
+    }
+    #[inline(always)]
+    fn pair<L: Lane>(
+        &self,
+        own: &[L; D],
+        j: usize,
+        pair: &LanePair<D, L>,
+        [of_velocities, of_positions]: &mut LaneSums<L, D>,
+    ) {
+        let velocity = &self.velocity[j];
+        let share = L::splat(self.volume[j]) * pair.factor;
+        let weight = scaled(pair.separation, share);
+        for i in 0..D {
+            let rise = L::splat(velocity[i]) - own[i];
+            for k in 0..D {
+                of_velocities[i][k] += rise * weight[k];
+                of_positions[i][k] -= pair.separation[i] * weight[k];
+            }
+        }
+    }
+}
+
+impl<const D: usize> BoundTerm<D> for BoundGradient<'_, D> {
+    #[inline(always)]
+    fn finish(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        rates.more[self.slot] += magnitude(&self.gradient(free, at));
     }
 }
 

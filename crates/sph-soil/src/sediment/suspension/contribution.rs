@@ -4,20 +4,16 @@ use sph_contribution::{
     Contribution, FromPlugins, Limiter, Offer, OwnColumn, Plugins, Refusal, Setting, StepHook,
     StepMoment, StepPhase, contributes,
 };
-use sph_core::{Access, StepError, StepLimit, Vect, Work, contract, fields, suggestion};
+use sph_core::{Access, StepError, StepLimit, Vect, fields, suggestion};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, WithTerm, World};
 
 use super::exchange::BedExchange;
-use super::parameters::{BodyConcentration, Suspended};
-use super::pick_up::PickUp;
+use super::plugins::{PickUp, SuspensionEntry};
+use super::settling::Suspended;
 use super::transport::Transport;
 use crate::sediment::moving_bed::carrier;
 use crate::sediment::{BedLoadEntry, Grains, MovingBed};
 
-contract!(
-    /// A law of suspension that a scene may name.
-    pub SuspensionEntry, "suspension", One, "grains that a flow carries within it", PickUp, .works(Work::Others)
-);
 #[cfg(not(test))]
 contributes!("suspension", SuspensionOfScene);
 
@@ -65,24 +61,18 @@ impl<const D: usize> SuspensionOfScene<D> {
     fn grains(&self, viscosity: f64, density: f64, gravity: f64) -> Result<Grains, Refusal> {
         let (own, bed) = (&self.suspended, &self.bed);
         if let Some(bed) = bed {
-            for (key, given) in [
-                ("grain_diameter", own.grain_diameter),
-                ("grain_density", own.grain_density),
-            ] {
+            let given = [own.grain_diameter, own.grain_density];
+            for (key, given) in ["grain_diameter", "grain_density"].into_iter().zip(given) {
                 if given.is_some() {
-                    return refused(
-                        key,
-                        "the grains are those of `[bed-load]`: take this key out",
-                    );
+                    let why = "the grains are those of `[bed-load]`: take this key out";
+                    return refused(key, why);
                 }
             }
             return Ok(bed.grains(viscosity, density, gravity));
         }
         let Some(diameter) = own.grain_diameter else {
-            return refused(
-                "",
-                "expected a `grain_diameter`, such as \"0.2 mm\": the scene has no law of bed load that names it",
-            );
+            let why = "expected a `grain_diameter`, such as \"0.2 mm\": the scene has no law of bed load that names it";
+            return refused("", why);
         };
         let grain_density = own.grain_density.unwrap_or(QUARTZ);
         if grain_density <= density {
@@ -98,25 +88,6 @@ impl<const D: usize> SuspensionOfScene<D> {
         })
     }
 
-    /// Refuses laws that lift grains where there is no bed or no eddy to carry them.
-    fn check_lifting(&self, lifts: bool) -> Result<(), Refusal> {
-        if lifts && self.bed.is_none() {
-            return refused(
-                "",
-                "grains are lifted off a bed, and this scene has none: expected a wall with `[wall.NAME.erodible]` and a law of \
-                 bed load such as `[bed-load.engelund-fredsoe]`, or `[suspension.settling]`",
-            );
-        }
-        if lifts && !self.has_eddies {
-            return refused(
-                "",
-                "eddies carry grains off a bed, and this scene has none: expected a closure such as `[eddy-viscosity.k-epsilon]`, \
-                 or `[suspension.settling]`",
-            );
-        }
-        Ok(())
-    }
-
     /// Concentration of grains that lie: 1 − n of the bed, or 0.6.
     fn solid(&self) -> f64 {
         self.bed.map_or(PACKING, |bed| 1.0 - bed.porosity)
@@ -125,16 +96,13 @@ impl<const D: usize> SuspensionOfScene<D> {
     /// Refuses concentrations above packing, and bodies that there are none of.
     fn check_start(&self, setting: &Setting<'_, D>, packing: f64) -> Result<(), Refusal> {
         for (k, one) in self.suspended.start.iter().enumerate() {
-            let BodyConcentration {
-                body,
-                concentration,
-            } = one;
+            let (body, concentration) = (&one.body, one.concentration);
             if !setting.bodies.contains(body) {
                 let names = setting.bodies.iter().map(String::as_str);
                 let why = format!("no body is called `{body}`{}", suggestion(body, names));
                 return refused(&format!("start[{k}].body"), why);
             }
-            if *concentration > packing {
+            if concentration > packing {
                 let why = format!(
                     "{concentration} is above the packing of the grains: expected at most {packing}"
                 );
@@ -162,12 +130,19 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
         };
         let gravity = setting.world.gravity.norm();
         if gravity == 0.0 {
-            return refused(
-                "",
-                "grains without weight do not settle: give the scene `gravity`",
-            );
+            let why = "grains without weight do not settle: give the scene `gravity`";
+            return refused("", why);
         }
-        self.check_lifting(law.lifts())?;
+        if law.lifts() && self.bed.is_none() {
+            let why = "grains are lifted off a bed, and this scene has none: expected a wall with `[wall.NAME.erodible]` and a \
+                       law of bed load such as `[bed-load.engelund-fredsoe]`, or `[suspension.settling]`";
+            return refused("", why);
+        }
+        if law.lifts() && !self.has_eddies {
+            let why = "eddies carry grains off a bed, and this scene has none: expected a closure such as \
+                       `[eddy-viscosity.k-epsilon]`, or `[suspension.settling]`";
+            return refused("", why);
+        }
         let (water, viscosity, density) = carrier(setting, KIND)?;
         let grains = self.grains(viscosity, density, gravity)?;
         let solid = self.solid();
@@ -238,7 +213,7 @@ struct TransportLimit(Transport);
 impl<const D: usize> Limiter<D> for TransportLimit {
     fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
         let radius = world.kernel.support_radius();
-        let mixing = self.0.largest_mixing(world)?;
+        let mixing = self.0.mixing(world)?.into_iter().fold(0.0, f64::max);
         let rate = 12.0 * self.0.settling.speed / radius + 56.0 * mixing / radius.powi(2);
         Ok(StepLimit::new("suspension", 1.0 / rate))
     }

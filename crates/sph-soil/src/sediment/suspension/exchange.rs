@@ -4,8 +4,8 @@ use sph_core::bed::{Bed, horizontal};
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::hindered::HinderedSettling;
-use super::pick_up::PickUp;
+use super::plugins::PickUp;
+use super::settling::HinderedSettling;
 use crate::sediment::Grains;
 use crate::sediment::bed_shear::WET;
 
@@ -66,19 +66,27 @@ impl BedExchange {
                 pass.lifted *= lifting;
             }
         }
-        self.limit_to_stock(world, bed, &mut all, dt)?;
-        for pass in &all {
+        let lifted: Vec<_> = all.iter().map(|pass| (pass.place, pass.lifted)).collect();
+        let lifted = world.sums_by_place(&lifted, bed.grid.len())?;
+        // No place gives more than lies over the rock when bed load has moved.
+        let share = |place: usize| {
+            let depth = bed.level(place) + dt * bed.rate[place] - bed.rock;
+            let stock = depth.max(0.0) * self.solid * bed.grid.area(place);
+            match !bed.held[place] && lifted[place] > stock {
+                true => stock / lifted[place],
+                false => 1.0,
+            }
+        };
+        let shares: Vec<f64> = (0..bed.grid.len()).map(share).collect();
+        for pass in &mut all {
+            pass.lifted *= shares[pass.place];
             concentration[pass.particle] += (pass.lifted - pass.settled) / volume(pass.particle);
         }
-        let net: Vec<_> = all
+        let net = all
             .iter()
-            .map(|pass| (pass.place, pass.settled - pass.lifted))
-            .collect();
-        for (place, change) in world
-            .sums_by_place(&net, bed.grid.len())?
-            .iter()
-            .enumerate()
-        {
+            .map(|pass| (pass.place, pass.settled - pass.lifted));
+        let changes = world.sums_by_place(&net.collect::<Vec<_>>(), bed.grid.len())?;
+        for (place, change) in changes.iter().enumerate() {
             bed.lifted -= change;
             match bed.held[place] {
                 true => bed.fed -= change,
@@ -99,9 +107,8 @@ impl BedExchange {
         let volume = world.free.get(fields::VOLUME)?;
         let (walls, owned) = (&world.walls, world.owned());
         let elements = &walls.elements;
-        let rates: Vec<[f64; 2]> = (0..bed.grid.len())
-            .map(|place| self.rate(bed, place))
-            .collect();
+        let places = 0..bed.grid.len();
+        let rates: Vec<[f64; 2]> = places.map(|place| self.rate(bed, place)).collect();
         // Each with the part of the bed, seen from above, that is the particle's, and its height over it.
         let mut parts: Vec<(Pass, f64, f64)> = Vec::new();
         for &particle in &walls.contacts.particles {
@@ -128,11 +135,8 @@ impl BedExchange {
                 }
             }
         }
-        let weights: Vec<_> = parts
-            .iter()
-            .map(|(pass, part, _)| (pass.place, *part))
-            .collect();
-        let weights = world.sums_by_place(&weights, bed.grid.len())?;
+        let weights = parts.iter().map(|(pass, part, _)| (pass.place, *part));
+        let weights = world.sums_by_place(&weights.collect::<Vec<_>>(), bed.grid.len())?;
         let filled = parts.into_iter().map(|(pass, part, distance)| {
             let area = bed.grid.area(pass.place);
             let own = dt * area * part / weights[pass.place].max(WET * 0.5 * area);
@@ -151,42 +155,14 @@ impl BedExchange {
     fn rate(&self, bed: &Bed, place: usize) -> [f64; 2] {
         let [x, y] = bed.shear[place];
         let friction_velocity = x.hypot(y).sqrt();
-        let rate = self.law.rate(
+        let (excess, speed) = (
             bed.shields(place) - bed.critical[place],
-            self.critical,
-            &self.grains,
             self.settling.speed,
         );
+        let rate = self.law.rate(excess, self.critical, &self.grains, speed);
         match rate > 0.0 {
-            true => {
-                let rouse = self.schmidt * self.settling.speed / (KARMAN * friction_velocity);
-                [rate, rouse]
-            }
+            true => [rate, self.schmidt * speed / (KARMAN * friction_velocity)],
             false => [0.0; 2],
         }
-    }
-
-    /// Lets no place give more than lies over the rock when bed load has moved.
-    fn limit_to_stock<const D: usize>(
-        &self,
-        world: &World<D>,
-        bed: &Bed,
-        all: &mut [Pass],
-        dt: f64,
-    ) -> Result<(), StepError> {
-        let lifted: Vec<_> = all.iter().map(|pass| (pass.place, pass.lifted)).collect();
-        let lifted = world.sums_by_place(&lifted, bed.grid.len())?;
-        let share = |place: usize| {
-            let depth = bed.level(place) + dt * bed.rate[place] - bed.rock;
-            let stock = depth.max(0.0) * self.solid * bed.grid.area(place);
-            match !bed.held[place] && lifted[place] > stock {
-                true => stock / lifted[place],
-                false => 1.0,
-            }
-        };
-        let shares: Vec<f64> = (0..bed.grid.len()).map(share).collect();
-        all.iter_mut()
-            .for_each(|pass| pass.lifted *= shares[pass.place]);
-        Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use sph_core::{Access, StepError, fields};
 use sph_neighbours::{Around, Neighbourhood, Values, World, walk};
 
-use super::hindered::HinderedSettling;
+use super::settling::HinderedSettling;
 
 /// Volume of grains that passes down from the upper of two particles per time, over their coupling 2 V_aV_b |F_ab|, m²/s·1:
 ///
@@ -14,7 +14,6 @@ use super::hindered::HinderedSettling;
 ///
 /// `drop` is the height Δz between the two, m, `diffusivity` D in m²/s. Source: Scharfetter and Gummel 1969 for dilute grains;
 /// the sum with Godunov's flux is ours.
-#[must_use]
 pub fn pair_flux(
     settling: &HinderedSettling,
     [above, below]: [Carried; 2],
@@ -44,7 +43,6 @@ pub struct Carried {
 
 impl Carried {
     /// Those of a concentration.
-    #[must_use]
     pub fn new(settling: &HinderedSettling, concentration: f64) -> Self {
         Carried {
             concentration,
@@ -89,7 +87,7 @@ impl Transport {
     }
 
     /// D of a particle, m²/s.
-    fn mixing<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+    pub fn mixing<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let Some(schmidt) = self.schmidt else {
             return Ok(vec![self.diffusivity; world.free.len()]);
         };
@@ -100,31 +98,17 @@ impl Transport {
             .collect())
     }
 
-    /// The largest D, m²/s.
-    pub fn largest_mixing<const D: usize>(&self, world: &World<D>) -> Result<f64, StepError> {
-        Ok(self.mixing(world)?.into_iter().fold(0.0, f64::max))
-    }
-
-    /// True if particles carry grains.
-    pub fn carriers<const D: usize>(
-        &self,
-        world: &World<D>,
-    ) -> Result<Option<Vec<bool>>, StepError> {
-        let Some(own) = self.phase else {
-            return Ok(None);
-        };
-        let phase = world.free.get(fields::PHASE)?.iter();
-        Ok(Some(phase.map(|p| *p == own).collect()))
-    }
-
     /// Concentrations after a step of `dt` seconds: C_a − Δt/V⁰_a Σ_b Φ_ab with V⁰ = m/ρ₀ and Φ_ab = −Φ_ba.
     pub fn step<const D: usize>(&self, world: &World<D>, dt: f64) -> Result<Vec<f64>, StepError> {
         let concentration = world.free.get(fields::CONCENTRATION)?;
         let volume = world.free.get(fields::VOLUME)?;
         let mass = world.free.get(fields::MASS)?;
         let mixing = self.mixing(world)?;
-        let carriers = self.carriers(world)?;
-        let carries = |i: usize| carriers.as_ref().is_none_or(|all| all[i]);
+        let phase = match self.phase {
+            Some(own) => Some((own, world.free.get(fields::PHASE)?)),
+            None => None,
+        };
+        let carries = |i: usize| phase.is_none_or(|(own, phase)| phase[i] == own);
         let inverse = world.free.get(fields::RENORMALISATION).ok();
         let inverse = |i: usize| inverse.map_or(1.0, |gamma| 1.0 / gamma[i]);
         let carried = |c: &f64| Carried::new(&self.settling, *c);
@@ -143,12 +127,8 @@ impl Transport {
                     true => [grains[a], grains[b]],
                     false => [grains[b], grains[a]],
                 };
-                let flux = pair_flux(
-                    &self.settling,
-                    both,
-                    drop.abs(),
-                    0.5 * (mixing[a] + mixing[b]),
-                );
+                let diffusivity = 0.5 * (mixing[a] + mixing[b]);
+                let flux = pair_flux(&self.settling, both, drop.abs(), diffusivity);
                 // 2 V_aV_b |F_ab| (1/γ_a + 1/γ_b)/2.
                 let coupling = volume[a] * volume[b] * -pair.factor * (inverse(a) + inverse(b));
                 coupling * if drop >= 0.0 { flux } else { -flux }

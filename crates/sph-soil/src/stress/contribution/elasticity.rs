@@ -1,16 +1,16 @@
-//! The elastic force in a scene: which one, and with what it cannot be combined.
+//! The elastic force in a scene: which one, with what it cannot be combined, and the step that elastic waves allow.
 
 use sph_contribution::{
-    Contribution, FromPlugins, Offer, OutsideForce, Plugins, Refusal, Setting, contributes,
+    Contribution, FromPlugins, Limiter, Offer, OutsideForce, Plugins, Refusal, Setting, contributes,
 };
-use sph_core::{AnyField, Pool};
-use sph_neighbours::Interaction;
+use sph_core::{AnyField, Pool, StepError, StepLimit};
+use sph_neighbours::{Interaction, World};
 use sph_rheology::Rheology;
 
 use super::Materials;
 use crate::stress::{
     AdjointDivergence, Blend, Blended, CarriedStress, ElasticForce, ElasticMotion, ElasticSubSteps,
-    ElasticWaveLimit, HourglassDamping, ImplicitElasticStress, StressCorrection, Yielded,
+    HourglassDamping, ImplicitElasticStress, StressCorrection, Yielded,
 };
 
 /// Remembered stresses of the laws of a scene, and the force that they make.
@@ -30,8 +30,8 @@ const KIND: &str = "elastic-force";
 
 impl<const D: usize> Elasticity<D> {
     fn term(&self, force: &dyn ElasticForce<D>) -> Box<dyn Interaction<D>> {
-        let term = match self.0.adjoint() {
-            Some(_) => AdjointDivergence::boxed(),
+        let term: Box<dyn Interaction<D>> = match self.0.adjoint() {
+            Some(_) => Box::new(AdjointDivergence),
             None => force.term(&self.0.law_inputs()),
         };
         match force.blend() {
@@ -83,7 +83,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         }
         let strength = self.hourglass(&**force, setting);
         if strength.iter().any(|s| *s > 0.0) {
-            offer.terms.push(HourglassDamping::boxed(strength));
+            offer.term(HourglassDamping { strength });
         }
         offer.stored.push(Box::new(self.0.law_inputs()));
         offer.remedy = Some(format!(
@@ -106,7 +106,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             true => offer.stage(ImplicitElasticStress(law_inputs.clone())),
             false => offer.stage(CarriedStress(law_inputs.clone())),
         }
-        offer.stage(Yielded::new(law_inputs.clone()));
+        offer.stage(Yielded(law_inputs.clone()));
         if let Some(gradient) = self.0.adjoint() {
             offer.stage(StressCorrection(gradient.clone()));
         }
@@ -125,7 +125,16 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             Some(wave) => {
                 let longest = wave.longest_sub_step(setting.world);
                 let term: OutsideForce<D> = self.term(&**force).into();
-                let sub_steps = ElasticSubSteps::new(term.clone(), motion, law_inputs, longest);
+                let sub_steps = ElasticSubSteps {
+                    term: term.clone(),
+                    motion,
+                    law_inputs,
+                    longest,
+                    touched: Vec::new(),
+                    acceleration: Vec::new(),
+                    mean: Vec::new(),
+                    behind: 0.0,
+                };
                 offer.outside.push(term);
                 offer.inner_bounds.push(sub_steps.bound());
                 offer.hook(sub_steps);
@@ -209,12 +218,11 @@ impl<const D: usize> Elasticity<D> {
         if self.0.adjoint().is_none() {
             return Ok(());
         }
-        let walls = &setting.world.walls;
-        let mut friction_factors = walls
-            .points
+        let (points, elements) = (&setting.world.walls.points, &setting.world.walls.elements);
+        let mut friction_factors = points
             .friction_factor
             .iter()
-            .chain(&walls.elements.friction_factor);
+            .chain(&elements.friction_factor);
         let why = if force.displaced() {
             "the force is made of displacements and not of a stress: take `adjoint` out, or take \
              [elastic-force.divergence]"
@@ -246,5 +254,42 @@ impl<const D: usize> Elasticity<D> {
             return Ok(());
         };
         Err(Refusal::at_key(KIND, "sub_steps", why))
+    }
+}
+
+/// Δt ≤ C h / √(c₀² + k𝒢/ρ₀): pressure waves in an elastic material, k being that of its
+/// [force](crate::stress::ElasticForce::stiffness), 4/3 for a divergence. Ours; the thesis has none.
+pub struct ElasticWaveLimit {
+    /// C.
+    pub courant: f64,
+    /// Largest √(c₀² + k𝒢/ρ₀) over the phases with an elastic part, m/s.
+    pub speed: f64,
+    /// k.
+    pub stiffness: f64,
+}
+
+impl ElasticWaveLimit {
+    /// The longest sub-step, s: 0.8 h over the speed, about half of the 2/max k̂ at which nested differences k̂ on a lattice
+    /// become unstable (1.73 to 1.76 h for `wendland-c2` at h = 2δr).
+    pub fn longest_sub_step<const D: usize>(&self, world: &World<D>) -> f64 {
+        0.8 * world.kernel.smoothing_length() / self.speed
+    }
+}
+
+impl<const D: usize> Limiter<D> for ElasticWaveLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let longest = self.courant * world.kernel.smoothing_length() / self.speed;
+        Ok(StepLimit::new("elastic wave", longest))
+    }
+    fn remedy(&self) -> Option<String> {
+        let away = "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: \
+                    the elastic force then has steps of its own within that of the flow";
+        Some(away.into())
+    }
+    fn formula(&self) -> String {
+        format!(
+            "elastic wave: dt <= {} h / sqrt(c² + {:.2} G/ρ)",
+            self.courant, self.stiffness
+        )
     }
 }

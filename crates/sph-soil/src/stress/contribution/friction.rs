@@ -1,4 +1,4 @@
-//! Friction of fluids in a scene, explicit or solved for.
+//! Friction of fluids in a scene, explicit or solved for, and of soils on walls.
 
 use sph_contribution::{
     Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, Stages, contributes,
@@ -6,9 +6,10 @@ use sph_contribution::{
 use sph_core::AnyField;
 use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_multiphase::viscosity::{ImplicitViscosity, PicardUpdates, ViscousLimit};
+use sph_rheology::Rheology;
 
 use super::Materials;
-use crate::stress::{Blend, Blended, StrainRate, ViscosityStage};
+use crate::stress::{Blend, Blended, CoulombFriction, StrainRate, ViscosityStage};
 
 /// The viscous force of the laws.
 struct Friction<const D: usize> {
@@ -58,12 +59,9 @@ impl<const D: usize> Contribution<D> for Friction<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let (materials, viscosity) = (&self.materials, self.materials.viscosity());
         if materials.inviscid() && self.solved_for() {
-            return Err(Refusal::at_key(
-                "implicit-viscosity",
-                "",
-                "no phase of this scene has a viscosity, so that there is nothing to solve for: take this table out, or \
-                 give a phase a viscosity",
-            ));
+            let why = "no phase of this scene has a viscosity, so that there is nothing to solve for: take this table out, \
+                       or give a phase a viscosity";
+            return Err(Refusal::at_key("implicit-viscosity", "", why));
         }
         if !materials.inviscid() {
             offer.stages = materials.operator.stages(viscosity);
@@ -128,6 +126,33 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         let coupling = operator.coupling(viscosity);
         offer.outside.push(operator.term(viscosity).into());
         offer.hook(ImplicitViscosity::new(coupling, solve, lagged));
+        Ok(())
+    }
+}
+
+/// Coulomb's friction, where a wall has a coefficient.
+struct WallFriction<const D: usize>(Materials<D>);
+
+#[cfg(not(test))]
+contributes!("walls", WallFriction);
+
+impl<const D: usize> FromPlugins<D> for WallFriction<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        Some(WallFriction(Materials::from_plugins(plugins)?))
+    }
+}
+
+impl<const D: usize> Contribution<D> for WallFriction<D> {
+    fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        if setting.world.walls.elements.coulomb.is_empty() {
+            return Ok(());
+        }
+        let slips = |l: &dyn Rheology| l.elastic().is_none() && l.uniform_viscosity().is_some();
+        offer.hook(CoulombFriction {
+            rubs: self.0.laws.iter().map(|l| !slips(&**l)).collect(),
+            pressure: self.0.grain_pressure(),
+            pressed: Vec::new(),
+        });
         Ok(())
     }
 }

@@ -1,8 +1,8 @@
-//! Data that the contributions of a scene's laws share.
+//! Data that the contributions of a scene's laws share, and gradients of the velocity in a scene.
 
 use std::sync::Arc;
 
-use sph_contribution::Plugins;
+use sph_contribution::{Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, contributes};
 use sph_core::{AnyField, Field, Scalar, fields};
 use sph_multiphase::linear::ImplicitViscosityEntry;
 use sph_multiphase::viscosity::{Viscosity, ViscousOperator, ViscousOperatorEntry};
@@ -11,8 +11,8 @@ use sph_rheology::{Rheology, RheologyEntry};
 use crate::dilatancy::DilatancyEntry;
 use crate::pores::FRICTION_PRESSURE;
 use crate::stress::{
-    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, VelocityGradient,
-    VelocityGradientEntry,
+    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, StrainRate,
+    StrainRateTerm, VelocityGradient, VelocityGradientEntry,
 };
 
 /// The laws of a scene, and the plugins that make forces of them.
@@ -42,10 +42,8 @@ impl<const D: usize> Materials<D> {
         let eddies = plugins.names("eddy-viscosity");
         let elastic = laws.iter().any(|law| law.elastic().is_some());
         let of_gradients = [fields::VELOCITY_GRADIENT.name, fields::STRAIN_RATE.name];
-        let shown = plugins
-            .shown
-            .iter()
-            .any(|name| of_gradients.contains(&&**name));
+        let mut shown = plugins.shown.iter();
+        let shown = shown.any(|name| of_gradients.contains(&&**name));
         let dilates = plugins.names("dilatancy") && plugins.names("pore-pressure");
         let dilates = dilates.then(|| plugins.one::<D, DilatancyEntry>());
         let strained = eddies
@@ -122,11 +120,12 @@ impl<const D: usize> Materials<D> {
     /// The gradient of the phases whose laws read it, or of all if others read it too.
     pub(crate) fn gradient_stage(&self, read: &[AnyField]) -> Option<GradientStage<D>> {
         let formula = self.gradient.clone()?;
-        let of_gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        let others = self.eddies || read.iter().any(|f| of_gradients.contains(f));
-        let phases = match others {
+        let phases = match self.eddies || includes_gradients(read) {
             true => None,
-            false => self.phases_with_gradients(),
+            false => {
+                let phases: Arc<[bool]> = self.laws.iter().map(|l| reads_gradients(&**l)).collect();
+                phases.contains(&false).then_some(phases)
+            }
         };
         Some(GradientStage { formula, phases })
     }
@@ -134,19 +133,57 @@ impl<const D: usize> Materials<D> {
     /// True if no stage reads strain rates before the interactions, which may then leave them for terms that do it
     /// later.
     pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
-        let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        self.eddies
-            && !self.laws.iter().any(|law| reads_gradients(&**law))
-            && !read.iter().any(|field| gradients.contains(field))
+        self.eddies && !self.laws.iter().any(|law| reads_gradients(&**law)) && !includes_gradients(read)
     }
+}
 
-    /// By phase number, whether the law reads velocity gradients; `None` if all do.
-    fn phases_with_gradients(&self) -> Option<Arc<[bool]>> {
-        let phases: Arc<[bool]> = self.laws.iter().map(|l| reads_gradients(&**l)).collect();
-        phases.contains(&false).then_some(phases)
-    }
+/// True if a velocity gradient or a strain rate is among columns.
+fn includes_gradients(read: &[AnyField]) -> bool {
+    let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
+    read.iter().any(|field| gradients.contains(field))
 }
 
 fn reads_gradients(law: &dyn Rheology) -> bool {
     law.needs().strain_rate || law.elastic().is_some()
+}
+
+/// Velocity gradients and strain rates, where a law or a stage needs them.
+struct Straining<const D: usize>(Materials<D>);
+
+#[cfg(not(test))]
+contributes!("velocity-gradient", Straining);
+
+impl<const D: usize> FromPlugins<D> for Straining<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        let materials = Materials::from_plugins(plugins)?;
+        materials.gradient.is_some().then_some(Straining(materials))
+    }
+}
+
+impl<const D: usize> Contribution<D> for Straining<D> {
+    fn offer(&mut self, _: &Setting<'_, D>, _: &mut Offer<D>) -> Result<(), Refusal> {
+        Ok(())
+    }
+    fn offer_to_readers(
+        &mut self,
+        _: &Setting<'_, D>,
+        read: &[AnyField],
+        offer: &mut Offer<D>,
+    ) -> Result<(), Refusal> {
+        // An elastic motion leaves the gradients of its drift.
+        if let (Some(stage), None) = (self.0.gradient_stage(read), &self.0.force) {
+            offer.stage(stage);
+        }
+        let Some(formula) = self.0.gradient.clone() else {
+            return Ok(());
+        };
+        match self.0.strain_rides(read) {
+            false => offer.stage(StrainRate),
+            true => {
+                let term = Box::new(StrainRateTerm { formula });
+                offer.riding.push((fields::STRAIN_RATE.any(), term));
+            }
+        }
+        Ok(())
+    }
 }

@@ -1,4 +1,4 @@
-//! The elastic stress that acts.
+//! Viscosities, stresses and yielding by the laws of a scene, as columns.
 
 use sph_core::{Access, Declares, Stage, StepError, Symmetric, fields};
 use sph_neighbours::World;
@@ -6,6 +6,49 @@ use sph_rheology::{Elastic, Inputs, Yielding};
 
 use crate::stress::strain_rate::in_space;
 use crate::stress::{Blend, LawInputs};
+
+/// η of every particle by the law of its phase; where phases differ or a law depends on the flow. Where forces are
+/// blended it is that of the liquid alone.
+pub struct ViscosityStage {
+    /// The laws and their inputs.
+    pub law_inputs: LawInputs,
+    /// True if there is an eddy viscosity to add.
+    pub eddies: bool,
+}
+
+impl Declares for ViscosityStage {
+    fn name(&self) -> String {
+        "rheology".into()
+    }
+    fn access(&self) -> Access {
+        let access = self.law_inputs.access().writes(fields::VISCOSITY);
+        match self.eddies {
+            true => access.here(fields::EDDY_VISCOSITY),
+            false => access,
+        }
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for ViscosityStage {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let blend = self.law_inputs.blend;
+        let mut viscosity = world.free.take(fields::VISCOSITY)?;
+        self.law_inputs
+            .each(world, &mut viscosity, |law, inputs, _, out| {
+                match law.elastic().filter(|elastic| elastic.blends()) {
+                    Some(elastic) if blend == Blend::Forces => {
+                        elastic.liquid_viscosity(inputs, out)
+                    }
+                    _ => law.viscosity(inputs, out),
+                }
+            })?;
+        if self.eddies {
+            let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
+            viscosity.iter_mut().zip(eddies).for_each(|(v, e)| *v += e);
+        }
+        Ok(world.free.put(fields::VISCOSITY, viscosity)?)
+    }
+}
 
 /// [`CARRIED_STRESS`](fields::CARRIED_STRESS) from the remembered one; zero in phases without
 /// an elastic part. Where forces are blended it is the whole stress of the solid, cut to the yield stress.
@@ -110,5 +153,42 @@ impl<const D: usize> Stage<World<D>> for ImplicitElasticStress {
         })?;
         world.free.put(fields::CARRIED_STRESS, carried)?;
         Ok(world.free.put(fields::ELASTIC_STIFFNESS, stiffness)?)
+    }
+}
+
+/// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_FRACTION`](fields::SOLID_FRACTION) and
+/// [`YIELD_FACTOR`](fields::YIELD_FACTOR) from the remembered stress; 1 in phases without an elastic part.
+pub struct Yielded(pub LawInputs);
+
+impl Declares for Yielded {
+    fn name(&self) -> String {
+        "yielding".into()
+    }
+    fn access(&self) -> Access {
+        self.0
+            .access()
+            .here(fields::ELASTIC_STRESS)
+            .writes(fields::FRICTION_SHARE)
+            .writes(fields::SOLID_FRACTION)
+            .writes(fields::YIELD_FACTOR)
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for Yielded {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let stress = world.free.get(fields::ELASTIC_STRESS)?;
+        let yielding = self.0.yielding(world, stress)?;
+        type Share = fn(&Yielding) -> f64;
+        let columns: [(_, Share); 3] = [
+            (fields::FRICTION_SHARE, |y| y.friction),
+            (fields::SOLID_FRACTION, |y| y.solid),
+            (fields::YIELD_FACTOR, |y| y.held),
+        ];
+        for (field, share) in columns {
+            let column = world.free.get_mut(field)?;
+            let all = column.iter_mut().zip(&yielding);
+            all.for_each(|(value, yielding)| *value = share(yielding));
+        }
+        Ok(())
     }
 }
