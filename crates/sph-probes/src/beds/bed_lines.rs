@@ -87,7 +87,7 @@ impl Probe<2> for BedLines {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, scene.phases)?);
+        self.number = phase::number(Some(&self.phase), scene)?;
         Ok(())
     }
 

@@ -143,7 +143,7 @@ impl Probe<3> for ScourMap {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, scene.phases)?);
+        self.number = phase::number(Some(&self.phase), scene)?;
         Ok(())
     }
 

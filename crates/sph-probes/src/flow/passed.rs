@@ -43,12 +43,8 @@ impl<const D: usize> Probe<D> for PassedProbe {
         let wanted = |wall: u32| self.wall.as_ref().is_none_or(|w| w == name(wall));
         let mut sums = vec![0.0; 3];
         for passed in walls.passed.iter().filter(|p| wanted(p.wall)) {
-            for (sum, x) in sums
-                .iter_mut()
-                .zip([passed.entered, passed.left, passed.held])
-            {
-                *sum += x;
-            }
+            let parts = [passed.entered, passed.left, passed.held];
+            sums.iter_mut().zip(parts).for_each(|(sum, x)| *sum += x);
         }
         Ok(sums)
     }

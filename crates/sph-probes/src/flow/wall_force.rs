@@ -41,13 +41,14 @@ impl<const D: usize> Probe<D> for WallForceProbe {
             _ => ("N", "N m"),
         };
         let forces = ProbeColumn::components(D, force);
-        let prefixed = |column: &ProbeColumn| {
-            ProbeColumn::named(&format!(".pressure{}", column.suffix), force)
+        let under = |name: &str, mut columns: Vec<ProbeColumn>| {
+            columns
+                .iter_mut()
+                .for_each(|column| column.suffix.insert_str(0, name));
+            columns
         };
-        let pressures = forces.iter().map(prefixed).collect();
-        let moments = moments::<D>().iter();
-        let moments = moments.map(|axis| ProbeColumn::named(&format!(".moment{axis}"), moment));
-        [forces, moments.collect(), pressures].concat()
+        let moments = under(".moment", ProbeColumn::turns(D, moment));
+        [forces.clone(), moments, under(".pressure", forces)].concat()
     }
 
     fn needs(&self) -> Needs<'_> {
@@ -70,16 +71,8 @@ impl<const D: usize> Probe<D> for WallForceProbe {
         let shift = cross(&point::<D>(&self.about), &total.force);
         let moment = (0..3).map(|k| total.moment[k] - shift[k]);
         let mut values: Vec<f64> = total.force.iter().copied().collect();
-        values.extend(moment.skip(3 - moments::<D>().len()));
+        values.extend(moment.skip(if D == 2 { 2 } else { 0 }));
         values.extend(total.pressure_force.iter());
         Ok(values)
-    }
-}
-
-/// Suffixes of the moments: one in the plane, three in space.
-fn moments<const D: usize>() -> &'static [&'static str] {
-    match D {
-        2 => &[""],
-        _ => &[".x", ".y", ".z"],
     }
 }
