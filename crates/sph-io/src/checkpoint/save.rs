@@ -5,12 +5,9 @@ use std::path::Path;
 
 use flate2::CrcWriter;
 
-use super::{Checkpoint, Column, ColumnData, Header, MAGIC, PREFIX, SUFFIX, Shape, VERSION};
+use super::{CHUNK, Checkpoint, Column, ColumnData, Header, MAGIC, PREFIX, SUFFIX, Shape, VERSION};
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
-
-/// Bytes converted at a time.
-const CHUNK: usize = 1 << 16;
 
 impl Checkpoint {
     /// Writes the checkpoint to `path`, all or nothing, and waits until it is

@@ -36,8 +36,7 @@ impl Picture<'_> {
         }
         for i in order {
             let [x, y] = self.flat(self.points[i]);
-            let value = self.values[i];
-            let colour = self.colour_of(value, [lo, hi]);
+            let colour = self.colour_of(self.values[i], [lo, hi]);
             if x.is_finite() && y.is_finite() {
                 let (spot, radius) = (axes.spot(x, y), radius(i));
                 let fill = Fill::solid(colour);
@@ -133,7 +132,7 @@ impl Relief {
                     let brightness = self.brightness([i, j], diameter);
                     let Colour(parts) = colour(self.value[k]);
                     let lit = parts.map(|part| (f64::from(part) * brightness).min(255.0) as u8);
-                    on.dot([corner[0] + i, corner[1] + j], Colour(lit));
+                    on.blend([corner[0] + i, corner[1] + j], Colour(lit), 1.0);
                 }
             }
         }
@@ -169,10 +168,9 @@ impl Relief {
                     if !depth[k].is_finite() {
                         continue;
                     }
-                    let (at, side) = if right == 1 {
-                        (i, self.width)
-                    } else {
-                        (j, self.height)
+                    let (at, side) = match right {
+                        1 => (i, self.width),
+                        _ => (j, self.height),
                     };
                     let stride = right + down * self.width;
                     let from = k - at.min(reach) * stride;

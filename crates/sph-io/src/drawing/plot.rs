@@ -62,7 +62,7 @@ impl Plot {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         self.check(path)?;
-        save(path, SIZE, |on| self.draw(on, &whole()))
+        save(path, SIZE, |on| self.draw(on, &Rect::sized(SIZE)))
     }
 
     /// The document that [`save`](Self::save) writes as vectors, to stand in a page.
@@ -72,17 +72,22 @@ impl Plot {
     pub fn to_svg(&self) -> Result<String> {
         self.check(Path::new("plot.svg"))?;
         let mut svg = Svg::new(SIZE[0], SIZE[1]);
-        self.draw(&mut svg, &whole());
+        self.draw(&mut svg, &Rect::sized(SIZE));
         Ok(svg.finish())
     }
 
     fn check(&self, path: &Path) -> Result<()> {
-        for series in &self.series {
-            let points = series.points.len();
-            if let Style::Band(upper) = &series.style
+        for Series {
+            name,
+            points,
+            style,
+        } in &self.series
+        {
+            let points = points.len();
+            if let Style::Band(upper) = style
                 && upper.len() != points
             {
-                let (name, upper) = (&series.name, upper.len());
+                let upper = upper.len();
                 let said = format!("band `{name}` has {upper} upper ordinates at {points} points");
                 return Err(IoError::input(path, said));
             }
@@ -162,16 +167,6 @@ fn save(path: &Path, [width, height]: [u32; 2], draw: impl Fn(&mut dyn DrawTarge
     canvas.save(path)
 }
 
-/// The place of a plot that stands alone.
-fn whole() -> Rect {
-    Rect {
-        left: 0.0,
-        top: 0.0,
-        right: f64::from(SIZE[0]),
-        bottom: f64::from(SIZE[1]),
-    }
-}
-
 /// Pixels of one panel.
 const PANEL: [u32; 2] = [900, 720];
 /// Panels that fit into the largest picture.
@@ -213,14 +208,15 @@ impl Panels {
         self.0.iter().try_for_each(|plot| plot.check(path))?;
         let [width, height] = PANEL;
         save(path, [width * self.0.len() as u32, height], |on| {
-            for (left, plot) in (0..).step_by(width as usize).zip(&self.0) {
-                let place = Rect {
-                    left: f64::from(left),
-                    top: 0.0,
-                    right: f64::from(left + width),
-                    bottom: f64::from(height),
-                };
-                plot.draw(on, &place);
+            for (number, plot) in (1..).zip(&self.0) {
+                let left = f64::from((number - 1) * width);
+                plot.draw(
+                    on,
+                    &Rect {
+                        left,
+                        ..Rect::sized([number * width, height])
+                    },
+                );
             }
         })
     }
@@ -239,19 +235,17 @@ mod tests {
             ..Plot::default()
         };
         let path = folder.path().join("two.svg");
-        Panels(vec![plot.clone(), plot.clone()])
-            .save(&path)
-            .expect("saved");
+        let panels = |count: usize| Panels(vec![plot.clone(); count]);
+        panels(2).save(&path).expect("saved");
         let text = std::fs::read_to_string(&path).expect("text");
         assert!(text.contains("viewBox=\"0 0 1800 720\""), "{text}");
         assert_eq!(text.matches(">a law<").count(), 2);
         let png = folder.path().join("two.png");
-        Panels(vec![plot.clone()]).save(&png).expect("saved");
+        panels(1).save(&png).expect("saved");
         assert!(png.exists());
         let refused = folder.path().join("none.png");
         for count in [0, 10] {
-            let panels = Panels(vec![plot.clone(); count]);
-            assert!(panels.save(&refused).is_err() && !refused.exists());
+            assert!(panels(count).save(&refused).is_err() && !refused.exists());
         }
     }
 }
