@@ -95,11 +95,6 @@ impl NearbyParticles {
         })
     }
 
-    /// True if there are none.
-    pub fn is_empty(&self) -> bool {
-        self.images.is_empty()
-    }
-
     /// Numbers of the particles, in the order in which the values of a mean are to be given.
     pub fn numbers(&self) -> impl Iterator<Item = usize> {
         self.images.iter().map(|image| image.number)

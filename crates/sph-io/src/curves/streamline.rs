@@ -29,11 +29,13 @@ pub fn streamlines(
     flat: usize,
     apart: f64,
 ) -> Vec<Vec<[f64; 3]>> {
+    let (velocities, _) = velocity.as_chunks();
+    let fastest = velocities.iter().map(square).fold(0.0, f64::max).sqrt();
     let flow = Flow {
         cloud,
         velocity,
         flat,
-        still: STILL * fastest(velocity),
+        still: STILL * fastest,
     };
     let speed = |k: u32| square(&flow.own(k));
     let mut seeds: Vec<u32> = (0..cloud.points.len() as u32).collect();
@@ -54,11 +56,6 @@ pub fn streamlines(
         }
     }
     lines
-}
-
-fn fastest(velocity: &[f64]) -> f64 {
-    let (velocities, _) = velocity.as_chunks();
-    velocities.iter().map(square).fold(0.0, f64::max).sqrt()
 }
 
 /// A field of directions.

@@ -80,14 +80,11 @@ const MANY: usize = 4000;
 /// A series with its colour and shape.
 pub(crate) struct Mark<'a> {
     pub(crate) series: &'a Series,
-    number: usize,
+    /// Its place in the list of all series.
+    pub(crate) number: usize,
 }
 
-impl<'a> Mark<'a> {
-    pub(crate) fn new((number, series): (usize, &'a Series)) -> Self {
-        Self { series, number }
-    }
-
+impl Mark<'_> {
     fn colour(&self) -> Colour {
         match self.series.style {
             Style::Background => Colour::PALE,

@@ -109,15 +109,6 @@ impl Relief {
         }
     }
 
-    /// A particle of a diameter (m) at a spot.
-    fn particle(&mut self, spot: Spot, (depth, diameter): (f64, f64), value: f64) {
-        let at = [0, 1].map(|k| spot[k] - self.corner[k]);
-        if at.iter().all(|x| x.is_finite()) {
-            let radius = (0.5 * SWOLLEN * diameter * self.scale).max(0.75);
-            self.add(at, radius, depth, value);
-        }
-    }
-
     /// Draws the visible surface of particles of a diameter, in colours of their values.
     fn draw(&mut self, on: &mut Canvas, diameter: f64, colour: impl Fn(f64) -> Colour) {
         let reach = (0.5 * diameter * self.scale).round().clamp(1.0, 12.0) as usize;
@@ -138,8 +129,13 @@ impl Relief {
         }
     }
 
-    /// A sphere around a pixel.
-    fn add(&mut self, [x, y]: [f64; 2], radius: f64, depth: f64, value: f64) {
+    /// The sphere of a particle of a diameter (m) at a spot.
+    fn particle(&mut self, spot: Spot, (depth, diameter): (f64, f64), value: f64) {
+        let [x, y] = [0, 1].map(|k| spot[k] - self.corner[k]);
+        if !(x.is_finite() && y.is_finite()) {
+            return;
+        }
+        let radius = (0.5 * SWOLLEN * diameter * self.scale).max(0.75);
         let span = |at: f64, side: usize| {
             let end = side as f64;
             (at - radius).clamp(0.0, end) as usize..(at + radius + 1.0).clamp(0.0, end) as usize

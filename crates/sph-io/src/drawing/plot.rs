@@ -10,7 +10,7 @@ use sph_core::bounds;
 use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
-use crate::drawing::legend::Legend;
+use crate::drawing::legend::draw_legend;
 use crate::drawing::mark::{Mark, Series, Style};
 use crate::drawing::svg::Svg;
 use crate::drawing::ticks::widened;
@@ -98,7 +98,9 @@ impl Plot {
     /// Draws the plot into a part of a surface.
     fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
-        let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
+        let numbered = self.series.iter().enumerate();
+        let marks = numbered.map(|(number, series)| Mark { series, number });
+        let marks: Vec<Mark> = marks.collect();
         axes.draw_grid(on);
         // Bands first, whatever their place in the list: they hide lines.
         let (behind, others): (Vec<&Mark>, Vec<&Mark>) = marks.iter().partition(|m| m.is_behind());
@@ -106,7 +108,7 @@ impl Plot {
             mark.draw(on, &axes);
         }
         axes.draw(on);
-        Legend::new(&marks, &axes).draw(on);
+        draw_legend(on, &marks, &axes);
         let middle = (axes.frame.left + axes.frame.right) / 2.0;
         let lettering = Lettering::new(1.15 * LETTERS, Anchor::Middle);
         let title = [middle, place.top + 1.6 * LETTERS];

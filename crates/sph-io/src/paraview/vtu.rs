@@ -146,11 +146,7 @@ impl Document {
 
 /// The little-endian image of `values`.
 fn bytes<T: Copy, const N: usize>(values: &[T], image: impl Fn(T) -> [u8; N]) -> Vec<u8> {
-    let mut out = Vec::with_capacity(values.len() * N);
-    for &value in values {
-        out.extend_from_slice(&image(value));
-    }
-    out
+    values.iter().flat_map(|value| image(*value)).collect()
 }
 
 /// Appends `data` in the block layout of `vtkZLibDataCompressor`.

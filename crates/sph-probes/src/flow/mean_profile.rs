@@ -2,10 +2,9 @@
 
 use std::sync::{Mutex, MutexGuard};
 
-use sph_core::{StepError, Vect, fields, plugin};
+use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::flow::profile::Component;
 use crate::measure::quantity::{AXES, Quantity};
 use crate::norm::at;
 use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, contract};
@@ -33,7 +32,7 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, contract};
     source: "Issa 2004, Eq. 6.46–6.50")]
 pub struct MeanProfile {
     /// The axis that layers are cut across.
-    pub axis: Component,
+    pub axis: Axis,
     /// Start of the first layer.
     #[parameter(unit: "m")]
     pub from: f64,
@@ -51,8 +50,8 @@ pub struct MeanProfile {
     /// A quantity in the place of the velocity: a scalar field, or `pressure_acceleration.x`.
     pub field: Option<String>,
     /// Component of the velocity that is compared.
-    #[parameter(default: Component::X)]
-    pub component: Component,
+    #[parameter(default)]
+    pub component: Axis,
     /// CSV file of the reference, relative to the scene's folder: distance from `from` in m, value in SI.
     pub file: Option<String>,
     /// The distances from `from` between which it is compared; all if left out.

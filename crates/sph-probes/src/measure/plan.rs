@@ -23,25 +23,6 @@ pub(crate) fn below(name: &str, below: f64) -> QuantityBounds {
     (Quantity::named(name), [f64::NEG_INFINITY, below])
 }
 
-/// The numbers of the particles of a phase that fulfil all conditions, and the number of particles of the phase.
-///
-/// # Errors
-/// If a quantity is not known, or the phase's number.
-pub(crate) fn counted<const D: usize>(
-    world: &World<D>,
-    (name, number): (Option<&str>, Option<u32>),
-    conditions: &[QuantityBounds],
-) -> Result<(Vec<usize>, Vec<usize>), StepError> {
-    let phase = CountedPhase::in_phase(world, name, number)?;
-    let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
-    let mut all = of_phase.clone();
-    for (of, [above, below]) in conditions {
-        let (value, _) = of.values(world)?;
-        all.retain(|k| value(*k) > *above && value(*k) < *below);
-    }
-    Ok((all, of_phase))
-}
-
 /// A column of a measurement: reduced/`scale` + `spacings` · δr.
 pub(crate) struct PlannedColumn {
     pub suffix: String,
@@ -137,7 +118,23 @@ impl<P: Preset> MeasuringProbe<P> {
         }
     }
 
-    /// The columns of the particles of some numbers, of a phase with so much weight.
+    /// The numbers of the particles of the phase that fulfil all conditions, and of all particles of the phase.
+    fn counted<const D: usize>(
+        &self,
+        world: &World<D>,
+        plan: &Plan<'_>,
+    ) -> Result<(Vec<usize>, Vec<usize>), StepError> {
+        let phase = CountedPhase::in_phase(world, plan.phase, self.number)?;
+        let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
+        let mut all = of_phase.clone();
+        for (of, [above, below]) in &plan.conditions {
+            let (value, _) = of.values(world)?;
+            all.retain(|k| value(*k) > *above && value(*k) < *below);
+        }
+        Ok((all, of_phase))
+    }
+
+    /// The columns of the particles that count, of a phase with so much weight.
     fn reduced<const D: usize>(
         &self,
         world: &World<D>,
@@ -210,8 +207,7 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let plan = self.preset.plan(D);
-        let phase = (plan.phase, self.number);
-        let (all, of_phase) = counted(world, phase, &plan.conditions)?;
+        let (all, of_phase) = self.counted(world, &plan)?;
         let mut columns = self.reduced(world, &plan, (&all, &of_phase))?;
         if let Some(axis) = plan.fitted {
             let (value, _) = plan.columns[0].of.values(world)?;
@@ -245,7 +241,7 @@ impl<const D: usize, P: Preset> Curves<D> for MeasuringProbe<P> {
             return Ok(Vec::new());
         };
         let (axis, width) = (axis.min(D - 1), spacings * world.spacing);
-        let (all, of_phase) = counted(world, (plan.phase, self.number), &plan.conditions)?;
+        let (all, of_phase) = self.counted(world, &plan)?;
         let positions = world.free.get(fields::POSITION)?;
         let slice = |k: &usize| (positions[*k][axis] / width).floor() as i64;
         let mut slices: std::collections::BTreeMap<i64, Vec<usize>> = Default::default();
