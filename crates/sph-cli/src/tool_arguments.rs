@@ -34,14 +34,14 @@ pub struct MeasureArguments {
         value_name = "HOW,…",
         value_delimiter = ',',
         default_value = "mean",
-        value_parser = named(&Reduction::ALL, Reduction::name)
+        value_parser = named(&Reduction::ALL)
     )]
     pub reduce: Vec<Reduction>,
     /// Shares q: the least value that a share q of the weight does not exceed
     #[arg(long, value_name = "Q,…", value_delimiter = ',', value_parser = share)]
     pub quantile: Vec<f64>,
     /// The weight of a particle
-    #[arg(long, default_value = "one", value_parser = named(&Weight::ALL, Weight::name))]
+    #[arg(long, default_value = "one", value_parser = named(&Weight::ALL))]
     pub weight: Weight,
     /// Name of the phase whose particles count [default: all]
     #[arg(long, value_name = "NAME")]
@@ -62,13 +62,12 @@ pub struct MeasureArguments {
 
 /// One of some values by its name.
 fn named<T: Copy + Default + Send + Sync + 'static>(
-    all: &'static [T],
-    name: fn(T) -> &'static str,
+    all: &'static [(T, &'static str)],
 ) -> impl TypedValueParser<Value = T> {
-    let names = PossibleValuesParser::new(all.iter().map(|one| name(*one)));
-    let of = move |given| all.iter().copied().find(|one| name(*one) == given);
+    let names = PossibleValuesParser::new(all.iter().map(|(_, name)| *name));
+    let of = move |given| all.iter().find(|(_, name)| *name == given);
     // The parser knows the names.
-    names.map(move |given| of(given).unwrap_or_default())
+    names.map(move |given| of(given).map_or_else(T::default, |(one, _)| *one))
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -37,6 +37,8 @@ const HEADER: u64 = 64 << 20;
 const COLUMNS: usize = 10_000;
 /// Bytes of the checksum at the end.
 const SUFFIX: u64 = 4;
+/// Bytes converted at a time.
+const CHUNK: usize = 1 << 16;
 
 /// A run's state: metadata and columns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -117,44 +119,25 @@ pub enum CheckpointFault {
     /// The file does not start like a checkpoint.
     #[error("this is not a checkpoint")]
     NotACheckpoint,
-    /// The format is of another version.
-    #[error("the format has version {found}, only version {supported} can be read")]
-    Version {
-        /// Version found.
-        found: u32,
-        /// Version this crate reads.
-        supported: u32,
-    },
-    /// The file does not have the length it states.
-    #[error("the file has {found} bytes instead of {expected}")]
-    Length {
-        /// Length stated by the file, or the least a checkpoint has, in bytes.
-        expected: u64,
-        /// Length of the file in bytes.
-        found: u64,
-    },
+    /// The format is of another version, this one.
+    #[error("the format has version {0}, only version {known} can be read", known = VERSION)]
+    Version(u32),
+    /// The file does not have the length it states: that or the least that a checkpoint has, and the length of the file,
+    /// bytes.
+    #[error("the file has {1} bytes instead of {0}")]
+    Length(u64, u64),
     /// The header states sizes that do not add up to the file's length.
     #[error("the sizes in the header do not add up: {0}")]
     Sizes(String),
     /// The header passes its checksum but cannot be understood.
     #[error("the header cannot be understood: {0}")]
     Header(String),
-    /// Bytes of the header have changed.
-    #[error("the header is damaged: its checksum is {found:08x} instead of {expected:08x}")]
-    HeaderChecksum {
-        /// Checksum stored.
-        expected: u32,
-        /// Checksum of the contents.
-        found: u32,
-    },
-    /// Bytes of the file have changed.
-    #[error("the data are damaged: the checksum is {found:08x} instead of {expected:08x}")]
-    Checksum {
-        /// Checksum stored.
-        expected: u32,
-        /// Checksum of the contents.
-        found: u32,
-    },
+    /// Bytes of the header have changed: the checksum stored, and that of the contents.
+    #[error("the header is damaged: its checksum is {1:08x} instead of {0:08x}")]
+    HeaderChecksum(u32, u32),
+    /// Bytes of the file have changed: the checksum stored, and that of the contents.
+    #[error("the data are damaged: the checksum is {1:08x} instead of {0:08x}")]
+    Checksum(u32, u32),
 }
 
 /// Type of a column in the header.

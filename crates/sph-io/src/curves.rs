@@ -11,7 +11,7 @@
 //!
 //! Values between particles are those of a linear fit, exact for linear fields: [`Cloud`].
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use crate::IoError;
 
@@ -29,6 +29,9 @@ pub use snapshot::{Column, Snapshot};
 pub use streamline::{draw_streamlines, streamlines};
 pub use track::{Track, draw_tracks, evenly, nearest, tracks};
 
+/// Result of drawings.
+type Result<T> = std::result::Result<T, DrawError>;
+
 /// Errors of drawings.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -36,33 +39,24 @@ pub enum DrawError {
     /// A file cannot be read or written.
     #[error(transparent)]
     Io(#[from] IoError),
-    /// A folder without frames.
-    #[error("{} holds no frames of particles", .0.display())]
-    NoFrames(PathBuf),
-    /// A field that the frames do not have.
-    #[error(
-        "no field `{name}` was written (there are: {known}); name it in output.fields and run again"
-    )]
-    NoField {
-        /// The request.
-        name: String,
-        /// The known names.
-        known: String,
-    },
-    /// A component that the field does not have.
-    #[error("`{name}` has {components} components, and no `{component}`")]
-    NoComponent {
-        /// The field.
-        name: String,
-        /// Its number of components.
-        components: usize,
-        /// The request.
-        component: String,
-    },
-    /// A particle that no frame has.
-    #[error("no frame has a particle of identity {0}")]
-    NoParticle(u32),
-    /// Something that cannot be drawn.
+    /// Something that cannot be drawn: the reason.
     #[error("{0}")]
     Unfit(String),
+}
+
+/// Columns of a place.
+const PLACE: [(&str, &str); 3] = [("x", "m"), ("y", "m"), ("z", "m")];
+
+/// Writes a table beside a picture.
+fn write_beside<'c>(
+    picture: &Path,
+    columns: impl IntoIterator<Item = (&'c str, &'c str)>,
+    rows: impl Iterator<Item = Vec<f64>>,
+) -> Result<()> {
+    let rows: Vec<Vec<f64>> = rows.collect();
+    Ok(crate::write_table(
+        picture.with_extension("csv"),
+        columns,
+        &rows,
+    )?)
 }

@@ -48,28 +48,13 @@ pub enum IoError {
     /// A value cannot be expressed as JSON.
     #[error("cannot write {} as JSON: {}", .0.display(), .1)]
     Json(PathBuf, #[source] serde_json::Error),
-    /// A table does not read as columns of numbers.
-    #[error("{}, line {line}: {problem}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// Line number, from 1.
-        line: usize,
-        /// The fault, naming the column.
-        problem: String,
-    },
-    /// A series on disk ends before the place where it is to be continued.
-    #[error("{} holds {found} {what} but is to be continued after {expected}", path.display())]
-    TooShort {
-        /// The file.
-        path: PathBuf,
-        /// Unit of the count: `bytes` or `output times`.
-        what: &'static str,
-        /// The length recorded when the run was interrupted.
-        expected: u64,
-        /// The length found.
-        found: u64,
-    },
+    /// A table does not read as columns of numbers: the line, from 1, and the fault, naming the column.
+    #[error("{}, line {}: {}", .0.display(), .1, .2)]
+    Table(PathBuf, usize, String),
+    /// A series on disk ends before the place where it is to be continued: its length, in `bytes` or `output times`, and
+    /// that which was recorded when the run was interrupted.
+    #[error("{} holds {} {} but is to be continued after {}", .0.display(), .1, .2, .3)]
+    TooShort(PathBuf, u64, &'static str, u64),
     /// A file that is to be continued is not of the form that this crate writes.
     #[error("cannot continue {}: {}", .0.display(), .1)]
     Malformed(PathBuf, String),

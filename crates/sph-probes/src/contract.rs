@@ -30,6 +30,14 @@ impl ProbeColumn {
         all.iter().map(named).collect()
     }
 
+    /// The components of a rotation: one in the plane, three in space.
+    pub fn turns(dimension: usize, unit: &'static str) -> Vec<ProbeColumn> {
+        match dimension {
+            2 => ProbeColumn::only(unit),
+            _ => ProbeColumn::components(dimension, unit),
+        }
+    }
+
     /// The components of a vector in so many dimensions.
     pub fn components(dimension: usize, unit: &'static str) -> Vec<ProbeColumn> {
         ProbeColumn::several(&[(".x", unit), (".y", unit), (".z", unit)][..dimension])

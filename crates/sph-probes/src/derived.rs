@@ -2,8 +2,9 @@
 //!
 //! A scene without them has no column, no stage and no velocity gradient for their sake.
 
-use nalgebra::SMatrix;
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, Vector, fields};
+use sph_core::{
+    Access, Declares, Field, Kind, Scalar, Stage, StepError, Store, Tensor, Vect, Vector, fields,
+};
 use sph_neighbours::World;
 
 /// Length of the velocity.
@@ -44,111 +45,93 @@ pub fn needs_gradient(name: &str) -> bool {
     OF_GRADIENTS.contains(&name)
 }
 
-/// Derived quantities and their formulas.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Derived {
-    Speed,
-    Vorticity,
-    QCriterion,
-    ShearStress,
-}
-
-const ALL: [(Derived, &str); 4] = [
-    (Derived::Speed, SPEED.name),
-    (Derived::Vorticity, VORTICITY.name),
-    (Derived::QCriterion, Q_CRITERION.name),
-    (Derived::ShearStress, SHEAR_STRESS.name),
-];
-
 /// Names of the fields on request besides those that the plugins of a scene write.
 pub fn derived_fields() -> impl Iterator<Item = &'static str> {
-    ALL.iter().map(|(_, name)| *name)
+    let all = [SPEED, VORTICITY, Q_CRITERION, SHEAR_STRESS];
+    all.into_iter().map(|field| field.name)
 }
 
 /// The stages of the fields that are `shown`, and no others.
 pub fn derived_stages<const D: usize>(shown: &[String]) -> Vec<Box<dyn Stage<World<D>>>> {
-    let wanted = ALL
-        .iter()
-        .filter(|(_, name)| shown.iter().any(|s| s == name));
-    wanted
-        .map(|(what, _)| Box::new(DerivedStage::<D>(*what)) as Box<dyn Stage<World<D>>>)
-        .collect()
+    let is_shown = |stage: &DerivedStage<D>| shown.iter().any(|s| s == stage.name_of_field());
+    let wanted = all().into_iter().filter(is_shown);
+    wanted.map(|stage| Box::new(stage) as _).collect()
 }
 
+/// Writes a field from others of the same particles.
+type Formula<const D: usize> = Box<dyn Fn(&mut Store<D>) -> Result<(), StepError> + Send>;
+
+/// ∇u, 1/s.
+type Gradient<const D: usize> = <Tensor as Kind>::Item<D>;
+
 /// The stage of one field.
-struct DerivedStage<const D: usize>(Derived);
+struct DerivedStage<const D: usize> {
+    access: Access,
+    formula: Formula<D>,
+}
+
+fn all<const D: usize>() -> [DerivedStage<D>; 4] {
+    let gradient = fields::VELOCITY_GRADIENT;
+    let vorticity = match D {
+        2 => of_one(gradient, VORTICITY, |g: &Gradient<D>| g[(1, 0)] - g[(0, 1)]),
+        _ => of_one(gradient, VORTICITY_IN_SPACE, |g: &Gradient<D>| {
+            Vect::from_fn(|k, _| g[((k + 2) % 3, (k + 1) % 3)] - g[((k + 1) % 3, (k + 2) % 3)])
+        }),
+    };
+    let viscosity = Access::none().here(fields::VISCOSITY);
+    let shear_stress = DerivedStage {
+        access: viscosity.here(fields::STRAIN_RATE).writes(SHEAR_STRESS),
+        formula: Box::new(|free| {
+            let rates = free.get(fields::STRAIN_RATE)?;
+            let both = free.get(fields::VISCOSITY)?.iter().zip(rates);
+            let stress = both.map(|(eta, rate)| eta * rate).collect();
+            Ok(free.put(SHEAR_STRESS, stress)?)
+        }),
+    };
+    [
+        of_one(fields::VELOCITY, SPEED, |u: &Vect<D>| u.norm()),
+        vorticity,
+        // |Ω|² − |S|² = −Σ G_ij G_ji, since the mixed terms cancel.
+        of_one(gradient, Q_CRITERION, |g: &Gradient<D>| {
+            -0.5 * (g * g).trace()
+        }),
+        shear_stress,
+    ]
+}
+
+/// The stage of a field that follows from one other.
+fn of_one<const D: usize, F: Kind + Send, K: Kind + Send>(
+    from: Field<F>,
+    field: Field<K>,
+    formula: fn(&F::Item<D>) -> K::Item<D>,
+) -> DerivedStage<D> {
+    DerivedStage {
+        access: Access::none().here(from).writes(field),
+        formula: Box::new(move |free| {
+            let values = free.get(from)?.iter().map(formula).collect();
+            Ok(free.put(field, values)?)
+        }),
+    }
+}
 
 impl<const D: usize> DerivedStage<D> {
-    fn written(&self) -> AnyField {
-        match (self.0, D) {
-            (Derived::Speed, _) => SPEED.any(),
-            (Derived::Vorticity, 2) => VORTICITY.any(),
-            (Derived::Vorticity, _) => VORTICITY_IN_SPACE.any(),
-            (Derived::QCriterion, _) => Q_CRITERION.any(),
-            (Derived::ShearStress, _) => SHEAR_STRESS.any(),
-        }
+    fn name_of_field(&self) -> &'static str {
+        self.access.writes[0].name
     }
 }
 
 impl<const D: usize> Declares for DerivedStage<D> {
     fn name(&self) -> String {
-        self.written().name.replace('_', " ")
+        self.name_of_field().replace('_', " ")
     }
     fn access(&self) -> Access {
-        let mut access = match self.0 {
-            Derived::Speed => Access::none().here(fields::VELOCITY),
-            Derived::Vorticity | Derived::QCriterion => {
-                Access::none().here(fields::VELOCITY_GRADIENT)
-            }
-            Derived::ShearStress => Access::none()
-                .here(fields::VISCOSITY)
-                .here(fields::STRAIN_RATE),
-        };
-        access.writes.push(self.written());
-        access
+        self.access.clone()
     }
 }
 
 impl<const D: usize> Stage<World<D>> for DerivedStage<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let free = &mut world.free;
-        let gradients = |world: &sph_core::Store<D>, f: fn(&SMatrix<f64, D, D>) -> f64| {
-            let all = world.get(fields::VELOCITY_GRADIENT)?;
-            Ok::<Vec<f64>, StepError>(all.iter().map(f).collect())
-        };
-        match (self.0, D) {
-            (Derived::Speed, _) => {
-                let speed = free.get(fields::VELOCITY)?.iter().map(|u| u.norm());
-                let speed = speed.collect();
-                free.put(SPEED, speed)?;
-            }
-            (Derived::Vorticity, 2) => {
-                let turning = gradients(free, |g| g[(1, 0)] - g[(0, 1)])?;
-                free.put(VORTICITY, turning)?;
-            }
-            (Derived::Vorticity, _) => {
-                let all = free.get(fields::VELOCITY_GRADIENT)?.iter();
-                let turning = all.map(|g| {
-                    let around =
-                        |k: usize| (g[((k + 2) % 3, (k + 1) % 3)], g[((k + 1) % 3, (k + 2) % 3)]);
-                    sph_core::Vect::from_fn(|k, _| around(k).0 - around(k).1)
-                });
-                let turning = turning.collect();
-                free.put(VORTICITY_IN_SPACE, turning)?;
-            }
-            (Derived::QCriterion, _) => {
-                // |Ω|² − |S|² = −Σ G_ij G_ji, since the mixed terms cancel.
-                let q = gradients(free, |g| -0.5 * (g * g).trace())?;
-                free.put(Q_CRITERION, q)?;
-            }
-            (Derived::ShearStress, _) => {
-                let viscosity = free.get(fields::VISCOSITY)?.iter();
-                let both = viscosity.zip(free.get(fields::STRAIN_RATE)?);
-                let stress = both.map(|(eta, rate)| eta * rate).collect();
-                free.put(SHEAR_STRESS, stress)?;
-            }
-        }
-        Ok(())
+        (self.formula)(&mut world.free)
     }
 }
 

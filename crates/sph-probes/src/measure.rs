@@ -6,5 +6,5 @@ pub(crate) mod presets;
 pub(crate) mod quantity;
 mod reduction;
 
-pub use plugin::{Statistic, Weight};
+pub use plugin::Weight;
 pub use reduction::{Reduce, Reduction, WeightedValues};

@@ -199,8 +199,11 @@ pub fn slope(x: &[f64], y: &[f64]) -> f64 {
     xy / xx
 }
 
-/// Slope of the least-squares line of y over x, and the root mean square of y about it.
+/// Slope of the least-squares line of y over x, and the root mean square of y about it; NaN of fewer than three points.
 pub fn line(x: &[f64], y: &[f64]) -> [f64; 2] {
+    if x.len() < 3 {
+        return [f64::NAN; 2];
+    }
     let slope = slope(x, y);
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let (mx, my) = (mean(x), mean(y));

@@ -5,17 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_neighbours::World;
 
-/// Sums at a point.
-#[derive(Clone, Copy, Debug)]
-pub struct Interpolated<const D: usize> {
-    /// Σ V w: 1 deep inside the fluid, 0 where there is none.
-    pub filling: f64,
-    /// Σ V [p + ρ (g − A)·(x − r)] w / Σ V w, Pa: exact at rest, and in a tank that is accelerated, where the smoother
-    /// has the mean accelerations A.
-    pub pressure: f64,
-    /// Σ V u w / Σ V w, m/s.
-    pub velocity: Vect<D>,
-}
+use crate::surface::images_of;
 
 /// The free particles within the support of a place, by number, with the way from them to it and V w.
 ///
@@ -23,7 +13,7 @@ pub struct Interpolated<const D: usize> {
 ///
 /// # Errors
 /// If a column is missing.
-pub(crate) fn around<const D: usize>(
+fn around<const D: usize>(
     world: &World<D>,
     x: Vect<D>,
 ) -> Result<impl Iterator<Item = (usize, Vect<D>, f64)>, StepError> {
@@ -37,34 +27,22 @@ pub(crate) fn around<const D: usize>(
     }))
 }
 
-/// Sums over all free particles within the support of `x`.
+/// Σ V q w / Σ V w at a place, of a quantity q by the number of a particle and the way from it; zero where there is no
+/// particle.
 ///
 /// # Errors
 /// If a column is missing.
-pub fn interpolate<const D: usize>(
+pub(crate) fn mean_around<const D: usize, const N: usize>(
     world: &World<D>,
-    x: &Vect<D>,
-) -> Result<Interpolated<D>, StepError> {
-    let velocity = world.free.get(fields::VELOCITY)?;
-    let pressure = world.free.get(fields::PRESSURE)?;
-    let density = world.free.get(fields::DENSITY)?;
-    let acceleration = world.free.get(fields::MEAN_ACCELERATION).ok();
-    let mut sum = Interpolated {
-        filling: 0.0,
-        pressure: 0.0,
-        velocity: Vect::zeros(),
-    };
-    for (j, d, vw) in around(world, *x)? {
-        sum.filling += vw;
-        let inertia = acceleration.map_or(Vect::zeros(), |a| a[j]);
-        sum.pressure += vw * (pressure[j] + density[j] * (world.gravity - inertia).dot(&d));
-        sum.velocity += velocity[j] * vw;
+    x: Vect<D>,
+    quantity: impl Fn(usize, &Vect<D>) -> Vect<N>,
+) -> Result<Vect<N>, StepError> {
+    let (mut filling, mut sum) = (0.0, Vect::zeros());
+    for (j, d, vw) in around(world, x)? {
+        filling += vw;
+        sum += quantity(j, &d) * vw;
     }
-    if sum.filling > 0.0 {
-        sum.pressure /= sum.filling;
-        sum.velocity /= sum.filling;
-    }
-    Ok(sum)
+    Ok(if filling > 0.0 { sum / filling } else { sum })
 }
 
 /// A particle, or its image beyond a periodic border.
@@ -98,33 +76,15 @@ impl NearbyParticles {
         let radius = world.kernel.support_radius();
         let margin = Vect::repeat(radius * supports as f64);
         let (corner, far) = (low - margin, high + margin);
-        let turns = |axis: usize| {
-            if world.domain.periodic[axis] {
-                -1..=1
-            } else {
-                0..=0
-            }
-        };
+        let inside = |x: &Vect<2>| (0..2).all(|k| (corner[k]..=far[k]).contains(&x[k]));
         let mut images = Vec::new();
         for (number, (x, &volume)) in positions.iter().zip(volumes).enumerate() {
-            for i in turns(0) {
-                for j in turns(1) {
-                    let mut position = *x;
-                    for (axis, turns) in [(0, i), (1, j)] {
-                        if turns != 0 {
-                            position[axis] += f64::from(turns) * world.domain.length(axis);
-                        }
-                    }
-                    let inside = |k: usize| (corner[k]..=far[k]).contains(&position[k]);
-                    if inside(0) && inside(1) {
-                        images.push(Image {
-                            position,
-                            volume,
-                            number,
-                        });
-                    }
-                }
-            }
+            let near = images_of(world, *x).into_iter().filter(inside);
+            images.extend(near.map(|position| Image {
+                position,
+                volume,
+                number,
+            }));
         }
         let places = images.iter().map(|image| (image.position - corner).into());
         let cells = PlaceCells::new(radius, places.zip(0..));
@@ -133,11 +93,6 @@ impl NearbyParticles {
             cells,
             corner,
         })
-    }
-
-    /// True if there are none.
-    pub fn is_empty(&self) -> bool {
-        self.images.is_empty()
     }
 
     /// Numbers of the particles, in the order in which the values of a mean are to be given.

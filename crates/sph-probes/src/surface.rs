@@ -35,7 +35,7 @@ pub fn surface_distance<const D: usize>(world: &World<D>) -> Result<Vec<f64>, St
     let positions = world.free.get(fields::POSITION)?;
     let surface = at_surface(world)?;
     let found = positions.iter().zip(&surface).filter(|(_, s)| **s);
-    let places: Vec<Vect<D>> = found.flat_map(|(x, _)| images(world, *x)).collect();
+    let places: Vec<Vect<D>> = found.flat_map(|(x, _)| images_of(world, *x)).collect();
     let tree = BoxTree::new(places.iter().map(|place| [(*place).into(); 2]).collect());
     let half = 0.5 * world.spacing;
     let distance = |x: &Vect<D>| {
@@ -48,7 +48,7 @@ pub fn surface_distance<const D: usize>(world: &World<D>) -> Result<Vec<f64>, St
 }
 
 /// A place and its images beyond periodic borders.
-fn images<const D: usize>(world: &World<D>, x: Vect<D>) -> Vec<Vect<D>> {
+pub(crate) fn images_of<const D: usize>(world: &World<D>, x: Vect<D>) -> Vec<Vect<D>> {
     let mut all = vec![x];
     for axis in (0..D).filter(|a| world.domain.periodic[*a]) {
         let length = world.domain.length(axis);

@@ -8,14 +8,11 @@ use flate2::CrcReader;
 use serde_json::Value;
 
 use super::{
-    COLUMNS, Checkpoint, CheckpointFault as Fault, Column, ColumnData, HEADER, Header, Kind, MAGIC,
-    PREFIX, SUFFIX, Shape, VERSION,
+    CHUNK, COLUMNS, Checkpoint, CheckpointFault as Fault, Column, ColumnData, HEADER, Header, Kind,
+    MAGIC, PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
 use crate::files::folder::readable;
-
-/// Bytes converted at a time.
-const CHUNK: usize = 1 << 16;
 
 impl Checkpoint {
     /// Reads the checkpoint at `path`; any damage is an error that names the
@@ -47,10 +44,7 @@ impl Checkpoint {
         read.map_err(|trouble| match trouble {
             ReadFault::Fault(fault) => fault,
             // Sizes are checked first, so that there is always enough to read.
-            ReadFault::Read(_) => Fault::Length {
-                expected: PREFIX + SUFFIX,
-                found: length,
-            },
+            ReadFault::Read(_) => Fault::Length(PREFIX + SUFFIX, length),
         })
     }
 }
@@ -80,7 +74,7 @@ impl<R: Read> Source<R> {
         let found = self.input.crc().sum();
         let expected = u32::from_le_bytes(self.take()?);
         if found != expected {
-            return Err(Fault::Checksum { expected, found }.into());
+            return Err(Fault::Checksum(expected, found).into());
         }
         Ok(Checkpoint {
             meta: header.meta,
@@ -95,19 +89,17 @@ impl<R: Read> Source<R> {
         if found < MAGIC.len() as u64 || self.take()? != MAGIC {
             return Err(Fault::NotACheckpoint.into());
         }
-        let short = |expected| Fault::Length { expected, found };
         if found < least {
-            return Err(short(least).into());
+            return Err(Fault::Length(least, found).into());
         }
         let version = u32::from_le_bytes(self.take()?);
         if version != VERSION {
-            let (found, supported) = (version, VERSION);
-            return Err(Fault::Version { found, supported }.into());
+            return Err(Fault::Version(version).into());
         }
         let sum = u32::from_le_bytes(self.take()?);
         let stated = u64::from_le_bytes(self.take()?);
         if stated != found {
-            return Err(short(stated).into());
+            return Err(Fault::Length(stated, found).into());
         }
         let size = u64::from_le_bytes(self.take()?);
         let room = found - least;
@@ -122,8 +114,7 @@ impl<R: Read> Source<R> {
         let text = self.bytes(size)?;
         let actual = crc32fast::hash(&text);
         if actual != sum {
-            let (expected, found) = (sum, actual);
-            return Err(Fault::HeaderChecksum { expected, found }.into());
+            return Err(Fault::HeaderChecksum(sum, actual).into());
         }
         let header: Header<Value> =
             serde_json::from_slice(&text).map_err(|e| Fault::Header(e.to_string()))?;

@@ -5,12 +5,9 @@ use std::path::Path;
 
 use flate2::CrcWriter;
 
-use super::{Checkpoint, Column, ColumnData, Header, MAGIC, PREFIX, SUFFIX, Shape, VERSION};
+use super::{CHUNK, Checkpoint, ColumnData, Header, MAGIC, PREFIX, SUFFIX, Shape, VERSION};
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
-
-/// Bytes converted at a time.
-const CHUNK: usize = 1 << 16;
 
 impl Checkpoint {
     /// Writes the checkpoint to `path`, all or nothing, and waits until it is
@@ -52,17 +49,13 @@ impl Checkpoint {
     /// The columns as the header describes them, or the contradiction.
     fn shapes(&self) -> std::result::Result<Vec<Shape>, String> {
         let mut shapes: Vec<Shape> = Vec::with_capacity(self.columns.len());
-        for Column {
-            name,
-            components,
-            data,
-        } in &self.columns
-        {
+        for column in &self.columns {
+            let (name, components, data) = (&column.name, column.components, &column.data);
             let numbers = data.len();
             if shapes.iter().any(|s| s.name == *name) {
                 return Err(format!("two columns are named `{name}`"));
             }
-            if *components == 0 || !numbers.is_multiple_of(*components) {
+            if components == 0 || !numbers.is_multiple_of(components) {
                 return Err(format!(
                     "column `{name}` holds {numbers} numbers, no multiple of {components} components"
                 ));
@@ -70,7 +63,7 @@ impl Checkpoint {
             shapes.push(Shape {
                 name: name.clone(),
                 kind: data.kind(),
-                components: *components as u64,
+                components: components as u64,
                 count: (numbers / components) as u64,
             });
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::curves::{DrawError, Snapshot};
+use crate::curves::{DrawError, Result, Snapshot};
 use crate::{Cells, Piece};
 
 /// One frame: its time and its files.
@@ -36,24 +36,24 @@ impl Frames {
     ///
     /// # Errors
     /// If there are none, or the list or the first frame cannot be read.
-    pub fn from_folder(folder: &Path) -> Result<Self, DrawError> {
+    pub fn from_folder(folder: &Path) -> Result<Self> {
         let mut entries: Vec<Entry> = Vec::new();
         for listed in crate::list_pvd(folder.join("fields.pvd"))? {
             let walls = listed.name == "walls";
             match entries.iter_mut().find(|e| e.time == listed.time) {
                 Some(entry) if walls => entry.walls = Some(listed.path),
-                Some(_) => {}
-                None if walls => {}
-                None => entries.push(Entry {
+                None if !walls => entries.push(Entry {
                     time: listed.time,
                     particles: listed.path,
                     walls: None,
                 }),
+                _ => {}
             }
         }
         entries.sort_by(|a, b| a.time.total_cmp(&b.time));
         let first = entries.first();
-        let first = first.ok_or_else(|| DrawError::NoFrames(folder.to_path_buf()))?;
+        let none = || format!("{} holds no frames of particles", folder.display());
+        let first = first.ok_or_else(|| DrawError::Unfit(none()))?;
         let (piece, _) = crate::read_piece(&first.particles)?;
         let spacing = spacing(&piece.points);
         Ok(Frames { entries, spacing })
@@ -63,11 +63,12 @@ impl Frames {
     pub fn at(&self, time: Option<f64>) -> &Entry {
         let last = &self.entries[self.entries.len() - 1];
         let Some(time) = time else { return last };
-        let apart = |e: &&Entry| (e.time - time).abs();
-        let nearest = self.entries.iter();
-        nearest
-            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
-            .unwrap_or(last)
+        let apart = |e: &Entry| (e.time - time).abs();
+        let nearest = self
+            .entries
+            .iter()
+            .min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        nearest.unwrap_or(last)
     }
 
     /// The range of colours of a field that suits all frames, or twenty of them if there are more: round numbers that hold
@@ -75,7 +76,7 @@ impl Frames {
     ///
     /// # Errors
     /// A field that was not written, a file that cannot be read.
-    pub fn range(&self, field: &str) -> Result<Option<[f64; 2]>, DrawError> {
+    pub fn range(&self, field: &str) -> Result<Option<[f64; 2]>> {
         let every = self.entries.len().div_ceil(FRAMES).max(1);
         let mut values = Vec::new();
         // From the last one back, which is the most frequent request.
@@ -90,7 +91,7 @@ impl Frames {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn read(&self, entry: &Entry) -> Result<Snapshot, DrawError> {
+    pub fn read(&self, entry: &Entry) -> Result<Snapshot> {
         let (piece, time) = crate::read_piece(&entry.particles)?;
         let walls = match &entry.walls {
             Some(path) => drawn(&crate::read_piece(path)?.0, self.spacing),

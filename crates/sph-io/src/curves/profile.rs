@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::curves::{DrawError, Frames, Snapshot};
+use crate::curves::{Frames, PLACE, Result, Snapshot, write_beside};
 use crate::{Plot, Series};
 
 /// A straight line with points on it.
@@ -54,7 +54,7 @@ pub fn draw_profile(
     field: &str,
     times: &[Option<f64>],
     path: &Path,
-) -> Result<(), DrawError> {
+) -> Result<()> {
     let mut plot = Plot {
         x_label: "distance [m]".into(),
         ..Plot::default()
@@ -77,11 +77,6 @@ pub fn draw_profile(
             .push(Series::line(format!("t = {time} s"), points));
     }
     plot.save(path)?;
-    let mut columns = vec![("time", "s"), ("distance", "m")];
-    columns.extend([("x", "m"), ("y", "m"), ("z", "m"), (field, &*unit)]);
-    Ok(crate::write_table(
-        path.with_extension("csv"),
-        columns,
-        &rows,
-    )?)
+    let columns = [("time", "s"), ("distance", "m")].into_iter().chain(PLACE);
+    write_beside(path, columns.chain([(field, &*unit)]), rows.into_iter())
 }

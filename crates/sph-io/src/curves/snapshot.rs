@@ -2,7 +2,7 @@
 
 use sph_core::{Corners, bounds};
 
-use crate::curves::{Cloud, DrawError};
+use crate::curves::{Cloud, DrawError, Result};
 use crate::{FieldValues, Location, Picture, Piece, View};
 
 /// Particles at one time.
@@ -53,7 +53,7 @@ impl Snapshot {
     ///
     /// # Errors
     /// If identities were not written.
-    pub fn identities(&self) -> Result<Vec<u32>, DrawError> {
+    pub fn identities(&self) -> Result<Vec<u32>> {
         match &self.field("identity")?.data {
             FieldValues::U32(v) => Ok(v.to_vec()),
             _ => Err(self.missing("identity")),
@@ -64,7 +64,7 @@ impl Snapshot {
     ///
     /// # Errors
     /// If the velocity was not written.
-    pub fn velocity(&self) -> Result<Vec<f64>, DrawError> {
+    pub fn velocity(&self) -> Result<Vec<f64>> {
         let field = self.field("velocity")?;
         match field.components {
             3 => Ok(field.data.reals()),
@@ -77,7 +77,7 @@ impl Snapshot {
     ///
     /// # Errors
     /// If no such field was written, or it has no such component.
-    pub fn column(&self, asked: &str) -> Result<Column, DrawError> {
+    pub fn column(&self, asked: &str) -> Result<Column> {
         let (name, component) = match asked.split_once('.') {
             Some((name, component)) => (name, Some(component)),
             None => (asked, None),
@@ -91,19 +91,19 @@ impl Snapshot {
         let one = |component: &str| {
             let axis = ["x", "y", "z"].iter().position(|a| *a == component);
             let place = axis.or_else(|| component.parse().ok());
-            place.filter(|k| *k < per).ok_or(DrawError::NoComponent {
-                name: name.into(),
-                components: per,
-                component: component.into(),
+            place.filter(|k| *k < per).ok_or_else(|| {
+                DrawError::Unfit(format!(
+                    "`{name}` has {per} components, and no `{component}`"
+                ))
             })
         };
         let values = match component.map(one).transpose()? {
             Some(k) => all.chunks(per).map(|c| c[k]).collect(),
             None if per == 1 => all,
-            None => all
-                .chunks(per)
-                .map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt())
-                .collect(),
+            None => {
+                let size = |c: &[f64]| c.iter().map(|x| x * x).sum::<f64>().sqrt();
+                all.chunks(per).map(size).collect()
+            }
         };
         let (unit, name) = (field.unit.to_string(), asked.replace(['_', '.'], " "));
         let label = match unit.as_str() {
@@ -117,7 +117,7 @@ impl Snapshot {
         })
     }
 
-    fn field(&self, name: &str) -> Result<&crate::FieldData<'static>, DrawError> {
+    fn field(&self, name: &str) -> Result<&crate::FieldData<'static>> {
         let mut at_points = self.piece.fields.iter();
         at_points
             .find(|f| f.name == name && f.location == Location::Point)
@@ -126,10 +126,10 @@ impl Snapshot {
 
     fn missing(&self, name: &str) -> DrawError {
         let known: Vec<&str> = self.piece.fields.iter().map(|f| f.name.as_ref()).collect();
-        DrawError::NoField {
-            name: name.into(),
-            known: known.join(", "),
-        }
+        let known = known.join(", ");
+        DrawError::Unfit(format!(
+            "no field `{name}` was written (there are: {known}); name it in output.fields and run again"
+        ))
     }
 
     /// The picture of points with values between the walls, to be completed.

@@ -5,7 +5,7 @@ use std::path::Path;
 use sph_core::place_cells::PlaceCells;
 
 use crate::curves::cloud::square;
-use crate::curves::{Cloud, DrawError, Frames};
+use crate::curves::{Cloud, DrawError, Frames, PLACE, Result, write_beside};
 
 /// Length of a step along a line, in spacings.
 const STEP: f64 = 0.25;
@@ -29,11 +29,13 @@ pub fn streamlines(
     flat: usize,
     apart: f64,
 ) -> Vec<Vec<[f64; 3]>> {
+    let (velocities, _) = velocity.as_chunks();
+    let fastest = velocities.iter().map(square).fold(0.0, f64::max).sqrt();
     let flow = Flow {
         cloud,
         velocity,
         flat,
-        still: STILL * fastest(velocity),
+        still: STILL * fastest,
     };
     let speed = |k: u32| square(&flow.own(k));
     let mut seeds: Vec<u32> = (0..cloud.points.len() as u32).collect();
@@ -54,11 +56,6 @@ pub fn streamlines(
         }
     }
     lines
-}
-
-fn fastest(velocity: &[f64]) -> f64 {
-    let (velocities, _) = velocity.as_chunks();
-    velocities.iter().map(square).fold(0.0, f64::max).sqrt()
 }
 
 /// A field of directions.
@@ -170,7 +167,7 @@ pub fn draw_streamlines(
     field: &str,
     (apart, plane): (Option<f64>, Option<f64>),
     path: &Path,
-) -> Result<usize, DrawError> {
+) -> Result<usize> {
     let snapshot = frames.read(frames.at(time))?;
     let (velocity, column) = (snapshot.velocity()?, snapshot.column(field)?);
     let cloud = snapshot.cloud();
@@ -193,9 +190,8 @@ pub fn draw_streamlines(
         }
     }
     if points.is_empty() {
-        return Err(DrawError::Unfit(format!(
-            "there are no particles at y = {level} m"
-        )));
+        let said = format!("there are no particles at y = {level} m");
+        return Err(DrawError::Unfit(said));
     }
     let slice = Cloud::new(&points, snapshot.spacing);
     let lines = streamlines(&slice, &moving, flat, apart);
@@ -209,12 +205,10 @@ pub fn draw_streamlines(
     };
     picture.save(path)?;
     let rows = lines.iter().enumerate().flat_map(|(number, line)| {
-        line.iter()
-            .map(move |[x, y, z]| vec![number as f64, *x, *y, *z])
+        let row = move |[x, y, z]: &[f64; 3]| vec![number as f64, *x, *y, *z];
+        line.iter().map(row)
     });
-    let columns = [("line", "1"), ("x", "m"), ("y", "m"), ("z", "m")];
-    let rows: Vec<Vec<f64>> = rows.collect();
-    crate::write_table(path.with_extension("csv"), columns, &rows)?;
+    write_beside(path, [("line", "1")].into_iter().chain(PLACE), rows)?;
     Ok(lines.len())
 }
 

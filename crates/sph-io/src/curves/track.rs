@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::curves::snapshot::finite_bounds;
-use crate::curves::{DrawError, Frames, Snapshot};
+use crate::curves::{DrawError, Frames, PLACE, Result, Snapshot, write_beside};
 
 /// The places of a particle, frame by frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Track {
 ///
 /// # Errors
 /// A frame that cannot be read, an identity that no frame has.
-pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>, DrawError> {
+pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>> {
     let start = |&identity: &u32| Track {
         identity,
         places: Vec::new(),
@@ -34,7 +34,10 @@ pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>, DrawErr
         }
     }
     match all.iter().find(|t| t.places.is_empty()) {
-        Some(lost) => Err(DrawError::NoParticle(lost.identity)),
+        Some(lost) => {
+            let said = format!("no frame has a particle of identity {}", lost.identity);
+            Err(DrawError::Unfit(said))
+        }
         None => Ok(all),
     }
 }
@@ -43,39 +46,32 @@ pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>, DrawErr
 ///
 /// # Errors
 /// If identities were not written, or there is no particle.
-pub fn nearest(snapshot: &Snapshot, place: [f64; 3]) -> Result<u32, DrawError> {
+pub fn nearest(snapshot: &Snapshot, place: [f64; 3]) -> Result<u32> {
     let identities = snapshot.identities()?;
     let apart = |r: &[f64; 3]| (0..3).map(|k| (r[k] - place[k]).powi(2)).sum::<f64>();
     let all = snapshot.points().iter().map(apart).zip(identities);
     let found = all.min_by(|a, b| a.0.total_cmp(&b.0));
-    found
-        .map(|(_, identity)| identity)
-        .ok_or_else(|| DrawError::Unfit("there is no particle".into()))
+    let found = found.map(|(_, identity)| identity);
+    found.ok_or_else(|| DrawError::Unfit("there is no particle".into()))
 }
 
 /// `count` identities, evenly spread over those of a frame.
 ///
 /// # Errors
 /// If identities were not written.
-pub fn evenly(snapshot: &Snapshot, count: usize) -> Result<Vec<u32>, DrawError> {
+pub fn evenly(snapshot: &Snapshot, count: usize) -> Result<Vec<u32>> {
     let mut all = snapshot.identities()?;
     all.sort_unstable();
     let count = count.min(all.len());
-    Ok((0..count)
-        .map(|k| all[(2 * k + 1) * all.len() / (2 * count)])
-        .collect())
+    let at = |k: usize| all[(2 * k + 1) * all.len() / (2 * count)];
+    Ok((0..count).map(at).collect())
 }
 
 /// Draws tracks over a field of the last frame into a picture, `.png`, and writes a table beside it.
 ///
 /// # Errors
 /// A field that was not written, a file that cannot be.
-pub fn draw_tracks(
-    frames: &Frames,
-    tracks: &[Track],
-    field: &str,
-    path: &Path,
-) -> Result<(), DrawError> {
+pub fn draw_tracks(frames: &Frames, tracks: &[Track], field: &str, path: &Path) -> Result<()> {
     let snapshot = frames.read(frames.at(None))?;
     let column = snapshot.column(field)?;
     let along = tracks.iter().flat_map(|t| t.places.iter().map(|(_, x)| x));
@@ -94,19 +90,8 @@ pub fn draw_tracks(
             |(time, [x, y, z]): &(f64, [f64; 3])| vec![f64::from(t.identity), *time, *x, *y, *z];
         t.places.iter().map(row)
     });
-    let columns = [
-        ("identity", "1"),
-        ("time", "s"),
-        ("x", "m"),
-        ("y", "m"),
-        ("z", "m"),
-    ];
-    let rows: Vec<Vec<f64>> = rows.collect();
-    Ok(crate::write_table(
-        path.with_extension("csv"),
-        columns,
-        &rows,
-    )?)
+    let columns = [("identity", "1"), ("time", "s")].into_iter().chain(PLACE);
+    write_beside(path, columns, rows)
 }
 
 /// The pieces of a track between jumps across a periodic border: steps longer than half of everything along an axis.

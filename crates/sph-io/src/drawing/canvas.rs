@@ -54,10 +54,9 @@ impl Canvas {
             for i in columns.clone() {
                 let dx = i as f64 + 0.5 - x;
                 let square = dx * dx + dy * dy;
-                let cover = if square <= solid {
-                    1.0
-                } else {
-                    reach - square.sqrt()
+                let cover = match square <= solid {
+                    true => 1.0,
+                    false => reach - square.sqrt(),
                 };
                 if cover > 0.0 {
                     self.blend([i, j], fill.colour, cover.min(1.0) * opacity);
@@ -68,29 +67,22 @@ impl Canvas {
 
     /// Fills whole pixels.
     pub(crate) fn block(&mut self, rect: Rect, colour: Colour) {
-        let span = |from: f64, to: f64, side: u32| {
-            let end = f64::from(side);
-            from.round().clamp(0.0, end) as usize..to.round().clamp(0.0, end) as usize
-        };
-        let columns = span(rect.left, rect.right, self.map.width());
-        for j in span(rect.top, rect.bottom, self.map.height()) {
-            for i in columns.clone() {
-                self.blend([i, j], colour, 1.0);
-            }
+        let [left, top, right, bottom] =
+            [rect.left, rect.top, rect.right, rect.bottom].map(|x| x.round() as f32);
+        if let Some(rect) = tiny_skia::Rect::from_ltrb(left, top, right, bottom) {
+            let paint = paint(Fill::solid(colour));
+            self.map
+                .fill_rect(rect, &paint, Transform::identity(), None);
         }
     }
 
-    /// Fills a pixel.
-    pub(crate) fn dot(&mut self, [i, j]: [usize; 2], colour: Colour) {
+    /// Mixes a colour into a pixel, if it is one of the image.
+    pub(crate) fn blend(&mut self, [i, j]: [usize; 2], Colour(colour): Colour, cover: f64) {
         let (width, height) = (self.map.width() as usize, self.map.height() as usize);
-        if i < width && j < height {
-            self.blend([i, j], colour, 1.0);
+        if i >= width || j >= height {
+            return;
         }
-    }
-
-    /// Mixes a colour into a pixel of the image.
-    fn blend(&mut self, [i, j]: [usize; 2], Colour(colour): Colour, cover: f64) {
-        let at = 4 * (j * self.map.width() as usize + i);
+        let at = 4 * (j * width + i);
         let part = (cover * 256.0) as u32;
         let pixel = &mut self.map.data_mut()[at..at + 3];
         for (old, new) in pixel.iter_mut().zip(colour) {
@@ -101,12 +93,7 @@ impl Canvas {
 
     /// The whole image.
     pub(crate) fn bounds(&self) -> Rect {
-        Rect {
-            left: 0.0,
-            top: 0.0,
-            right: f64::from(self.map.width()),
-            bottom: f64::from(self.map.height()),
-        }
+        Rect::sized([self.map.width(), self.map.height()])
     }
 }
 
@@ -149,22 +136,18 @@ impl DrawTarget for Canvas {
             Anchor::End => 1.0,
         };
         let back = share * text::width(text, lettering.size);
-        let (x, y) = if lettering.upwards {
-            (at[0], at[1] + back)
-        } else {
-            (at[0] - back, at[1])
-        };
-        let (x, y) = (x.round() as i32, y.round() as i32);
-        let (width, height) = (self.map.width() as i32, self.map.height() as i32);
+        let [x, y] = match lettering.upwards {
+            true => [at[0], at[1] + back],
+            false => [at[0] - back, at[1]],
+        }
+        .map(|x| x.round() as i32);
         text::pixels(text, lettering.size, |right, down, cover| {
-            let (i, j) = if lettering.upwards {
-                (x + down, y - right)
-            } else {
-                (x + right, y + down)
+            let pixel = match lettering.upwards {
+                true => [x + down, y - right],
+                false => [x + right, y + down],
             };
-            if (0..width).contains(&i) && (0..height).contains(&j) {
-                self.blend([i as usize, j as usize], Colour::INK, f64::from(cover));
-            }
+            // Negative ones become larger than any image.
+            self.blend(pixel.map(|k| k as usize), Colour::INK, f64::from(cover));
         });
     }
 }

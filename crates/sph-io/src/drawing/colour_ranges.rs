@@ -89,37 +89,27 @@ mod tests {
         let mut values: Vec<f64> = (0..300).map(|k| f64::from(k) * 10.0).collect();
         values.extend([-1e5, f64::NAN, f64::INFINITY]);
         let mut ranges = ColourRanges::default();
-        assert_eq!(
-            ranges.next("pressure", &values),
-            Some(([0.0, 3000.0], false))
-        );
+        let first = ranges.next("pressure", &values);
+        assert_eq!(first, Some(([0.0, 3000.0], false)));
         // Alike in all later pictures that it holds, also after a restart.
         let text = serde_json::to_string(&ranges).expect("text");
         let mut again: ColourRanges = serde_json::from_str(&text).expect("read");
-        assert_eq!(
-            again.next("pressure", &[0.0, 1.0]),
-            Some(([0.0, 3000.0], false))
-        );
+        assert_eq!(again.next("pressure", &[0.0, 1.0]), first);
     }
 
     #[test]
     fn a_range_grows_in_few_steps_and_keeps_the_end_that_holds() {
         let mut ranges = ColourRanges::default();
+        let mut next = |field, values: [f64; 2]| ranges.next(field, &values).expect("a range");
         let mut wider = 0;
         for k in 1..=1000 {
-            let (range, grown) = ranges.next("u", &[0.0, f64::from(k)]).expect("a range");
+            let (range, grown) = next("u", [0.0, f64::from(k)]);
             assert_eq!(range[0], 0.0);
             wider += usize::from(grown);
         }
         assert!((5..=11).contains(&wider), "{wider}");
-        assert_eq!(
-            ranges.next("x", &[998.2, 1001.0]),
-            Some(([998.0, 1001.0], false))
-        );
-        assert_eq!(
-            ranges.next("x", &[990.0, 1001.0]),
-            Some(([981.0, 1001.0], true))
-        );
-        assert_eq!(ranges.next("y", &[-3.0, 3.0]), Some(([-3.0, 3.0], false)));
+        assert_eq!(next("x", [998.2, 1001.0]), ([998.0, 1001.0], false));
+        assert_eq!(next("x", [990.0, 1001.0]), ([981.0, 1001.0], true));
+        assert_eq!(next("y", [-3.0, 3.0]), ([-3.0, 3.0], false));
     }
 }

@@ -93,6 +93,16 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
+    /// One from the corner on.
+    pub(crate) fn sized([width, height]: [u32; 2]) -> Self {
+        Self {
+            left: 0.0,
+            top: 0.0,
+            right: f64::from(width),
+            bottom: f64::from(height),
+        }
+    }
+
     pub(crate) fn width(&self) -> f64 {
         self.right - self.left
     }
@@ -126,14 +136,11 @@ impl Rect {
             (d[1], self.bottom - a[1]),
         ];
         for (speed, room) in sides {
-            if speed == 0.0 {
-                if room < 0.0 {
-                    return None;
-                }
-            } else if speed < 0.0 {
-                from = from.max(room / speed);
-            } else {
-                to = to.min(room / speed);
+            match speed {
+                0.0 if room < 0.0 => return None,
+                0.0 => {}
+                _ if speed < 0.0 => from = from.max(room / speed),
+                _ => to = to.min(room / speed),
             }
         }
         let at = |t: f64| [a[0] + t * d[0], a[1] + t * d[1]];
@@ -147,12 +154,7 @@ mod tests {
 
     #[test]
     fn lines_are_clipped_to_the_rectangle() {
-        let rect = Rect {
-            left: 0.0,
-            top: 0.0,
-            right: 2.0,
-            bottom: 1.0,
-        };
+        let rect = Rect::sized([2, 1]);
         let through = rect.clipped([-1.0, 0.5], [3.0, 0.5]);
         assert_eq!(through, Some([[0.0, 0.5], [2.0, 0.5]]));
         assert_eq!(rect.clipped([-1.0, 2.0], [3.0, 2.0]), None);

@@ -6,55 +6,37 @@ use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect
 use crate::drawing::mark::{Mark, Style};
 use crate::drawing::text;
 
-/// Names and samples of the series that have a name.
-pub(crate) struct Legend<'a> {
-    marks: Vec<&'a Mark<'a>>,
-    place: Rect,
-    size: f64,
-}
-
-impl<'a> Legend<'a> {
-    pub(crate) fn new(marks: &'a [Mark<'a>], axes: &Axes) -> Self {
-        let size = 0.92 * axes.size;
-        let named: Vec<&Mark> = marks.iter().filter(|m| m.is_named()).collect();
-        let names = named.iter().map(|m| m.series.name.as_str());
-        let width = text::widest(names, size) + 4.2 * size;
-        let height = (1.45 * named.len() as f64 + 0.5) * size;
-        // Grey lines are covered rather than those in the legend.
-        let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);
-        let spots = [true, false].map(spots);
-        let under = |place: &Rect, k: usize| spots[k].iter().filter(|&&s| place.holds(s)).count();
-        let hidden = |place: &Rect| (under(place, 0), under(place, 1));
-        let places = corners(&axes.frame, width, height, 0.6 * size);
-        let place = places.into_iter().min_by_key(hidden);
-        Self {
-            marks: named,
-            place: place.unwrap_or(axes.frame),
-            size,
-        }
+/// Draws names and samples of the series that have a name.
+pub(crate) fn draw_legend(on: &mut dyn DrawTarget, marks: &[Mark], axes: &Axes) {
+    let size = 0.92 * axes.size;
+    let named: Vec<&Mark> = marks.iter().filter(|m| m.is_named()).collect();
+    if named.is_empty() {
+        return;
     }
-
-    pub(crate) fn draw(&self, on: &mut dyn DrawTarget) {
-        if self.marks.is_empty() {
-            return;
-        }
-        let (place, size) = (&self.place, self.size);
-        let paper = Fill {
-            colour: Colour::WHITE,
-            opacity: 0.85,
-        };
-        let [a, b, c, d] = place.corners();
-        on.area(&[a, b, c, d], paper);
-        on.line(&[a, b, c, d, a], Pen::solid(Colour::FAINT, size / 14.0));
-        for (i, mark) in self.marks.iter().enumerate() {
-            let y = place.top + (1.45 * i as f64 + 0.97) * size;
-            let from = [place.left + 0.6 * size, y];
-            let to = [place.left + 2.8 * size, y];
-            mark.draw_sample(on, [from, to], size);
-            let start = Lettering::new(size, Anchor::Start);
-            let at = [place.left + 3.4 * size, y + 0.36 * size];
-            on.text(at, &mark.series.name, start);
-        }
+    let names = named.iter().map(|m| m.series.name.as_str());
+    let width = text::widest(names, size) + 4.2 * size;
+    let height = (1.45 * named.len() as f64 + 0.5) * size;
+    // Grey lines are covered rather than those in the legend.
+    let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);
+    let spots = [true, false].map(spots);
+    let under = |place: &Rect, k: usize| spots[k].iter().filter(|&&s| place.holds(s)).count();
+    let hidden = |place: &Rect| (under(place, 0), under(place, 1));
+    let places = corners(&axes.frame, width, height, 0.6 * size);
+    let place = places.into_iter().min_by_key(hidden).unwrap_or(axes.frame);
+    let paper = Fill {
+        colour: Colour::WHITE,
+        opacity: 0.85,
+    };
+    let [a, b, c, d] = place.corners();
+    on.area(&[a, b, c, d], paper);
+    on.line(&[a, b, c, d, a], Pen::solid(Colour::FAINT, size / 14.0));
+    for (i, mark) in named.iter().enumerate() {
+        let y = place.top + (1.45 * i as f64 + 0.97) * size;
+        let [from, to] = [0.6, 2.8].map(|right| [place.left + right * size, y]);
+        mark.draw_sample(on, [from, to], size);
+        let start = Lettering::new(size, Anchor::Start);
+        let at = [place.left + 3.4 * size, y + 0.36 * size];
+        on.text(at, &mark.series.name, start);
     }
 }
 

@@ -80,14 +80,11 @@ const MANY: usize = 4000;
 /// A series with its colour and shape.
 pub(crate) struct Mark<'a> {
     pub(crate) series: &'a Series,
-    number: usize,
+    /// Its place in the list of all series.
+    pub(crate) number: usize,
 }
 
-impl<'a> Mark<'a> {
-    pub(crate) fn new((number, series): (usize, &'a Series)) -> Self {
-        Self { series, number }
-    }
-
+impl Mark<'_> {
     fn colour(&self) -> Colour {
         match self.series.style {
             Style::Background => Colour::PALE,
@@ -127,21 +124,17 @@ impl<'a> Mark<'a> {
 
     /// The sample in a legend between the spots `from` and `to`.
     pub(crate) fn draw_sample(&self, on: &mut dyn DrawTarget, [from, to]: [Spot; 2], size: f64) {
-        let middle = [(from[0] + to[0]) / 2.0, from[1]];
-        match self.series.style {
-            Style::Band(_) => {
-                let half = 0.35 * size;
-                let [(a, b), (c, d)] = [(from[0], from[1] - half), (to[0], to[1] + half)];
-                on.area(&[[a, b], [c, b], [c, d], [a, d]], self.band_fill());
-            }
-            Style::Markers => self.draw_marker(on, middle, size),
-            Style::LineAndMarkers => {
-                on.line(&[from, to], self.pen(size));
-                self.draw_marker(on, middle, size);
-            }
-            Style::Line | Style::Dashes | Style::Background | Style::Highlight => {
-                on.line(&[from, to], self.pen(size))
-            }
+        let style = &self.series.style;
+        if let Style::Band(_) = style {
+            let half = 0.35 * size;
+            let [(a, b), (c, d)] = [(from[0], from[1] - half), (to[0], to[1] + half)];
+            return on.area(&[[a, b], [c, b], [c, d], [a, d]], self.band_fill());
+        }
+        if *style != Style::Markers {
+            on.line(&[from, to], self.pen(size));
+        }
+        if matches!(style, Style::Markers | Style::LineAndMarkers) {
+            self.draw_marker(on, [(from[0] + to[0]) / 2.0, from[1]], size);
         }
     }
 
@@ -183,29 +176,17 @@ impl<'a> Mark<'a> {
     fn draw_marker(&self, on: &mut dyn DrawTarget, [x, y]: Spot, size: f64) {
         let r = 0.27 * size;
         let fill = Fill::solid(self.colour());
-        match self.number % 4 {
-            0 => on.disc([x, y], r, fill),
-            1 => {
-                let a = 0.88 * r;
-                on.area(
-                    &[
-                        [x - a, y - a],
-                        [x + a, y - a],
-                        [x + a, y + a],
-                        [x - a, y + a],
-                    ],
-                    fill,
-                );
-            }
-            2 => {
-                let a = 1.25 * r;
-                on.area(&[[x, y - a], [x + a, y], [x, y + a], [x - a, y]], fill);
-            }
-            _ => {
-                let (a, b) = (1.15 * r, 0.75 * r);
-                on.area(&[[x, y - 1.3 * r], [x + a, y + b], [x - a, y + b]], fill);
-            }
-        }
+        // Corners, over the radius.
+        let corners: &[Spot] = match self.number % 4 {
+            0 => return on.disc([x, y], r, fill),
+            1 => &[[-0.88, -0.88], [0.88, -0.88], [0.88, 0.88], [-0.88, 0.88]],
+            2 => &[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
+            _ => &[[0.0, -1.3], [1.15, 0.75], [-1.15, 0.75]],
+        };
+        let outline = corners
+            .iter()
+            .map(|[right, down]| [x + right * r, y + down * r]);
+        on.area(&outline.collect::<Vec<Spot>>(), fill);
     }
 
     fn pen(&self, size: f64) -> Pen {

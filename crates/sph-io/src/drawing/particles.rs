@@ -36,8 +36,7 @@ impl Picture<'_> {
         }
         for i in order {
             let [x, y] = self.flat(self.points[i]);
-            let value = self.values[i];
-            let colour = self.colour_of(value, [lo, hi]);
+            let colour = self.colour_of(self.values[i], [lo, hi]);
             if x.is_finite() && y.is_finite() {
                 let (spot, radius) = (axes.spot(x, y), radius(i));
                 let fill = Fill::solid(colour);
@@ -110,15 +109,6 @@ impl Relief {
         }
     }
 
-    /// A particle of a diameter (m) at a spot.
-    fn particle(&mut self, spot: Spot, (depth, diameter): (f64, f64), value: f64) {
-        let at = [0, 1].map(|k| spot[k] - self.corner[k]);
-        if at.iter().all(|x| x.is_finite()) {
-            let radius = (0.5 * SWOLLEN * diameter * self.scale).max(0.75);
-            self.add(at, radius, depth, value);
-        }
-    }
-
     /// Draws the visible surface of particles of a diameter, in colours of their values.
     fn draw(&mut self, on: &mut Canvas, diameter: f64, colour: impl Fn(f64) -> Colour) {
         let reach = (0.5 * diameter * self.scale).round().clamp(1.0, 12.0) as usize;
@@ -133,14 +123,19 @@ impl Relief {
                     let brightness = self.brightness([i, j], diameter);
                     let Colour(parts) = colour(self.value[k]);
                     let lit = parts.map(|part| (f64::from(part) * brightness).min(255.0) as u8);
-                    on.dot([corner[0] + i, corner[1] + j], Colour(lit));
+                    on.blend([corner[0] + i, corner[1] + j], Colour(lit), 1.0);
                 }
             }
         }
     }
 
-    /// A sphere around a pixel.
-    fn add(&mut self, [x, y]: [f64; 2], radius: f64, depth: f64, value: f64) {
+    /// The sphere of a particle of a diameter (m) at a spot.
+    fn particle(&mut self, spot: Spot, (depth, diameter): (f64, f64), value: f64) {
+        let [x, y] = [0, 1].map(|k| spot[k] - self.corner[k]);
+        if !(x.is_finite() && y.is_finite()) {
+            return;
+        }
+        let radius = (0.5 * SWOLLEN * diameter * self.scale).max(0.75);
         let span = |at: f64, side: usize| {
             let end = side as f64;
             (at - radius).clamp(0.0, end) as usize..(at + radius + 1.0).clamp(0.0, end) as usize
@@ -169,10 +164,9 @@ impl Relief {
                     if !depth[k].is_finite() {
                         continue;
                     }
-                    let (at, side) = if right == 1 {
-                        (i, self.width)
-                    } else {
-                        (j, self.height)
+                    let (at, side) = match right {
+                        1 => (i, self.width),
+                        _ => (j, self.height),
                     };
                     let stride = right + down * self.width;
                     let from = k - at.min(reach) * stride;

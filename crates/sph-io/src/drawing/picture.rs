@@ -105,12 +105,12 @@ impl<'a> Picture<'a> {
         let width = self.width.clamp(*SIDES.start(), *SIDES.end());
         // At 1200 pixels letters of 20; never too small to read.
         let size = (f64::from(width) / 60.0).max(9.0);
-        let beyond = self.has_outliers(range);
+        let any = |outside: &dyn Fn(f64) -> bool| self.values.iter().any(|&v| outside(v));
         let bar = ColourBar {
             range,
             colours: self.colours,
             label: self.label,
-            beyond,
+            beyond: [any(&|v| v < range[0]), any(&|v| v > range[1])],
             size,
         };
         let classes = ClassBar {
@@ -330,12 +330,6 @@ impl<'a> Picture<'a> {
             lo = -hi;
         }
         widened(lo, hi)
-    }
-
-    /// True for values below, and above, the range.
-    fn has_outliers(&self, [lo, hi]: [f64; 2]) -> [bool; 2] {
-        let any = |outside: &dyn Fn(f64) -> bool| self.values.iter().any(|&v| outside(v));
-        [any(&|v| v < lo), any(&|v| v > hi)]
     }
 
     pub(crate) fn flat(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {

@@ -10,7 +10,7 @@ use sph_core::bounds;
 use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
-use crate::drawing::legend::Legend;
+use crate::drawing::legend::draw_legend;
 use crate::drawing::mark::{Mark, Series, Style};
 use crate::drawing::svg::Svg;
 use crate::drawing::ticks::widened;
@@ -62,7 +62,7 @@ impl Plot {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         self.check(path)?;
-        save(path, SIZE, |on| self.draw(on, &whole()))
+        save(path, SIZE, |on| self.draw(on, &Rect::sized(SIZE)))
     }
 
     /// The document that [`save`](Self::save) writes as vectors, to stand in a page.
@@ -72,17 +72,22 @@ impl Plot {
     pub fn to_svg(&self) -> Result<String> {
         self.check(Path::new("plot.svg"))?;
         let mut svg = Svg::new(SIZE[0], SIZE[1]);
-        self.draw(&mut svg, &whole());
+        self.draw(&mut svg, &Rect::sized(SIZE));
         Ok(svg.finish())
     }
 
     fn check(&self, path: &Path) -> Result<()> {
-        for series in &self.series {
-            let points = series.points.len();
-            if let Style::Band(upper) = &series.style
+        for Series {
+            name,
+            points,
+            style,
+        } in &self.series
+        {
+            let points = points.len();
+            if let Style::Band(upper) = style
                 && upper.len() != points
             {
-                let (name, upper) = (&series.name, upper.len());
+                let upper = upper.len();
                 let said = format!("band `{name}` has {upper} upper ordinates at {points} points");
                 return Err(IoError::input(path, said));
             }
@@ -93,7 +98,9 @@ impl Plot {
     /// Draws the plot into a part of a surface.
     fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
-        let marks: Vec<Mark> = self.series.iter().enumerate().map(Mark::new).collect();
+        let numbered = self.series.iter().enumerate();
+        let marks = numbered.map(|(number, series)| Mark { series, number });
+        let marks: Vec<Mark> = marks.collect();
         axes.draw_grid(on);
         // Bands first, whatever their place in the list: they hide lines.
         let (behind, others): (Vec<&Mark>, Vec<&Mark>) = marks.iter().partition(|m| m.is_behind());
@@ -101,7 +108,7 @@ impl Plot {
             mark.draw(on, &axes);
         }
         axes.draw(on);
-        Legend::new(&marks, &axes).draw(on);
+        draw_legend(on, &marks, &axes);
         let middle = (axes.frame.left + axes.frame.right) / 2.0;
         let lettering = Lettering::new(1.15 * LETTERS, Anchor::Middle);
         let title = [middle, place.top + 1.6 * LETTERS];
@@ -162,16 +169,6 @@ fn save(path: &Path, [width, height]: [u32; 2], draw: impl Fn(&mut dyn DrawTarge
     canvas.save(path)
 }
 
-/// The place of a plot that stands alone.
-fn whole() -> Rect {
-    Rect {
-        left: 0.0,
-        top: 0.0,
-        right: f64::from(SIZE[0]),
-        bottom: f64::from(SIZE[1]),
-    }
-}
-
 /// Pixels of one panel.
 const PANEL: [u32; 2] = [900, 720];
 /// Panels that fit into the largest picture.
@@ -213,14 +210,15 @@ impl Panels {
         self.0.iter().try_for_each(|plot| plot.check(path))?;
         let [width, height] = PANEL;
         save(path, [width * self.0.len() as u32, height], |on| {
-            for (left, plot) in (0..).step_by(width as usize).zip(&self.0) {
-                let place = Rect {
-                    left: f64::from(left),
-                    top: 0.0,
-                    right: f64::from(left + width),
-                    bottom: f64::from(height),
-                };
-                plot.draw(on, &place);
+            for (number, plot) in (1..).zip(&self.0) {
+                let left = f64::from((number - 1) * width);
+                plot.draw(
+                    on,
+                    &Rect {
+                        left,
+                        ..Rect::sized([number * width, height])
+                    },
+                );
             }
         })
     }
@@ -239,19 +237,17 @@ mod tests {
             ..Plot::default()
         };
         let path = folder.path().join("two.svg");
-        Panels(vec![plot.clone(), plot.clone()])
-            .save(&path)
-            .expect("saved");
+        let panels = |count: usize| Panels(vec![plot.clone(); count]);
+        panels(2).save(&path).expect("saved");
         let text = std::fs::read_to_string(&path).expect("text");
         assert!(text.contains("viewBox=\"0 0 1800 720\""), "{text}");
         assert_eq!(text.matches(">a law<").count(), 2);
         let png = folder.path().join("two.png");
-        Panels(vec![plot.clone()]).save(&png).expect("saved");
+        panels(1).save(&png).expect("saved");
         assert!(png.exists());
         let refused = folder.path().join("none.png");
         for count in [0, 10] {
-            let panels = Panels(vec![plot.clone(); count]);
-            assert!(panels.save(&refused).is_err() && !refused.exists());
+            assert!(panels(count).save(&refused).is_err() && !refused.exists());
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Vectors: a surface that becomes an SVG file, with texts as texts.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::drawing::colour::Colour;
@@ -46,14 +45,10 @@ impl Svg {
 impl DrawTarget for Svg {
     fn line(&mut self, points: &[Spot], pen: Pen) {
         let (list, colour, width) = (list(points), code(pen.colour), pen.width);
-        let dash = if pen.dashed {
-            format!(
-                " stroke-dasharray=\"{:.1} {:.1}\"",
-                4.0 * width,
-                2.5 * width
-            )
-        } else {
-            String::new()
+        let [long, short] = [4.0 * width, 2.5 * width];
+        let dash = match pen.dashed {
+            true => format!(" stroke-dasharray=\"{long:.1} {short:.1}\""),
+            false => String::new(),
         };
         self.push(&format!(
             "<polyline points=\"{list}\" fill=\"none\" stroke=\"{colour}\" \
@@ -82,10 +77,9 @@ impl DrawTarget for Svg {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let turn = if lettering.upwards {
-            format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"")
-        } else {
-            String::new()
+        let turn = match lettering.upwards {
+            true => format!(" transform=\"rotate(-90 {x:.2} {y:.2})\""),
+            false => String::new(),
         };
         let (size, colour, text) = (lettering.size, code(Colour::INK), escape(text));
         self.push(&format!(
@@ -100,11 +94,9 @@ fn code(Colour([r, g, b]): Colour) -> String {
 }
 
 fn list(points: &[Spot]) -> String {
-    let mut out = String::with_capacity(16 * points.len());
-    for [x, y] in points {
-        // Writing to a string cannot fail.
-        let _ = write!(out, "{x:.2},{y:.2} ");
-    }
-    out.truncate(out.trim_end().len());
-    out
+    let spots: Vec<String> = points
+        .iter()
+        .map(|[x, y]| format!("{x:.2},{y:.2}"))
+        .collect();
+    spots.join(" ")
 }

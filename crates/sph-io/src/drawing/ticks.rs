@@ -32,13 +32,11 @@ pub(crate) fn linear(lo: f64, hi: f64, wanted: usize) -> Ticks {
     let power = shared_power(largest);
     let unit = 10_f64.powi(power);
     let decimals = (-(step / unit).log10() - slack).ceil().clamp(0.0, 12.0) as usize;
+    let label = |v: f64| minus(format!("{:.decimals$}", v / unit + 0.0));
     Ticks {
-        major: values
-            .iter()
-            .map(|&v| (v, minus(format!("{:.decimals$}", v / unit + 0.0))))
-            .collect(),
+        major: values.into_iter().map(|v| (v, label(v))).collect(),
         minor: Vec::new(),
-        factor: (power != 0).then(|| format!("×{}", power_of_ten(power))),
+        factor: factor(power),
     }
 }
 
@@ -59,14 +57,12 @@ pub(crate) fn logarithmic(lo: f64, hi: f64, wanted: usize) -> Ticks {
     }
     let stride = ((last - first) as usize).div_ceil(wanted.max(2)).max(1) as i32;
     let labelled = |k: &i32| k.rem_euclid(stride) == 0;
-    let all = (first - 1)..=last;
-    let parts = all.clone().flat_map(|k| {
+    let parts = ((first - 1)..=last).flat_map(|k| {
         let inner = if stride == 1 { 2..10 } else { 1..2 };
         inner.map(move |m| f64::from(m) * 10_f64.powi(k))
     });
     Ticks {
-        major: all
-            .filter(|k| *k >= first)
+        major: (first..=last)
             .filter(labelled)
             .map(|k| (10_f64.powi(k), power_of_ten(k)))
             .collect(),
@@ -87,8 +83,12 @@ fn ones_twos_and_fives(lo: f64, hi: f64) -> Ticks {
     Ticks {
         major: marks.filter(|(v, _)| (lo..=hi).contains(v)).collect(),
         minor: Vec::new(),
-        factor: (power != 0).then(|| format!("×{}", power_of_ten(power))),
+        factor: factor(power),
     }
+}
+
+fn factor(power: i32) -> Option<String> {
+    (power != 0).then(|| format!("×{}", power_of_ten(power)))
 }
 
 /// The power of ten that labels up to `largest` leave out.
@@ -112,10 +112,9 @@ pub(crate) fn widened(lo: f64, hi: f64) -> [f64; 2] {
 
 /// The simulated time in seconds as a stamp.
 pub(crate) fn time_stamp(time: f64) -> String {
-    let decimals = if time == 0.0 || !time.is_finite() {
-        3
-    } else {
-        (2.0 - time.abs().log10().floor()).clamp(3.0, 9.0) as usize
+    let decimals = match time == 0.0 || !time.is_finite() {
+        true => 3,
+        false => (2.0 - time.abs().log10().floor()).clamp(3.0, 9.0) as usize,
     };
     minus(format!("t = {time:.decimals$} s"))
 }
@@ -142,7 +141,6 @@ fn power_of_ten(power: i32) -> String {
         '1' => '¹',
         '2' => '²',
         '3' => '³',
-        '0' => '⁰',
         c => char::from_u32(0x2070 + c as u32 - '0' as u32).unwrap_or(c),
     };
     let exponent: String = power.to_string().chars().map(raised).collect();
@@ -154,27 +152,16 @@ mod tests {
     use super::*;
 
     fn labels(ticks: &Ticks) -> Vec<&str> {
-        ticks
-            .major
-            .iter()
-            .map(|(_, label)| label.as_str())
-            .collect()
+        let labels = ticks.major.iter().map(|(_, label)| label.as_str());
+        labels.collect()
     }
 
     #[test]
     fn linear_ticks_are_round() {
-        assert_eq!(
-            labels(&linear(-0.013, 0.61, 4)),
-            ["0.0", "0.2", "0.4", "0.6"]
-        );
-        assert_eq!(
-            labels(&linear(-1.0, 1.0, 4)),
-            ["−1.0", "−0.5", "0.0", "0.5", "1.0"]
-        );
-        assert_eq!(
-            labels(&linear(998.0, 1002.0, 4)),
-            ["998", "999", "1000", "1001", "1002"]
-        );
+        let of = |lo: f64, hi: f64| labels(&linear(lo, hi, 4)).join(" ");
+        assert_eq!(of(-0.013, 0.61), "0.0 0.2 0.4 0.6");
+        assert_eq!(of(-1.0, 1.0), "−1.0 −0.5 0.0 0.5 1.0");
+        assert_eq!(of(998.0, 1002.0), "998 999 1000 1001 1002");
     }
 
     #[test]

@@ -46,16 +46,11 @@ pub(crate) fn draw_compass(on: &mut Canvas, axes: &Axes) {
     let scale = frame.width() / (axes.x.hi - axes.x.lo);
     let wide = 0.2 * frame.width() / scale;
     let unit = 10f64.powi(wide.log10().floor() as i32);
-    let factors = [5.0, 2.0, 1.0].into_iter();
-    let length = factors
-        .map(|f| f * unit)
-        .find(|l| *l <= wide)
-        .unwrap_or(unit);
+    let mut lengths = [5.0, 2.0, 1.0].into_iter().map(|f| f * unit);
+    let length = lengths.find(|l| *l <= wide).unwrap_or(unit);
     let y = frame.bottom + 1.4 * size;
-    let ends = [
-        frame.left + 3.0 * size,
-        frame.left + 3.0 * size + length * scale,
-    ];
+    let left = frame.left + 3.0 * size;
+    let ends = [left, left + length * scale];
     on.line(&[[ends[0], y], [ends[1], y]], pen);
     for x in ends {
         on.line(&[[x, y - 0.3 * size], [x, y + 0.3 * size]], pen);

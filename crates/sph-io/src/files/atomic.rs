@@ -9,7 +9,7 @@
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -17,10 +17,11 @@ use serde::Serialize;
 use tempfile::TempPath;
 
 use crate::error::{IoError, Result};
+use crate::files::folder::folder_of;
 
 /// Durability of a write when the call returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Durability {
+pub(crate) enum Durability {
     /// The process may die: the content is with the operating system.
     Process,
     /// The machine may lose power: the content is on the disk (fsync of file and folder).
@@ -31,16 +32,7 @@ pub enum Durability {
 static SERIAL: AtomicU64 = AtomicU64::new(0);
 
 /// Writes `target` through `fill`, all or nothing.
-///
-/// ```
-/// # use sph_io::{Durability, write_atomic};
-/// # let folder = tempfile::tempdir()?;
-/// let path = folder.path().join("note.txt");
-/// write_atomic(&path, Durability::Process, |file| file.write_all(b"whole"))?;
-/// assert_eq!(std::fs::read(&path)?, b"whole");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn write_atomic(
+pub(crate) fn write_atomic(
     target: impl AsRef<Path>,
     durability: Durability,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -54,31 +46,26 @@ pub fn write_atomic(
     hidden.push(name);
     hidden.push(format!(".{}-{serial}.tmp", process::id()));
     let temporary = target.with_file_name(hidden);
-    replace(target, &temporary, durability, fill).map_err(|e| IoError::write(target, e))
-}
-
-fn replace(
-    target: &Path,
-    temporary: &Path,
-    durability: Durability,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let file = File::create(temporary)?;
-    // Removed when it is dropped, unless it has taken its place.
-    let temporary = TempPath::try_from_path(temporary)?;
-    let mut buffer = BufWriter::with_capacity(1 << 18, file);
-    fill(&mut buffer)?;
-    let file = buffer.into_inner().map_err(|e| e.into_error())?;
-    if durability == Durability::Power {
-        file.sync_all()?;
-    }
-    // Without the handle the renaming succeeds on every platform.
-    drop(file);
-    temporary.persist(target).map_err(|e| e.error)?;
-    if durability == Durability::Power {
-        sync_folder(target);
-    }
-    Ok(())
+    let replace = || -> io::Result<()> {
+        let file = File::create(&temporary)?;
+        // Removed when it is dropped, unless it has taken its place.
+        let temporary = TempPath::try_from_path(&temporary)?;
+        let mut buffer = BufWriter::with_capacity(1 << 18, file);
+        fill(&mut buffer)?;
+        let file = buffer.into_inner().map_err(|e| e.into_error())?;
+        if durability == Durability::Power {
+            file.sync_all()?;
+        }
+        // Without the handle the renaming succeeds on every platform.
+        drop(file);
+        temporary.persist(target).map_err(|e| e.error)?;
+        if durability == Durability::Power {
+            // Puts the renamed entry itself on the disk, where folders can be synced.
+            let _ = File::open(folder_of(target)).and_then(|folder| folder.sync_all());
+        }
+        Ok(())
+    };
+    replace().map_err(|e| IoError::write(target, e))
 }
 
 /// Writes `target` with a content, all or nothing.
@@ -106,31 +93,26 @@ pub fn write_json(path: impl AsRef<Path>, value: &(impl Serialize + ?Sized)) -> 
 /// Call it when a run takes possession of its folder, not while another
 /// process writes there.
 pub fn sweep_temporaries(folder: impl AsRef<Path>) -> Result<usize> {
-    let folder = folder.as_ref();
-    let (mut removed, below) = swept(folder)?;
-    for folder in below {
-        removed += swept(&folder)?.0;
-    }
-    Ok(removed)
+    swept(folder.as_ref(), true)
 }
 
-/// Removes the temporaries of one folder; their number, and the folders in it.
-fn swept(folder: &Path) -> Result<(usize, Vec<PathBuf>)> {
-    let (mut removed, mut below) = (0, Vec::new());
+/// Removes the temporaries of a folder, and of those in it if they are `below` it; their number.
+fn swept(folder: &Path, below: bool) -> Result<usize> {
+    let mut removed = 0;
     for entry in fs::read_dir(folder).map_err(|e| IoError::read(folder, e))? {
         let entry = entry.map_err(|e| IoError::read(folder, e))?;
         let Ok(kind) = entry.file_type() else {
             continue;
         };
-        if kind.is_dir() {
-            below.push(entry.path());
+        if kind.is_dir() && below {
+            removed += swept(&entry.path(), false)?;
         } else if kind.is_file() && entry.file_name().to_str().is_some_and(is_temporary) {
             let path = entry.path();
             fs::remove_file(&path).map_err(|e| IoError::write(&path, e))?;
             removed += 1;
         }
     }
-    Ok((removed, below))
+    Ok(removed)
 }
 
 /// True if `name` has the form `.NAME.PID-SERIAL.tmp`, or `.writable-PID` as earlier versions tried folders with.
@@ -139,23 +121,11 @@ fn is_temporary(name: &str) -> bool {
     if name.strip_prefix(".writable-").is_some_and(digits) {
         return true;
     }
-    name.strip_prefix('.')
-        .and_then(|rest| rest.strip_suffix(".tmp"))
-        .and_then(|rest| rest.rsplit_once('.'))
-        .and_then(|(_, mark)| mark.split_once('-'))
-        .is_some_and(|(pid, serial)| digits(pid) && digits(serial))
-}
-
-/// Puts the renamed entry itself on the disk, where folders can be synced.
-fn sync_folder(target: &Path) {
-    if let Some(parent) = target.parent() {
-        let parent = if parent.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            parent
-        };
-        let _ = File::open(parent).and_then(|folder| folder.sync_all());
-    }
+    let rest = name
+        .strip_prefix('.')
+        .and_then(|rest| rest.strip_suffix(".tmp"));
+    let mark = rest.and_then(|rest| rest.rsplit_once('.')?.1.split_once('-'));
+    mark.is_some_and(|(pid, serial)| digits(pid) && digits(serial))
 }
 
 #[cfg(test)]
@@ -163,10 +133,10 @@ mod tests {
     use super::*;
 
     fn names(folder: &Path) -> Vec<String> {
-        let entries = fs::read_dir(folder).unwrap();
-        entries
-            .map(|e| e.unwrap().file_name().into_string().unwrap())
-            .collect()
+        let entries = fs::read_dir(folder)
+            .unwrap()
+            .map(|e| e.unwrap().file_name());
+        entries.map(|name| name.into_string().unwrap()).collect()
     }
 
     #[test]

@@ -63,35 +63,36 @@ pub fn checksum(path: impl AsRef<Path>, most: u64) -> Result<Checksum> {
 pub fn writable(folder: impl AsRef<Path>) -> Result<()> {
     let folder = folder.as_ref();
     fs::create_dir_all(folder).map_err(|e| IoError::CreateFolder(folder.into(), e))?;
-    write_block(folder).map_err(|e| match is_full(&e) {
+    let write_block = || -> io::Result<()> {
+        let mut file = tempfile::tempfile_in(folder)?;
+        file.write_all(&[0; BLOCK])?;
+        // Some file systems report a full disk only when the data go out.
+        file.sync_data()
+    };
+    write_block().map_err(|e| match is_full(&e) {
         true => IoError::DiskFull(folder.into(), e),
         false => IoError::NotWritable(folder.into(), e),
     })
 }
 
-fn write_block(folder: &Path) -> io::Result<()> {
-    let mut file = tempfile::tempfile_in(folder)?;
-    file.write_all(&[0; BLOCK])?;
-    // Some file systems report a full disk only when the data go out.
-    file.sync_data()
+/// The folder of a file.
+pub(crate) fn folder_of(file: &Path) -> &Path {
+    let named = file.parent().filter(|f| !f.as_os_str().is_empty());
+    named.unwrap_or(Path::new("."))
 }
 
 /// The path of a file that a list names; it stays in the folder of the list, links followed.
 pub(crate) fn beside(list: &Path, file: &str) -> Result<PathBuf> {
     let path = list.with_file_name(file);
-    let folder = list.parent().filter(|f| !f.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
     let within = |c| matches!(c, Component::Normal(_) | Component::CurDir);
     let named = Path::new(file).components().all(within);
     // A missing file leads nowhere.
-    let real = (path.canonicalize(), folder.canonicalize());
+    let real = (path.canonicalize(), folder_of(list).canonicalize());
     let leads = matches!(real, (Ok(real), Ok(folder)) if !real.starts_with(&folder));
+    let problem = || format!("it names `{file}`, which is outside its folder");
     match named && !leads {
         true => Ok(path),
-        false => {
-            let problem = format!("it names `{file}`, which is outside its folder");
-            Err(IoError::Unfit(list.into(), problem))
-        }
+        false => Err(IoError::Unfit(list.into(), problem())),
     }
 }
 

@@ -47,11 +47,8 @@ impl Holder {
 
 impl fmt::Display for Holder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "process {} on {} since {}",
-            self.pid, self.host, self.since
-        )
+        let Holder { pid, host, since } = self;
+        write!(f, "process {pid} on {host} since {since}")
     }
 }
 

@@ -41,8 +41,11 @@ impl Scratch {
             match FolderLock::take_existing(folder.path()) {
                 Ok(lock) => break (lock, folder),
                 // Another process swept it before it was held, or holds it to sweep it.
-                Err(e) if tries < TRIES && is_swept(&e, folder.path()) => tries += 1,
-                Err(e) => return Err(e),
+                Err(e) => match e {
+                    IoError::InUse(..) if tries < TRIES => tries += 1,
+                    _ if tries < TRIES && !folder.path().exists() => tries += 1,
+                    _ => return Err(e),
+                },
             }
         };
         sweep(place, prefix, folder.path());
@@ -60,10 +63,6 @@ impl Scratch {
 
 /// Folders that are made anew when others sweep them away before they are held.
 const TRIES: usize = 100;
-
-fn is_swept(error: &IoError, folder: &Path) -> bool {
-    matches!(error, IoError::InUse(..)) || !folder.exists()
-}
 
 /// Removes folders of the prefix whose process is dead; folders that cannot be removed stay.
 ///

@@ -82,12 +82,7 @@ impl SeriesWriter {
         let mut file = opened.map_err(failed)?;
         let found = file.metadata().map_err(failed)?.len();
         if found < offset {
-            return Err(IoError::TooShort {
-                path: path.to_path_buf(),
-                what: "bytes",
-                expected: offset,
-                found,
-            });
+            return Err(IoError::TooShort(path.into(), found, "bytes", offset));
         }
         let malformed = |problem: &str| IoError::Malformed(path.into(), problem.into());
         let mut header = Vec::new();
@@ -124,11 +119,6 @@ impl SeriesWriter {
     /// [`open_truncated`](Self::open_truncated) to continue from here.
     pub fn position(&self) -> u64 {
         self.position
-    }
-
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     fn append(&mut self, line: &str) -> Result<()> {
@@ -198,8 +188,12 @@ fn headings<N: AsRef<str>, U: AsRef<str>>(
 ) -> Result<Vec<String>> {
     let mut cells = Vec::new();
     for (name, unit) in columns {
-        let cell = heading(name.as_ref(), unit.as_ref());
-        if cell.contains([',', '"', '\n', '\r', '#']) || name.as_ref().trim().is_empty() {
+        let name = name.as_ref();
+        let cell = match unit.as_ref() {
+            "" => name.to_string(),
+            unit => format!("{name}[{unit}]"),
+        };
+        if cell.contains([',', '"', '\n', '\r', '#']) || name.trim().is_empty() {
             let problem = format!("`{cell}` cannot be the heading of a column");
             return Err(IoError::input(path, problem));
         }
@@ -212,14 +206,6 @@ fn headings<N: AsRef<str>, U: AsRef<str>>(
         return Err(IoError::input(path, "a series needs a column"));
     }
     Ok(cells)
-}
-
-fn heading(name: &str, unit: &str) -> String {
-    if unit.is_empty() {
-        name.into()
-    } else {
-        format!("{name}[{unit}]")
-    }
 }
 
 #[cfg(test)]
@@ -240,11 +226,8 @@ mod tests {
         }
         let table = read_table(&path).unwrap();
         let back = table.column("time").unwrap();
-        assert!(
-            odd.iter()
-                .zip(back)
-                .all(|(a, b)| a.to_bits() == b.to_bits())
-        );
+        let back: Vec<u64> = back.iter().map(|x| x.to_bits()).collect();
+        assert_eq!(back, odd.map(f64::to_bits));
         assert!(table.column("steps").unwrap()[0].is_nan());
         assert_eq!(std::fs::metadata(&path).unwrap().len(), series.position());
     }

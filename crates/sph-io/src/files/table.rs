@@ -104,11 +104,7 @@ impl Source {
                 let begun = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
                 let column = 1 + String::from_utf8_lossy(begun).chars().count();
                 let problem = format!("this is no UTF-8 text (column {column})");
-                Err(IoError::Table {
-                    path,
-                    line,
-                    problem,
-                })
+                Err(IoError::Table(path, line, problem))
             }
         }
     }
@@ -183,11 +179,7 @@ impl Source {
     }
 
     fn fault(&self, line: usize, problem: impl Into<String>) -> IoError {
-        IoError::Table {
-            path: self.path.clone(),
-            line,
-            problem: problem.into(),
-        }
+        IoError::Table(self.path.clone(), line, problem.into())
     }
 }
 

@@ -51,6 +51,10 @@ pub enum Location {
     Cell,
 }
 
+/// Sections of the fields of a file.
+pub(crate) const SECTIONS: [(&str, Location); 2] =
+    [("PointData", Location::Point), ("CellData", Location::Cell)];
+
 /// A named column.
 #[derive(Clone, Debug)]
 pub struct FieldData<'a> {

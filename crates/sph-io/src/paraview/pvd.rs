@@ -61,7 +61,6 @@ pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<SeriesEntry>> {
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {
     time: f64,
-    part: usize,
     name: String,
     file: String,
 }
@@ -84,12 +83,13 @@ impl PvdSeries {
         let found = series.load(frames)?;
         let times = distinct_times(&found);
         if times.len() < frames {
-            return Err(IoError::TooShort {
-                path: series.path,
-                what: "output times",
-                expected: frames as u64,
-                found: times.len() as u64,
-            });
+            let (found, wanted) = (times.len() as u64, frames as u64);
+            return Err(IoError::TooShort(
+                series.path,
+                found,
+                "output times",
+                wanted,
+            ));
         }
         let end = frames
             .checked_sub(1)
@@ -153,7 +153,6 @@ impl PvdSeries {
             }
             added.push(Entry {
                 time: frame.time,
-                part: self.part(&name, &added),
                 name,
                 file: format!("{prefix}/{file}"),
             });
@@ -173,11 +172,6 @@ impl PvdSeries {
         distinct_times(&self.entries).len()
     }
 
-    /// The `.pvd` file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     fn stem(&self) -> String {
         let stem = self.path.file_stem().unwrap_or_default();
         let stem = stem.to_string_lossy().into_owned();
@@ -190,15 +184,6 @@ impl PvdSeries {
 
     fn folder(&self) -> PathBuf {
         self.path.with_file_name(self.stem())
-    }
-
-    /// The part number of `name`: that of its first appearance.
-    fn part(&self, name: &str, added: &[Entry]) -> usize {
-        let known = || self.entries.iter().chain(added);
-        known().find(|e| e.name == name).map_or_else(
-            || known().map(|e| e.part + 1).max().unwrap_or(0),
-            |e| e.part,
-        )
     }
 
     /// Takes over the entries up to `end`, and lists only that.
@@ -217,11 +202,17 @@ impl PvdSeries {
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
              byte_order=\"LittleEndian\">\n  <Collection>\n",
         );
+        // Parts are numbered in the order in which their names appear.
+        let mut names: Vec<&str> = Vec::new();
         for e in &self.entries {
-            let (name, file) = (escape(&e.name), escape(&e.file));
+            let known = names.iter().position(|name| *name == e.name);
+            let part = known.unwrap_or(names.len());
+            if known.is_none() {
+                names.push(&e.name);
+            }
+            let (time, name, file) = (e.time, escape(&e.name), escape(&e.file));
             xml.push_str(&format!(
-                "    <DataSet timestep=\"{:?}\" part=\"{}\" name=\"{name}\" file=\"{file}\"/>\n",
-                e.time, e.part
+                "    <DataSet timestep=\"{time:?}\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>\n"
             ));
         }
         xml.push_str("  </Collection>\n</VTKFile>\n");
@@ -260,7 +251,6 @@ fn entry(node: Node<'_, '_>) -> Option<Entry> {
     let time = node.attribute("timestep")?.parse().ok();
     Some(Entry {
         time: time.filter(|t: &f64| t.is_finite())?,
-        part: node.attribute("part")?.parse().ok()?,
         name: node.attribute("name")?.into(),
         file: node.attribute("file")?.into(),
     })

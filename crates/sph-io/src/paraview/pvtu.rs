@@ -2,6 +2,7 @@
 //!
 //! It has no numbers: it names the arrays that all files have, and the files, which lie beside it.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,7 @@ use roxmltree::Document;
 use crate::error::{IoError, Result};
 use crate::files::atomic::write_whole;
 use crate::files::folder::beside;
-use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::read_vtu;
 use crate::paraview::xml::escape;
@@ -26,24 +27,18 @@ pub fn write_share(
     (index, rank): (usize, usize),
     time: f64,
 ) -> Result<PathBuf> {
-    let path = folder
-        .as_ref()
-        .join(share_name(&file_name(&piece.name), index, rank));
+    let name = share_name(&file_name(&piece.name), index, rank);
+    let path = folder.as_ref().join(name);
     write_vtu(&path, piece, time)?;
     Ok(path)
 }
 
 /// `name` with everything but letters, digits, `-` and `_` replaced.
 pub(crate) fn file_name(name: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    let name: String = name
-        .chars()
-        .map(|c| if plain(c) { c } else { '_' })
-        .collect();
-    if name.is_empty() {
-        "piece".into()
-    } else {
-        name
+    let odd = |c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    match name {
+        "" => "piece".into(),
+        name => name.replace(odd, "_"),
     }
 }
 
@@ -57,11 +52,8 @@ pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize)
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
          header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n",
     );
-    for (tag, location) in [
-        ("PPointData", Location::Point),
-        ("PCellData", Location::Cell),
-    ] {
-        xml.push_str(&format!("    <{tag}>\n"));
+    for (tag, location) in SECTIONS {
+        xml.push_str(&format!("    <P{tag}>\n"));
         for field in piece.fields.iter().filter(|f| f.location == location) {
             let (kind, name) = (field.data.kind(), escape(&field.name));
             xml.push_str(&format!(
@@ -69,7 +61,7 @@ pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize)
                 field.components
             ));
         }
-        xml.push_str(&format!("    </{tag}>\n"));
+        xml.push_str(&format!("    </P{tag}>\n"));
     }
     xml.push_str(
         "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n",
@@ -110,10 +102,10 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
                 share.name = name.to_string().into();
                 (share, time)
             }
-            Some((all, at)) if at == time => (
-                joined(all, share).ok_or_else(|| unfit("its files differ"))?,
-                at,
-            ),
+            Some((all, at)) if at == time => {
+                let all = joined(all, share).ok_or_else(|| unfit("its files differ"))?;
+                (all, at)
+            }
             Some(_) => return Err(unfit("its files are of several times")),
         });
     }
@@ -122,11 +114,8 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
 
 /// Two shares of points one after the other; nothing if they have other fields, or cells that are more than points.
 fn joined(mut all: Piece<'static>, more: Piece<'static>) -> Option<Piece<'static>> {
-    let points = matches!(
-        (&all.cells, &more.cells),
-        (Cells::Vertices, Cells::Vertices)
-    );
-    if !points || all.fields.len() != more.fields.len() {
+    let points = |piece: &Piece| matches!(piece.cells, Cells::Vertices);
+    if !points(&all) || !points(&more) || all.fields.len() != more.fields.len() {
         return None;
     }
     all.points.to_mut().extend_from_slice(&more.points);
@@ -141,21 +130,17 @@ fn same_fields((a, b): (FieldData<'static>, FieldData<'static>)) -> Option<Field
         return None;
     }
     let data = match (a.data, b.data) {
-        (FieldValues::F64(mut v), FieldValues::F64(w)) => {
-            v.to_mut().extend_from_slice(&w);
-            FieldValues::F64(v)
-        }
-        (FieldValues::U32(mut v), FieldValues::U32(w)) => {
-            v.to_mut().extend_from_slice(&w);
-            FieldValues::U32(v)
-        }
-        (FieldValues::I64(mut v), FieldValues::I64(w)) => {
-            v.to_mut().extend_from_slice(&w);
-            FieldValues::I64(v)
-        }
+        (FieldValues::F64(v), FieldValues::F64(w)) => FieldValues::F64(extended(v, &w)),
+        (FieldValues::U32(v), FieldValues::U32(w)) => FieldValues::U32(extended(v, &w)),
+        (FieldValues::I64(v), FieldValues::I64(w)) => FieldValues::I64(extended(v, &w)),
         _ => return None,
     };
     Some(FieldData { data, ..a })
+}
+
+fn extended<'a, T: Clone>(mut values: Cow<'a, [T]>, more: &[T]) -> Cow<'a, [T]> {
+    values.to_mut().extend_from_slice(more);
+    values
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use flate2::write::ZlibEncoder;
 
 use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
-use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
 use crate::paraview::xml::escape;
 
 /// Bytes per compressed block.
@@ -62,7 +62,7 @@ impl Document {
         doc.line(&format!(
             "    <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">"
         ));
-        for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
+        for (tag, location) in SECTIONS {
             doc.line(&format!("      <{tag}>"));
             for field in piece.fields.iter().filter(|f| f.location == location) {
                 doc.field(field)?;
@@ -146,11 +146,7 @@ impl Document {
 
 /// The little-endian image of `values`.
 fn bytes<T: Copy, const N: usize>(values: &[T], image: impl Fn(T) -> [u8; N]) -> Vec<u8> {
-    let mut out = Vec::with_capacity(values.len() * N);
-    for &value in values {
-        out.extend_from_slice(&image(value));
-    }
-    out
+    values.iter().flat_map(|value| image(*value)).collect()
 }
 
 /// Appends `data` in the block layout of `vtkZLibDataCompressor`.
@@ -174,32 +170,7 @@ fn append_compressed(out: &mut Vec<u8>, data: &[u8]) -> std::io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flate2::read::ZlibDecoder;
-    use std::io::Read;
-
-    fn word(data: &[u8], i: usize) -> usize {
-        u64::from_le_bytes(data[8 * i..][..8].try_into().unwrap()) as usize
-    }
-
-    fn expand(data: &[u8]) -> Vec<u8> {
-        let blocks = word(data, 0);
-        let mut at = 8 * (3 + blocks);
-        let mut out = Vec::new();
-        for i in 0..blocks {
-            let size = word(data, 3 + i);
-            let mut block = Vec::new();
-            ZlibDecoder::new(&data[at..at + size])
-                .read_to_end(&mut block)
-                .unwrap();
-            let last = word(data, 2);
-            let whole = i + 1 < blocks || last == 0;
-            assert_eq!(block.len(), if whole { word(data, 1) } else { last });
-            out.extend(block);
-            at += size;
-        }
-        assert_eq!(at, data.len());
-        out
-    }
+    use crate::paraview::vtu_read::expanded;
 
     #[test]
     fn blocks_expand_to_what_went_in() {
@@ -207,7 +178,15 @@ mod tests {
             let data: Vec<u8> = (0..size).map(|i| (i * i % 251) as u8).collect();
             let mut out = Vec::new();
             append_compressed(&mut out, &data).unwrap();
-            assert!(expand(&out) == data, "{size} bytes");
+            assert!(expanded(&out).unwrap() == data, "{size} bytes");
+            let (words, _) = out.as_chunks().0.split_at(3 + size.div_ceil(BLOCK));
+            let words: Vec<usize> = words
+                .iter()
+                .map(|w| u64::from_le_bytes(*w) as usize)
+                .collect();
+            assert_eq!(words[..3], [words.len() - 3, BLOCK, size % BLOCK]);
+            let blocks: usize = words[3..].iter().sum();
+            assert_eq!(out.len(), 8 * words.len() + blocks);
         }
     }
 

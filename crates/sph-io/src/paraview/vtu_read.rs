@@ -1,14 +1,17 @@
 //! Reads back files of [`write_vtu`](crate::write_vtu); it is no reader of all of VTK.
 
 use std::fs;
-use std::io::Read;
+use std::io::Read as _;
 use std::path::Path;
 
 use flate2::read::ZlibDecoder;
 use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
-use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece};
+use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece, SECTIONS};
+
+/// A part of a file, or what is wrong with it.
+type Read<T> = std::result::Result<T, &'static str>;
 
 /// Largest array that is read, bytes.
 const MOST: usize = 1 << 36;
@@ -38,7 +41,7 @@ struct Array {
     bytes: Vec<u8>,
 }
 
-fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), &'static str> {
+fn piece(file: &[u8], name: &str) -> Read<(Piece<'static>, f64)> {
     const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
     let end = file.windows(MARK.len()).position(|w| w == MARK);
     let end = end.ok_or("its arrays are not appended")?;
@@ -46,7 +49,7 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
     let head = format!("{head}</VTKFile>");
     let head = Document::parse(&head).map_err(|_| "a tag cannot be read")?;
     let appended = &file[end + MARK.len()..];
-    let section = |tag: &str| -> std::result::Result<Vec<Array>, &'static str> {
+    let section = |tag: &str| -> Read<Vec<Array>> {
         let section = head.descendants().find(|n| n.has_tag_name(tag));
         let arrays = section.ok_or("a section is missing")?.children();
         let arrays = arrays.filter(|n| n.has_tag_name("DataArray"));
@@ -60,7 +63,7 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
     let points = numbers(&points.bytes, f64::from_le_bytes);
     let (points, _) = points.as_chunks::<3>();
     let mut fields = Vec::new();
-    for (tag, location) in [("PointData", Location::Point), ("CellData", Location::Cell)] {
+    for (tag, location) in SECTIONS {
         for array in section(tag)? {
             fields.push(field(array, location)?);
         }
@@ -71,13 +74,11 @@ fn piece(file: &[u8], name: &str) -> std::result::Result<(Piece<'static>, f64), 
         cells: cells(&section("Cells")?)?,
         fields,
     };
-    piece
-        .check()
-        .map_err(|_| "its arrays do not fit together")?;
-    Ok((piece, time))
+    let fits = piece.check().map_err(|_| "its arrays do not fit together");
+    fits.map(|()| (piece, time))
 }
 
-fn array(node: Node<'_, '_>, appended: &[u8]) -> std::result::Result<Array, &'static str> {
+fn array(node: Node<'_, '_>, appended: &[u8]) -> Read<Array> {
     let get = |name| node.attribute(name);
     let offset = get("offset").and_then(|o| o.parse::<usize>().ok());
     let data = offset.and_then(|o| appended.get(o..));
@@ -94,7 +95,7 @@ fn array(node: Node<'_, '_>, appended: &[u8]) -> std::result::Result<Array, &'st
 }
 
 /// The blocks of `vtkZLibDataCompressor`, expanded.
-fn expanded(data: &[u8]) -> std::result::Result<Vec<u8>, &'static str> {
+pub(crate) fn expanded(data: &[u8]) -> Read<Vec<u8>> {
     let cut = "an array is cut off";
     let word = |k: usize| {
         let bytes = data.get(8 * k..8 * k + 8)?;
@@ -125,10 +126,7 @@ fn expanded(data: &[u8]) -> std::result::Result<Vec<u8>, &'static str> {
     Ok(out)
 }
 
-fn field(
-    array: Array,
-    location: Location,
-) -> std::result::Result<FieldData<'static>, &'static str> {
+fn field(array: Array, location: Location) -> Read<FieldData<'static>> {
     let data = match array.kind.as_str() {
         "Float64" => FieldValues::F64(numbers(&array.bytes, f64::from_le_bytes).into()),
         "UInt32" => FieldValues::U32(numbers(&array.bytes, u32::from_le_bytes).into()),
@@ -149,7 +147,7 @@ fn numbers<T, const N: usize>(bytes: &[u8], number: fn([u8; N]) -> T) -> Vec<T> 
     images.iter().map(|image| number(*image)).collect()
 }
 
-fn cells(arrays: &[Array]) -> std::result::Result<Cells<'static>, &'static str> {
+fn cells(arrays: &[Array]) -> Read<Cells<'static>> {
     let get = |name| arrays.iter().find(|a| a.name == name);
     let (Some(joined), Some(types)) = (get("connectivity"), get("types")) else {
         return Err("it has no cells");

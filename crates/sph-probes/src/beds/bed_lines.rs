@@ -42,42 +42,30 @@ pub struct BedLines {
     number: Option<u32>,
 }
 
-/// The three curves, and the moving mass.
-struct BedCurves {
-    surface: Columns,
-    interface: Columns,
-    /// Lowest moving grains.
-    moving: Columns,
-    /// Moving mass, kg.
-    mass: f64,
-}
-
 impl BedLines {
-    fn draw(&self, world: &World<2>) -> Result<BedCurves, StepError> {
+    /// Surface, interface and lowest moving grains, and the moving mass, kg.
+    fn draw(&self, world: &World<2>) -> Result<([Columns; 3], f64), StepError> {
         let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let positions = world.free.get(fields::POSITION)?;
         let velocity = world.free.get(fields::VELOCITY)?;
         let mass = world.free.get(fields::MASS)?;
-        let xs = positions.iter().map(|x: &Vect<2>| x[0]);
-        let empty = |end| Columns::over(xs.clone(), world.spacing, end);
-        let mut drawn = BedCurves {
-            surface: empty(End::Highest),
-            interface: empty(End::Highest),
-            moving: empty(End::Lowest),
-            mass: 0.0,
-        };
+        let xs = || positions.iter().map(|x: &Vect<2>| x[0]);
+        let ends = [End::Highest, End::Highest, End::Lowest];
+        let mut drawn = ends.map(|end| Columns::over(xs(), world.spacing, end));
+        let [surface, interface, moving] = &mut drawn;
+        let mut moving_mass = 0.0;
         for (k, x) in positions.iter().enumerate() {
-            drawn.surface.put(x);
+            surface.put(x);
             if !bed.has(k) {
                 continue;
             }
-            drawn.interface.put(x);
+            interface.put(x);
             if velocity[k].norm() > self.threshold {
-                drawn.moving.put(x);
-                drawn.mass += mass[k];
+                moving.put(x);
+                moving_mass += mass[k];
             }
         }
-        Ok(drawn)
+        Ok((drawn, moving_mass))
     }
 }
 
@@ -87,7 +75,7 @@ impl Probe<2> for BedLines {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, scene.phases)?);
+        self.number = phase::number(Some(&self.phase), scene)?;
         Ok(())
     }
 
@@ -96,9 +84,9 @@ impl Probe<2> for BedLines {
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {
-        let drawn = self.draw(world)?;
-        let heights = drawn.moving.places().map(|place| place[1]);
-        Ok(vec![drawn.mass, heights.fold(f64::NAN, f64::min)])
+        let ([.., moving], mass) = self.draw(world)?;
+        let heights = moving.places().map(|place| place[1]);
+        Ok(vec![mass, heights.fold(f64::NAN, f64::min)])
     }
 }
 
@@ -109,13 +97,13 @@ impl Curves<2> for BedLines {
     }
 
     fn curves(&self, world: &World<2>) -> Result<Vec<Vec<f64>>, StepError> {
-        let drawn = self.draw(world)?;
-        let limit = drawn.moving.or(&drawn.interface);
-        let lines = [&drawn.surface, &drawn.interface, &limit];
+        let ([surface, interface, moving], _) = self.draw(world)?;
+        let limit = moving.or(&interface);
+        let lines = [&surface, &interface, &limit];
         let row = |x: f64| {
             let heights = lines.map(|line| line.height(x).unwrap_or(f64::NAN));
             [x].into_iter().chain(heights).collect()
         };
-        Ok(drawn.surface.middles().map(row).collect())
+        Ok(surface.middles().map(row).collect())
     }
 }

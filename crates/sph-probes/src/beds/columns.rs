@@ -1,6 +1,6 @@
 //! Lines through the outermost particle of every column.
 
-use sph_core::Vect;
+use sph_core::{Vect, bounds};
 
 /// Width of a column in spacings: particles that have moved apart by more than one leave narrower
 /// columns empty down to the rows below.
@@ -29,9 +29,8 @@ pub(crate) struct Columns {
 
 impl Columns {
     /// Columns over some places, m, and one more on either side; nothing stands in them yet.
-    pub fn over(xs: impl Iterator<Item = f64> + Clone, spacing: f64, end: End) -> Self {
-        let low = xs.clone().fold(f64::INFINITY, f64::min);
-        let high = xs.fold(f64::NEG_INFINITY, f64::max);
+    pub fn over(xs: impl Iterator<Item = f64>, spacing: f64, end: End) -> Self {
+        let [[low], [high]] = bounds(xs.map(|x| [x]));
         let width = WIDTH * spacing;
         let first = (low / width).floor() - 1.0;
         let count = (high / width).floor() + 2.0 - first;

@@ -3,8 +3,9 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
+use crate::measure::presets::Direction;
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Direction, Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Mass of a bed that has left its place at the start, kg (per metre of width in 2D).
 ///
@@ -53,7 +54,7 @@ impl<const D: usize> Probe<D> for ErodedMass {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, scene.phases)?);
+        self.number = phase::number(Some(&self.phase), scene)?;
         Ok(())
     }
 

@@ -1,11 +1,11 @@
 //! The pressure of the water in the pores at a point.
 
-use sph_core::{StepError, fields, plugin};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::contract::refused;
 use crate::flow::point::{carried, point};
-use crate::sampling::around;
+use crate::sampling::mean_around;
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the
@@ -55,11 +55,8 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
             refused("probes", reason)
         })?;
         let x = carried(world, point::<D>(&self.at), self.follows.as_deref())?;
-        let (mut filling, mut sum) = (0.0, 0.0);
-        for (j, d, vw) in around(world, x)? {
-            filling += vw;
-            sum += vw * (pore[j] + self.density * world.gravity.dot(&d));
-        }
-        Ok(vec![if filling > 0.0 { sum / filling } else { 0.0 }])
+        let own =
+            |j: usize, d: &Vect<D>| Vect::from([pore[j] + self.density * world.gravity.dot(d)]);
+        Ok(vec![mean_around(world, x, own)?[0]])
     }
 }

@@ -1,6 +1,6 @@
 //! A bed from above: how deep it is scoured, and where.
 
-use sph_core::{StepError, fields, plugin};
+use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, CountedPhase};
@@ -55,12 +55,6 @@ struct Grid {
     cells: [i64; 2],
 }
 
-/// A cell: its middle and the height of the bed, m.
-struct Cell {
-    middle: [f64; 2],
-    height: f64,
-}
-
 impl ScourMap {
     fn grid(&self, spacing: f64) -> Grid {
         let least = WIDTH * spacing;
@@ -80,21 +74,21 @@ impl ScourMap {
         }
     }
 
-    fn cells(&self, world: &World<3>) -> Result<Vec<Cell>, StepError> {
+    /// The middles of the cells and the heights of the bed there, m.
+    fn cells(&self, world: &World<3>) -> Result<Vec<[f64; 3]>, StepError> {
         let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
         let grid = self.grid(world.spacing);
         let cell = |k: usize, x: f64| {
             let n = ((x - grid.corner[k]) / grid.width[k]).floor() as i64;
             n.min(grid.cells[k] - 1)
         };
-        let inside = |x: f64, y: f64| {
-            let between = |[low, high]: [f64; 2], v: f64| low <= v && v <= high;
-            self.within
-                .is_none_or(|[lo, hi]| between([lo[0], hi[0]], x) && between([lo[1], hi[1]], y))
+        let inside = |x: &Vect<3>| {
+            let between = |[lo, hi]: [[f64; 2]; 2]| (0..2).all(|k| lo[k] <= x[k] && x[k] <= hi[k]);
+            self.within.is_none_or(between)
         };
         let positions = world.free.get(fields::POSITION)?.iter().enumerate();
         let mut all: Vec<([i64; 2], f64, bool)> = positions
-            .filter(|(_, x)| inside(x[0], x[1]))
+            .filter(|(_, x)| inside(x))
             .map(|(k, x)| ([0, 1].map(|k| cell(k, x[k])), x[2], bed.has(k)))
             .collect();
         all.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -108,10 +102,7 @@ impl ScourMap {
                 let particles = column.iter().map(|(_, z, grain)| (*z, *grain));
                 let height = height(particles, world.spacing);
                 let emptied = self.within.map(|_| column[0].1 - 0.5 * world.spacing);
-                Some(Cell {
-                    middle: [middle(0), middle(1)],
-                    height: height.or(emptied)?,
-                })
+                Some([middle(0), middle(1), height.or(emptied)?])
             })
             .collect())
     }
@@ -143,7 +134,7 @@ impl Probe<3> for ScourMap {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, scene.phases)?);
+        self.number = phase::number(Some(&self.phase), scene)?;
         Ok(())
     }
 
@@ -153,7 +144,7 @@ impl Probe<3> for ScourMap {
 
     fn measure(&self, world: &World<3>) -> Result<Vec<f64>, StepError> {
         let cells = self.cells(world)?;
-        let depths = || cells.iter().map(|cell| self.level - cell.height);
+        let depths = || cells.iter().map(|[.., height]| self.level - height);
         let [long, wide] = self.grid(world.spacing).width;
         let area = long * wide;
         Ok(vec![
@@ -171,10 +162,7 @@ impl Curves<3> for ScourMap {
     }
 
     fn curves(&self, world: &World<3>) -> Result<Vec<Vec<f64>>, StepError> {
-        let row = |cell: &Cell| {
-            let [x, y] = cell.middle;
-            vec![x, y, cell.height, self.level - cell.height]
-        };
+        let row = |[x, y, height]: &[f64; 3]| vec![*x, *y, *height, self.level - height];
         Ok(self.cells(world)?.iter().map(row).collect())
     }
 

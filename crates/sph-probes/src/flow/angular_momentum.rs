@@ -30,10 +30,7 @@ impl<const D: usize> Probe<D> for AngularMomentum {
             (2, _) => "kg m/s",
             _ => "kg m²/s",
         };
-        match D {
-            2 => ProbeColumn::only(unit),
-            _ => ProbeColumn::components(D, unit),
-        }
+        ProbeColumn::turns(D, unit)
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

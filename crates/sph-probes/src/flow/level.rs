@@ -3,7 +3,7 @@
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::phases::phase::{self, CountedPhase, column, share};
+use crate::phases::phase::{self, CountedPhase, bisected, column, ends, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// The highest place over a point where Σ V w falls to half of its value under water, V being at most a cell δr^d.
@@ -55,9 +55,7 @@ impl<const D: usize> Probe<D> for Level {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, scene.phases)?);
-        }
+        self.number = phase::number(self.phase.as_deref(), scene)?;
         Ok(())
     }
 
@@ -68,9 +66,7 @@ impl<const D: usize> Probe<D> for Level {
         let mut near = column(world, &self.at, self.follows.as_deref())?;
         near.retain(|(_, _, k)| counted.has(*k));
         let filling = |z: f64| -> f64 { near.iter().map(|(d, v, _)| share(world, d, *v, z)).sum() };
-        let heights = || near.iter().map(|(d, ..)| d[D - 1]);
-        let top = heights().fold(f64::NEG_INFINITY, f64::max);
-        let bottom = heights().fold(f64::INFINITY, f64::min);
+        let [bottom, top] = ends(&near);
         if near.is_empty() {
             return Ok(vec![f64::NAN]);
         }
@@ -87,16 +83,7 @@ impl<const D: usize> Probe<D> for Level {
         if filling(z) < half {
             return Ok(vec![f64::NAN]);
         }
-        let (mut full, mut empty) = (z, z + step);
-        for _ in 0..30 {
-            let middle = 0.5 * (full + empty);
-            if filling(middle) < half {
-                empty = middle
-            } else {
-                full = middle
-            }
-        }
-        let level = 0.5 * (full + empty);
+        let level = bisected(z + step, z, |z| filling(z) < half);
         let dry = match self.wetted {
             true => length_where(|z| filling(z) < half, bottom, level, step),
             false => 0.0,
@@ -125,9 +112,8 @@ fn beside_a_wall<const D: usize>(
     }
     let gamma = world.free.get(fields::RENORMALISATION)?;
     let aside = |d: &Vect<D>| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>();
-    let close = near
-        .iter()
-        .filter(|(d, ..)| aside(d) <= world.spacing.powi(2));
+    let within = world.spacing.powi(2);
+    let close = near.iter().filter(|(d, ..)| aside(d) <= within);
     let highest = close.max_by(|a, b| a.0[D - 1].total_cmp(&b.0[D - 1]));
     Ok(highest.is_some_and(|(d, _, k)| d[D - 1] > floor && gamma[*k] < 1.0))
 }

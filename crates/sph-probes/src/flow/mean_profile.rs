@@ -2,11 +2,10 @@
 
 use std::sync::{Mutex, MutexGuard};
 
-use sph_core::{StepError, Vect, fields, plugin};
+use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::flow::profile::Component;
-use crate::measure::quantity::Quantity;
+use crate::measure::quantity::{AXES, Quantity};
 use crate::norm::at;
 use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, contract};
 
@@ -33,7 +32,7 @@ use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, contract};
     source: "Issa 2004, Eq. 6.46–6.50")]
 pub struct MeanProfile {
     /// The axis that layers are cut across.
-    pub axis: Component,
+    pub axis: Axis,
     /// Start of the first layer.
     #[parameter(unit: "m")]
     pub from: f64,
@@ -51,8 +50,8 @@ pub struct MeanProfile {
     /// A quantity in the place of the velocity: a scalar field, or `pressure_acceleration.x`.
     pub field: Option<String>,
     /// Component of the velocity that is compared.
-    #[parameter(default: Component::X)]
-    pub component: Component,
+    #[parameter(default)]
+    pub component: Axis,
     /// CSV file of the reference, relative to the scene's folder: distance from `from` in m, value in SI.
     pub file: Option<String>,
     /// The distances from `from` between which it is compared; all if left out.
@@ -78,16 +77,11 @@ impl MeanProfile {
         3 + 2 * self.components::<D>()
     }
 
-    /// The middle of a layer, from `from`, m.
-    fn middle(&self, layer: usize) -> f64 {
-        (self.to - self.from) * (layer as f64 + 0.5) / self.layers as f64
-    }
-
     /// Mean distance of the particles of a layer from `from`, m; the middle of an empty one.
     fn distance(&self, layer: usize, sums: &[f64], components: usize) -> f64 {
         match sums[0] > 0.0 {
             true => sums[2 + 2 * components] / sums[0],
-            false => self.middle(layer),
+            false => (self.to - self.from) * (layer as f64 + 0.5) / self.layers as f64,
         }
     }
 
@@ -100,9 +94,8 @@ impl MeanProfile {
             }
         }
         let share = (x[self.axis as usize] - self.from) / (self.to - self.from);
-        (0.0..1.0)
-            .contains(&share)
-            .then(|| ((share * self.layers as f64) as usize).min(self.layers - 1))
+        let layer = || ((share * self.layers as f64) as usize).min(self.layers - 1);
+        (0.0..1.0).contains(&share).then(layer)
     }
 
     /// Reads the values of a particle into `into`.
@@ -121,17 +114,13 @@ impl MeanProfile {
     }
 
     fn check<const D: usize>(&self) -> Result<(), StepError> {
-        let axis = self.axis as usize;
-        if axis >= D {
-            return Err(refused("this scene has no such `axis`"));
-        }
-        if !(self.to > self.from && self.to.is_finite() && self.from.is_finite()) {
-            return Err(refused("`to` is to be larger than `from`"));
-        }
-        match self.layers {
-            0 => Err(refused("one layer at least was expected")),
-            _ => Ok(()),
-        }
+        let grows = self.to > self.from && self.to.is_finite() && self.from.is_finite();
+        Err(refused(match self.layers {
+            _ if self.axis as usize >= D => "this scene has no such `axis`",
+            _ if !grows => "`to` is to be larger than `from`",
+            0 => "one layer at least was expected",
+            _ => return Ok(()),
+        }))
     }
 
     /// Means and root mean squares of all components, and −⟨u'w'⟩, of a layer; NaN where nothing was.
@@ -146,29 +135,22 @@ impl MeanProfile {
         let stress = means[0] * means[axis] - sums[1 + 2 * components] / weight;
         match weight > 0.0 {
             true => [means, fluctuations, vec![stress]],
-            false => [
-                vec![f64::NAN; components],
-                vec![f64::NAN; components],
-                vec![f64::NAN],
-            ],
+            false => [components, components, 1].map(|count| vec![f64::NAN; count]),
         }
     }
 
     /// The reference at a distance.
     fn expected(&self, distance: f64) -> Option<f64> {
-        let [places, values]: [Vec<f64>; 2] = [0, 1].map(|k| {
-            let all = self.reference.iter().map(|row| row[k]);
-            all.collect()
-        });
+        let rows = self.reference.iter().map(|[place, value]| (*place, *value));
+        let (places, values): (Vec<f64>, Vec<f64>) = rows.unzip();
         at(&places, &values, distance)
     }
 
     /// Mean and reference of the layers that are compared.
     fn compared(&self, sums: &[f64], components: usize) -> Vec<[f64; 2]> {
         let [low, high] = self.compared.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let stride = 3 + 2 * components;
         let component = (self.component as usize).min(components - 1);
-        let layers = sums.chunks(stride).enumerate();
+        let layers = sums.chunks(3 + 2 * components).enumerate();
         let placed = layers.map(|(k, sums)| (self.distance(k, sums, components), sums));
         let inside = placed.filter(|(distance, _)| (low..=high).contains(distance));
         let both = inside.filter_map(|(distance, sums)| {
@@ -182,8 +164,6 @@ impl MeanProfile {
 fn refused(reason: &str) -> StepError {
     contract::refused("probe `mean-profile`", reason)
 }
-
-const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl<const D: usize> Probe<D> for MeanProfile {
     fn columns(&self) -> Vec<ProbeColumn> {
@@ -243,11 +223,8 @@ impl<const D: usize> Probe<D> for MeanProfile {
         let largest = rows.iter().map(|[u, e]| (u - e).abs()).fold(0.0, f64::max);
         let shares = rows.iter().map(|[u, e]| ((u - e) / e).abs());
         let relative = shares.fold(0.0, f64::max);
-        Ok(vec![
-            (squares / rows.len() as f64).sqrt(),
-            largest,
-            relative,
-        ])
+        let rms = (squares / rows.len() as f64).sqrt();
+        Ok(vec![rms, largest, relative])
     }
 }
 
@@ -272,10 +249,9 @@ impl<const D: usize> Curves<D> for MeanProfile {
 
     fn curves(&self, _: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
         let sums = self.sums()?;
-        let components = self.components::<D>();
-        let empty = vec![0.0; self.stride::<D>()];
+        let (stride, components) = (self.stride::<D>(), self.components::<D>());
+        let empty = vec![0.0; stride];
         let row = |k: usize| {
-            let stride = self.stride::<D>();
             let sums = sums.get(k * stride..(k + 1) * stride).unwrap_or(&empty);
             let [means, fluctuations, stress] = self.of_layer(sums, components);
             let distance = self.distance(k, sums, components);

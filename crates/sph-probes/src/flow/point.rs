@@ -1,10 +1,11 @@
 //! Pressure and velocity at a point.
 
-use sph_core::{StepError, Vect, plugin, suggestion};
+use sph_core::{StepError, Vect, fields, plugin, suggestion};
 use sph_neighbours::World;
 
 use crate::contract::refused;
-use crate::{Probe, ProbeColumn, ProbeEntry, interpolate};
+use crate::sampling::mean_around;
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Pressure at a point, in the fluid or on a wall, averaged over the face of a sensor.
 ///
@@ -78,17 +79,26 @@ impl<const D: usize> Probe<D> for PressureProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let free = &world.free;
+        let (pressure, density) = (free.get(fields::PRESSURE)?, free.get(fields::DENSITY)?);
+        let acceleration = free.get(fields::MEAN_ACCELERATION).ok();
+        // Exact at rest, and in a tank that is accelerated, where the smoother has the mean accelerations.
+        let own = |j: usize, d: &Vect<D>| {
+            let inertia = acceleration.map_or(Vect::zeros(), |a| a[j]);
+            Vect::from([pressure[j] + density[j] * (world.gravity - inertia).dot(d)])
+        };
+        let at = |x: Vect<D>| mean_around(world, x, own).map(|p| p[0]);
         let place = |drawn: Vect<D>| carried(world, drawn, self.follows.as_deref());
         let centre = place(point::<D>(&self.at))?;
         let along = place(point::<D>(&self.at) + point::<D>(&self.along))? - centre;
         if self.diameter == 0.0 || along.norm() == 0.0 {
-            return Ok(vec![interpolate(world, &centre)?.pressure]);
+            return Ok(vec![at(centre)?]);
         }
         // Five points share the face evenly.
         let step = along.normalize() * (self.diameter / 5.0);
         let mut mean = 0.0;
         for k in -2..=2 {
-            mean += interpolate(world, &(centre + step * f64::from(k)))?.pressure / 5.0;
+            mean += at(centre + step * f64::from(k))? / 5.0;
         }
         Ok(vec![mean])
     }
@@ -114,7 +124,8 @@ impl<const D: usize> Probe<D> for VelocityProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let found = interpolate(world, &point::<D>(&self.at))?;
-        Ok(found.velocity.iter().copied().collect())
+        let velocity = world.free.get(fields::VELOCITY)?;
+        let mean = mean_around(world, point(&self.at), |j, _| velocity[j])?;
+        Ok(mean.iter().copied().collect())
     }
 }

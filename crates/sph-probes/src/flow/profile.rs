@@ -1,23 +1,11 @@
 //! A component of the velocity along a line, beside a reference.
 
 use nalgebra::{DMatrix, DVector};
-use sph_core::{StepError, Vect, fields, parameters, plugin};
+use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
-
-/// A component of a vector.
-#[parameters]
-#[serde(rename_all = "lowercase")]
-pub enum Component {
-    /// The first.
-    X,
-    /// The second.
-    Y,
-    /// The third; zero in 2D.
-    Z,
-}
 
 /// Root mean square over a reference's places of u − e, with u a component of the velocity on a straight
 /// line and e the reference, and the largest |u − e|, m/s. The profile itself is its curve.
@@ -41,7 +29,7 @@ pub enum Component {
     source: "moving least squares of first order")]
 pub struct Profile {
     /// Component of the velocity.
-    pub component: Component,
+    pub component: Axis,
     /// Start of the line.
     #[parameter(unit: "m")]
     pub from: Vec<f64>,

@@ -141,10 +141,10 @@ impl Probe<2> for StreamFunction {
         let [low, high] = self.corners.map(Vect::from);
         // A correction reads the neighbours of neighbours.
         let near = NearbyParticles::new(world, low, high, 1 + self.corrections as usize)?;
-        if near.is_empty() {
+        let along: Vec<f64> = near.numbers().map(|k| velocity[k][0]).collect();
+        if along.is_empty() {
             return Ok(vec![f64::NAN; 3]);
         }
-        let along: Vec<f64> = near.numbers().map(|k| velocity[k][0]).collect();
         // q is the averaged quantity: u, and then u with what its mean lacks.
         let mut q = along.clone();
         for _ in 0..self.corrections {

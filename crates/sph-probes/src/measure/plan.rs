@@ -5,50 +5,22 @@ use std::sync::OnceLock;
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::quantity::Quantity;
+use super::quantity::{AXES, Quantity};
 use super::reduction::{Reduce, WeightedValues};
 use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
 
-/// Bounds on a quantity: a particle on a bound does not count.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct QuantityBounds {
-    pub of: Quantity,
-    pub above: f64,
-    pub below: f64,
+/// Bounds on a quantity, the lower and the upper one: a particle on a bound does not count.
+pub(crate) type QuantityBounds = (Quantity, [f64; 2]);
+
+/// above < quantity.
+pub(crate) fn above(name: &str, above: f64) -> QuantityBounds {
+    (Quantity::named(name), [above, f64::INFINITY])
 }
 
-impl QuantityBounds {
-    /// above < quantity.
-    pub fn above(of: Quantity, above: f64) -> Self {
-        let below = f64::INFINITY;
-        QuantityBounds { of, above, below }
-    }
-
-    /// quantity < below.
-    pub fn below(of: Quantity, below: f64) -> Self {
-        let above = f64::NEG_INFINITY;
-        QuantityBounds { of, above, below }
-    }
-}
-
-/// The numbers of the particles of a phase that fulfil all conditions, and the number of particles of the phase.
-///
-/// # Errors
-/// If a quantity is not known, or the phase's number.
-pub(crate) fn counted<const D: usize>(
-    world: &World<D>,
-    (name, number): (Option<&str>, Option<u32>),
-    conditions: &[QuantityBounds],
-) -> Result<(Vec<usize>, Vec<usize>), StepError> {
-    let phase = CountedPhase::in_phase(world, name, number)?;
-    let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
-    let mut all = of_phase.clone();
-    for condition in conditions {
-        let (value, _) = condition.of.values(world)?;
-        all.retain(|k| value(*k) > condition.above && value(*k) < condition.below);
-    }
-    Ok((all, of_phase))
+/// quantity < below.
+pub(crate) fn below(name: &str, below: f64) -> QuantityBounds {
+    (Quantity::named(name), [f64::NEG_INFINITY, below])
 }
 
 /// A column of a measurement: reduced/`scale` + `spacings` · δr.
@@ -64,14 +36,15 @@ pub(crate) struct PlannedColumn {
 
 impl PlannedColumn {
     /// A reduced quantity as it is.
-    pub fn new(suffix: &str, of: Quantity, reduce: impl Into<Reduce>) -> Self {
+    pub fn new(suffix: &str, name: &str, reduce: impl Into<Reduce>) -> Self {
+        let of = Quantity::named(name);
         PlannedColumn {
             suffix: suffix.into(),
+            unit: of.unit(),
             of,
             reduce: reduce.into(),
             scale: 1.0,
             spacings: 0.0,
-            unit: None,
         }
     }
 
@@ -112,10 +85,10 @@ pub(crate) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     /// Columns of all particles of a phase.
-    pub fn of_phase(phase: Option<&'a str>, columns: Vec<PlannedColumn>) -> Self {
+    pub fn of_phase(phase: Option<&'a str>, columns: impl Into<Vec<PlannedColumn>>) -> Self {
         Plan {
             phase,
-            columns,
+            columns: columns.into(),
             ..Plan::default()
         }
     }
@@ -145,23 +118,23 @@ impl<P: Preset> MeasuringProbe<P> {
         }
     }
 
-    fn named<const D: usize>(&self) -> Vec<ProbeColumn> {
-        let plan = self.preset.plan(D);
-        let known = |k: usize| self.units.get().and_then(|units| units.get(k)).copied();
-        let columns = plan.columns.iter().enumerate();
-        let one = |(k, column): (usize, &PlannedColumn)| {
-            let unit = column.unit.or(known(k)).unwrap_or("1");
-            ProbeColumn::named(&column.suffix, unit)
-        };
-        let mut all: Vec<_> = columns.map(one).collect();
-        if plan.fitted.is_some() {
-            all.push(ProbeColumn::named(".slope", "1"));
-            all.push(ProbeColumn::named(".rms_about", all[0].unit));
+    /// The numbers of the particles of the phase that fulfil all conditions, and of all particles of the phase.
+    fn counted<const D: usize>(
+        &self,
+        world: &World<D>,
+        plan: &Plan<'_>,
+    ) -> Result<(Vec<usize>, Vec<usize>), StepError> {
+        let phase = CountedPhase::in_phase(world, plan.phase, self.number)?;
+        let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
+        let mut all = of_phase.clone();
+        for (of, [above, below]) in &plan.conditions {
+            let (value, _) = of.values(world)?;
+            all.retain(|k| value(*k) > *above && value(*k) < *below);
         }
-        all
+        Ok((all, of_phase))
     }
 
-    /// The columns of the particles of some numbers, of a phase with so much weight.
+    /// The columns of the particles that count, of a phase with so much weight.
     fn reduced<const D: usize>(
         &self,
         world: &World<D>,
@@ -192,40 +165,33 @@ impl<P: Preset> MeasuringProbe<P> {
         self.units.get_or_init(|| units);
         all
     }
-
-    /// Slope and root mean square distance of the line through the first quantity over a coordinate.
-    fn fitted<const D: usize>(
-        &self,
-        world: &World<D>,
-        plan: &Plan<'_>,
-        (axis, counted): (usize, &[usize]),
-    ) -> Result<[f64; 2], StepError> {
-        let (value, _) = plan.columns[0].of.values(world)?;
-        let (place, _) = Quantity::Coordinate(axis).values(world)?;
-        let x: Vec<f64> = counted.iter().map(|k| place(*k)).collect();
-        let y: Vec<f64> = counted.iter().map(|k| value(*k)).collect();
-        if x.len() < 3 {
-            return Ok([f64::NAN; 2]);
-        }
-        Ok(norm::line(&x, &y))
-    }
 }
 
 impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
     fn columns(&self) -> Vec<ProbeColumn> {
-        self.named::<D>()
+        let plan = self.preset.plan(D);
+        let known = |k: usize| self.units.get().and_then(|units| units.get(k)).copied();
+        let columns = plan.columns.iter().enumerate();
+        let one = |(k, column): (usize, &PlannedColumn)| {
+            let unit = column.unit.or(known(k)).unwrap_or("1");
+            ProbeColumn::named(&column.suffix, unit)
+        };
+        let mut all: Vec<_> = columns.map(one).collect();
+        if plan.fitted.is_some() {
+            all.push(ProbeColumn::named(".slope", "1"));
+            all.push(ProbeColumn::named(".rms_about", all[0].unit));
+        }
+        all
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        if let Some(name) = self.preset.plan(D).phase {
-            self.number = Some(phase::number(name, scene.phases)?);
-        }
+        self.number = phase::number(self.preset.plan(D).phase, scene)?;
         Ok(())
     }
 
     fn needs(&self) -> Needs<'static> {
         let plan = self.preset.plan(D);
-        let of_conditions = plan.conditions.iter().map(|condition| &condition.of);
+        let of_conditions = plan.conditions.iter().map(|(of, _)| of);
         let all = plan.columns.iter().map(|column| &column.of);
         let all = all.chain(of_conditions).chain(&plan.weight);
         let fields = all.filter_map(|of| Some(of.column()?.to_string()));
@@ -241,11 +207,13 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let plan = self.preset.plan(D);
-        let phase = (plan.phase, self.number);
-        let (all, of_phase) = counted(world, phase, &plan.conditions)?;
+        let (all, of_phase) = self.counted(world, &plan)?;
         let mut columns = self.reduced(world, &plan, (&all, &of_phase))?;
         if let Some(axis) = plan.fitted {
-            columns.extend(self.fitted(world, &plan, (axis, &all))?);
+            let (value, _) = plan.columns[0].of.values(world)?;
+            let (place, _) = Quantity::named(AXES[axis]).values(world)?;
+            let (x, y): (Vec<f64>, Vec<f64>) = all.iter().map(|k| (place(*k), value(*k))).unzip();
+            columns.extend(norm::line(&x, &y));
         }
         Ok(columns)
     }
@@ -253,22 +221,18 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
 
 impl<const D: usize, P: Preset> Curves<D> for MeasuringProbe<P> {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
-        let axis = self
-            .preset
-            .plan(D)
-            .slices
-            .map_or(0, |(axis, _)| axis.min(D - 1));
-        let mut all = vec![ProbeColumn::named(["x", "y", "z"][axis], "m")];
-        let columns = self.named::<D>().into_iter();
-        let own = columns.take(self.preset.plan(D).columns.len());
-        all.extend(own.map(|column| ProbeColumn {
+        let plan = self.preset.plan(D);
+        let axis = plan.slices.map_or(0, |(axis, _)| axis.min(D - 1));
+        let columns = Probe::<D>::columns(self).into_iter();
+        let own = columns.take(plan.columns.len()).map(|column| ProbeColumn {
             suffix: match column.suffix.trim_start_matches('.') {
                 "" => "value".into(),
                 name => name.into(),
             },
-            unit: column.unit,
-        }));
-        all
+            ..column
+        });
+        let axis = ProbeColumn::named(AXES[axis], "m");
+        std::iter::once(axis).chain(own).collect()
     }
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
@@ -277,7 +241,7 @@ impl<const D: usize, P: Preset> Curves<D> for MeasuringProbe<P> {
             return Ok(Vec::new());
         };
         let (axis, width) = (axis.min(D - 1), spacings * world.spacing);
-        let (all, of_phase) = counted(world, (plan.phase, self.number), &plan.conditions)?;
+        let (all, of_phase) = self.counted(world, &plan)?;
         let positions = world.free.get(fields::POSITION)?;
         let slice = |k: &usize| (positions[*k][axis] / width).floor() as i64;
         let mut slices: std::collections::BTreeMap<i64, Vec<usize>> = Default::default();

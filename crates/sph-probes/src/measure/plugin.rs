@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use sph_core::{Axis, parameters, plugin};
 
-use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset, QuantityBounds};
-use super::quantity::{Quantity, unit_of};
+use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset, above, below};
+use super::quantity::Quantity;
 use super::reduction::{Reduce, Reduction};
 use crate::ProbeEntry;
 
@@ -24,25 +24,16 @@ pub enum Weight {
 }
 
 impl Weight {
-    /// All of them.
-    pub const ALL: [Weight; 3] = [Weight::One, Weight::Mass, Weight::Volume];
-
-    /// Its name in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Weight::One => "one",
-            Weight::Mass => "mass",
-            Weight::Volume => "volume",
-        }
-    }
+    /// All of them, with their names in scenes.
+    pub const ALL: [(Weight, &'static str); 3] = [
+        (Weight::One, "one"),
+        (Weight::Mass, "mass"),
+        (Weight::Volume, "volume"),
+    ];
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
-        match self {
-            Weight::One => "1",
-            Weight::Mass => "kg",
-            Weight::Volume => "m³",
-        }
+        ["1", "kg", "m³"][self as usize]
     }
 }
 
@@ -101,14 +92,11 @@ pub struct Statistic {
 
 impl Statistic {
     fn column(&self, suffix: &str, reduce: Reduce) -> PlannedColumn {
-        let column = PlannedColumn::new(suffix, Quantity::named(&self.field), reduce);
+        let column = PlannedColumn::new(suffix, &self.field, reduce);
         match reduce {
             Reduce::By(Reduction::Share) => column.in_unit("1"),
             Reduce::By(Reduction::Total) => column.in_unit(self.weight.unit()),
-            _ => match unit_of(&self.field) {
-                Some(unit) => column.in_unit(unit).over(self.scale),
-                None => column.over(self.scale),
-            },
+            _ => column.over(self.scale),
         }
     }
 }
@@ -120,27 +108,21 @@ impl Preset for Statistic {
             1 => String::new(),
             _ => format!(".{name}"),
         };
-        let reduced = self
-            .reduce
-            .iter()
-            .map(|reduction| self.column(&suffix(reduction.name().into()), (*reduction).into()));
-        let quantiles = self.quantiles.iter();
-        let quantiles =
-            quantiles.map(|q| self.column(&suffix(format!("q{q}")), Reduce::Quantile(*q)));
-        let above = self.above.iter();
-        let above = above.map(|(name, least)| QuantityBounds::above(Quantity::named(name), *least));
-        let below = self.below.iter();
-        let below = below.map(|(name, most)| QuantityBounds::below(Quantity::named(name), *most));
+        let reduced = |how: &Reduction| self.column(&suffix(how.name().into()), (*how).into());
+        let quantile = |q: &f64| self.column(&suffix(format!("q{q}")), Reduce::Quantile(*q));
+        let reduced = self.reduce.iter().map(reduced);
+        let columns = reduced.chain(self.quantiles.iter().map(quantile));
+        let above = self.above.iter().map(|(name, least)| above(name, *least));
+        let below = self.below.iter().map(|(name, most)| below(name, *most));
         Plan {
             conditions: above.chain(below).collect(),
             weight: match self.weight {
                 Weight::One => None,
-                Weight::Mass => Some(Quantity::Column("mass".into())),
-                Weight::Volume => Some(Quantity::Column("volume".into())),
+                other => Some(Quantity::named(Weight::ALL[other as usize].1)),
             },
             slices: self.along.map(|axis| (axis as usize, self.slice)),
             fitted: self.fit.map(|axis| axis as usize),
-            ..Plan::of_phase(self.phase.as_deref(), reduced.chain(quantiles).collect())
+            ..Plan::of_phase(self.phase.as_deref(), columns.collect::<Vec<_>>())
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use sph_core::{Axis, fields, parameters, plugin};
 
-use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset, QuantityBounds};
-use super::quantity::Quantity;
+use super::plan::{MeasuringProbe, Plan, PlannedColumn, Preset, above, below};
+use super::quantity::{AXES, Quantity};
 use super::reduction::{Reduce, Reduction};
 use crate::ProbeEntry;
 
@@ -19,8 +19,8 @@ pub struct KineticEnergy {}
 
 impl Preset for KineticEnergy {
     fn plan(&self, _: usize) -> Plan<'_> {
-        let energy = PlannedColumn::new("", Quantity::KineticEnergy, Reduction::Sum);
-        Plan::of_phase(None, vec![energy.in_unit("J")])
+        let energy = PlannedColumn::new("", "kinetic_energy", Reduction::Sum);
+        Plan::of_phase(None, [energy])
     }
 }
 
@@ -42,10 +42,12 @@ pub struct PhaseEnergy {
 
 impl Preset for PhaseEnergy {
     fn plan(&self, _: usize) -> Plan<'_> {
-        let kinetic = PlannedColumn::new(".kinetic", Quantity::KineticEnergy, Reduction::Sum);
-        let potential = PlannedColumn::new(".potential", Quantity::PotentialEnergy, Reduction::Sum);
-        let columns = [kinetic, potential].map(|column| column.in_unit("J"));
-        Plan::of_phase(self.phase.as_deref(), columns.into())
+        let kinds = [
+            (".kinetic", "kinetic_energy"),
+            (".potential", "potential_energy"),
+        ];
+        let sum = |(suffix, name)| PlannedColumn::new(suffix, name, Reduction::Sum);
+        Plan::of_phase(self.phase.as_deref(), kinds.map(sum))
     }
 }
 
@@ -72,9 +74,8 @@ pub struct PhaseVolume {
 impl Preset for PhaseVolume {
     fn plan(&self, dimension: usize) -> Plan<'_> {
         let unit = if dimension == 2 { "m²" } else { "m³" };
-        let volume = Quantity::Column(fields::VOLUME.name.into());
-        let sum = PlannedColumn::new("", volume, Reduction::Sum).in_unit(unit);
-        Plan::of_phase(self.phase.as_deref(), vec![sum.over(self.scale)])
+        let sum = PlannedColumn::new("", fields::VOLUME.name, Reduction::Sum).in_unit(unit);
+        Plan::of_phase(self.phase.as_deref(), [sum.over(self.scale)])
     }
 }
 
@@ -98,17 +99,9 @@ pub struct FieldRange {
 
 impl Preset for FieldRange {
     fn plan(&self, _: usize) -> Plan<'_> {
-        let column = |suffix, reduce| {
-            let field = Quantity::Column(self.field.clone());
-            PlannedColumn::new(suffix, field, reduce).over(self.scale)
-        };
-        Plan::of_phase(
-            None,
-            vec![
-                column(".min", Reduction::Min),
-                column(".max", Reduction::Max),
-            ],
-        )
+        let ends = [(".min", Reduction::Min), (".max", Reduction::Max)];
+        let column = |(suffix, end)| PlannedColumn::new(suffix, &self.field, end).over(self.scale);
+        Plan::of_phase(None, ends.map(column))
     }
 }
 
@@ -142,21 +135,16 @@ impl Preset for Extent {
         let (low, high, weight) = match self.quantile {
             0.0 => (Reduction::Min.into(), Reduction::Max.into(), None),
             share => {
-                let volume = Quantity::Column(fields::VOLUME.name.into());
-                (
-                    Reduce::FromBelow(share),
-                    Reduce::FromAbove(share),
-                    Some(volume),
-                )
+                let volume = Some(Quantity::named(fields::VOLUME.name));
+                (Reduce::FromBelow(share), Reduce::FromAbove(share), volume)
             }
         };
-        let along = || Quantity::Coordinate(self.axis as usize);
-        let lowest = PlannedColumn::new(".lowest", along(), low).and_spacings(-0.5);
-        let highest = PlannedColumn::new(".highest", along(), high).and_spacings(0.5);
-        let columns = [lowest, highest].map(|column| column.in_unit("m"));
+        let along = AXES[self.axis as usize];
+        let lowest = PlannedColumn::new(".lowest", along, low).and_spacings(-0.5);
+        let highest = PlannedColumn::new(".highest", along, high).and_spacings(0.5);
         Plan {
             weight,
-            ..Plan::of_phase(self.phase.as_deref(), columns.into())
+            ..Plan::of_phase(self.phase.as_deref(), [lowest, highest])
         }
     }
 }
@@ -212,15 +200,12 @@ impl Preset for Front {
             Direction::Forward => (Reduce::Quantile(share), 0.5),
             Direction::Backward => (Reduce::QuantileDown(share), -0.5),
         };
-        let along = Quantity::Coordinate(self.axis as usize);
+        let along = AXES[self.axis as usize];
         let front = PlannedColumn::new("", along, reduce).and_spacings(spacings);
-        let upright = || Quantity::Coordinate(dimension - 1);
-        let below = self
-            .below
-            .map(|height| QuantityBounds::below(upright(), height));
+        let lower = |height: f64| below(AXES[dimension - 1], height);
         Plan {
-            conditions: below.into_iter().collect(),
-            ..Plan::of_phase(self.phase.as_deref(), vec![front.in_unit("m")])
+            conditions: self.below.map(lower).into_iter().collect(),
+            ..Plan::of_phase(self.phase.as_deref(), [front])
         }
     }
 }
@@ -252,13 +237,13 @@ pub struct Yielded {
 
 impl Preset for Yielded {
     fn plan(&self, _: usize) -> Plan<'_> {
-        let rate = || Quantity::Column(fields::STRAIN_RATE.name.into());
-        let columns = vec![
-            PlannedColumn::new(".share", rate(), Reduction::Share).in_unit("1"),
-            PlannedColumn::new(".mean", rate(), Reduction::Mean).in_unit("1/s"),
+        let rate = fields::STRAIN_RATE.name;
+        let columns = [
+            PlannedColumn::new(".share", rate, Reduction::Share).in_unit("1"),
+            PlannedColumn::new(".mean", rate, Reduction::Mean).in_unit("1/s"),
         ];
         Plan {
-            conditions: vec![QuantityBounds::above(rate(), self.strain_rate)],
+            conditions: vec![above(rate, self.strain_rate)],
             ..Plan::of_phase(self.phase.as_deref(), columns)
         }
     }

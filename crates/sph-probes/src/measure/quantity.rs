@@ -15,50 +15,40 @@ const MADE: [(&str, &str); 6] = [
     ("potential_energy", "J"),
 ];
 
-/// A quantity that every particle has.
+/// Names of the axes.
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A quantity that every particle has, by its name: a column, of several components their magnitude (`pressure`), a
+/// component of one (`velocity.x`), or one that is made of columns (`x`, `speed`, `kinetic_energy`).
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Quantity {
-    /// A coordinate, m.
-    Coordinate(usize),
-    /// |u|, m/s.
-    Speed,
-    /// ½ m u², J (per metre of depth in 2D).
-    KineticEnergy,
-    /// −m g·r, J (per metre of depth in 2D); it counts from the origin.
-    PotentialEnergy,
-    /// A scalar column, or the magnitude of a column with several components.
-    Column(String),
-    /// A component of a column.
-    Component(String, usize),
-}
+pub(crate) struct Quantity(String);
 
 /// The values of a quantity by the number of the particle, with their unit.
 pub(crate) type Values<'a> = (Box<dyn Fn(usize) -> f64 + 'a>, &'static str);
 
 impl Quantity {
-    /// A quantity by its name: `pressure`, `velocity.x`, `x`, `speed`, `kinetic_energy`.
+    /// A quantity by its name.
     pub fn named(name: &str) -> Self {
-        let axis = |name: &str| ["x", "y", "z"].iter().position(|axis| *axis == name);
-        match name {
-            "speed" => Quantity::Speed,
-            "kinetic_energy" => Quantity::KineticEnergy,
-            "potential_energy" => Quantity::PotentialEnergy,
-            _ => match (axis(name), name.split_once('.')) {
-                (Some(axis), _) => Quantity::Coordinate(axis),
-                (None, Some((column, part))) if axis(part).is_some() => {
-                    Quantity::Component(column.into(), axis(part).unwrap_or_default())
-                }
-                _ => Quantity::Column(name.into()),
-            },
-        }
+        Quantity(name.into())
+    }
+
+    /// The unit of a quantity that is no column.
+    pub fn unit(&self) -> Option<&'static str> {
+        let made = MADE.iter().find(|(name, _)| *name == self.0);
+        made.map(|(_, unit)| *unit)
+    }
+
+    /// A column, and the number of its component if it is one.
+    fn parts(&self) -> (&str, Option<usize>) {
+        let axis = |part: &str| AXES.iter().position(|axis| *axis == part);
+        let parts = self.0.split_once('.');
+        let component = parts.and_then(|(column, part)| Some((column, Some(axis(part)?))));
+        component.unwrap_or((&self.0, None))
     }
 
     /// The column that has to be computed for it.
     pub fn column(&self) -> Option<&str> {
-        match self {
-            Quantity::Column(name) | Quantity::Component(name, _) => Some(name),
-            _ => None,
-        }
+        self.unit().is_none().then(|| self.parts().0)
     }
 
     /// The values of all particles.
@@ -67,34 +57,37 @@ impl Quantity {
     /// If there is no such column or component.
     pub fn values<'a, const D: usize>(&self, world: &'a World<D>) -> Result<Values<'a>, StepError> {
         let free = &world.free;
-        Ok(match self {
-            Quantity::Coordinate(axis) => {
-                let (x, axis) = (free.get(fields::POSITION)?, (*axis).min(D - 1));
-                (Box::new(move |k| x[k][axis]), "m")
-            }
-            Quantity::Speed => {
+        let value: Box<dyn Fn(usize) -> f64> = match self.0.as_str() {
+            "speed" => {
                 let u = free.get(fields::VELOCITY)?;
-                (Box::new(move |k| u[k].norm()), "m/s")
+                Box::new(move |k| u[k].norm())
             }
-            Quantity::KineticEnergy => {
+            // ½ m u², per metre of depth in 2D.
+            "kinetic_energy" => {
                 let (m, u) = (free.get(fields::MASS)?, free.get(fields::VELOCITY)?);
-                (Box::new(move |k| 0.5 * m[k] * u[k].norm_squared()), "J")
+                Box::new(move |k| 0.5 * m[k] * u[k].norm_squared())
             }
-            Quantity::PotentialEnergy => {
+            // −m g·r, per metre of depth in 2D; it counts from the origin.
+            "potential_energy" => {
                 let (m, x) = (free.get(fields::MASS)?, free.get(fields::POSITION)?);
                 let g = world.steady_gravity;
-                (Box::new(move |k| -(m[k] * g.dot(&x[k]))), "J")
+                Box::new(move |k| -(m[k] * g.dot(&x[k])))
             }
-            Quantity::Column(name) => of_column(world, name, None)?,
-            Quantity::Component(name, axis) => of_column(world, name, Some(*axis))?,
-        })
+            name => match AXES.iter().position(|axis| *axis == name) {
+                Some(axis) => {
+                    let (x, axis) = (free.get(fields::POSITION)?, axis.min(D - 1));
+                    Box::new(move |k| x[k][axis])
+                }
+                None => return of_column(world, self.parts()),
+            },
+        };
+        Ok((value, self.unit().unwrap_or_default()))
     }
 }
 
 fn of_column<'a, const D: usize>(
     world: &'a World<D>,
-    name: &str,
-    component: Option<usize>,
+    (name, component): (&str, Option<usize>),
 ) -> Result<Values<'a>, StepError> {
     let mut columns = world.free.columns();
     let found = columns.find(|(known, ..)| *known == name);
@@ -126,11 +119,4 @@ fn unknown<const D: usize>(world: &World<D>, name: &str) -> StepError {
     let known = known.join(", ");
     let reason = format!("there is no field `{name}` in this scene{near}; there are: {known}");
     refused("probes", reason)
-}
-
-/// The unit of a quantity that is no column.
-pub(crate) fn unit_of(name: &str) -> Option<&'static str> {
-    MADE.iter()
-        .find(|(known, _)| *known == name)
-        .map(|(_, unit)| *unit)
 }

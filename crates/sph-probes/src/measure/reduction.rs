@@ -25,28 +25,20 @@ pub enum Reduction {
 }
 
 impl Reduction {
-    /// All of them.
-    pub const ALL: [Reduction; 7] = [
-        Reduction::Min,
-        Reduction::Max,
-        Reduction::Mean,
-        Reduction::Sum,
-        Reduction::Rms,
-        Reduction::Total,
-        Reduction::Share,
+    /// All of them, with their names in scenes.
+    pub const ALL: [(Reduction, &'static str); 7] = [
+        (Reduction::Min, "min"),
+        (Reduction::Max, "max"),
+        (Reduction::Mean, "mean"),
+        (Reduction::Sum, "sum"),
+        (Reduction::Rms, "rms"),
+        (Reduction::Total, "total"),
+        (Reduction::Share, "share"),
     ];
 
     /// Its name in scenes.
     pub fn name(self) -> &'static str {
-        match self {
-            Reduction::Min => "min",
-            Reduction::Max => "max",
-            Reduction::Mean => "mean",
-            Reduction::Sum => "sum",
-            Reduction::Rms => "rms",
-            Reduction::Total => "total",
-            Reduction::Share => "share",
-        }
+        Self::ALL[self as usize].1
     }
 }
 
@@ -91,12 +83,10 @@ impl WeightedValues<'_> {
     fn sum(&self, of: impl Fn(f64) -> f64) -> f64 {
         match self.weights {
             None => self.values.iter().map(|v| of(*v)).sum(),
-            Some(weights) => self
-                .values
-                .iter()
-                .zip(weights)
-                .map(|(v, w)| w * of(*v))
-                .sum(),
+            Some(weights) => {
+                let weighed = self.values.iter().zip(weights);
+                weighed.map(|(v, w)| w * of(*v)).sum()
+            }
         }
     }
 
@@ -133,38 +123,41 @@ impl WeightedValues<'_> {
             let last = last.clamp(1, values.len()) - 1;
             return *values.select_nth_unstable_by(last, f64::total_cmp).1;
         };
-        let mut pairs: Vec<_> = self.values.iter().copied().zip(weights).collect();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (mut sum, wanted) = (0.0, share * self.total());
-        let found = pairs.iter().find(|(_, weight)| {
-            sum += **weight;
-            sum >= wanted
-        });
-        found.or(pairs.last()).map_or(f64::NAN, |pair| pair.0)
+        let wanted = share * weights.iter().sum::<f64>();
+        let pairs = self.sorted();
+        let last = || pairs.last().map(|pair| pair.0);
+        reached(&pairs, |sum| sum >= wanted)
+            .or_else(last)
+            .unwrap_or(f64::NAN)
     }
 
     fn beyond(&self, share: f64, from_above: bool) -> f64 {
-        let ones;
-        let weights = match self.weights {
-            Some(weights) => weights,
-            None => {
-                ones = vec![1.0; self.values.len()];
-                &ones
-            }
-        };
-        let mut pairs: Vec<_> = self.values.iter().copied().zip(weights).collect();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut pairs = self.sorted();
         let left_out = share * pairs.iter().map(|pair| pair.1).sum::<f64>();
         if from_above {
             pairs.reverse();
         }
-        let mut sum = 0.0;
-        let found = pairs.iter().find(|(_, weight)| {
-            sum += **weight;
-            sum > left_out
-        });
-        found.map_or(f64::NAN, |pair| pair.0)
+        reached(&pairs, |sum| sum > left_out).unwrap_or(f64::NAN)
     }
+
+    /// Values with their weights, from the least up.
+    fn sorted(&self) -> Vec<(f64, f64)> {
+        let weight = |k: usize| self.weights.map_or(1.0, |all| all[k]);
+        let values = self.values.iter().enumerate();
+        let mut pairs: Vec<_> = values.map(|(k, value)| (*value, weight(k))).collect();
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        pairs
+    }
+}
+
+/// The first value up to which the sum of the weights is enough.
+fn reached(pairs: &[(f64, f64)], enough: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut sum = 0.0;
+    let mut sums = pairs.iter().map(|(value, weight)| {
+        sum += weight;
+        (*value, sum)
+    });
+    sums.find(|(_, sum)| enough(*sum)).map(|(value, _)| value)
 }
 
 #[cfg(test)]

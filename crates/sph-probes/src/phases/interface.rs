@@ -3,7 +3,7 @@
 use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 
-use crate::phases::phase::{self, CountedPhase, column, share};
+use crate::phases::phase::{self, CountedPhase, bisected, column, ends, share};
 use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// The highest place over a point where the share Σ_phase V w / Σ V w crosses one half, m.
@@ -43,7 +43,7 @@ impl<const D: usize> Probe<D> for Interface {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = Some(phase::number(&self.phase, scene.phases)?);
+        self.number = phase::number(Some(&self.phase), scene)?;
         Ok(())
     }
 
@@ -60,9 +60,7 @@ impl<const D: usize> Probe<D> for Interface {
             }
             (of_all >= EMPTY).then(|| of_phase / of_all - 0.5)
         };
-        let heights = || near.iter().map(|(d, ..)| d[D - 1]);
-        let top = heights().fold(f64::NEG_INFINITY, f64::max);
-        let bottom = heights().fold(f64::INFINITY, f64::min);
+        let [bottom, top] = ends(&near);
         let step = 0.25 * world.spacing;
         let (mut z, mut above): (f64, Option<(f64, f64)>) = (top + step, None);
         // Down from above until the side changes, then bisect.
@@ -70,15 +68,9 @@ impl<const D: usize> Probe<D> for Interface {
             let here = excess(z);
             match (above, here) {
                 (Some((over, before)), Some(now)) if (before >= 0.0) != (now >= 0.0) => {
-                    let (mut high, mut low) = (over, z);
-                    for _ in 0..30 {
-                        let middle = 0.5 * (high + low);
-                        match excess(middle) {
-                            Some(e) if (e >= 0.0) == (before >= 0.0) => high = middle,
-                            _ => low = middle,
-                        }
-                    }
-                    return Ok(vec![0.5 * (high + low)]);
+                    let same = |e: f64| (e >= 0.0) == (before >= 0.0);
+                    let crossing = bisected(over, z, |z| excess(z).is_some_and(same));
+                    return Ok(vec![crossing]);
                 }
                 (_, Some(now)) => above = Some((z, now)),
                 _ => {}

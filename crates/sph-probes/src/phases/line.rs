@@ -28,7 +28,7 @@ pub enum LineOf {
 /// start, wherever that is: the limit between the soil that failed and that which did not. With
 /// `of = "limit"` it goes half a spacing under the lowest particle of a column that is faster than
 /// `threshold` now, and along the surface where none is: the limit of a moving bed
-/// ([`BedLines`](crate::BedLines)). Between
+/// (`bed-lines`). Between
 /// two particles the line is straight, beyond the last ones level; a column without a particle
 /// interrupts it. Points of the reference without a line do not count in the first and the last value:
 /// read the share, too. Without any they are NaN. A steep line is nearer than it is high.
@@ -101,9 +101,7 @@ impl Probe<2> for Line {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, scene.phases)?);
-        }
+        self.number = phase::number(self.phase.as_deref(), scene)?;
         Ok(())
     }
 

@@ -1,19 +1,20 @@
 //! Particles that a probe counts: those of one phase, or all.
 
-use sph_core::{StepError, Vect, fields, suggestion};
+use sph_core::{StepError, Vect, bounds, fields, suggestion};
 use sph_neighbours::World;
 
-use crate::contract::refused;
+use crate::contract::{ProbeScene, refused};
 use crate::flow::point::{carried, point};
 
-/// Number of the phase called `name`, in the scene's order of names.
+/// Number of the phase that a probe names, in the scene's order of names; none if it names none.
 ///
 /// # Errors
 /// If no phase is called so.
-pub(crate) fn number(name: &str, names: &[String]) -> Result<u32, String> {
-    let found = names.iter().position(|n| n == name);
-    found.map(|k| k as u32).ok_or_else(|| {
-        let near = suggestion(name, names.iter().map(String::as_str));
+pub(crate) fn number(name: Option<&str>, scene: &ProbeScene<'_>) -> Result<Option<u32>, String> {
+    let Some(name) = name else { return Ok(None) };
+    let found = scene.phases.iter().position(|n| n == name);
+    found.map(|k| Some(k as u32)).ok_or_else(|| {
+        let near = suggestion(name, scene.phases.iter().map(String::as_str));
         format!("there is no phase called `{name}`{near}")
     })
 }
@@ -22,14 +23,12 @@ pub(crate) fn number(name: &str, names: &[String]) -> Result<u32, String> {
 pub(crate) enum CountedPhase<'a> {
     /// All particles.
     All,
-    /// None: the phase has no particles' numbers to compare with.
-    None,
     /// Those whose phase has this number.
     Of(&'a [u32], u32),
 }
 
 impl<'a> CountedPhase<'a> {
-    /// Those of the phase `name` with its `number` as [`Probe::name_phases`](crate::Probe) found it.
+    /// Those of the phase `name` with its `number` as [`Probe::prepare`](crate::Probe) found it.
     ///
     /// # Errors
     /// If the phase is named and its number was not set.
@@ -42,7 +41,7 @@ impl<'a> CountedPhase<'a> {
             (None, _) => Ok(CountedPhase::All),
             // A scene of one phase has no column of phases.
             (_, Some(0)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::All),
-            (_, Some(_)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::None),
+            (_, Some(k)) if !world.free.has(fields::PHASE.name) => Ok(CountedPhase::Of(&[], k)),
             (_, Some(k)) => Ok(CountedPhase::Of(world.free.get(fields::PHASE)?, k)),
             (Some(name), None) => {
                 let reason = format!("the number of the phase `{name}` is not known yet");
@@ -51,12 +50,19 @@ impl<'a> CountedPhase<'a> {
         }
     }
 
+    /// Those of some values of all particles that belong to particles that count.
+    pub fn among<'v, T>(&'v self, values: &'v [T]) -> impl Iterator<Item = &'v T> {
+        let numbered = values.iter().enumerate();
+        numbered
+            .filter(|(k, _)| self.has(*k))
+            .map(|(_, value)| value)
+    }
+
     /// True if particle `k` counts.
     pub fn has(&self, k: usize) -> bool {
         match self {
             CountedPhase::All => true,
-            CountedPhase::None => false,
-            CountedPhase::Of(phases, number) => phases[k] == *number,
+            CountedPhase::Of(phases, number) => phases.get(k) == Some(number),
         }
     }
 }
@@ -80,6 +86,24 @@ pub(crate) fn column<const D: usize>(
     let placed = all.map(|(k, (x, v))| (world.domain.nearest_image(x - foot), v.min(cell), k));
     let near = |d: &Vect<D>| (0..D - 1).map(|k| d[k] * d[k]).sum::<f64>() < radius * radius;
     Ok(placed.filter(|(d, ..)| near(d)).collect())
+}
+
+/// The lowest and the highest of these particles.
+pub(crate) fn ends<const D: usize>(near: &[(Vect<D>, f64, usize)]) -> [f64; 2] {
+    let [[bottom], [top]] = bounds(near.iter().map(|(d, ..)| [d[D - 1]]));
+    [bottom, top]
+}
+
+/// The place between two heights at which a condition that holds at the first ends, by halving 30 times.
+pub(crate) fn bisected(mut first: f64, mut last: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..30 {
+        let middle = 0.5 * (first + last);
+        match holds(middle) {
+            true => first = middle,
+            false => last = middle,
+        }
+    }
+    0.5 * (first + last)
 }
 
 /// V w at height z of the line for one of its particles.

@@ -41,9 +41,7 @@ impl Probe<2> for SurfaceSlope {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        if let Some(name) = &self.phase {
-            self.number = Some(phase::number(name, scene.phases)?);
-        }
+        self.number = phase::number(self.phase.as_deref(), scene)?;
         Ok(())
     }
 
@@ -54,11 +52,7 @@ impl Probe<2> for SurfaceSlope {
         let columns = ((last - first) / world.spacing).round().max(0.0);
         // Only of columns that have a particle: the places may be arbitrarily far apart.
         let mut highest: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
-        for (_, x) in positions
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| counted.has(*k))
-        {
+        for x in counted.among(positions) {
             let along = (x[0] - first) / (last - first) * columns;
             // A negative or too large place is in no column.
             let column = along.floor();
@@ -69,13 +63,8 @@ impl Probe<2> for SurfaceSlope {
                 }
             }
         }
-        let (x, y): (Vec<f64>, Vec<f64>) = highest
-            .values()
-            .map(|[x, y]| (*x, y + 0.5 * world.spacing))
-            .unzip();
-        if x.len() < 3 {
-            return Ok(vec![f64::NAN; 2]);
-        }
+        let tops = highest.values().map(|[x, y]| (*x, y + 0.5 * world.spacing));
+        let (x, y): (Vec<f64>, Vec<f64>) = tops.unzip();
         let [slope, rms] = norm::line(&x, &y);
         Ok(vec![slope.atan(), rms])
     }

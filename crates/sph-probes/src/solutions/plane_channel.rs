@@ -95,11 +95,8 @@ mod tests {
             height: 1.0,
             bottom: 0.0,
         };
-        let at = |y: f64, t: f64| {
-            Solution::<2>::velocity(&flow, &Vect::from([0.0, y]), t)
-                .unwrap()
-                .x
-        };
+        let u = |y: f64, t| Solution::<2>::velocity(&flow, &[0.0, y].into(), t);
+        let at = |y, t| u(y, t).unwrap().x;
         assert!(at(0.3, 0.0).abs() < 1e-6, "u(t=0) = {:e}", at(0.3, 0.0));
         assert!((at(0.5, 1e3) - 1.0).abs() < 1e-14);
         assert!(at(0.0, 1.0).abs() < 1e-14 && at(1.0, 1.0).abs() < 1e-12);

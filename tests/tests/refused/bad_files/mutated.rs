@@ -225,7 +225,7 @@ proptest! {
         let text = String::from_utf8_lossy(&bytes);
         match Table::parse(&text, "p.csv") {
             Ok(table) => prop_assert!(table.columns.iter().all(|c| c.values.len() == table.rows())),
-            Err(IoError::Table { path, line, .. }) => {
+            Err(IoError::Table(path, line, _)) => {
                 prop_assert!(path == Path::new("p.csv"));
                 prop_assert!((1..=1 + text.lines().count()).contains(&line));
             }
