@@ -88,7 +88,8 @@ pub use crate::{
     error::{FieldError, PlanError, RegistryError, StepError},
     evolve::{Evolved, Recall, System},
     field::{
-        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, unit_suffix,
+        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, some_unit,
+        unit_suffix,
     },
     kinds::{
         FlowNature, LawNature, LawNatures, Place, PluginKind, SuitedPlugin, Suits, Work, kind_of,
@@ -108,8 +109,8 @@ pub use crate::{
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{
-    Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
-    parse_unit, plausible, suggestion, unit_factor,
+    Dimensions, MOST_PROBLEMS, SceneProblem, comma_list, conform, defaults, nearest, number,
+    parse_quantity, parse_unit, plausible, suggestion, unit_factor,
 };
 #[cfg(feature = "plugins")]
 pub use sph_derive::{parameters, plugin};
