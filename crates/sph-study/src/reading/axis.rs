@@ -85,7 +85,7 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
                 problems.push(SceneProblem::new(at, message));
             }
             Ok(axis) => axes.push(axis),
-            Err(found) => problems.extend(found),
+            Err(problem) => problems.push(problem),
         }
     }
     match problems.is_empty() {
@@ -97,61 +97,60 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
 /// One axis of a study file, with its path.
 ///
 /// # Errors
-/// Its mistakes, with their places in the file.
-pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<SceneProblem>> {
-    let problem = |key: &str, message: &str| vec![SceneProblem::new(format!("{at}{key}"), message)];
-    let (name, choices) = match (&axis.key, &axis.values, &axis.entries) {
-        (Some(key), Some(values), None) => {
-            let name = axis.name.clone();
-            let name = name.unwrap_or_else(|| last(key).to_string());
-            let labels = axis.labels.as_ref();
-            if labels.is_some_and(|l| l.len() != values.len()) {
-                return Err(problem(
-                    ".labels",
-                    "there must be one label for every value",
-                ));
+/// Its first mistake, with its place in the file.
+pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, SceneProblem> {
+    let problem = |key: &str, message: &str| SceneProblem::new(format!("{at}{key}"), message);
+    let (name, choices): (String, Result<Vec<Choice>, SceneProblem>) =
+        match (&axis.key, &axis.values, &axis.entries) {
+            (Some(key), Some(values), None) => {
+                let last = || key.rsplit('.').next().unwrap_or(key).to_string();
+                let name = axis.name.clone().unwrap_or_else(last);
+                let labels = axis.labels.as_ref();
+                if labels.is_some_and(|l| l.len() != values.len()) {
+                    let why = "there must be one label for every value";
+                    return Err(problem(".labels", why));
+                }
+                let choice = |(k, value): (usize, &Value)| {
+                    let at = format!("{at}.values[{k}]");
+                    let set = set(key, value.clone(), at)?;
+                    let bare = label(value);
+                    let given = labels.map(|l| l[k].clone());
+                    Ok(Choice {
+                        slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
+                        label: given.unwrap_or(bare),
+                        sets: vec![set],
+                        ..Choice::default()
+                    })
+                };
+                (
+                    name.clone(),
+                    values.iter().enumerate().map(choice).collect(),
+                )
             }
-            let choice = |(k, value): (usize, &Value)| {
-                let at = format!("{at}.values[{k}]");
-                let set = set(key, value.clone(), at)?;
-                let bare = label(value);
-                let given = labels.map(|l| l[k].clone());
-                Ok(Choice {
-                    slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
-                    label: given.unwrap_or(bare),
-                    sets: vec![set],
-                    ..Choice::default()
-                })
-            };
-            let choices: Result<Vec<_>, SceneProblem> =
-                values.iter().enumerate().map(choice).collect();
-            (name.clone(), choices.map_err(|p| vec![p])?)
-        }
-        (None, None, Some(entries)) => {
-            if axis.labels.is_some() {
-                return Err(problem(".labels", "entries have names, not labels"));
+            (None, None, Some(entries)) => {
+                if axis.labels.is_some() {
+                    return Err(problem(".labels", "entries have names, not labels"));
+                }
+                let name = axis.name.clone();
+                let missing = "the key `name` is missing: what tables and plots call this axis";
+                let name = name.ok_or_else(|| problem("", missing))?;
+                let choice = |(k, entry): (usize, &file::Entry)| {
+                    let at = format!("{at}.entries[{k}]");
+                    let named = entry.scene.clone();
+                    Ok(Choice {
+                        scene: named.map(|scene| (scene, format!("{at}.scene"))),
+                        sets: sets(&entry.set, &format!("{at}.set"))?,
+                        ..Choice::named(&entry.name)
+                    })
+                };
+                (name, entries.iter().enumerate().map(choice).collect())
             }
-            let name = axis.name.clone();
-            let missing = "the key `name` is missing: what tables and plots call this axis";
-            let name = name.ok_or_else(|| problem("", missing))?;
-            let choice = |(k, entry): (usize, &file::Entry)| {
-                let at = format!("{at}.entries[{k}]");
-                let named = entry.scene.clone();
-                Ok(Choice {
-                    scene: named.map(|scene| (scene, format!("{at}.scene"))),
-                    sets: sets(&entry.set, &format!("{at}.set"))?,
-                    ..Choice::named(&entry.name)
-                })
-            };
-            let choices: Result<Vec<_>, SceneProblem> =
-                entries.iter().enumerate().map(choice).collect();
-            (name, choices.map_err(|p| vec![p])?)
-        }
-        _ => {
-            let message = "an axis has either `key` and `values`, or `name` and `entries`";
-            return Err(problem("", message));
-        }
-    };
+            _ => {
+                let message = "an axis has either `key` and `values`, or `name` and `entries`";
+                return Err(problem("", message));
+            }
+        };
+    let choices = choices?;
     if choices.is_empty() {
         return Err(problem("", "an axis needs a value"));
     }
@@ -160,10 +159,6 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
         Some(twice) => Err(problem("", &format!("`{}` is there twice", twice.label))),
         None => Ok(StudyAxis { name, choices }),
     }
-}
-
-fn last(key: &str) -> &str {
-    key.rsplit('.').next().unwrap_or(key)
 }
 
 fn set(key: &str, value: Value, at: String) -> Result<Set, SceneProblem> {
@@ -268,10 +263,7 @@ mod tests {
             assert!(told.contains(message), "{axis}: {told}");
         }
         let twice = "[[vary]]\nkey = 'a.x'\nvalues = [1]\n[[vary]]\nkey = 'b.x'\nvalues = [1]";
-        assert!(
-            parsed(twice)
-                .unwrap_err()
-                .contains("another axis called `x`")
-        );
+        let told = parsed(twice).unwrap_err();
+        assert!(told.contains("another axis called `x`"), "{told}");
     }
 }

@@ -35,11 +35,8 @@ pub struct Refused {
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, mistake) in self.mistakes.iter().enumerate() {
-            let line = if k == 0 { "" } else { "\n" };
-            write!(f, "{line}{}", mistake.diagnostic)?;
-        }
-        Ok(())
+        let all = self.mistakes.iter().map(|m| m.diagnostic.to_string());
+        f.write_str(&all.collect::<Vec<_>>().join("\n"))
     }
 }
 
@@ -49,6 +46,11 @@ impl Refused {
     /// Problems of the study file itself.
     pub(crate) fn in_study(source: &Source, problems: &[SceneProblem]) -> Self {
         Refused::from_diagnostics(source, source.diagnose(problems))
+    }
+
+    /// A problem of the study file at a path.
+    pub(crate) fn at(source: &Source, path: &str, message: impl Into<String>) -> Self {
+        Refused::in_study(source, &[SceneProblem::new(path, message)])
     }
 
     /// Mistakes that have a place in a source.
@@ -81,7 +83,7 @@ impl OverrideSources<'_> {
                 "" => d.message.clone(),
                 key => format!("{key}: {}", d.message),
             };
-            Refused::in_study(self.study, &[SceneProblem::new(path, message)]).mistakes
+            Refused::at(self.study, &path, message).mistakes
         };
         found.iter().flat_map(place).collect()
     }
