@@ -22,16 +22,16 @@ pub fn flag() -> Arc<AtomicBool> {
         ));
     });
     if let Err(error) = handled {
-        deaf("Ctrl-C", error);
+        report_unhandled("Ctrl-C", error);
     }
     too_long();
     if let Err(error) = terminated(&raised) {
-        deaf("SIGTERM and SIGHUP", error);
+        report_unhandled("SIGTERM and SIGHUP", error);
     }
     raised
 }
 
-fn deaf(signals: &str, error: impl std::fmt::Display) {
+fn report_unhandled(signals: &str, error: impl std::fmt::Display) {
     console::err(&format!(
         "note: {signals} will stop without a checkpoint ({error})"
     ));

@@ -109,8 +109,8 @@ pub use crate::{
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{
-    Dimensions, MOST_PROBLEMS, SceneProblem, comma_list, conform, defaults, nearest, number,
-    parse_quantity, parse_unit, plausible, suggestion, unit_factor,
+    Dimensions, MOST_PROBLEMS, SceneProblem, comma_list, conform, defaults, is_within, nearest,
+    number, parse_quantity, parse_unit, plausible, suggestion, unit_factor,
 };
 #[cfg(feature = "plugins")]
 pub use sph_derive::{parameters, plugin};

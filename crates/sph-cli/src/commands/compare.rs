@@ -143,18 +143,10 @@ fn text(found: &Comparison, same: bool, folders: [&Path; 2]) -> String {
     }
     let alike = found.columns.iter().filter(|c| c.same).count();
     let mut text = format!("{a} and {b} differ; {alike} of {count} columns have the same bits\n");
-    let heads = [
-        "file",
-        "column",
-        "largest difference",
-        "of the range",
-        "first",
-        "second",
-        "where",
-    ];
+    let heads = "file, column, largest difference, of the range, first, second, where";
     if alike < count {
         let rows = found.columns.iter().filter(|c| !c.same);
-        text.push_str(&table(&heads, rows.map(Difference::row)));
+        text.push_str(&table(heads, rows.map(Difference::row)));
     }
     for remark in &found.remarks {
         text.push_str(&format!("  {remark}\n"));

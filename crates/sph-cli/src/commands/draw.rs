@@ -20,12 +20,16 @@ pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
 fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     let path = picture("out", &arguments.out, &["png"])?;
     let frames = frames(&arguments.results)?;
-    let time = quantity("time", arguments.time.as_deref(), "s")?;
-    let apart = quantity("apart", arguments.apart.as_deref(), "m")?;
+    let optional = |option, text: &Option<String>, unit| {
+        let given = text.as_deref();
+        given.map(|text| quantity(option, text, unit)).transpose()
+    };
+    let time = optional("time", &arguments.time, "s")?;
+    let apart = optional("apart", &arguments.apart, "m")?;
     if let Some(wrong) = apart.filter(|a| *a <= 0.0) {
         return Err(format!("--apart {wrong}: expected a distance above zero").into());
     }
-    let slice = quantity("slice", arguments.slice.as_deref(), "m")?;
+    let slice = optional("slice", &arguments.slice, "m")?;
     let how = (apart, slice);
     let lines = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path)?;
     report(&format!("{lines} lines"), path);
@@ -43,7 +47,7 @@ fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
         return Err(Trouble::usage("--to: the line has no length"));
     }
     let times = arguments.time.iter();
-    let times = times.map(|text| quantity("time", Some(text), "s"));
+    let times = times.map(|text| quantity("time", text, "s").map(Some));
     let mut times = times.collect::<Result<Vec<_>, _>>()?;
     if times.is_empty() {
         times.push(None);
@@ -103,11 +107,9 @@ pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Pa
     }
 }
 
-fn quantity(option: &str, text: Option<&str>, unit: &str) -> Result<Option<f64>, Trouble> {
-    let read = text.map(|t| parse_quantity(t, unit));
-    Ok(read
-        .transpose()
-        .map_err(|why| format!("--{option}: {why}"))?)
+/// The number of a quantity, in SI.
+pub fn quantity(option: &str, text: &str, unit: &str) -> Result<f64, Trouble> {
+    Ok(parse_quantity(text, unit).map_err(|why| format!("--{option}: {why}"))?)
 }
 
 /// Two or three coordinates, m.
@@ -118,9 +120,7 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
         return Err(format!("--{option} {text}: expected X,Y or X,Y,Z").into());
     }
     for (coordinate, part) in place.iter_mut().zip(parts) {
-        if let Some(value) = quantity(option, Some(part.trim()), "m")? {
-            *coordinate = value;
-        }
+        *coordinate = quantity(option, part.trim(), "m")?;
     }
     Ok(place)
 }

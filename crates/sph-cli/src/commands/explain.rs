@@ -61,14 +61,7 @@ fn ranks_text(split: &Ranks) -> String {
         "\nsplit over {count} machines at the start: the costliest has {:.1} % more than the mean\n",
         100.0 * split.imbalance
     );
-    let header = [
-        "rank",
-        "particles",
-        "cost",
-        "ghosts",
-        "sends per step",
-        "ghosts of",
-    ];
+    let heads = "rank, particles, cost, ghosts, sends per step, ghosts of";
     let rows = split.ranks.iter().enumerate().take(SHOWN);
     let rows = rows.map(|(rank, own)| {
         vec![
@@ -80,7 +73,7 @@ fn ranks_text(split: &Ranks) -> String {
             comma_list(&own.partners),
         ]
     });
-    text.push_str(&table(&header, rows));
+    text.push_str(&table(heads, rows));
     if count > SHOWN {
         let more = count - SHOWN;
         text.push_str(&format!("  … and {more} more (all of them with --json)\n"));
@@ -92,7 +85,7 @@ fn ranks_text(split: &Ranks) -> String {
     ));
     let rows = split.exchanges.iter();
     let rows = rows.map(|e| vec![e.stage.clone(), e.bytes.to_string(), e.columns.join(", ")]);
-    text + &table(&["after", "bytes", "columns"], rows)
+    text + &table("after, bytes, columns", rows)
 }
 
 fn text(e: &Examination) -> String {
@@ -127,11 +120,10 @@ fn plugins(plugins: &[PluginInForce]) -> String {
         let names = [&p.kind, &p.name, &p.provider].map(String::clone);
         (names.to_vec(), parameters(&p.parameters))
     });
-    table_and_below(&["kind", "name", "provider"], rows)
+    table_and_below("kind, name, provider", rows)
 }
 
 fn fields(e: &Examination) -> String {
-    let header = ["name", "unit", "bytes", "role", "written by", "read by"];
     let list = |names: &[String]| {
         let place = |n: &String| Some(e.stages.iter().position(|s| s.name == *n)? + 1);
         match names.is_empty() {
@@ -154,7 +146,7 @@ fn fields(e: &Examination) -> String {
             list(&f.read_by),
         ]
     });
-    table(&header, rows)
+    table("name, unit, bytes, role, written by, read by", rows)
 }
 
 fn stage_text(k: usize, stage: &StageUse) -> String {

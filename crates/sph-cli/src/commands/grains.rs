@@ -14,23 +14,17 @@ use crate::terminal::{
 
 /// Lists sizes, costs and remarks of a scene, without preparing its grains.
 pub fn check(loaded: &Loaded, shown: &str) -> Result<CommandOutput, Trouble> {
-    examined(loaded, |found| check_text(found, shown))
+    let found = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
+    Ok(CommandOutput::new(&found, check_text(&found, shown)))
 }
 
 /// Shows the parts of a scene.
 pub fn explain(loaded: &Loaded) -> Result<CommandOutput, Trouble> {
-    examined(loaded, explain_text)
-}
-
-fn examined(
-    loaded: &Loaded,
-    text: impl Fn(&Examination) -> String,
-) -> Result<CommandOutput, Trouble> {
     let found = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
-    Ok(CommandOutput::new(&found, text(&found)))
+    Ok(CommandOutput::new(&found, explain_text(&found)))
 }
 
-fn about(bytes: f64) -> String {
+fn rough_size(bytes: f64) -> String {
     format!("about {}", number::bytes(bytes))
 }
 
@@ -48,9 +42,9 @@ fn check_text(e: &Examination, file: &str) -> String {
         row("walls", listed(&e.walls, "none")),
         row("surfaces of triangles", listed(&e.surfaces, "none")),
         row("fluid", fluid),
-        row("memory per grain", about(bytes)),
+        row("memory per grain", rough_size(bytes)),
     ];
-    let memory = e.grains.map(|grains| about(bytes * grains as f64));
+    let memory = e.grains.map(|grains| rough_size(bytes * grains as f64));
     size.extend(memory.map(|memory| row("memory", memory)));
     let limits = e.limits.iter().map(|l| vec![l.to_string()]);
     let steps = number::count(e.estimate.steps);
@@ -78,12 +72,12 @@ fn explain_text(e: &Examination) -> String {
         let names = [&p.kind, &p.of, &p.name].map(String::clone);
         (names.to_vec(), parameters(&p.parameters))
     });
-    text.push_str(&table_and_below(&["kind", "of", "name"], rows));
+    text.push_str(&table_and_below("kind, of, name", rows));
     text.push_str("\nkept per grain; no column of particles is among it\n");
     let rows = e.memory.iter();
     text.push_str(&columns(
         2,
-        rows.map(|(name, bytes)| row(name, about(*bytes))),
+        rows.map(|(name, bytes)| row(name, rough_size(*bytes))),
     ));
     text.push_str("\nstages of a step, in order\n");
     for (k, stage) in e.stages.iter().enumerate() {
@@ -104,11 +98,11 @@ fn explain_text(e: &Examination) -> String {
 pub fn outcome(summary: &Summary, out: &Path) -> String {
     let derived = summary.derived.iter();
     let derived = derived.map(|(name, value)| row(name, number::plain(*value)));
-    let heads = ["name", "error", "norm", "found", "against", "rows"];
+    let heads = "name, error, norm, found, against, rows";
     headline(summary.status, &summary.scene)
         + &columns(2, cost(summary))
         + &headed("measured before the run", columns(2, derived))
-        + &errors(&heads, &summary.errors, error)
+        + &errors(heads, &summary.errors, error)
         + &headed("warnings", remarks(&summary.warnings))
         + &file_list::ending(out)
 }

@@ -12,10 +12,10 @@ use crate::terminal::{columns, headed, memory, remarks, row, table};
 
 /// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {
-    let heads = ["name", "value", "norm", "against", "samples"];
+    let heads = "name, value, norm, against, samples";
     headline(summary.status, &summary.scene)
         + &columns(2, cost(summary))
-        + &errors(&heads, &summary.errors, error)
+        + &errors(heads, &summary.errors, error)
         + &headed("warnings", remarks(&summary.warnings))
         + &headed("advice", remarks(&summary.advice))
         + &file_list::ending(out)
@@ -78,7 +78,7 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
 
 /// Errors below their heads, the first of which is that of their names; nothing if there are none.
 pub fn errors<E>(
-    heads: &[&str],
+    heads: &str,
     errors: &BTreeMap<String, E>,
     cells: impl Fn(&E) -> Vec<String>,
 ) -> String {

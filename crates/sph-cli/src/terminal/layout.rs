@@ -39,17 +39,14 @@ pub fn quantities<T: AsRef<str>>(all: &[(T, f64, T)]) -> Vec<Vec<String>> {
     all.iter().map(row).collect()
 }
 
-/// Rows as columns below their heads.
-pub fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    let heads = heads.iter().map(|h| h.to_string()).collect();
+/// Rows as columns below their heads, which have commas between.
+pub fn table(heads: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let heads = heads.split(", ").map(String::from).collect();
     columns(2, std::iter::once(heads).chain(rows))
 }
 
 /// Rows as columns below their heads, and below each row its details.
-pub fn table_and_below(
-    heads: &[&str],
-    rows: impl Iterator<Item = (Vec<String>, String)>,
-) -> String {
+pub fn table_and_below(heads: &str, rows: impl Iterator<Item = (Vec<String>, String)>) -> String {
     let (rows, below): (Vec<_>, Vec<_>) = rows.unzip();
     let table = table(heads, rows);
     let below = std::iter::once(String::new()).chain(below);

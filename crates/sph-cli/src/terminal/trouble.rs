@@ -109,7 +109,8 @@ impl From<RunError> for ModelError {
                 if let IoError::Read(path, _) | IoError::Checkpoint(path, _) = io
                     && path.extension().is_some_and(|e| e == "sph")
                 {
-                    told.more = "a checkpoint that cannot be read cannot be resumed: start again without --resume\n".into();
+                    let why = "a checkpoint that cannot be read cannot be resumed";
+                    told.more = format!("{why}: start again without --resume\n");
                 }
             }
             _ => {}

@@ -47,13 +47,9 @@ fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     let lines = results.scale.iter().flat_map(Scale::lines);
     let lines = lines.map(|line| format!("<p>{}</p>\n", escape(&line)));
-    let none = String::new;
+    let (error, none) = (plots::work_precision(results), String::new);
     let plots = [
-        (
-            "Error against run time",
-            plots::work_precision(results),
-            none(),
-        ),
+        ("Error against run time", error, none()),
         ("Means", plots::means(results), none()),
         ("Convergence", plots::convergence(results), orders(results)),
         ("Cost against size", plots::costs(results), lines.collect()),
@@ -73,8 +69,12 @@ fn compared(results: &Results) -> Result<String, IoError> {
     Ok(page)
 }
 
+/// A body below its title; nothing for an empty one.
 fn headed(title: &str, body: &str) -> String {
-    format!("<h2>{title}</h2>\n{body}")
+    match body {
+        "" => String::new(),
+        body => format!("<h2>{title}</h2>\n{body}"),
+    }
 }
 
 /// A text without its line breaks.
@@ -147,7 +147,7 @@ fn facts(results: &Results) -> String {
 fn differing(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
     let ran = results.variants.iter().filter(|v| v.size.steps > 0);
     let all: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
-    all.into_iter().collect()
+    Vec::from_iter(all)
 }
 
 fn orders(results: &Results) -> String {
@@ -205,10 +205,8 @@ fn failures(results: &Results) -> String {
         Some(vec![v.name.clone(), v.status.name().into(), reason])
     });
     let bad: Vec<Vec<String>> = bad.collect();
-    match some_grid(&["variant", "status", "reason"], &bad) {
-        none if none.is_empty() => none,
-        grid => headed("What did not end well", &grid),
-    }
+    let grid = some_grid(&["variant", "status", "reason"], &bad);
+    headed("What did not end well", &grid)
 }
 
 /// Parts of the time, of the variants that nothing beats.
@@ -224,10 +222,8 @@ fn stages(results: &Results) -> String {
             rows.push(vec![name.to_string(), stage.clone(), seconds, share]);
         }
     }
-    match some_grid(&["variant", "stage", "seconds", "share"], &rows) {
-        none if none.is_empty() => none,
-        grid => headed("Where the time goes", &grid),
-    }
+    let grid = some_grid(&["variant", "stage", "seconds", "share"], &rows);
+    headed("Where the time goes", &grid)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sph_core::SceneProblem;
+use sph_core::{SceneProblem, is_within};
 use sph_scene::Override;
 use toml::{Table, Value};
 
@@ -53,13 +53,9 @@ impl Choice {
 impl StudyAxis {
     /// True if its places set a key of the scene, or something around or in it.
     pub fn touches(&self, key: &str) -> bool {
-        let within = |inner: &str, outer: &str| {
-            let rest = inner.strip_prefix(outer);
-            rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
-        };
         let sets = self.choices.iter().flat_map(|c| &c.sets);
-        let paths = sets.map(|s| &s.value.path);
-        paths.into_iter().any(|p| within(p, key) || within(key, p))
+        let mut paths = sets.map(|s| &s.value.path);
+        paths.any(|path| is_within(path, key) || is_within(key, path))
     }
 }
 
@@ -100,57 +96,54 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
 /// Its first mistake, with its place in the file.
 pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, SceneProblem> {
     let problem = |key: &str, message: &str| SceneProblem::new(format!("{at}{key}"), message);
-    let (name, choices): (String, Result<Vec<Choice>, SceneProblem>) =
-        match (&axis.key, &axis.values, &axis.entries) {
-            (Some(key), Some(values), None) => {
-                let last = || key.rsplit('.').next().unwrap_or(key).to_string();
-                let name = axis.name.clone().unwrap_or_else(last);
-                let labels = axis.labels.as_ref();
-                if labels.is_some_and(|l| l.len() != values.len()) {
-                    let why = "there must be one label for every value";
-                    return Err(problem(".labels", why));
-                }
-                let choice = |(k, value): (usize, &Value)| {
-                    let at = format!("{at}.values[{k}]");
-                    let set = set(key, value.clone(), at)?;
-                    let bare = label(value);
-                    let given = labels.map(|l| l[k].clone());
-                    Ok(Choice {
-                        slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
-                        label: given.unwrap_or(bare),
-                        sets: vec![set],
-                        ..Choice::default()
-                    })
-                };
-                (
-                    name.clone(),
-                    values.iter().enumerate().map(choice).collect(),
-                )
+    let (name, choices): (String, Vec<Choice>) = match (&axis.key, &axis.values, &axis.entries) {
+        (Some(key), Some(values), None) => {
+            let last = || key.rsplit('.').next().unwrap_or(key).to_string();
+            let name = axis.name.clone().unwrap_or_else(last);
+            let labels = axis.labels.as_ref();
+            if labels.is_some_and(|l| l.len() != values.len()) {
+                let why = "there must be one label for every value";
+                return Err(problem(".labels", why));
             }
-            (None, None, Some(entries)) => {
-                if axis.labels.is_some() {
-                    return Err(problem(".labels", "entries have names, not labels"));
-                }
-                let name = axis.name.clone();
-                let missing = "the key `name` is missing: what tables and plots call this axis";
-                let name = name.ok_or_else(|| problem("", missing))?;
-                let choice = |(k, entry): (usize, &file::Entry)| {
-                    let at = format!("{at}.entries[{k}]");
-                    let named = entry.scene.clone();
-                    Ok(Choice {
-                        scene: named.map(|scene| (scene, format!("{at}.scene"))),
-                        sets: sets(&entry.set, &format!("{at}.set"))?,
-                        ..Choice::named(&entry.name)
-                    })
-                };
-                (name, entries.iter().enumerate().map(choice).collect())
+            let choice = |(k, value): (usize, &Value)| {
+                let at = format!("{at}.values[{k}]");
+                let set = set(key, value.clone(), at)?;
+                let bare = label(value);
+                let given = labels.map(|l| l[k].clone());
+                Ok(Choice {
+                    slug: given.clone().unwrap_or_else(|| format!("{name}-{bare}")),
+                    label: given.unwrap_or(bare),
+                    sets: vec![set],
+                    ..Choice::default()
+                })
+            };
+            let choices: Result<_, SceneProblem> = values.iter().enumerate().map(choice).collect();
+            (name.clone(), choices?)
+        }
+        (None, None, Some(entries)) => {
+            if axis.labels.is_some() {
+                return Err(problem(".labels", "entries have names, not labels"));
             }
-            _ => {
-                let message = "an axis has either `key` and `values`, or `name` and `entries`";
-                return Err(problem("", message));
-            }
-        };
-    let choices = choices?;
+            let name = axis.name.clone();
+            let missing = "the key `name` is missing: what tables and plots call this axis";
+            let name = name.ok_or_else(|| problem("", missing))?;
+            let choice = |(k, entry): (usize, &file::Entry)| {
+                let at = format!("{at}.entries[{k}]");
+                let named = entry.scene.clone();
+                Ok(Choice {
+                    scene: named.map(|scene| (scene, format!("{at}.scene"))),
+                    sets: sets(&entry.set, &format!("{at}.set"))?,
+                    ..Choice::named(&entry.name)
+                })
+            };
+            let choices: Result<_, SceneProblem> = entries.iter().enumerate().map(choice).collect();
+            (name, choices?)
+        }
+        _ => {
+            let message = "an axis has either `key` and `values`, or `name` and `entries`";
+            return Err(problem("", message));
+        }
+    };
     if choices.is_empty() {
         return Err(problem("", "an axis needs a value"));
     }

@@ -38,9 +38,8 @@ pub fn combinations(
     let all = all.map_err(|p| vec![p])?;
     let skipped = conditions(axes, skip)?;
     let left_out = |choices: &Vec<usize>| {
-        let holds =
-            |condition: &AxisChoices| condition.iter().all(|(k, c)| c.contains(&choices[*k]));
-        skipped.iter().any(holds)
+        let holds = |(k, labels): &(usize, Vec<usize>)| labels.contains(&choices[*k]);
+        skipped.iter().any(|condition| condition.iter().all(holds))
     };
     let kept: Vec<_> = all.into_iter().filter(|c| !left_out(c)).collect();
     match kept.is_empty() {
@@ -68,12 +67,9 @@ fn product(axes: &[StudyAxis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
 fn zipped(axes: &[StudyAxis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
     let count = axes.first().map_or(1, |a| a.choices.len());
     if let Some(k) = axes.iter().position(|a| a.choices.len() != count) {
-        let message = format!(
-            "axes that go side by side are equally long: `{}` has {count}, `{}` has {}",
-            axes[0].name,
-            axes[k].name,
-            axes[k].choices.len()
-        );
+        let (first, other, long) = (&axes[0].name, &axes[k].name, axes[k].choices.len());
+        let why = "axes that go side by side are equally long";
+        let message = format!("{why}: `{first}` has {count}, `{other}` has {long}");
         return Err(SceneProblem::new(format!("vary[{k}]"), message));
     }
     Ok((0..count).map(|k| vec![k; axes.len()]).collect())

@@ -47,13 +47,13 @@ pub fn read(
     }
     let mut variants = Vec::new();
     let mut mistakes = Vec::new();
-    for (k, found) in ladders.iter().enumerate() {
+    for (k, (_, scene, axes)) in ladders.iter().enumerate() {
         let common = axis::sets(&file.set, "set").and_then(|mut sets| {
             sets.extend(axis::sets(&file.axis[k].set, &format!("axis[{k}].set"))?);
             Ok(sets)
         });
         let common = common.map_err(|p| Refused::in_study(source, &[p]))?;
-        let all = combinations(&found.axes, Combine::Product, &[]);
+        let all = combinations(axes, Combine::Product, &[]);
         let all = all.map_err(|problems| Refused::in_study(source, &problems))?;
         if variants.len() + all.len() > MOST {
             let message = format!("with this axis there are more than {MOST} variants");
@@ -64,8 +64,8 @@ pub fn read(
             file,
             source,
             inputs,
-            scene: &found.scene,
-            axes: &found.axes,
+            scene,
+            axes,
             common,
             refinement: None,
             errors: errors.paths(&format!("axis[{k}].error")),
@@ -84,17 +84,9 @@ pub fn read(
         }
     }
     match mistakes.is_empty() {
-        true => Ok((ladders.into_iter().map(|l| l.ladder).collect(), variants)),
+        true => Ok((ladders.into_iter().map(|l| l.0).collect(), variants)),
         false => Err(Refused { mistakes }),
     }
-}
-
-/// A ladder with the source of its variants.
-struct LadderSource {
-    ladder: Ladder,
-    scene: SceneText,
-    /// The ladder itself, the combinations, the values.
-    axes: [StudyAxis; 3],
 }
 
 /// Mistakes of the study as a whole.
@@ -131,12 +123,13 @@ fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     problems
 }
 
+/// A ladder with its scene; the ladder itself, the combinations and the values as axes.
 fn one(
     file: &StudyFile,
     given: &file::Ladder,
     at: &str,
     find: &dyn Fn(&str) -> Result<SceneText, String>,
-) -> Result<LadderSource, Vec<SceneProblem>> {
+) -> Result<(Ladder, SceneText, [StudyAxis; 3]), Vec<SceneProblem>> {
     let problem =
         |key: &str, message: String| vec![SceneProblem::new(format!("{at}{key}"), message)];
     let values = values(given, at).map_err(|problem| vec![problem])?;
@@ -163,24 +156,22 @@ fn one(
     };
     check(judge, &errors, &path)?;
     let [own, combination, value] = COLUMNS;
-    Ok(LadderSource {
-        axes: [
-            column(own, vec![Choice::named(&given.name)]),
-            column(combination, plugins(file, given)?),
-            column(value, values.choices),
-        ],
-        ladder: Ladder {
-            name: given.name.clone(),
-            title: given.title.clone(),
-            scene: scene.name.clone(),
-            errors,
-            labels,
-            must,
-            judge: judge.clone(),
-            to_the_end: given.to_the_end,
-        },
-        scene,
-    })
+    let axes = [
+        column(own, vec![Choice::named(&given.name)]),
+        column(combination, plugins(file, given)?),
+        column(value, values.choices),
+    ];
+    let ladder = Ladder {
+        name: given.name.clone(),
+        title: given.title.clone(),
+        scene: scene.name.clone(),
+        errors,
+        labels,
+        must,
+        judge: judge.clone(),
+        to_the_end: given.to_the_end,
+    };
+    Ok((ladder, scene, axes))
 }
 
 /// The values of an axis, whose labels alone name folders.

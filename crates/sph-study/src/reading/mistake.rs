@@ -60,31 +60,27 @@ impl Refused {
     }
 }
 
-/// Origins of the overrides of a scene, so that its mistakes are shown where they were made.
-pub(crate) struct OverrideSources<'a> {
-    /// The study file.
-    pub study: &'a Source,
-    /// For every override of the scene the path in the study file that gives it, if it does.
-    pub given_by: &'a [Option<String>],
-}
-
-impl OverrideSources<'_> {
-    /// The mistakes of a scene: in the study file if it made them.
-    pub fn place(&self, scene: &Source, found: &[Diagnostic]) -> Vec<Mistake> {
-        let place = |d: &Diagnostic| {
-            let given = match d.origin {
-                Origin::Override(k) => self.given_by.get(k).cloned().flatten(),
-                _ => None,
-            };
-            let Some(path) = given else {
-                return Mistake::located(scene, std::slice::from_ref(d));
-            };
-            let message = match d.path.as_str() {
-                "" => d.message.clone(),
-                key => format!("{key}: {}", d.message),
-            };
-            Refused::at(self.study, &path, message).mistakes
+/// The mistakes of a scene: in the study file if it made them. `given_by` has for every override of the scene the path
+/// in the study file that gives it, if it does.
+pub(crate) fn placed(
+    study: &Source,
+    given_by: &[Option<String>],
+    scene: &Source,
+    found: &[Diagnostic],
+) -> Vec<Mistake> {
+    let place = |d: &Diagnostic| {
+        let given = match d.origin {
+            Origin::Override(k) => given_by.get(k).cloned().flatten(),
+            _ => None,
         };
-        found.iter().flat_map(place).collect()
-    }
+        let Some(path) = given else {
+            return Mistake::located(scene, std::slice::from_ref(d));
+        };
+        let message = match d.path.as_str() {
+            "" => d.message.clone(),
+            key => format!("{key}: {}", d.message),
+        };
+        Refused::at(study, &path, message).mistakes
+    };
+    found.iter().flat_map(place).collect()
 }

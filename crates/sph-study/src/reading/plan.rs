@@ -7,7 +7,7 @@ use sph_scene::{Override, Source, read_text};
 use toml::Table;
 
 use crate::reading::combine::{combinations, fits};
-use crate::reading::mistake::OverrideSources;
+use crate::reading::mistake::placed;
 use crate::reading::reader::{Inputs, Reader, refinement};
 use crate::reading::{axis, ladder};
 use crate::{FindScene, Ladder, Refused, StudyAxis, StudyFile, Variant};
@@ -117,11 +117,8 @@ impl Study {
             Err(problems) => problems,
         };
         let scene = variant.subject.source();
-        let blame = OverrideSources {
-            study: &self.source,
-            given_by: &variant.given_by,
-        };
-        let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
+        let found = scene.diagnose(&problems);
+        let mut mistakes = placed(&self.source, &variant.given_by, scene, &found);
         // A mistake without a key of the study still belongs to a variant.
         for mistake in &mut mistakes {
             if mistake.diagnostic.file != self.source.file {

@@ -9,7 +9,7 @@ use sph_scene::{Override, Source};
 use toml::{Table, Value};
 
 use crate::reading::combine::{Combination, fits};
-use crate::reading::mistake::OverrideSources;
+use crate::reading::mistake::placed;
 use crate::reading::variant::fingerprint;
 use crate::{Mistake, Refused, SceneText, Set, StudyAxis, StudyFile, Variant};
 
@@ -95,10 +95,7 @@ impl Reader<'_> {
     fn one(&self, combination: &Combination) -> Result<Variant, Vec<Mistake>> {
         let scene = self.scene(&combination.choices)?;
         let (overrides, given_by) = self.overrides(&scene, &combination.choices);
-        let blame = OverrideSources {
-            study: self.source,
-            given_by: &given_by,
-        };
+        let place = |scene: &Source, found: &[_]| placed(self.source, &given_by, scene, found);
         let SceneText {
             text,
             file,
@@ -107,7 +104,7 @@ impl Reader<'_> {
             ..
         } = &*scene;
         let read = method.read(Source::new(text, file, &overrides).allowing(allowed));
-        let subject = read.map_err(|(source, found)| blame.place(&source, &found))?;
+        let subject = read.map_err(|(source, found)| place(&source, &found))?;
         let mut problems = self.missing_references(&*subject);
         let refinement = self.refinement.as_ref();
         let refinement = refinement.map(|key| value_at(&subject.resolved(), key));
@@ -117,10 +114,8 @@ impl Reader<'_> {
         if !problems.is_empty() {
             return Err(Refused::in_study(self.source, &problems).mistakes);
         }
-        let unreadable = |problem: SceneProblem| {
-            let found = subject.source().diagnose(&[problem]);
-            blame.place(subject.source(), &found)
-        };
+        let scene = subject.source();
+        let unreadable = |problem| place(scene, &scene.diagnose(&[problem]));
         let marks = subject.marks().map_err(unreadable)?;
         let labels = self.axes.iter().zip(&combination.choices);
         let only = self.inputs.only;

@@ -17,9 +17,8 @@ pub struct Table {
     pub over_time: bool,
 }
 
-/// A column.
+/// A column of a file.
 pub struct Column {
-    /// Name.
     pub name: String,
     /// SI unit, empty if none is known.
     pub unit: String,

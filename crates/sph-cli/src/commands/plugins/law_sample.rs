@@ -12,7 +12,6 @@ use crate::terminal::Trouble;
 pub struct LawSample {
     /// Name, and its difference from its neighbours.
     pub label: String,
-    /// The law itself.
     pub law: Box<dyn Rheology>,
 }
 

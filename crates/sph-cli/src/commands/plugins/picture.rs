@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use sph_core::{PluginInfo, number, parse_quantity};
+use sph_core::{PluginInfo, number};
 use sph_io::{Panels, Plot, Series};
 use sph_solver::rheometer::{self, Rheology};
 
 use super::law_sample::{self, LawSample};
-use crate::commands::draw::picture;
+use crate::commands::draw::{picture, quantity};
 use crate::terminal::{Trouble, console};
 use crate::tool_arguments::PluginArguments;
 
@@ -229,9 +229,6 @@ fn strain(arguments: &PluginArguments) -> Result<Option<f64>, Trouble> {
 }
 
 fn numbers(option: &str, given: &[String], unit: &str) -> Result<Vec<f64>, Trouble> {
-    let read = |text: &String| {
-        let value = parse_quantity(text, unit);
-        value.map_err(|why| format!("--{option}: {why}").into())
-    };
-    given.iter().map(read).collect()
+    let each = given.iter().map(|text| quantity(option, text, unit));
+    each.collect()
 }

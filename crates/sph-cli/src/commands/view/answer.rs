@@ -16,7 +16,6 @@ pub struct Answer {
     pub status: &'static str,
     /// MIME type.
     pub kind: &'static str,
-    /// Content.
     pub body: Vec<u8>,
 }
 
