@@ -35,6 +35,7 @@ fn main() {
         for file in files(&folder, extensions) {
             println!("cargo:rerun-if-changed={}", file.display());
             let name = file.file_name().and_then(|n| n.to_str()).unwrap_or("");
+            let name = name.trim_end_matches(".toml");
             writeln!(
                 code,
                 "    ({:?}, {include}!({file:?})),",

@@ -44,7 +44,7 @@ pub use defaults::defaults;
 pub use diagnostic::{Diagnostic, Origin, line_and_column};
 pub use editors::for_editors;
 pub use files::named_files;
-pub use names::{is_within, nearest, suggestion};
+pub use names::{comma_list, is_within, nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
 pub use paths::{PathProblem, within};
 pub use picture_range::PictureRange;

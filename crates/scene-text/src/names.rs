@@ -17,6 +17,12 @@ pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>)
     nearest(name, candidates).map_or(String::new(), |c| format!(", did you mean `{c}`?"))
 }
 
+/// Names or numbers with commas between.
+pub fn comma_list<T: ToString>(entries: impl IntoIterator<Item = T>) -> String {
+    let entries = entries.into_iter().map(|e| e.to_string());
+    entries.collect::<Vec<_>>().join(", ")
+}
+
 /// True if a dotted path is that of a key or of something within it.
 pub fn is_within(path: &str, key: &str) -> bool {
     let rest = path.strip_prefix(key);

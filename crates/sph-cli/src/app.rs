@@ -30,25 +30,29 @@ pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item
             return u8::try_from(refused.exit_code()).unwrap_or(2);
         }
     };
-    let json = arguments.command.json();
     if !ranks::is_first() && !matches!(arguments.command, Command::Run(_)) {
         return 0;
     }
-    let done = match &arguments.command {
-        Command::Run(a) => run::command(a),
-        Command::Study(a) => study::command(a),
-        Command::Check(a) => check::command(a),
-        Command::Explain(a) => explain::command(a),
-        Command::Plugins(a) => plugins::command(a),
-        Command::Schema(a) => schema::command(a),
-        Command::Scenes(a) => scenes::command(a),
-        Command::New(a) => new::command(a),
-        Command::Compare(a) => compare::command(a),
-        Command::Draw(a) => draw::command(a),
-        Command::Measure(a) => measure::command(a),
-        Command::View(a) => view::command(a),
-        Command::Completions(a) => manual::completions(a),
-        Command::Man(a) => manual::man(a),
+    // Whether errors go to stdout as JSON, and the end of the command.
+    let (json, done) = match arguments.command {
+        Command::Run(a) => (a.json, run::command(&a)),
+        Command::Study(a) => (a.json, study::command(&a)),
+        Command::Check(a) => (a.json, check::command(&a)),
+        Command::Explain(a) => (a.json, explain::command(&a)),
+        Command::Plugins(a) => (a.json, plugins::command(&a)),
+        Command::Schema { grains } => (false, schema::command(grains)),
+        Command::Scenes { markdown, json } => (json, scenes::command(markdown, json)),
+        Command::New { name, from } => (false, new::command(&name, from.as_deref())),
+        Command::Compare {
+            first,
+            second,
+            json,
+        } => (json, compare::command(&first, &second, json)),
+        Command::Draw(a) => (false, draw::command(&a)),
+        Command::Measure(a) => (a.json, measure::command(&a)),
+        Command::View { results, port } => (false, view::command(&results, port)),
+        Command::Completions { shell } => (false, manual::completions(shell)),
+        Command::Man { of, out } => (false, manual::man(of.as_deref(), out.as_deref())),
     };
     match done {
         Ok(()) => u8::from(!console::complete()),

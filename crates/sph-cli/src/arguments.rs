@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 
-use crate::tool_arguments::{
-    CompareArguments, CompletionArguments, DrawCommand, ManArguments, MeasureArguments,
-    PluginArguments, ViewArguments,
-};
+use crate::tool_arguments::{DrawCommand, MeasureArguments, PluginArguments};
 
 /// Smoothed particle hydrodynamics, and grains one by one, from scene files.
 #[derive(Debug, Parser)]
@@ -126,12 +124,23 @@ Examples:
 
 Then put `#:schema scene.schema.json` into the first line of a scene; editors with a TOML \
 language server (taplo, Even Better TOML) complete and check it.")]
-    Schema(SchemaArguments),
+    Schema {
+        /// The schema of scenes of grains
+        #[arg(long)]
+        grains: bool,
+    },
     /// List the shipped scenes
     #[command(after_help = "\
 The scenes in ./scenes are listed if there are any, otherwise those compiled into the program.
 Their names can be given to run, check, explain and new --from.")]
-    Scenes(ScenesArguments),
+    Scenes {
+        /// Print the gallery as a page of Markdown
+        #[arg(long, conflicts_with = "json")]
+        markdown: bool,
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
     /// Write a commented starting scene
     #[command(after_help = "\
 Examples:
@@ -140,7 +149,13 @@ Examples:
                                             (and the data files it is compared with)
 
 Never overwrites a scene.")]
-    New(NewArguments),
+    New {
+        /// Name of the scene; NAME.toml is written
+        name: PathBuf,
+        /// Start from this scene file or shipped scene
+        #[arg(long, value_name = "SCENE")]
+        from: Option<String>,
+    },
     /// Compare two runs: whether they have the same bits, or where they differ most
     #[command(after_help = "\
 Example:
@@ -150,7 +165,17 @@ Compares series.csv, all frames of fields.pvd and the checkpoints, particle by p
 that differs it has the largest difference with time, particle and place. Writes nothing.
 
 Exit codes: 0 the same bits, 1 they differ, 2 there is nothing to compare.")]
-    Compare(CompareArguments),
+    Compare {
+        /// Folder of the results of a run
+        #[arg(value_name = "A")]
+        first: PathBuf,
+        /// Folder of those of another
+        #[arg(value_name = "B")]
+        second: PathBuf,
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
     /// Draw results that a run has not drawn: streamlines, profiles along a line, tracks of particles
     #[command(after_help = "\
 Examples:
@@ -183,40 +208,33 @@ Example:
 
 Serves a page on 127.0.0.1, for this machine alone, until Ctrl-C: pictures over time, plots, columns of the \
 series, errors and remarks. Writes nothing.")]
-    View(ViewArguments),
+    View {
+        /// Folder of the results of a run, which may be going on
+        results: PathBuf,
+        /// Port on 127.0.0.1; 0 for one that is free
+        #[arg(long, default_value_t = 8377)]
+        port: u16,
+    },
     /// Print completions for a shell
     #[command(after_help = "\
 Example:
   sph completions bash > ~/.local/share/bash-completion/completions/sph")]
-    Completions(CompletionArguments),
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
     /// Print a manual page, or write those of all commands
     #[command(after_help = "\
 Examples:
   sph man run | man -l -
   sph man --out ~/.local/share/man/man1")]
-    Man(ManArguments),
-}
-
-impl Command {
-    /// True if results and errors go to stdout as JSON.
-    pub fn json(&self) -> bool {
-        match self {
-            Command::Run(a) => a.json,
-            Command::Study(a) => a.json,
-            Command::Check(a) => a.json,
-            Command::Explain(a) => a.json,
-            Command::Plugins(a) => a.json,
-            Command::Scenes(a) => a.json,
-            Command::Compare(a) => a.json,
-            Command::Measure(a) => a.json,
-            Command::Schema(_)
-            | Command::New(_)
-            | Command::Draw(_)
-            | Command::View(_)
-            | Command::Completions(_)
-            | Command::Man(_) => false,
-        }
-    }
+    Man {
+        /// The command whose page is printed; that of `sph` if left out
+        of: Option<String>,
+        /// Write the pages of all commands into a folder instead
+        #[arg(long, value_name = "DIR", conflicts_with = "of")]
+        out: Option<PathBuf>,
+    },
 }
 
 /// A scene with values put on top.
@@ -327,33 +345,4 @@ pub struct ExplainArguments {
     /// Print the result, or the diagnostics as an array, as JSON on stdout
     #[arg(long)]
     pub json: bool,
-}
-
-/// Arguments of `sph schema`.
-#[derive(Debug, Args)]
-pub struct SchemaArguments {
-    /// The schema of scenes of grains
-    #[arg(long)]
-    pub grains: bool,
-}
-
-/// Arguments of `sph scenes`.
-#[derive(Debug, Args)]
-pub struct ScenesArguments {
-    /// Print the gallery as a page of Markdown
-    #[arg(long, conflicts_with = "json")]
-    pub markdown: bool,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `sph new`.
-#[derive(Debug, Args)]
-pub struct NewArguments {
-    /// Name of the scene; NAME.toml is written
-    pub name: PathBuf,
-    /// Start from this scene file or shipped scene
-    #[arg(long, value_name = "SCENE")]
-    pub from: Option<String>,
 }

@@ -21,7 +21,6 @@ pub struct Gallery {
     pub times: String,
     /// The scenes to begin with, and why.
     pub start: Vec<[String; 2]>,
-    /// The themes, in order.
     pub theme: Vec<Theme>,
 }
 
@@ -29,11 +28,9 @@ pub struct Gallery {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Theme {
-    /// Its heading.
     pub title: String,
     /// Markdown under the heading.
     pub text: Option<String>,
-    /// The scenes, in order.
     pub entry: Vec<Entry>,
 }
 

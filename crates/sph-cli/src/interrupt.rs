@@ -22,17 +22,19 @@ pub fn flag() -> Arc<AtomicBool> {
         ));
     });
     if let Err(error) = handled {
-        console::err(&format!(
-            "note: Ctrl-C will stop without a checkpoint ({error})"
-        ));
+        report_unhandled("Ctrl-C", error);
     }
     too_long();
-    terminated(&raised).unwrap_or_else(|error| {
-        console::err(&format!(
-            "note: SIGTERM and SIGHUP will stop without a checkpoint ({error})"
-        ));
-    });
+    if let Err(error) = terminated(&raised) {
+        report_unhandled("SIGTERM and SIGHUP", error);
+    }
     raised
+}
+
+fn report_unhandled(signals: &str, error: impl std::fmt::Display) {
+    console::err(&format!(
+        "note: {signals} will stop without a checkpoint ({error})"
+    ));
 }
 
 /// A file longer than `ulimit -f` allows is reported as a full disk; by default the process ends without a message.

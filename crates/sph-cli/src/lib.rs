@@ -25,7 +25,6 @@ mod shipped;
 mod terminal;
 mod tool_arguments;
 
-use sph_core::number;
 // Their plugins are in this binary.
 use sph_multiphase as _;
 use sph_open as _;

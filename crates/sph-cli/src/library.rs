@@ -18,7 +18,6 @@ pub use crate::commands::explain::output as explain;
 pub use crate::commands::run::{execute as run, folder};
 pub use crate::commands::study::{Studied, conduct as study};
 pub use crate::scene_file::{AnyScene, OpenScene, open, open_text};
-pub use crate::terminal::output::{CommandOutput, Ended};
-pub use crate::terminal::trouble::Trouble;
+pub use crate::terminal::{CommandOutput, Ended, Trouble};
 /// A scene of particles.
 pub use sph_scene::Scene as ParticleScene;

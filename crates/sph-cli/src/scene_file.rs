@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use dem_pfv::scene::DiscreteElements;
-use sph_core::suggestion;
 use sph_io::Scratch;
 use sph_particles::Particles;
 use sph_run::Method;
@@ -11,8 +10,9 @@ use sph_scene::{Override, Source, read_text, within};
 use sph_study::{Mistake, SceneText};
 
 use crate::arguments::SceneArguments;
-use crate::shipped::{self, Content, Data};
-use crate::terminal::trouble::Trouble;
+use crate::shipped;
+use crate::shipped::{Content, Data};
+use crate::terminal::Trouble;
 
 /// A scene of one kind or the other, with its text.
 pub enum AnyScene {
@@ -48,8 +48,7 @@ impl AnyScene {
                 (&scene.title, scene.description.as_deref(), scene.dimension)
             }
             AnyScene::Grains(loaded) => {
-                let scene = &loaded.scene;
-                (&scene.title, scene.description.as_deref(), 3)
+                (&loaded.scene.title, loaded.scene.description.as_deref(), 3)
             }
         }
     }
@@ -71,7 +70,7 @@ pub struct OpenScene {
 pub fn overrides(set: &[String]) -> Result<Vec<Override>, Trouble> {
     let parse = |text: &String| {
         let parsed = Override::parse(text);
-        parsed.map_err(|p| Trouble::usage(format!("--set {text}: {}", p.message)))
+        parsed.map_err(|p| format!("--set {text}: {}", p.message).into())
     };
     set.iter().map(parse).collect()
 }
@@ -80,10 +79,7 @@ pub fn overrides(set: &[String]) -> Result<Vec<Override>, Trouble> {
 pub fn allowed(folders: &[PathBuf]) -> Result<&[PathBuf], Trouble> {
     match folders.iter().find(|f| !f.is_dir()) {
         Some(gone) => {
-            let gone = gone.display();
-            Err(Trouble::usage(format!(
-                "--allow-path {gone}: there is no such folder"
-            )))
+            Err(format!("--allow-path {}: there is no such folder", gone.display()).into())
         }
         None => Ok(folders),
     }
@@ -97,8 +93,7 @@ pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
     let allowed = allowed(&arguments.allow_path)?;
     let set: Vec<&str> = arguments.set.iter().map(String::as_str).collect();
-    let found = located(Path::new(&arguments.scene), &arguments.scene, Some(&set));
-    let found = found.map_err(Trouble::Usage)?;
+    let found = located(Path::new(&arguments.scene), &arguments.scene, Some(&set))?;
     Ok(OpenScene {
         scene: read(Source::new(&found.text, &found.file, &overrides).allowing(allowed))?,
         stem: found.name,
@@ -170,11 +165,8 @@ fn located(path: &Path, scene: &str, beside: Option<&[&str]>) -> Result<Located,
             (shown.clone(), shown, text, None)
         }
         Content::CompiledIn(text) => {
-            let data: Vec<Data> = match beside {
-                Some(beside) => shipped::data_of(&[&[text], beside].concat()).collect(),
-                None => shipped::data().collect(),
-            };
-            let (file, unpacked) = unpacked(&name, data)?;
+            let texts = beside.map(|beside| [&[text], beside].concat());
+            let (file, unpacked) = unpacked(&name, &shipped::data_of(texts.as_deref()))?;
             (name.clone(), file, text.to_string(), unpacked)
         }
     };
@@ -202,20 +194,16 @@ fn stem(path: &Path) -> &str {
 }
 
 /// The file name by which a compiled-in scene names its data, put into a folder if it has any.
-fn unpacked(name: &str, data: Vec<Data>) -> Result<(String, Option<Scratch>), String> {
+fn unpacked(name: &str, data: &[Data]) -> Result<(String, Option<Scratch>), String> {
     if data.is_empty() {
         return Ok((format!("{name}.toml"), None));
     }
     // A name that cannot be guessed, created here, for this user alone.
     let folder = Scratch::new(".sph-data-");
     let folder = folder.map_err(|e| format!("cannot put the data of `{name}` anywhere: {e}"))?;
-    let file = folder
-        .path()
-        .join(format!("{name}.toml"))
-        .display()
-        .to_string();
-    shipped::unpack(data.into_iter(), folder.path())?;
-    Ok((file, Some(folder)))
+    let file = folder.path().join(format!("{name}.toml"));
+    shipped::unpack(data, folder.path())?;
+    Ok((file.display().to_string(), Some(folder)))
 }
 
 fn not_found(scene: &str) -> String {
@@ -223,11 +211,8 @@ fn not_found(scene: &str) -> String {
     if path.is_dir() {
         return format!("`{scene}` is a folder, not a scene file");
     }
-    let shipped = shipped::all();
-    let stem = scene.trim_end_matches(".toml");
-    let near = suggestion(stem, shipped.iter().map(|s| s.name.as_str()));
+    let near = shipped::suggestion(scene.trim_end_matches(".toml"));
     format!(
-        "there is no scene file `{scene}` and no shipped scene of that name{near} (`sph scenes` \
-         lists them)"
+        "there is no scene file `{scene}` and no shipped scene of that name{near} (`sph scenes` lists them)"
     )
 }

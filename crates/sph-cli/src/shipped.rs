@@ -29,15 +29,13 @@ pub enum Content {
 pub fn all() -> Vec<Shipped> {
     let entries = std::fs::read_dir(FOLDER).into_iter().flatten().flatten();
     let files = entries.map(|e| e.path());
-    let mut found: Vec<Shipped> = files
-        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
-        .filter_map(|p| {
-            Some(Shipped {
-                name: p.file_stem()?.to_str()?.to_string(),
-                content: Content::File(p),
-            })
-        })
-        .collect();
+    let files = files.filter(|p| p.extension().is_some_and(|e| e == "toml"));
+    let scene = |p: PathBuf| {
+        let name = p.file_stem()?.to_str()?.to_string();
+        let content = Content::File(p);
+        Some(Shipped { name, content })
+    };
+    let mut found: Vec<Shipped> = files.filter_map(scene).collect();
     if found.is_empty() {
         found = compiled_in();
     }
@@ -46,8 +44,8 @@ pub fn all() -> Vec<Shipped> {
 }
 
 fn compiled_in() -> Vec<Shipped> {
-    let scene = |(file, text): &(&str, &'static str)| Shipped {
-        name: file.trim_end_matches(".toml").to_string(),
+    let scene = |(name, text): &(&str, &'static str)| Shipped {
+        name: name.to_string(),
         content: Content::CompiledIn(text),
     };
     SCENES.iter().map(scene).collect()
@@ -56,8 +54,13 @@ fn compiled_in() -> Vec<Shipped> {
 /// The shipped scene of that name, in ./scenes or compiled in.
 pub fn find(name: &str) -> Option<Shipped> {
     let name = name.trim_end_matches(".toml");
-    let listed = all().into_iter().chain(compiled_in());
-    listed.into_iter().find(|s| s.name == name)
+    let mut listed = all().into_iter().chain(compiled_in());
+    listed.find(|s| s.name == name)
+}
+
+/// The shipped scene of a name like this one, as a question; empty if there is none.
+pub fn suggestion(name: &str) -> String {
+    sph_core::suggestion(name, all().iter().map(|s| s.name.as_str()))
 }
 
 /// Folder in which studies are looked for before the compiled-in ones.
@@ -67,50 +70,37 @@ const STUDY_FOLDER: &str = "studies";
 pub fn find_study(name: &str) -> Option<Shipped> {
     let name = name.trim_end_matches(".toml");
     // By the folder that it would lie in, it is a shipped one, too.
-    let name = ["studies/", "scenes/"]
-        .iter()
-        .find_map(|folder| name.strip_prefix(folder))
-        .unwrap_or(name);
+    let short = ["studies/", "scenes/"].map(|folder| name.strip_prefix(folder));
+    let name = short.into_iter().flatten().next().unwrap_or(name);
     let file = Path::new(STUDY_FOLDER).join(format!("{name}.toml"));
-    let text = STUDIES
-        .iter()
-        .find(|(f, _)| f.trim_end_matches(".toml") == name);
     let content = match file.is_file() {
         true => Content::File(file),
-        false => Content::CompiledIn(text?.1),
+        false => Content::CompiledIn(STUDIES.iter().find(|(n, _)| *n == name)?.1),
     };
-    Some(Shipped {
-        name: name.to_string(),
-        content,
-    })
+    let name = name.to_string();
+    Some(Shipped { name, content })
 }
 
 /// Names of the compiled-in studies.
 pub fn studies() -> impl Iterator<Item = &'static str> {
-    STUDIES
-        .iter()
-        .map(|(file, _)| file.trim_end_matches(".toml"))
+    STUDIES.iter().map(|(name, _)| *name)
 }
 
 /// A compiled-in data file, with the path by which scenes name it.
 pub type Data = (&'static str, &'static [u8]);
 
-/// Compiled-in data files that one of some texts mentions.
-pub fn data_of<'a>(texts: &'a [&str]) -> impl Iterator<Item = Data> + 'a {
-    let mentioned = |(path, _): &&Data| texts.iter().any(|text| text.contains(path));
-    DATA.iter().filter(mentioned).copied()
-}
-
-/// All of them.
-pub fn data() -> impl Iterator<Item = Data> {
-    DATA.iter().copied()
+/// Compiled-in data files that one of some texts mentions; without texts all of them.
+pub fn data_of(texts: Option<&[&str]>) -> Vec<Data> {
+    let mentioned =
+        |(path, _): &&Data| texts.is_none_or(|all| all.iter().any(|t| t.contains(path)));
+    DATA.iter().filter(mentioned).copied().collect()
 }
 
 /// Writes compiled-in data below a folder; returns the written files.
 ///
 /// # Errors
 /// The reason of the system, with the file.
-pub fn unpack(data: impl Iterator<Item = Data>, folder: &Path) -> Result<Vec<PathBuf>, String> {
+pub fn unpack(data: &[Data], folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut written = Vec::new();
     for (path, content) in data {
         let target = folder.join(path);

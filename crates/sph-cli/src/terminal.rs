@@ -3,9 +3,13 @@
 pub mod console;
 pub mod diagnostics;
 pub mod display;
-pub mod layout;
-pub mod output;
+mod layout;
+mod output;
 pub mod progress;
 pub mod shell;
 pub mod study_progress;
-pub mod trouble;
+mod trouble;
+
+pub use layout::*;
+pub use output::{CommandOutput, Ended};
+pub use trouble::{ModelError, Trouble};

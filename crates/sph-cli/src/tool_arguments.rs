@@ -4,22 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand};
-use clap_complete::Shell;
 use sph_probes::{Reduction, Weight};
-
-/// Arguments of `sph compare`.
-#[derive(Debug, Args)]
-pub struct CompareArguments {
-    /// Folder of the results of a run
-    #[arg(value_name = "A")]
-    pub first: PathBuf,
-    /// Folder of those of another
-    #[arg(value_name = "B")]
-    pub second: PathBuf,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
 
 /// Arguments of `sph measure`.
 #[derive(Debug, Args)]
@@ -29,13 +14,8 @@ pub struct MeasureArguments {
     /// The field, of a vector its length, or a component (velocity.x), or a coordinate (x, y, z)
     pub field: String,
     /// Reductions of its values
-    #[arg(
-        long,
-        value_name = "HOW,…",
-        value_delimiter = ',',
-        default_value = "mean",
-        value_parser = named(&Reduction::ALL)
-    )]
+    #[arg(long, value_name = "HOW,…", value_delimiter = ',')]
+    #[arg(default_value = "mean", value_parser = named(&Reduction::ALL))]
     pub reduce: Vec<Reduction>,
     /// Shares q: the least value that a share q of the weight does not exceed
     #[arg(long, value_name = "Q,…", value_delimiter = ',', value_parser = share)]
@@ -97,23 +77,13 @@ pub struct PluginArguments {
     #[arg(long, value_name = "KEY=[…]", requires = "picture")]
     pub vary: Option<String>,
     /// Pressures at which a law with friction is sheared [default: 1 kPa]
-    #[arg(
-        long,
-        value_name = "P,…",
-        value_delimiter = ',',
-        requires = "picture",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "P,…", value_delimiter = ',')]
+    #[arg(requires = "picture", allow_hyphen_values = true)]
     pub pressure: Vec<String>,
     /// The ends of the axis [default: 0.001,100], or for a law with an elastic part the rates at
     /// which it is sheared from rest [default: 0.01,0.1,1,10], 1/s
-    #[arg(
-        long,
-        value_name = "RATE,…",
-        value_delimiter = ',',
-        requires = "picture",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "RATE,…", value_delimiter = ',')]
+    #[arg(requires = "picture", allow_hyphen_values = true)]
     pub strain_rates: Vec<String>,
     /// Strain up to which a law with an elastic part is sheared [default: four times that at which it
     /// yields, 2 at most]
@@ -125,33 +95,6 @@ pub struct PluginArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-}
-
-/// Arguments of `sph view`.
-#[derive(Debug, Args)]
-pub struct ViewArguments {
-    /// Folder of the results of a run, which may be going on
-    pub results: PathBuf,
-    /// Port on 127.0.0.1; 0 for one that is free
-    #[arg(long, default_value_t = 8377)]
-    pub port: u16,
-}
-
-/// Arguments of `sph completions`.
-#[derive(Debug, Args)]
-pub struct CompletionArguments {
-    /// The shell
-    pub shell: Shell,
-}
-
-/// Arguments of `sph man`.
-#[derive(Debug, Args)]
-pub struct ManArguments {
-    /// The command whose page is printed; that of `sph` if left out
-    pub of: Option<String>,
-    /// Write the pages of all commands into a folder instead
-    #[arg(long, value_name = "DIR", conflicts_with = "of")]
-    pub out: Option<PathBuf>,
 }
 
 /// Drawings of `sph draw`.
@@ -218,20 +161,12 @@ pub struct TrackArguments {
     /// Folder of the results of a run
     pub results: PathBuf,
     /// Particles by their identity [default: those of --near, or --count of them]
-    #[arg(
-        long,
-        value_name = "N,…",
-        value_delimiter = ',',
-        conflicts_with = "count"
-    )]
+    #[arg(long, value_name = "N,…", value_delimiter = ',')]
+    #[arg(conflicts_with = "count")]
     pub identity: Vec<u32>,
     /// The particle that is nearest to a place in the first frame, m (may be repeated)
-    #[arg(
-        long,
-        value_name = "X,Y[,Z]",
-        allow_hyphen_values = true,
-        conflicts_with = "count"
-    )]
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
+    #[arg(conflicts_with = "count")]
     pub near: Vec<String>,
     /// Number of particles, evenly spread over the identities
     #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=10_000))]

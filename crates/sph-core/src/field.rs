@@ -232,10 +232,12 @@ pub struct AnyField {
 
 /// A unit behind a number: with a space before it, and nothing for pure numbers.
 pub fn unit_suffix(unit: &str) -> String {
-    match unit {
-        "" | "1" => String::new(),
-        unit => format!(" {unit}"),
-    }
+    some_unit(unit).map_or(String::new(), |unit| format!(" {unit}"))
+}
+
+/// The unit, unless it is that of pure numbers.
+pub fn some_unit(unit: &str) -> Option<&str> {
+    Some(unit).filter(|unit| !["", "1"].contains(unit))
 }
 
 impl AnyField {

@@ -90,7 +90,8 @@ pub use crate::{
     error::{FieldError, PlanError, RegistryError, StepError},
     evolve::{Evolved, Recall, System},
     field::{
-        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, unit_suffix,
+        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, some_unit,
+        unit_suffix,
     },
     field_list::{Columns, FieldList},
     kinds::{
@@ -111,8 +112,8 @@ pub use crate::{
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{
-    Dimensions, MOST_PROBLEMS, SceneProblem, conform, defaults, nearest, number, parse_quantity,
-    parse_unit, plausible, suggestion, unit_factor,
+    Dimensions, MOST_PROBLEMS, SceneProblem, comma_list, conform, defaults, is_within, nearest,
+    number, parse_quantity, parse_unit, plausible, suggestion, unit_factor,
 };
 #[cfg(feature = "plugins")]
 pub use sph_derive::{parameters, plugin};

@@ -1,5 +1,6 @@
 //! Numbered files of a run: fields for ParaView, pictures, films.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use sph_io::{ColourRanges, Frame, IoError, Piece, PvdSeries};
@@ -96,10 +97,9 @@ impl Frames {
         let Some(list) = &mut self.list else {
             return Ok(());
         };
-        let index = self.written;
         let frame = Frame {
             time,
-            index,
+            index: self.written,
             pieces,
         };
         list.write_among(&frame, ranks).map(|_| ())
@@ -143,14 +143,8 @@ impl Frames {
 /// Removes the numbered files of an earlier run, which would pass for this one's.
 fn forget_earlier_run(folder: &Path) {
     let numbered = |path: &Path| {
-        let stem = path
-            .file_stem()
-            .and_then(|s| s.to_str())
-            .unwrap_or_default();
-        let kind = path
-            .extension()
-            .and_then(|e| e.to_str())
-            .unwrap_or_default();
+        let [stem, kind] = [path.file_stem(), path.extension()]
+            .map(|part| part.and_then(OsStr::to_str).unwrap_or_default());
         // The share of a rank has its number behind that of the frame.
         let (before, last) = stem.rsplit_once('_').unwrap_or_default();
         let rank = last.strip_prefix('r').is_some_and(is_number);
@@ -162,10 +156,8 @@ fn forget_earlier_run(folder: &Path) {
     };
     let _ = std::fs::remove_dir_all(folder.join("animations"));
     for sub in FOLDERS {
-        let entries = std::fs::read_dir(folder.join(sub))
-            .into_iter()
-            .flatten()
-            .flatten();
+        let entries = std::fs::read_dir(folder.join(sub)).into_iter();
+        let entries = entries.flatten().flatten();
         for path in entries.map(|e| e.path()).filter(|p| numbered(p)) {
             // A file that cannot go is overwritten or stays; the run does not depend on it.
             let _ = std::fs::remove_file(path);

@@ -44,9 +44,8 @@ impl Identity {
     pub fn differs_from(&self, written: &Identity) -> Option<String> {
         let changed = changed(&written.files, &self.files);
         if self.scene != written.scene {
-            return Some(
-                "it was written by a different scene or with other `--set` options".into(),
-            );
+            let why = "it was written by a different scene or with other `--set` options";
+            return Some(why.into());
         }
         if !changed.is_empty() {
             let files = changed.join(", ");

@@ -45,12 +45,10 @@ impl SavedState {
     pub fn load(path: &Path) -> Result<Self, IoError> {
         let checkpoint = Checkpoint::load(path)?;
         let mut columns = checkpoint.columns.into_iter();
-        let words = columns
-            .find(|c| c.name == STATE)
-            .and_then(|c| match c.data {
-                ColumnData::U32(words) => Some(words),
-                _ => None,
-            });
+        let words = match columns.find(|c| c.name == STATE).map(|c| c.data) {
+            Some(ColumnData::U32(words)) => Some(words),
+            _ => None,
+        };
         let meta = checkpoint.meta;
         Ok(SavedState { meta, words })
     }

@@ -10,17 +10,12 @@ pub mod variant_result;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
+use sph_core::comma_list;
 
-use crate::reading::file::MeansPlot;
-use crate::reading::plan::Study;
-use crate::reading::variant::Variant;
-use crate::results::frontier::Frontier;
-use crate::results::order::Orders;
 use crate::results::pareto::pareto;
-use crate::results::scaling::Scale;
-use crate::results::variant_result::{SeriesResult, VariantResult};
-use crate::running::machine::Origin;
-use crate::running::record::Record;
+use crate::{
+    Frontier, MeansPlot, Orders, Origin, Record, Scale, SeriesResult, Study, Variant, VariantResult,
+};
 
 /// Version of the layout of `study.json`.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -121,10 +116,9 @@ impl Results {
 
     /// Numbers of threads of the variants that have run.
     pub fn threads(&self) -> String {
-        let ran = self.variants.iter().filter(|v| v.threads > 0);
-        let all: BTreeSet<usize> = ran.map(|v| v.threads).collect();
-        let all: Vec<String> = all.iter().map(usize::to_string).collect();
-        all.join(", ")
+        let ran = self.variants.iter().filter(|v| v.size.threads > 0);
+        let all: BTreeSet<usize> = ran.map(|v| v.size.threads).collect();
+        comma_list(all)
     }
 
     fn make_series(&self, study: &Study) -> Vec<SeriesResult> {
@@ -134,10 +128,7 @@ impl Results {
         for (variant, result) in study.variants.iter().zip(&self.variants) {
             let labels = variant.labels.iter().enumerate();
             let others = labels.filter(|(k, _)| !refining(*k));
-            let name = others
-                .map(|(_, l)| l.as_str())
-                .collect::<Vec<_>>()
-                .join(", ");
+            let name = comma_list(others.map(|(_, label)| label));
             match series.iter_mut().find(|s| s.name == name) {
                 Some(found) => found.variants.push(result.name.clone()),
                 None => series.push(SeriesResult {
@@ -193,14 +184,13 @@ impl Results {
 
     fn make_scale(&self, study: &Study) -> Option<Scale> {
         let scaling = study.file.scaling.as_ref()?;
-        let refining = |name: &str| {
-            let key = self.refinement.as_deref();
-            let axis = study.axes.iter().find(|a| a.name == name);
-            axis.zip(key).is_some_and(|(axis, key)| axis.touches(key))
-        };
-        let variant = |name: &str| self.variant(name);
-        let (axes, series) = (&self.axes, &self.series);
-        Some(Scale::new(scaling, axes, refining, series, variant))
+        let key = self.refinement.as_deref();
+        let others = study.axes.iter().filter(|axis| {
+            let refines = key.is_some_and(|key| axis.touches(key));
+            !refines && scaling.between.as_ref() != Some(&axis.name)
+        });
+        let others: Vec<&str> = others.map(|axis| axis.name.as_str()).collect();
+        Some(Scale::new(scaling, self, &others))
     }
 
     fn make_pareto(&self) -> Vec<String> {

@@ -5,16 +5,15 @@ use std::time::Duration;
 
 use serde::Serialize;
 use serde_json::json;
+use sph_core::number;
 use sph_particles::setup::Examination;
 use sph_particles::{ZoneSize, draw_scene, examine_and_try};
 
 use crate::arguments::CheckArguments;
-use crate::commands::{draw, grains, mesh};
-use crate::number;
+use crate::commands::draw::picture;
+use crate::commands::{grains, mesh};
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::layout::{memory, row, sections};
-use crate::terminal::output::CommandOutput;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::{CommandOutput, Trouble, memory, quantities, row, sections};
 
 /// Above this Mach number the fluid is not nearly incompressible; the default is on it, but for rounding.
 const MACH: f64 = 0.1 * (1.0 + 1e-9);
@@ -23,10 +22,9 @@ const TRIAL: Duration = Duration::from_secs(2);
 
 /// Lists sizes, costs and remarks of a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
-    let picture = arguments.picture.as_deref();
-    let picture = picture
-        .map(|out| draw::picture("picture", out, &["png"]))
-        .transpose()?;
+    let file = arguments.picture.as_deref();
+    let picture = file.map(|out| picture("picture", out, &["png"]));
+    let picture = picture.transpose()?;
     if mesh::is_mesh(&arguments.scene.scene) {
         if picture.is_some() {
             return Err(Trouble::usage("--picture: it draws scenes, no meshes"));
@@ -35,9 +33,11 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
         return Ok(());
     }
     let opened = open(&arguments.scene)?;
-    let drawn = picture.map(|path| drawn(&opened, path)).transpose()?;
+    if let Some(path) = picture {
+        draw(&opened, path)?;
+    }
     let mut told = output(&opened, arguments.threads.map(usize::from))?;
-    if let Some(path) = drawn {
+    if let Some(path) = picture {
         told.text
             .push_str(&format!("\npicture\n  {}\n", path.display()));
         told.json["picture"] = json!(path);
@@ -47,13 +47,12 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
 }
 
 /// Draws the scene before any run.
-fn drawn<'a>(opened: &OpenScene, path: &'a Path) -> Result<&'a Path, Trouble> {
+fn draw(opened: &OpenScene, path: &Path) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         let text = "--picture: grains have no place before they are prepared; `output.picture` of a run draws them";
         return Err(Trouble::usage(text));
     };
-    draw_scene(&loaded.scene, path).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
-    Ok(path)
+    draw_scene(&loaded.scene, path).map_err(|e| Trouble::in_scene(e, &loaded.source))
 }
 
 /// Derived quantities of a scene, for a number of threads.
@@ -67,8 +66,7 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
     let on = threads.min(cores);
     let examined = examine_and_try(&loaded.scene, on, TRIAL);
     let (mut examined, tried) = examined.map_err(|e| Trouble::in_scene(e, &loaded.source))?;
-    let too_fast = too_fast(&examined);
-    examined.warnings.extend(too_fast);
+    examined.warnings.extend(too_fast(&examined));
     // Threads beyond the cores of this machine are taken to share a step evenly.
     let share = on as f64 / threads as f64;
     let (mut hours, mut without_zones) = (None, None);
@@ -85,9 +83,8 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
         }
         Ok(None) => "that of a few steps".into(),
         Err(why) => {
-            examined
-                .warnings
-                .push(format!("the run fails in its first steps: {why}"));
+            let warning = format!("the run fails in its first steps: {why}");
+            examined.warnings.push(warning);
             "not known: the first steps fail".into()
         }
     };
@@ -139,76 +136,49 @@ fn too_fast(examined: &Examination) -> Vec<String> {
     let machs = machs.filter(|(name, value, _)| name.contains("Mach number") && *value > MACH);
     let remark = |(name, value, _): &(String, f64, String)| {
         let phase = name.split(':').next().unwrap_or_default();
+        let (mach, change) = (number::plain(*value), number::percent(value * value));
         format!(
-            "the Mach number of `{phase}` is {}, above 0.1: density will vary by about {} ; \
-             raise `phase.{phase}.speed_of_sound`, or check `velocity_scale`",
-            number::plain(*value),
-            number::percent(value * value)
+            "the Mach number of `{phase}` is {mach}, above 0.1: density will vary by about {change}; \
+             raise `phase.{phase}.speed_of_sound`, or check `velocity_scale`"
         )
-        .replace(" ;", ";")
     };
     machs.map(remark).collect()
 }
 
 fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternatives>) -> String {
-    let mut text = format!(
-        "{}\n{file} is a good scene in {} dimensions\n",
-        e.scene, e.dimension
-    );
-    let size = [
-        row("particles", number::count(e.particles as f64)),
-        row("wall points", number::count(e.wall_points as f64)),
-        row("wall elements", number::count(e.wall_elements as f64)),
+    let count = |n: usize| number::count(n as f64);
+    let bytes = e.memory.total() / e.particles.max(1) as f64;
+    let (own, columns) = (e.bytes_per_particle, e.fields.len());
+    let bytes = format!("{bytes:.0}, of these {own} in {columns} columns");
+    let size = vec![
+        row("particles", count(e.particles)),
+        row("wall points", count(e.wall_points)),
+        row("wall elements", count(e.wall_elements)),
         row("neighbours of a particle", format!("{:.1}", e.neighbours)),
-        row(
-            "bytes per particle",
-            format!(
-                "{:.0}, of these {} in {} columns",
-                e.memory.total() / e.particles.max(1) as f64,
-                e.bytes_per_particle,
-                e.fields.len()
-            ),
-        ),
+        row("bytes per particle", bytes),
     ];
-    let derived = e.derived.iter().map(|(name, value, unit)| {
-        let unit = if unit == "1" { "" } else { unit.as_str() };
-        row(name, format!("{} {unit}", number::plain(*value)))
-    });
-    let limits = e
-        .step_limits
-        .iter()
-        .map(|(name, dt)| row(name, seconds(*dt)));
-    let zones = e.zones.iter().map(zone_row);
-    let estimate = estimate_rows(e, time, alternatives);
-    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    let limits = e.step_limits.iter();
+    let limits = limits.map(|(name, dt)| row(name, seconds(*dt)));
+    let change = |a: f64, b: f64| format!("{:.2} % → {:.2} %", 100.0 * a, 100.0 * b);
     let relaxation = e.relaxation.iter().flat_map(|r| {
         [
-            row("steps", number::count(r.steps as f64)),
-            row(
-                "largest error",
-                format!("{} → {}", percent(r.largest_before), percent(r.largest)),
-            ),
-            row(
-                "rms error",
-                format!("{} → {}", percent(r.rms_before), percent(r.rms)),
-            ),
-            row(
-                "particles away from surfaces",
-                number::count(r.counted as f64),
-            ),
+            row("steps", count(r.steps)),
+            row("largest error", change(r.largest_before, r.largest)),
+            row("rms error", change(r.rms_before, r.rms)),
+            row("particles away from surfaces", count(r.counted)),
         ]
     });
-    let relaxation: Vec<_> = relaxation.collect();
     let parts = [
-        ("size", size.to_vec()),
-        ("zones", zones.collect()),
-        ("derived", derived.collect()),
+        ("size", size),
+        ("zones", e.zones.iter().map(zone_row).collect()),
+        ("derived", quantities(&e.derived)),
         ("largest stable time step at the start", limits.collect()),
-        ("relaxed density", relaxation),
-        ("estimate", estimate),
+        ("relaxed density", relaxation.collect()),
+        ("estimate", estimate_rows(e, time, alternatives)),
     ];
-    text.push_str(&sections(parts, &e.warnings));
-    text
+    let (scene, dimension) = (&e.scene, e.dimension);
+    format!("{scene}\n{file} is a good scene in {dimension} dimensions\n")
+        + &sections(parts, &e.warnings)
 }
 
 /// Particles of a zone.
@@ -219,10 +189,8 @@ fn zone_row(zone: &ZoneSize) -> Vec<String> {
         0 => ": dry at the start, of which the estimate is",
         _ => "",
     };
-    row(
-        &zone.name,
-        format!("{particles} particles of {spacing} m{dry}"),
-    )
+    let size = format!("{particles} particles of {spacing} m{dry}");
+    row(&zone.name, size)
 }
 
 /// Steps, times, memory and disk.
@@ -237,16 +205,12 @@ fn estimate_rows(
         row("wall time", time),
     ];
     if let Some(a) = alternatives {
-        let without = number::duration(3600.0 * a.hours_without_zones);
-        let finest = number::duration(3600.0 * a.hours_of_finest);
+        let [without, finest] = [a.hours_without_zones, a.hours_of_finest]
+            .map(|hours| format!("about {}", number::duration(3600.0 * hours)));
         let particles = number::count(a.particles_of_finest);
-        rows.extend([
-            row("without zones", format!("about {without}")),
-            row(
-                &format!("{} m everywhere", number::plain(a.finest)),
-                format!("about {finest}, {particles} particles"),
-            ),
-        ]);
+        let everywhere = format!("{} m everywhere", number::plain(a.finest));
+        rows.push(row("without zones", without));
+        rows.push(row(&everywhere, format!("{finest}, {particles} particles")));
     }
     rows.extend([
         row("memory", format!("about {}", memory(&e.memory))),

@@ -6,14 +6,11 @@ mod tables;
 use std::path::Path;
 
 use serde_json::json;
+use sph_core::number;
 use sph_io::{Checkpoint, IoError};
 use sph_run::CHECKPOINT;
 
-use crate::number;
-use crate::terminal::layout::table;
-use crate::terminal::output::CommandOutput;
-use crate::terminal::trouble::Trouble;
-use crate::tool_arguments::CompareArguments;
+use crate::terminal::{CommandOutput, Trouble, table};
 use difference::{Difference, differences};
 use tables::Table;
 
@@ -27,9 +24,9 @@ struct Comparison {
 }
 
 /// Compares the results of two runs.
-pub fn command(arguments: &CompareArguments) -> Result<(), Trouble> {
-    let (told, same) = output(&arguments.first, &arguments.second)?;
-    told.print(arguments.json);
+pub fn command(first: &Path, second: &Path, json: bool) -> Result<(), Trouble> {
+    let (told, same) = output(first, second)?;
+    told.print(json);
     match same {
         true => Ok(()),
         false => Err(Trouble::Different),
@@ -48,15 +45,9 @@ pub fn output(first: &Path, second: &Path) -> Result<(CommandOutput, bool), Trou
 }
 
 fn compared(first: &Path, second: &Path) -> Result<Comparison, Trouble> {
-    for folder in [first, second] {
-        if !folder.is_dir() {
-            let folder = folder.display();
-            return Err(Trouble::usage(format!(
-                "there is no folder of results {folder}"
-            )));
-        }
+    if let Some(gone) = [first, second].iter().find(|folder| !folder.is_dir()) {
+        return Err(format!("there is no folder of results {}", gone.display()).into());
     }
-    let told = |e: IoError| Trouble::usage(e.to_string());
     let mut all = Comparison::default();
     let mut files = 0;
     for file in ["series.csv", "fields.pvd", CHECKPOINT] {
@@ -72,17 +63,7 @@ fn compared(first: &Path, second: &Path) -> Result<Comparison, Trouble> {
         }
         files += 1;
         let [a, b] = [first, second].map(|folder| folder.join(file));
-        match file {
-            "series.csv" => {
-                let [a, b] = [&a, &b].map(|p| sph_io::read_table(p).map(Table::of_series));
-                all.table(file, a.map_err(told)?, b.map_err(told)?);
-            }
-            "fields.pvd" => all.fields(&a, &b).map_err(told)?,
-            _ => {
-                let [a, b] = [&a, &b].map(|p| Checkpoint::load(p).map(Table::of_checkpoint));
-                all.table(file, a.map_err(told)?, b.map_err(told)?);
-            }
-        }
+        all.add(file, &a, &b).map_err(|e| e.to_string())?;
     }
     match files {
         0 => Err(Trouble::usage(format!(
@@ -95,11 +76,17 @@ fn compared(first: &Path, second: &Path) -> Result<Comparison, Trouble> {
 }
 
 impl Comparison {
-    /// Two tables of one file, row by row of the same key.
-    fn table(&mut self, file: &str, a: Table, b: Table) {
-        let (columns, remarks) = differences(file, &a, &b);
+    /// A file that both folders have; of tables row by row of the same key.
+    fn add(&mut self, file: &str, a: &Path, b: &Path) -> Result<(), IoError> {
+        let read: fn(&Path) -> Result<Table, IoError> = match file {
+            "fields.pvd" => return self.fields(a, b),
+            "series.csv" => |path| sph_io::read_table(path).map(Table::of_series),
+            _ => |path| Checkpoint::load(path).map(Table::of_checkpoint),
+        };
+        let (columns, remarks) = differences(file, &read(a)?, &read(b)?);
         self.columns.extend(columns);
         self.remarks.extend(remarks);
+        Ok(())
     }
 
     /// The frames that both lists have, by their times; of every column the frame that differs most.
@@ -150,27 +137,16 @@ impl Comparison {
 
 fn text(found: &Comparison, same: bool, folders: [&Path; 2]) -> String {
     let [a, b] = folders.map(|f| f.display().to_string());
+    let count = found.columns.len();
     if same {
-        let count = found.columns.len();
         return format!("the same bits in {count} columns of {a} and {b}\n");
     }
     let alike = found.columns.iter().filter(|c| c.same).count();
-    let mut text = format!(
-        "{a} and {b} differ; {alike} of {} columns have the same bits\n",
-        found.columns.len()
-    );
-    let heads = [
-        "file",
-        "column",
-        "largest difference",
-        "of the range",
-        "first",
-        "second",
-        "where",
-    ];
-    if alike < found.columns.len() {
+    let mut text = format!("{a} and {b} differ; {alike} of {count} columns have the same bits\n");
+    let heads = "file, column, largest difference, of the range, first, second, where";
+    if alike < count {
         let rows = found.columns.iter().filter(|c| !c.same);
-        text.push_str(&table(&heads, rows.map(Difference::row)));
+        text.push_str(&table(heads, rows.map(Difference::row)));
     }
     for remark in &found.remarks {
         text.push_str(&format!("  {remark}\n"));

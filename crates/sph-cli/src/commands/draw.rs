@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use sph_core::parse_quantity;
-use sph_io::IoError;
-use sph_io::curves::{DrawError, Frames, Line};
+use sph_io::curves::{Frames, Line};
 
-use crate::terminal::console;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::{Trouble, console};
 use crate::tool_arguments::{DrawCommand, ProfileArguments, StreamlineArguments, TrackArguments};
 
 /// Draws the requested curves.
@@ -22,16 +20,18 @@ pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
 fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     let path = picture("out", &arguments.out, &["png"])?;
     let frames = frames(&arguments.results)?;
-    let time = quantity("time", arguments.time.as_deref(), "s")?;
-    let apart = quantity("apart", arguments.apart.as_deref(), "m")?;
+    let optional = |option, text: &Option<String>, unit| {
+        let given = text.as_deref();
+        given.map(|text| quantity(option, text, unit)).transpose()
+    };
+    let time = optional("time", &arguments.time, "s")?;
+    let apart = optional("apart", &arguments.apart, "m")?;
     if let Some(wrong) = apart.filter(|a| *a <= 0.0) {
-        let said = format!("--apart {wrong}: expected a distance above zero");
-        return Err(Trouble::usage(said));
+        return Err(format!("--apart {wrong}: expected a distance above zero").into());
     }
-    let slice = quantity("slice", arguments.slice.as_deref(), "m")?;
+    let slice = optional("slice", &arguments.slice, "m")?;
     let how = (apart, slice);
-    let drawn = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path);
-    let lines = drawn.map_err(trouble)?;
+    let lines = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path)?;
     report(&format!("{lines} lines"), path);
     Ok(())
 }
@@ -46,16 +46,14 @@ fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
     if line.from == line.to {
         return Err(Trouble::usage("--to: the line has no length"));
     }
-    let mut times = Vec::new();
-    for text in &arguments.time {
-        times.push(quantity("time", Some(text), "s")?);
-    }
+    let times = arguments.time.iter();
+    let times = times.map(|text| quantity("time", text, "s").map(Some));
+    let mut times = times.collect::<Result<Vec<_>, _>>()?;
     if times.is_empty() {
         times.push(None);
     }
     let frames = frames(&arguments.results)?;
-    let drawn = sph_io::curves::draw_profile(&frames, &line, &arguments.field, &times, path);
-    drawn.map_err(trouble)?;
+    sph_io::curves::draw_profile(&frames, &line, &arguments.field, &times, path)?;
     report(&format!("{} profiles", times.len()), path);
     Ok(())
 }
@@ -66,19 +64,16 @@ fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
     let mut identities = arguments.identity.clone();
     let first = &frames.entries[0];
     if !arguments.near.is_empty() || identities.is_empty() {
-        let start = frames.read(first).map_err(trouble)?;
+        let start = frames.read(first)?;
         for text in &arguments.near {
-            let near = sph_io::curves::nearest(&start, place("near", text)?);
-            identities.push(near.map_err(trouble)?);
+            identities.push(sph_io::curves::nearest(&start, place("near", text)?)?);
         }
         if identities.is_empty() {
-            let count = arguments.count as usize;
-            identities = sph_io::curves::evenly(&start, count).map_err(trouble)?;
+            identities = sph_io::curves::evenly(&start, arguments.count as usize)?;
         }
     }
-    let tracks = sph_io::curves::tracks(&frames, &identities).map_err(trouble)?;
-    let drawn = sph_io::curves::draw_tracks(&frames, &tracks, &arguments.field, path);
-    drawn.map_err(trouble)?;
+    let tracks = sph_io::curves::tracks(&frames, &identities)?;
+    sph_io::curves::draw_tracks(&frames, &tracks, &arguments.field, path)?;
     report(&format!("{} tracks", tracks.len()), path);
     Ok(())
 }
@@ -93,11 +88,10 @@ fn report(what: &str, path: &Path) {
 pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
     if !folder.join("fields.pvd").is_file() {
         let folder = folder.display();
-        return Err(Trouble::usage(format!(
-            "there is no fields.pvd in {folder}: name the folder of a run that writes fields (output.vtk)"
-        )));
+        let need = "name the folder of a run that writes fields (output.vtk)";
+        return Err(format!("there is no fields.pvd in {folder}: {need}").into());
     }
-    Frames::from_folder(folder).map_err(trouble)
+    Ok(Frames::from_folder(folder)?)
 }
 
 /// The file of the picture, if it can be one.
@@ -113,10 +107,9 @@ pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Pa
     }
 }
 
-fn quantity(option: &str, text: Option<&str>, unit: &str) -> Result<Option<f64>, Trouble> {
-    let read = text.map(|t| parse_quantity(t, unit));
-    let told = |why| Trouble::usage(format!("--{option}: {why}"));
-    read.transpose().map_err(told)
+/// The number of a quantity, in SI.
+pub fn quantity(option: &str, text: &str, unit: &str) -> Result<f64, Trouble> {
+    Ok(parse_quantity(text, unit).map_err(|why| format!("--{option}: {why}"))?)
 }
 
 /// Two or three coordinates, m.
@@ -124,21 +117,10 @@ fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
     let mut place = [0.0; 3];
     let parts: Vec<&str> = text.split(',').collect();
     if !(2..=3).contains(&parts.len()) {
-        let said = format!("--{option} {text}: expected X,Y or X,Y,Z");
-        return Err(Trouble::usage(said));
+        return Err(format!("--{option} {text}: expected X,Y or X,Y,Z").into());
     }
     for (coordinate, part) in place.iter_mut().zip(parts) {
-        if let Some(value) = quantity(option, Some(part.trim()), "m")? {
-            *coordinate = value;
-        }
+        *coordinate = quantity(option, part.trim(), "m")?;
     }
     Ok(place)
-}
-
-/// A file that cannot be written is a failure; other errors are mistakes in the arguments.
-pub fn trouble(error: DrawError) -> Trouble {
-    match error {
-        DrawError::Io(error @ (IoError::Write(..) | IoError::DiskFull(..))) => error.into(),
-        other => Trouble::usage(other.to_string()),
-    }
 }

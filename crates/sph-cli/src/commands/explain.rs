@@ -1,6 +1,7 @@
 //! `sph explain`.
 
 use serde_json::json;
+use sph_core::comma_list;
 use sph_particles::RunError;
 use sph_particles::setup::{Examination, Ranks, StageUse, examine, ranks};
 use sph_solver::PluginInForce;
@@ -8,11 +9,10 @@ use sph_solver::PluginInForce;
 use crate::arguments::ExplainArguments;
 use crate::commands::grains;
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::layout::{
-    columns, memory, paragraph, parameters, row, table, table_and_below,
+use crate::terminal::{
+    CommandOutput, Trouble, columns, listed, memory, paragraphs, parameters, row, table,
+    table_and_below,
 };
-use crate::terminal::output::CommandOutput;
-use crate::terminal::trouble::Trouble;
 
 /// Machines that are listed.
 const SHOWN: usize = 16;
@@ -45,9 +45,8 @@ pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
 /// Adds the shares and messages of several machines.
 fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
-        return Err(Trouble::usage(
-            "--ranks splits scenes of particles, and this is one of grains",
-        ));
+        let why = "--ranks splits scenes of particles, and this is one of grains";
+        return Err(Trouble::usage(why));
     };
     let split = ranks(&loaded.scene, count);
     let split = split.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
@@ -62,32 +61,22 @@ fn ranks_text(split: &Ranks) -> String {
         "\nsplit over {count} machines at the start: the costliest has {:.1} % more than the mean\n",
         100.0 * split.imbalance
     );
-    let header = [
-        "rank",
-        "particles",
-        "cost",
-        "ghosts",
-        "sends per step",
-        "ghosts of",
-    ];
+    let heads = "rank, particles, cost, ghosts, sends per step, ghosts of";
     let rows = split.ranks.iter().enumerate().take(SHOWN);
     let rows = rows.map(|(rank, own)| {
-        let partners: Vec<String> = own.partners.iter().map(ToString::to_string).collect();
         vec![
             rank.to_string(),
             own.particles.to_string(),
             format!("{:.3}", own.cost),
             own.ghosts.to_string(),
             format!("{:.1} kB", 1e-3 * (own.sent * split.bytes_per_ghost) as f64),
-            partners.join(", "),
+            comma_list(&own.partners),
         ]
     });
-    text.push_str(&table(&header, rows));
+    text.push_str(&table(heads, rows));
     if count > SHOWN {
-        text.push_str(&format!(
-            "  … and {} more (all of them with --json)\n",
-            count - SHOWN
-        ));
+        let more = count - SHOWN;
+        text.push_str(&format!("  … and {more} more (all of them with --json)\n"));
     }
     text.push_str(&format!(
         "\nsent to ghosts: {} bytes for each in an evaluation, all {} when it is new; in each iteration of a solve a vector \
@@ -96,33 +85,24 @@ fn ranks_text(split: &Ranks) -> String {
     ));
     let rows = split.exchanges.iter();
     let rows = rows.map(|e| vec![e.stage.clone(), e.bytes.to_string(), e.columns.join(", ")]);
-    text + &table(&["after", "bytes", "columns"], rows)
+    text + &table("after, bytes, columns", rows)
 }
 
 fn text(e: &Examination) -> String {
     let mut text = format!("{}\n\nplugins, with the parameters in force\n", e.scene);
     text.push_str(&plugins(&e.plugins));
+    let (bytes, count) = (e.bytes_per_particle, e.fields.len());
     text.push_str(&format!(
-        "\ncolumns: {} bytes per particle in {} columns (numbers are those of the stages below)\n",
-        e.bytes_per_particle,
-        e.fields.len()
+        "\ncolumns: {bytes} bytes per particle in {count} columns (numbers are those of the stages below)\n"
     ));
     text.push_str(&fields(e));
     text.push_str(&format!("\nmemory: about {}\n", memory(&e.memory)));
     text.push_str("\nstages of an evaluation, in order\n");
-    for (k, stage) in e.stages.iter().enumerate() {
-        text.push_str(&stage_text(k, stage));
-    }
-    let pruned = match e.pruned.is_empty() {
-        true => "none".to_string(),
-        false => e.pruned.join(", "),
-    };
+    let stages = e.stages.iter().enumerate();
+    text.extend(stages.map(|(k, stage)| stage_text(k, stage)));
+    let pruned = listed(&e.pruned, "none");
     text.push_str(&format!("\nstages that are not needed here: {pruned}\n"));
-    text.push_str("\nlimits of the time step\n");
-    for formula in &e.limit_formulas {
-        text.push_str(&paragraph(2, 98, formula));
-    }
-    text
+    text + "\nlimits of the time step\n" + &paragraphs(2, &e.limit_formulas)
 }
 
 /// Choices that the scene leaves to its flow, with the reasons.
@@ -131,28 +111,24 @@ fn suited(choices: &[(&'static str, &'static str)]) -> String {
         return String::new();
     }
     let rows = choices.iter().map(|(key, reason)| row(key, *reason));
-    let rows: Vec<_> = rows.collect();
-    format!("\nleft to the flow, with the reason\n{}", columns(2, &rows))
+    "\nleft to the flow, with the reason\n".to_string() + &columns(2, rows)
 }
 
 /// Every plugin in a line, and its parameters below it.
 fn plugins(plugins: &[PluginInForce]) -> String {
-    let row = |p: &PluginInForce| {
-        let names = vec![p.kind.clone(), p.name.clone(), p.provider.clone()];
-        (names, parameters(&p.parameters))
-    };
-    let rows = plugins.iter().map(row).collect();
-    table_and_below(&["kind", "name", "provider"], rows)
+    let rows = plugins.iter().map(|p| {
+        let names = [&p.kind, &p.name, &p.provider].map(String::clone);
+        (names.to_vec(), parameters(&p.parameters))
+    });
+    table_and_below("kind, name, provider", rows)
 }
 
 fn fields(e: &Examination) -> String {
-    let header = ["name", "unit", "bytes", "role", "written by", "read by"];
     let list = |names: &[String]| {
-        let place = |n: &String| e.stages.iter().position(|s| s.name == *n);
-        let places = names.iter().filter_map(place).map(|k| (k + 1).to_string());
+        let place = |n: &String| Some(e.stages.iter().position(|s| s.name == *n)? + 1);
         match names.is_empty() {
             true => "–".to_string(),
-            false => places.collect::<Vec<_>>().join(", "),
+            false => comma_list(names.iter().filter_map(place)),
         }
     };
     let rows = e.fields.iter().map(|f| {
@@ -170,25 +146,21 @@ fn fields(e: &Examination) -> String {
             list(&f.read_by),
         ]
     });
-    table(&header, rows)
+    table("name, unit, bytes, role, written by, read by", rows)
 }
 
 fn stage_text(k: usize, stage: &StageUse) -> String {
-    let what = if stage.sweep {
-        "a sweep over neighbours"
-    } else {
-        "particle by particle"
+    let what = match stage.sweep {
+        true => "a sweep over neighbours",
+        false => "particle by particle",
     };
-    let mut text = format!("  {}. {}: {what}\n", k + 1, stage.name);
+    let text = format!("  {}. {}: {what}\n", k + 1, stage.name);
     let all = [
         ("reads here", &stage.reads_here),
         ("reads at neighbours", &stage.reads_at_neighbours),
         ("writes", &stage.writes),
     ];
     let some = all.into_iter().filter(|(_, fields)| !fields.is_empty());
-    let rows: Vec<_> = some
-        .map(|(name, fields)| row(name, fields.join(", ")))
-        .collect();
-    text.push_str(&columns(5, &rows));
-    text
+    let rows = some.map(|(name, fields)| row(name, fields.join(", ")));
+    text + &columns(5, rows)
 }

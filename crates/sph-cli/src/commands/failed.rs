@@ -1,8 +1,9 @@
 //! A failed run in a few lines.
 
+use sph_core::comma_list;
 use sph_particles::{Failure, Findings, ParticleRecord, Share, Suspect};
 
-use crate::terminal::layout::{columns, remarks, row};
+use crate::terminal::{columns, headed, remarks, row};
 
 /// Number of terms in the report.
 const TERMS: usize = 6;
@@ -17,14 +18,11 @@ pub fn text(failure: &Failure) -> String {
         1 => "after a roll-back".to_string(),
         n => format!("after {n} roll-backs"),
     };
+    let (dt, limiter) = (found.dt, &found.limiter);
     text.push_str(&format!(
-        "the step\n  Δt = {:.3e} s, bound `{}`, {tried}\n",
-        found.dt, found.limiter
+        "the step\n  Δt = {dt:.3e} s, bound `{limiter}`, {tried}\n"
     ));
-    if !found.advice.is_empty() {
-        text.push_str("what may help\n");
-        text.push_str(&remarks(&found.advice));
-    }
+    text.push_str(&headed("what may help", remarks(&found.advice)));
     let titles = [
         "a picture of the bad state",
         "and of what is around the particle",
@@ -35,14 +33,8 @@ pub fn text(failure: &Failure) -> String {
     let saved = failure.checkpoint.iter();
     let saved = saved.map(|path| ("the last good state, for --resume", path));
     let files = pictures.chain(bad_state).chain(saved);
-    let rows: Vec<_> = files
-        .map(|(what, path)| row(what, path.display().to_string()))
-        .collect();
-    if !rows.is_empty() {
-        text.push_str("written\n");
-        text.push_str(&columns(2, &rows));
-    }
-    text
+    let rows = files.map(|(what, path)| row(what, path.display().to_string()));
+    text + &headed("written", columns(2, rows))
 }
 
 fn suspect(suspect: &Suspect) -> String {
@@ -50,20 +42,22 @@ fn suspect(suspect: &Suspect) -> String {
         true => "the particle",
         false => "the particle with the largest acceleration",
     };
-    let mut text = format!(
-        "{named}\n  number {} of body `{}`, phase `{}`\n",
-        suspect.number, suspect.body, suspect.phase
-    );
-    let both = [("before", &suspect.before), ("failed", &suspect.after)];
-    for (when, seen) in both {
-        text.push_str(&seen.as_ref().map_or(String::new(), |s| sighting(when, s)));
+    let Suspect {
+        number,
+        body,
+        phase,
+        ..
+    } = suspect;
+    let mut text = format!("{named}\n  number {number} of body `{body}`, phase `{phase}`\n");
+    for (when, seen) in [("before", &suspect.before), ("failed", &suspect.after)] {
+        text.extend(seen.iter().map(|seen| sighting(when, seen)));
     }
     text
 }
 
 fn sighting(when: &str, seen: &ParticleRecord) -> String {
     let number = |x: &Option<f64>| x.map_or("not finite".into(), |x| format!("{x:.4e}"));
-    let list = |v: &[Option<f64>]| v.iter().map(number).collect::<Vec<_>>().join(", ");
+    let list = |v: &[Option<f64>]| comma_list(v.iter().map(number));
     let mut text = format!(
         "  {when}  t = {:.6} s, at ({}) m, u = ({}) m/s\n          ρ = {} kg/m³, p = {} Pa",
         seen.time,
@@ -88,13 +82,11 @@ fn terms(found: &Findings) -> String {
         ("at the last good state", &found.before),
         ("at the bad state", &found.after),
     ];
-    let mut text = String::new();
-    for (when, shares) in all.into_iter().filter(|(_, s)| !s.is_empty()) {
-        text.push_str(&format!("what acted on it {when}, m/s²\n"));
-        let rows: Vec<_> = shares.iter().take(TERMS).map(share).collect();
-        text.push_str(&columns(2, &rows));
-    }
-    text
+    let blocks = all.map(|(when, shares)| {
+        let rows = shares.iter().take(TERMS).map(share);
+        headed(&format!("what acted on it {when}, m/s²"), columns(2, rows))
+    });
+    blocks.concat()
 }
 
 fn share(share: &Share) -> Vec<String> {

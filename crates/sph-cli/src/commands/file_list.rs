@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
-use crate::terminal::layout::columns;
+use serde_json::Value as Json;
+use sph_run::SUMMARY;
+
 use crate::terminal::shell::quoted;
+use crate::terminal::{columns, row};
 
 /// Known files, in the order of their use.
 const KNOWN: [(&str, &str); 4] = [
@@ -16,16 +19,12 @@ const KNOWN: [(&str, &str); 4] = [
 /// The last lines of a run: its files, and the command that shows them.
 pub fn ending(folder: &Path) -> String {
     let shown = folder.display().to_string();
-    let files = columns(2, &listing(folder));
-    format!(
-        "written to {shown}\n{files}look at it: sph view {}\n",
-        quoted(&shown)
-    )
+    let (files, word) = (columns(2, listing(folder)), quoted(&shown));
+    format!("written to {shown}\n{files}look at it: sph view {word}\n")
 }
 
 /// Rows of name and meaning: pictures first.
 fn listing(folder: &Path) -> Vec<Vec<String>> {
-    let row = |name: String, what: &str| vec![name, what.to_string()];
     let mut rows = Vec::new();
     for (sub, extension, one, many) in [
         ("pictures", "png", "a picture", "pictures"),
@@ -46,16 +45,22 @@ fn listing(folder: &Path) -> Vec<Vec<String>> {
         files.sort();
         match files.as_slice() {
             [] => {}
-            [only] => rows.push(row(format!("{sub}/{only}"), one)),
-            [first, .., last] => rows.push(row(
-                format!("{sub}/{first} … {last}"),
-                &format!("{} {many}", files.len()),
-            )),
+            [only] => rows.push(row(&format!("{sub}/{only}"), one)),
+            [first, .., last] => {
+                let count = format!("{} {many}", files.len());
+                rows.push(row(&format!("{sub}/{first} … {last}"), count));
+            }
         }
     }
     let present = KNOWN.iter().filter(|(name, _)| folder.join(name).exists());
-    rows.extend(present.map(|(name, what)| row((*name).to_string(), what)));
+    rows.extend(present.map(|(name, what)| row(name, *what)));
     rows
+}
+
+/// The summary that a run left in its folder.
+pub fn read_summary(folder: &Path) -> Option<Json> {
+    let text = std::fs::read_to_string(folder.join(SUMMARY)).ok()?;
+    serde_json::from_str(&text).ok()
 }
 
 /// Names of the files of a kind in a folder, in the order of their numbers.

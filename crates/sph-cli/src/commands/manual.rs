@@ -1,43 +1,41 @@
 //! `sph completions` and `sph man`: made from the definition of the command line.
 
+use std::path::Path;
+
 use clap::CommandFactory;
+use clap_complete::Shell;
 use clap_mangen::Man;
+use sph_core::{comma_list, suggestion};
 use sph_io::write_whole;
 
 use crate::arguments::Arguments;
-use crate::terminal::console;
-use crate::terminal::trouble::Trouble;
-use crate::tool_arguments::{CompletionArguments, ManArguments};
+use crate::terminal::{Trouble, console};
 
 /// Prints the completions of a shell.
-pub fn completions(arguments: &CompletionArguments) -> Result<(), Trouble> {
+pub fn completions(shell: Shell) -> Result<(), Trouble> {
     let mut script = Vec::new();
     let mut command = Arguments::command();
-    clap_complete::generate(arguments.shell, &mut command, "sph", &mut script);
+    clap_complete::generate(shell, &mut command, "sph", &mut script);
     console::raw(&script);
     Ok(())
 }
 
 /// Prints a manual page, or writes all of them.
-pub fn man(arguments: &ManArguments) -> Result<(), Trouble> {
+pub fn man(of: Option<&str>, out: Option<&Path>) -> Result<(), Trouble> {
     let pages = pages();
-    let Some(folder) = &arguments.out else {
-        let name = match &arguments.of {
+    let Some(folder) = out else {
+        let name = match of {
             Some(of) => format!("sph-{of}"),
             None => "sph".to_string(),
         };
-        let Some((_, page)) = pages.iter().find(|(n, _)| *n == name) else {
-            let known: Vec<&str> = pages
-                .iter()
-                .filter_map(|(n, _)| n.strip_prefix("sph-"))
-                .collect();
-            let near = sph_core::suggestion(name.trim_start_matches("sph-"), known.iter().copied());
-            let known = known.join(", ");
-            return Err(Trouble::usage(format!(
-                "there is no such command{near} (there are: {known})"
-            )));
+        let unknown = || {
+            let known = || pages.iter().filter_map(|(n, _)| n.strip_prefix("sph-"));
+            let near = suggestion(name.trim_start_matches("sph-"), known());
+            let known = comma_list(known());
+            format!("there is no such command{near} (there are: {known})")
         };
-        console::raw(page);
+        let page = pages.iter().find(|(n, _)| *n == name);
+        console::raw(&page.ok_or_else(unknown)?.1);
         return Ok(());
     };
     sph_io::writable(folder)?;
@@ -78,9 +76,7 @@ mod tests {
         assert!(names.contains(&"sph") && names.contains(&"sph-run") && names.contains(&"sph-man"));
         let (_, run) = pages.iter().find(|(n, _)| n == "sph-run").expect("a page");
         let run = String::from_utf8_lossy(run);
-        assert!(
-            run.contains("resume") && run.contains(".SH SYNOPSIS"),
-            "{run}"
-        );
+        let both = run.contains("resume") && run.contains(".SH SYNOPSIS");
+        assert!(both, "{run}");
     }
 }

@@ -6,9 +6,7 @@ use serde_json::{Value as Json, json};
 use sph_core::number;
 use sph_scene::{Facets, Topology, sense};
 
-use crate::terminal::layout::{columns, remarks, row};
-use crate::terminal::output::CommandOutput;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::{CommandOutput, Trouble, columns, headed, remarks, row};
 
 /// Openings that are shown.
 const SHOWN: usize = 10;
@@ -27,7 +25,7 @@ pub fn is_mesh(argument: &str) -> bool {
 
 /// Contents of a file of facets.
 pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
-    let (facets, odd) = Facets::read(Path::new(file)).map_err(Trouble::usage)?;
+    let (facets, odd) = Facets::read(Path::new(file))?;
     let topology = facets.topology();
     let [low, high] = facets.bounds();
     let mesh = Mesh {
@@ -40,11 +38,9 @@ pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
         odd,
     };
     let said = mesh.said();
-    let rows = columns(2, &mesh.rows());
-    let mut text = format!("{file} is a surface of facets, in the unit of its file\n{rows}");
-    if !said.is_empty() {
-        text.push_str(&format!("\nremarks\n{}", remarks(&said)));
-    }
+    let rows = columns(2, mesh.rows());
+    let text = format!("{file} is a surface of facets, in the unit of its file\n{rows}")
+        + &headed("\nremarks", remarks(&said));
     let mut json = mesh.json();
     json["file"] = json!(file);
     json["remarks"] = json!(said);
@@ -97,12 +93,12 @@ impl Mesh {
         let (topology, all) = (&self.topology, self.facets.triangles.len());
         let orientation = match topology.flipped.as_slice() {
             [] => format!("consistent, {}", self.facing),
-            flipped => format!(
-                "{} of {all} facets flipped, the first is facet {}; the others {}",
-                flipped.len(),
-                flipped[0] + 1,
-                self.facing
-            ),
+            flipped => {
+                let (count, first, facing) = (flipped.len(), flipped[0] + 1, self.facing);
+                format!(
+                    "{count} of {all} facets flipped, the first is facet {first}; the others {facing}"
+                )
+            }
         };
         let mut rows = vec![
             row("facets", number::count(all as f64)),
@@ -115,12 +111,8 @@ impl Mesh {
             row("openings", topology.openings.len().to_string()),
         ];
         rows.extend(topology.openings.iter().take(SHOWN).map(|o| {
-            let size = number::plain(o.size);
-            let around = place(&o.centre);
-            row(
-                "",
-                format!("{} edges, {size} across, around {around}", o.edges),
-            )
+            let (edges, size, around) = (o.edges, number::plain(o.size), place(&o.centre));
+            row("", format!("{edges} edges, {size} across, around {around}"))
         }));
         rows
     }
@@ -137,10 +129,8 @@ impl Mesh {
                 "outwards" => "outside",
                 _ => "inside",
             };
-            said.push(format!(
-                "as drawn, the fluid is {side}: `flip = true` puts it on the other side, `fluid = \"inside\"` or \
-                 \"outside\" on one"
-            ));
+            let turned = "`flip = true` puts it on the other side, `fluid = \"inside\"` or \"outside\" on one";
+            said.push(format!("as drawn, the fluid is {side}: {turned}"));
         }
         if let Some(facet) = self.odd {
             said.push(format!(
@@ -154,10 +144,9 @@ impl Mesh {
         let corners = self.low.iter().chain(&self.high);
         let far = corners.fold(0.0, |m: f64, x| m.max(x.abs()));
         if far > 1e3 * self.largest() {
+            let [far, step] = [far, SINGLE * far].map(number::plain);
             said.push(format!(
-                "it lies {} from the origin, where single precision resolves {}: move it before it is written",
-                number::plain(far),
-                number::plain(SINGLE * far)
+                "it lies {far} from the origin, where single precision resolves {step}: move it before it is written"
             ));
         }
         said

@@ -3,26 +3,22 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_core::unit_suffix;
-use sph_particles::Summary;
+use sph_core::{comma_list, number, unit_suffix};
+use sph_particles::{ErrorEntry, Summary};
 use sph_run::Status;
 
 use crate::commands::file_list;
-use crate::number;
-use crate::terminal::layout::{columns, memory, remarks, row, table};
+use crate::terminal::{columns, headed, memory, remarks, row, table};
 
 /// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {
-    let mut text = headline(summary.status, &summary.scene);
-    text.push_str(&columns(2, &cost(summary)));
-    text.push_str(&errors(summary));
-    for (title, list) in [("warnings", &summary.warnings), ("advice", &summary.advice)] {
-        if !list.is_empty() {
-            text.push_str(&format!("{title}\n{}", remarks(list)));
-        }
-    }
-    text.push_str(&file_list::ending(out));
-    text
+    let heads = "name, value, norm, against, samples";
+    headline(summary.status, &summary.scene)
+        + &columns(2, cost(summary))
+        + &errors(heads, &summary.errors, error)
+        + &headed("warnings", remarks(&summary.warnings))
+        + &headed("advice", remarks(&summary.advice))
+        + &file_list::ending(out)
 }
 
 /// End of a run, and its scene.
@@ -48,20 +44,17 @@ pub fn wall_time(seconds: f64, threads: usize) -> String {
 pub fn limited_by(shares: &BTreeMap<String, f64>) -> String {
     let mut limiters: Vec<(&String, &f64)> = shares.iter().collect();
     limiters.sort_by(|a, b| b.1.total_cmp(a.1));
-    let limiters: Vec<String> = limiters
-        .iter()
-        .map(|(name, share)| format!("{name} {}", number::percent(**share)))
-        .collect();
-    limiters.join(", ")
+    let limiters = limiters.into_iter();
+    comma_list(limiters.map(|(name, share)| format!("{name} {}", number::percent(*share))))
 }
 
 fn cost(s: &Summary) -> Vec<Vec<String>> {
-    let particles = format!(
-        "{} particles, {} wall points, {:.1} neighbours each",
-        number::count(s.particles as f64),
-        number::count(s.wall_points as f64),
-        s.neighbours
-    );
+    let [particles, points] = [s.particles, s.wall_points].map(|n| number::count(n as f64));
+    let steps = number::count(s.steps as f64);
+    let end = number::plain(s.simulated_seconds);
+    let rate = number::rate(s.particle_steps_per_second);
+    let (each, pair) = (s.neighbours, s.nanoseconds_per_pair);
+    let size = format!("{particles} particles, {points} wall points, {each:.1} neighbours each");
     let back = match s.steps_rolled_back {
         0 => String::new(),
         n => format!(", {n} rolled back"),
@@ -69,18 +62,10 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
     let since = s.started_at.map_or(String::new(), |t| {
         format!("from t = {} s of another run ", number::plain(t))
     });
-    let steps = format!(
-        "{} {since}to t = {} s{back}",
-        number::count(s.steps as f64),
-        number::plain(s.simulated_seconds)
-    );
-    let speed = format!(
-        "{} particle-steps/s, {:.1} ns per pair and thread",
-        number::rate(s.particle_steps_per_second),
-        s.nanoseconds_per_pair
-    );
+    let steps = format!("{steps} {since}to t = {end} s{back}");
+    let speed = format!("{rate} particle-steps/s, {pair:.1} ns per pair and thread");
     vec![
-        row("size", particles),
+        row("size", size),
         row("steps", steps),
         row("wall time", wall_time(s.wall_seconds, s.threads)),
         row("speed", speed),
@@ -91,21 +76,21 @@ fn cost(s: &Summary) -> Vec<Vec<String>> {
     ]
 }
 
-fn errors(summary: &Summary) -> String {
-    if summary.errors.is_empty() {
-        return String::new();
+/// Errors below their heads, the first of which is that of their names; nothing if there are none.
+pub fn errors<E>(
+    heads: &str,
+    errors: &BTreeMap<String, E>,
+    cells: impl Fn(&E) -> Vec<String>,
+) -> String {
+    let row = |(name, error)| [vec![String::clone(name)], cells(error)].concat();
+    match errors.is_empty() {
+        true => String::new(),
+        false => headed("errors", table(heads, errors.iter().map(row))),
     }
-    let rows = summary.errors.iter().map(|(name, error)| {
-        let unit = unit_suffix(&error.unit);
-        let value = error.value.map_or("none".to_string(), number::plain);
-        vec![
-            name.clone(),
-            format!("{value}{unit}"),
-            error.norm.clone(),
-            error.against.clone(),
-            error.samples.to_string(),
-        ]
-    });
-    let heads = ["name", "value", "norm", "against", "samples"];
-    format!("errors\n{}", table(&heads, rows))
+}
+
+fn error(error: &ErrorEntry) -> Vec<String> {
+    let value = error.value.map_or("none".to_string(), number::plain) + &unit_suffix(&error.unit);
+    let (norm, against) = (error.norm.clone(), error.against.clone());
+    vec![value, norm, against, error.samples.to_string()]
 }

@@ -8,11 +8,11 @@ mod picture;
 mod snippet;
 
 use serde_json::{Value as Json, json};
-use sph_core::{Parameter, PluginInfo, PluginKind, kinds, parameters, suggestion};
+use sph_core::{
+    Parameter, PluginInfo, PluginKind, comma_list, kinds, parameters, some_unit, suggestion,
+};
 
-use crate::terminal::layout::{columns, paragraph, row};
-use crate::terminal::output::CommandOutput;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::{CommandOutput, Trouble, WIDTH, columns, paragraph, paragraphs, row};
 use crate::tool_arguments::PluginArguments;
 
 /// The kinds of plugins that can be drawn.
@@ -25,7 +25,7 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let Some(kind) = &arguments.kind else {
         let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
         let text = match arguments.markdown {
-            true => page::markdown(&all),
+            true => page::markdown(&kinds),
             false => overview(&kinds),
         };
         CommandOutput::new(&all, text).print(arguments.json);
@@ -59,54 +59,44 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
 
 fn find_kind<'k>(kinds: &[&'k PluginKind], name: &str) -> Result<&'k PluginKind, Trouble> {
     let found = kinds.iter().find(|k| k.name == name);
-    found.copied().ok_or_else(|| {
-        let names: Vec<&str> = kinds.iter().map(|k| k.name).collect();
-        let near = suggestion(name, names.iter().copied());
-        let known = names.join(", ");
-        Trouble::usage(format!(
-            "there is no kind of plugin called `{name}`{near} (kinds: {known})"
-        ))
-    })
+    let unknown = || {
+        let names = || kinds.iter().map(|k| k.name);
+        let (near, known) = (suggestion(name, names()), comma_list(names()));
+        format!("there is no kind of plugin called `{name}`{near} (kinds: {known})")
+    };
+    Ok(found.ok_or_else(unknown)?)
 }
 
 fn find_plugin(kind: &PluginKind, name: &str) -> Result<PluginInfo, Trouble> {
     let plugins = (kind.plugins)();
     let found = plugins.iter().find(|p| p.name == name);
-    found.copied().ok_or_else(|| {
-        let near = suggestion(name, plugins.iter().map(|p| p.name));
-        let known: Vec<&str> = plugins.iter().map(|p| p.name).collect();
-        Trouble::usage(format!(
-            "there is no {} called `{name}`{near} (registered: {}; a plugin of another crate must be \
+    let unknown = || {
+        let names = || plugins.iter().map(|p| p.name);
+        let (near, known) = (suggestion(name, names()), comma_list(names()));
+        format!(
+            "there is no {} called `{name}`{near} (registered: {known}; a plugin of another crate must be \
              mentioned in your binary: `use my_plugin as _;`)",
-            kind.name,
-            known.join(", ")
-        ))
-    })
+            kind.name
+        )
+    };
+    Ok(*found.ok_or_else(unknown)?)
 }
 
 fn overview(kinds: &[&PluginKind]) -> String {
-    let mut text = String::new();
-    for kind in kinds {
-        text.push_str(&kind_text(kind));
-        text.push('\n');
-    }
-    text.push_str("sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n");
-    text
+    let kinds = kinds.iter().map(|kind| kind_text(kind) + "\n");
+    kinds.collect::<String>()
+        + "sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n"
 }
 
 fn kind_text(kind: &PluginKind) -> String {
     let row = |p: &PluginInfo| {
-        vec![
-            p.name.to_string(),
-            p.summary.to_string(),
-            dimensions(p),
-            p.provider.to_string(),
-        ]
+        [p.name, p.summary, &dimensions(p, " "), p.provider]
+            .map(String::from)
+            .to_vec()
     };
-    let rows: Vec<Vec<String>> = (kind.plugins)().iter().map(row).collect();
-    let rows = match rows.is_empty() {
-        true => "  none is registered in this binary\n".to_string(),
-        false => columns(2, &rows),
+    let rows = match (kind.plugins)() {
+        none if none.is_empty() => "  none is registered in this binary\n".to_string(),
+        plugins => columns(2, plugins.iter().map(row)),
     };
     let default = kind.default.map_or(String::new(), |name| {
         format!("; `{name}` if a scene names none")
@@ -114,34 +104,30 @@ fn kind_text(kind: &PluginKind) -> String {
     format!("{}: {}{default}\n{rows}", kind.name, kind.purpose)
 }
 
-fn dimensions(plugin: &PluginInfo) -> String {
+fn dimensions(plugin: &PluginInfo, between: &str) -> String {
     let each: Vec<String> = plugin.dimensions.iter().map(|d| format!("{d}D")).collect();
-    each.join(" ")
+    each.join(between)
 }
 
 fn plugin_text(kind: &PluginKind, plugin: &PluginInfo) -> String {
     let schema = (plugin.schema)();
     let mut text = format!("{} {}: {}\n", kind.name, plugin.name, plugin.summary);
     let facts = [
-        row("dimensions", dimensions(plugin)),
+        row("dimensions", dimensions(plugin, " ")),
         row("source", plugin.source),
         row("provider", plugin.provider),
     ];
-    text.push_str(&columns(2, &facts));
+    text.push_str(&columns(2, facts));
     if let Some(description) = schema.get("description").and_then(Json::as_str) {
         text.push('\n');
-        for part in prose(description) {
-            text.push_str(&paragraph(2, 98, &part));
-        }
+        text.push_str(&paragraphs(2, &prose(description)));
     }
     text.push_str("\nparameters\n");
     let all = parameters(&schema);
     if all.is_empty() {
         text.push_str("  none\n");
     }
-    for parameter in &all {
-        text.push_str(&parameter_text(parameter, &schema));
-    }
+    text.extend(all.iter().map(|p| parameter_text(p, &schema)));
     text.push_str("\nin a scene\n");
     for line in snippet::toml_lines(kind.name, plugin).lines() {
         text.push_str(format!("  {line}").trim_end());
@@ -151,10 +137,10 @@ fn plugin_text(kind: &PluginKind, plugin: &PluginInfo) -> String {
 }
 
 /// The paragraphs of a doc comment; examples are left to the snippet.
-fn prose(description: &str) -> Vec<String> {
+fn prose(description: &str) -> Vec<&str> {
     let texts = description.split("```").step_by(2);
     let parts = texts.flat_map(|t| t.split("\n\n")).map(str::trim);
-    parts.filter(|p| !p.is_empty()).map(String::from).collect()
+    parts.filter(|p| !p.is_empty()).collect()
 }
 
 fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
@@ -163,26 +149,23 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
         (Some(value), _) if !value.is_null() => format!("default {value}"),
         _ => "optional".to_string(),
     };
-    let unit = match parameter.unit.as_str() {
-        "" | "1" => String::new(),
-        unit => format!(", {unit}"),
-    };
-    let mut text = format!(
-        "  {} ({}{unit}; {default})\n",
-        parameter.name, parameter.kind
-    );
-    text.push_str(&paragraph(6, 98, &parameter.meaning));
-    for (k, choice) in choices::choices_of(schema, &parameter.name)
-        .iter()
-        .enumerate()
-    {
+    let (name, kind) = (&parameter.name, &parameter.kind);
+    let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!(", {unit}"));
+    let mut text = format!("  {name} ({kind}{unit}; {default})\n");
+    text.push_str(&paragraph(6, WIDTH, &parameter.meaning));
+    let choices = choices::choices_of(schema, name);
+    for (k, choice) in choices.iter().enumerate() {
         let lead = if k == 0 { "one of " } else { "or " };
         let colon = if choice.meaning.is_empty() { "" } else { ": " };
         let line = format!("{lead}{}{colon}{}", choice.value, choice.meaning);
-        text.push_str(&paragraph(8, 98, &line));
+        text.push_str(&paragraph(8, WIDTH, &line));
     }
     if !parameter.source.is_empty() {
-        text.push_str(&paragraph(6, 98, &format!("source: {}", parameter.source)));
+        text.push_str(&paragraph(
+            6,
+            WIDTH,
+            &format!("source: {}", parameter.source),
+        ));
     }
     text
 }

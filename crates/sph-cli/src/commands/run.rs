@@ -3,21 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use serde_json::Value as Json;
 use sph_particles::{RunError, identity, run, run_on_threads, run_part};
-use sph_run::{CHECKPOINT, Identity, RunOptions, SUMMARY, Start, Status, Watch};
+use sph_run::{CHECKPOINT, Identity, RunOptions, Start, Status, Watch};
 use sph_scene::{Loaded, Source};
 
 use crate::arguments::RunArguments;
+use crate::commands::file_list::read_summary;
 use crate::commands::{grains, outcome};
-use crate::interrupt;
-use crate::ranks;
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::console;
-use crate::terminal::output::{CommandOutput, Ended};
 use crate::terminal::progress::Watcher;
-use crate::terminal::shell;
-use crate::terminal::trouble::{ModelError, Trouble};
+use crate::terminal::{CommandOutput, Ended, ModelError, Trouble, console, shell};
+use crate::{interrupt, ranks};
 
 /// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
@@ -74,9 +70,8 @@ fn particles(
     options.identity = own.map_err(|e| Trouble::in_scene(RunError::from(e), &loaded.source))?;
     let result = match (ranks::communicator(), arguments.ranks.map(usize::from)) {
         (Some(_), Some(2..)) => {
-            let text =
-                "--ranks divides this process, and mpirun has started several: leave out --ranks";
-            return Err(Trouble::usage(text));
+            let why = "--ranks divides this process, and mpirun has started several";
+            return Err(format!("{why}: leave out --ranks").into());
         }
         (Some(communicator), _) => run_part(&loaded.scene, &options, communicator, observer),
         (None, Some(ranks @ 2..)) => {
@@ -103,9 +98,9 @@ fn grains(
         return Err(Trouble::usage("a scene of grains runs on one rank"));
     }
     if arguments.from.is_some() {
-        return Err(Trouble::usage(
-            "--from takes particles of another run; grains go on with --resume, and --changed if the scene has changed",
-        ));
+        let why = "--from takes particles of another run; grains go on with --resume, and --changed if the scene \
+                   has changed";
+        return Err(Trouble::usage(why));
     }
     let mut options = options(arguments, out)?;
     options.identity = dem_pfv::scene::identity(loaded);
@@ -146,12 +141,9 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
         true => other.join(CHECKPOINT),
         false => other.clone(),
     };
-    let real = file.canonicalize().map_err(|_| {
-        Trouble::usage(format!(
-            "there is no checkpoint in {} to start from",
-            other.display()
-        ))
-    })?;
+    let shown = other.display();
+    let missing = |_| format!("there is no checkpoint in {shown} to start from");
+    let real = file.canonicalize().map_err(missing)?;
     let own = out.join(CHECKPOINT).canonicalize();
     if own.is_ok_and(|own| own == real) {
         let out = out.display();
@@ -165,9 +157,9 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
 /// Refusals before the folder is touched.
 fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
     if arguments.resume && !out.join(CHECKPOINT).is_file() {
+        let out = out.display();
         return Err(Trouble::usage(format!(
-            "there is no checkpoint in {} to resume from: start without --resume",
-            out.display()
+            "there is no checkpoint in {out} to resume from: start without --resume"
         )));
     }
     Ok(())
@@ -194,7 +186,8 @@ fn trouble(
     out: &Path,
 ) -> Trouble {
     let told: ModelError = error.into();
-    let left = told.ran.then(|| failed_summary(&out.join(SUMMARY)));
+    // Not one of an earlier run.
+    let left = read_summary(out).filter(|summary| told.ran && summary["status"] == "failed");
     let stands = told.remedy.filter(|_| out.join(CHECKPOINT).is_file());
     let again = stands.map(|why| {
         let again = going_on(arguments, out);
@@ -205,7 +198,7 @@ fn trouble(
         summary, advice, ..
     } = &mut trouble
     {
-        *summary = left.flatten().map(Box::new);
+        *summary = left.map(Box::new);
         *advice = again;
     }
     trouble
@@ -214,17 +207,7 @@ fn trouble(
 /// The command that resumes the run.
 fn going_on(arguments: &RunArguments, out: &Path) -> String {
     let scene = &arguments.scene;
-    let set = scene.set.iter().map(|set| ("--set", set.clone()));
-    let allowed = scene.allow_path.iter();
-    let allowed = allowed.map(|folder| ("--allow-path", folder.display().to_string()));
-    let out = ("--out", out.display().to_string());
-    let options = [out].into_iter().chain(set).chain(allowed);
+    let out = [("--out", out.display().to_string())].into_iter();
+    let options = out.chain(shell::overrides(&scene.set, &scene.allow_path));
     shell::command(&["sph", "run", &scene.scene], options) + " --resume"
-}
-
-/// The summary that a failed run left; not one of an earlier run.
-fn failed_summary(path: &Path) -> Option<Json> {
-    let text = std::fs::read_to_string(path).ok()?;
-    let summary: Json = serde_json::from_str(&text).ok()?;
-    (summary["status"] == "failed").then_some(summary)
 }

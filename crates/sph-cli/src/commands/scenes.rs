@@ -5,23 +5,21 @@ mod page;
 use serde_json::{Value as Json, json};
 use sph_scene::{Source, read_text};
 
-use crate::arguments::ScenesArguments;
 use crate::gallery::{GALLERY, Gallery};
-use crate::scene_file::{self, AnyScene};
-use crate::shipped::{self, Content, Shipped};
-use crate::terminal::layout::columns;
-use crate::terminal::trouble::Trouble;
-use crate::terminal::{console, diagnostics};
+use crate::scene_file::AnyScene;
+use crate::shipped::{Content, Shipped};
+use crate::terminal::{Trouble, columns, console, diagnostics};
+use crate::{scene_file, shipped};
 
 /// Lists the shipped scenes.
-pub fn command(arguments: &ScenesArguments) -> Result<(), Trouble> {
+pub fn command(markdown: bool, json: bool) -> Result<(), Trouble> {
     let gallery = &*GALLERY;
-    if arguments.markdown {
+    if markdown {
         console::out(&page::markdown(gallery));
         return Ok(());
     }
     let all = shipped::all();
-    match arguments.json {
+    match json {
         true => console::json(&all.iter().map(|s| entry(gallery, s)).collect()),
         false => console::out(&text(gallery, &all)),
     }
@@ -75,10 +73,10 @@ fn text(gallery: &Gallery, all: &[Shipped]) -> String {
         vec![shipped.name.clone(), time.unwrap_or_default(), told]
     };
     let block = |title: &str, scenes: Vec<&Shipped>| {
-        let rows: Vec<_> = scenes.into_iter().map(row).collect();
-        match rows.is_empty() {
-            true => String::new(),
-            false => format!("{title}\n{}\n", columns(2, &rows)),
+        let rows = columns(2, scenes.into_iter().map(row));
+        match rows.as_str() {
+            "" => rows,
+            rows => format!("{title}\n{rows}\n"),
         }
     };
     let of = |theme: &str| {
@@ -90,10 +88,7 @@ fn text(gallery: &Gallery, all: &[Shipped]) -> String {
     if text.is_empty() {
         return "there is no scene in ./scenes, and none was compiled in\n".into();
     }
-    let start = gallery.start.iter().map(|start| start.to_vec());
-    let start = columns(2, &start.collect::<Vec<_>>());
-    format!(
-        "{text}Start here\n{start}\nsph run NAME runs one of them. {}\n",
-        gallery.times
-    )
+    let start = columns(2, gallery.start.iter().map(|start| start.to_vec()));
+    let times = &gallery.times;
+    format!("{text}Start here\n{start}\nsph run NAME runs one of them. {times}\n")
 }

@@ -6,19 +6,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use sph_core::suggestion;
+use sph_core::{comma_list, suggestion};
 use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, execute, rows};
 
 use crate::arguments::StudyArguments;
-use crate::interrupt;
 use crate::scene_file::{allowed, find, overrides};
-use crate::shipped::{self, Content};
-use crate::terminal::console;
-use crate::terminal::layout::columns;
-use crate::terminal::output::CommandOutput;
-use crate::terminal::shell;
+use crate::shipped::Content;
 use crate::terminal::study_progress::Watcher;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::{CommandOutput, Trouble, columns, console, shell};
+use crate::{interrupt, shipped};
 
 /// A scene, and the folder that its data were unpacked to.
 type FoundScene = (SceneText, Option<sph_io::Scratch>);
@@ -35,13 +31,11 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     if arguments.json || !arguments.quiet {
         studied.told.print(arguments.json);
     }
-    match studied.going_on {
-        None => Ok(()),
-        Some(kept) => {
-            console::err(&kept);
-            Err(Trouble::Interrupted)
-        }
-    }
+    let Some(kept) = studied.going_on else {
+        return Ok(());
+    };
+    console::err(&kept);
+    Err(Trouble::Interrupted)
 }
 
 /// The end of a study.
@@ -88,25 +82,19 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
 }
 
 fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(), Trouble> {
-    let load = |path| Results::load(path).map_err(Trouble::Usage);
-    let comparison = compare(&load(first)?, &load(second)?);
-    let mut text = String::new();
-    for note in &comparison.notes {
-        text.push_str(&format!("{note}\n"));
-    }
+    let comparison = compare(&Results::load(first)?, &Results::load(second)?);
+    let notes = comparison.notes.iter();
+    let mut text: String = notes.map(|note| format!("{note}\n")).collect();
     if !comparison.variants.is_empty() {
-        text.push_str(&columns(2, &comparison.rows()));
+        text.push_str(&columns(2, comparison.rows()));
     }
     let sides = [
         (first, &comparison.only_in_first),
         (second, &comparison.only_in_second),
     ];
     for (path, names) in sides.iter().filter(|(_, names)| !names.is_empty()) {
-        text.push_str(&format!(
-            "only in {}: {}\n",
-            path.display(),
-            names.join(", ")
-        ));
+        let names = names.join(", ");
+        text.push_str(&format!("only in {}: {names}\n", path.display()));
     }
     if let Some(ratio) = comparison.wall_ratio {
         text.push_str(&format!("wall seconds, geometric mean: ×{ratio:.3}\n"));
@@ -139,11 +127,8 @@ fn read(
     }
     let study = shipped::find_study(name).ok_or_else(|| {
         let near = suggestion(name.trim_end_matches(".toml"), shipped::studies());
-        let known = shipped::studies().collect::<Vec<_>>().join(", ");
-        Trouble::Usage(format!(
-            "there is no study file `{name}` and no shipped study of that name{near} (there are: \
-             {known})"
-        ))
+        let known = comma_list(shipped::studies());
+        format!("there is no study file `{name}` and no shipped study of that name{near} (there are: {known})")
     })?;
     Ok(match study.content {
         Content::File(path) => Study::read(&path, &look, &set, &arguments.only)?,
@@ -158,7 +143,7 @@ fn read(
 fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
     for (k, variant) in study.variants.iter().enumerate() {
         if watcher.has_to_run(k) {
-            watcher.assembled(k, study.assemble(variant)?);
+            watcher.assembled(variant, study.assemble(variant)?);
         }
     }
     Ok(())
@@ -170,17 +155,15 @@ fn text(results: &Results, out: &Path) -> String {
     let all = rows(results).into_iter().enumerate();
     let along = !results.frontiers.is_empty();
     let shown = all.filter(|(k, _)| *k == 0 || along || !pending(k - 1));
-    let shown: Vec<Vec<String>> = shown.map(|(_, row)| row).collect();
+    let shown = columns(2, shown.map(|(_, row)| row));
     let left = results.variants.iter().filter(|v| is_pending(v)).count();
-    let mut text = format!("{}\n{}", results.title, columns(2, &shown));
+    let mut text = format!("{}\n{shown}", results.title);
     if left > 0 {
         text.push_str(&format!("{left} variants are pending\n"));
     }
     let few = if results.series.len() > MOST { 0 } else { MOST };
     for series in results.series.iter().take(few) {
-        let orders = series
-            .orders
-            .get(results.errors.first().map_or("", String::as_str));
+        let orders = series.orders.get(results.judged());
         if let Some(order) = orders.and_then(sph_study::Orders::main) {
             let of = match series.name.as_str() {
                 "" => String::new(),
@@ -189,37 +172,27 @@ fn text(results: &Results, out: &Path) -> String {
             text.push_str(&format!("order{of}: {order:.2}\n"));
         }
     }
-    for line in results.scale.iter().flat_map(sph_study::Scale::lines) {
-        text.push_str(&format!("{line}\n"));
-    }
-    text.push_str(&format!("on {}\n", results.origin.machine));
-    text.push_str(&format!(
-        "written to {}: report.html shows all of it\n",
-        out.display()
-    ));
-    text
+    let lines = results.scale.iter().flat_map(sph_study::Scale::lines);
+    text.extend(lines.map(|line| line + "\n"));
+    let (machine, out) = (&results.origin.machine, out.display());
+    text + &format!("on {machine}\nwritten to {out}: report.html shows all of it\n")
 }
 
 /// The finished part, and the way to go on.
 fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
     let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
-    format!(
-        "{} of {} variants are finished and kept; go on with\n  {}",
-        records.iter().filter(over).count(),
-        records.len(),
-        going_on(arguments, name)
-    )
+    let (finished, all) = (records.iter().filter(over).count(), records.len());
+    let again = going_on(arguments, name);
+    format!("{finished} of {all} variants are finished and kept; go on with\n  {again}")
 }
 
 fn going_on(arguments: &StudyArguments, name: &str) -> String {
-    let shown = |path: &PathBuf| path.display().to_string();
-    let out = arguments.out.iter().map(|out| ("--out", shown(out)));
+    let out = arguments.out.iter();
+    let out = out.map(|out| ("--out", out.display().to_string()));
     let threads = arguments.threads.iter();
     let threads = threads.map(|threads| ("--threads", threads.to_string()));
     let only = arguments.only.iter().map(|only| ("--only", only.clone()));
-    let set = arguments.set.iter().map(|set| ("--set", set.clone()));
-    let allowed = arguments.allow_path.iter();
-    let allowed = allowed.map(|folder| ("--allow-path", shown(folder)));
-    let options = out.chain(threads).chain(only).chain(set).chain(allowed);
+    let overrides = shell::overrides(&arguments.set, &arguments.allow_path);
+    let options = out.chain(threads).chain(only).chain(overrides);
     shell::command(&["sph", "study", name], options)
 }

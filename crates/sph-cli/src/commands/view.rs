@@ -10,9 +10,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::terminal::console;
-use crate::terminal::trouble::Trouble;
-use crate::tool_arguments::ViewArguments;
+use crate::terminal::{Trouble, console};
 use answer::{Answer, answer};
 
 /// Longest head of a request, bytes.
@@ -23,25 +21,16 @@ const PATIENCE: Duration = Duration::from_secs(10);
 const MOST: usize = 16;
 
 /// Serves a folder until the process is ended.
-pub fn command(arguments: &ViewArguments) -> Result<(), Trouble> {
-    let folder = &arguments.results;
+pub fn command(folder: &Path, port: u16) -> Result<(), Trouble> {
     let real = folder.canonicalize().ok().filter(|f| f.is_dir());
-    let real = real.ok_or_else(|| {
-        Trouble::usage(format!(
-            "there is no folder of results {}",
-            folder.display()
-        ))
+    let shown = folder.display();
+    let real = real.ok_or_else(|| format!("there is no folder of results {shown}"))?;
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|e| {
+        format!("cannot listen on 127.0.0.1:{port} ({e}); --port 0 takes one that is free")
     })?;
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, arguments.port)).map_err(|e| {
-        let port = arguments.port;
-        Trouble::usage(format!(
-            "cannot listen on 127.0.0.1:{port} ({e}); --port 0 takes one that is free"
-        ))
-    })?;
-    let port = listener.local_addr().map_or(arguments.port, |a| a.port());
+    let port = listener.local_addr().map_or(port, |a| a.port());
     console::out(&format!(
-        "{} at http://127.0.0.1:{port}/ (Ctrl-C ends it)",
-        folder.display()
+        "{shown} at http://127.0.0.1:{port}/ (Ctrl-C ends it)"
     ));
     serve(&listener, &real, port);
     Ok(())

@@ -67,10 +67,9 @@ impl Transport for MpiRank {
         from: &[usize],
         work: &mut dyn FnMut(),
     ) -> Result<Vec<Vec<u8>>, TransportError> {
-        let pieces: Vec<(i32, &[u8])> = out
-            .iter()
-            .flat_map(|(rank, message)| pieces(message).map(|piece| (*rank as i32, piece)))
-            .collect();
+        let out = out.iter();
+        let pieces = out.flat_map(|(rank, all)| pieces(all).map(|piece| (*rank as i32, piece)));
+        let pieces: Vec<(i32, &[u8])> = pieces.collect();
         let world = world();
         Ok(mpi::request::multiple_scope(pieces.len(), |scope, sent| {
             for (rank, piece) in &pieces {

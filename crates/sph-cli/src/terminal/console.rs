@@ -7,21 +7,13 @@ use sph_io::{clean, escaped};
 
 /// A line, or several, on stdout.
 pub fn out(text: &str) {
-    let mut stdout = std::io::stdout().lock();
-    let written = writeln!(stdout, "{}", clean(text).trim_end_matches('\n'));
-    let written = written.and_then(|()| stdout.flush());
-    note(written);
+    raw(format!("{}\n", clean(text).trim_end_matches('\n')).as_bytes());
 }
 
-/// Bytes on stdout as they are, made by this program alone.
+/// Bytes on stdout as they are, made by this program alone; output that could not be written is reported once.
 pub fn raw(bytes: &[u8]) {
     let mut stdout = std::io::stdout().lock();
     let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
-    note(written);
-}
-
-/// Reports output that could not be written, once.
-fn note(written: std::io::Result<()>) {
     // `sph schema | head` closes the pipe: no reason to complain.
     if let Err(error) = written
         && error.kind() != ErrorKind::BrokenPipe

@@ -14,16 +14,13 @@ const MOST: usize = 20;
 
 /// The diagnostics as text: the line, a mark under it, the expected value.
 pub fn render(all: &[Mistake], colour: bool) -> String {
-    let mut text = String::new();
-    for located in all.iter().take(MOST) {
-        text.push_str(&one(located, colour));
-    }
+    let shown = all.iter().take(MOST).map(|located| one(located, colour));
+    let mut text: String = shown.collect();
     let more = all.len().saturating_sub(MOST);
-    let files = all.iter().map(|l| l.diagnostic.file.as_str());
-    let file = files
-        .clone()
-        .find(|f| *f != "--set")
-        .or(files.clone().next());
+    let mut files = all.iter().map(|l| l.diagnostic.file.as_str());
+    let first = files.clone().next();
+    let file = files.find(|f| *f != "--set").or(first);
+    let file = clean(file.unwrap_or("the scene"));
     let count = match all.len() {
         1 => "1 problem".to_string(),
         n if n >= MOST_PROBLEMS => format!("{n} problems and perhaps more"),
@@ -32,35 +29,24 @@ pub fn render(all: &[Mistake], colour: bool) -> String {
     if more > 0 {
         text.push_str(&format!("… and {more} more\n"));
     }
-    text.push_str(&format!(
-        "{count} in {}; nothing was written\n",
-        clean(file.unwrap_or("the scene"))
-    ));
-    text
+    text + &format!("{count} in {file}; nothing was written\n")
 }
 
 fn one(located: &Mistake, colour: bool) -> String {
     let d = &cleaned(&located.diagnostic);
     let text = clean(&located.text);
     let plain = || format!("error: {d}\n");
-    // A problem of the scene as a whole has no line to be shown.
-    let Some(place) = visible(&text, &d.span) else {
+    // A problem of the scene as a whole has no line to be shown, and one that fills the screen is not shown.
+    let place = visible(&text, &d.span);
+    let Some(place) = place.filter(|place| line_around(&text, place) <= LONGEST) else {
         return plain();
     };
-    // Nor is a line shown that fills the screen.
-    if line_around(&text, &place) > LONGEST {
-        return plain();
-    }
     let span = |range: Range<usize>| (d.file.clone(), range);
-    let config = Config::new()
-        .with_color(colour)
-        .with_index_type(IndexType::Byte);
-    let label = match d.path.as_str() {
-        "" => "here",
-        path => path,
-    };
+    let config = Config::new().with_color(colour);
+    let config = config.with_index_type(IndexType::Byte);
+    let told = if d.path.is_empty() { "here" } else { &d.path };
     let label = Label::new(span(place.clone()))
-        .with_message(label)
+        .with_message(told)
         .with_color(Color::Red);
     // A kind of one's own is coloured even where colours are off.
     let kind = match colour {
@@ -74,13 +60,9 @@ fn one(located: &Mistake, colour: bool) -> String {
         .finish();
     let mut bytes = Vec::new();
     let cache = sources([(d.file.clone(), &*text)]);
-    match report
-        .write(cache, &mut bytes)
-        .map(|()| String::from_utf8(bytes))
-    {
-        Ok(Ok(text)) => text.replacen("Error:", "error:", 1),
-        _ => plain(),
-    }
+    let written = report.write(cache, &mut bytes).ok();
+    let text = written.and_then(|()| String::from_utf8(bytes).ok());
+    text.map_or_else(plain, |text| text.replacen("Error:", "error:", 1))
 }
 
 /// Longest line of a scene that is shown, and longest message, bytes.
@@ -122,15 +104,16 @@ fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
 
 /// The diagnostics for a program.
 pub fn json(all: &[Mistake]) -> Json {
-    let one = |l: &Mistake| {
-        let d = &l.diagnostic;
-        json!({
-            "file": d.file,
-            "line": d.line,
-            "column": d.column,
-            "path": d.path,
-            "message": d.message,
-        })
-    };
-    Json::Array(all.iter().map(one).collect())
+    let all = all.iter().map(|l| {
+        let Diagnostic {
+            file,
+            line,
+            column,
+            path,
+            message,
+            ..
+        } = &l.diagnostic;
+        json!({ "file": file, "line": line, "column": column, "path": path, "message": message })
+    });
+    all.collect()
 }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use sph_core::number;
 use sph_run::{Command, Observer, Progress};
 
-use crate::number;
 use crate::terminal::display::Display;
 
 /// Wall-clock time between two lines.
@@ -46,13 +46,12 @@ impl Watcher {
 
     /// Removes the bar, or prints the end of the run.
     pub fn finish(&mut self) {
-        match (&self.display, self.last.take(), self.meter.take()) {
-            (Display::Bar(bar), ..) => bar.finish_and_clear(),
-            (Display::Lines, Some(last), Some(mut meter)) => {
-                meter.update(&last);
-                self.print(&last, &meter);
-            }
-            _ => {}
+        self.display.finish();
+        if let (Display::Lines, Some(last), Some(mut meter)) =
+            (&self.display, self.last.take(), self.meter.take())
+        {
+            meter.update(&last);
+            self.print(&last, &meter);
         }
     }
 
@@ -72,8 +71,7 @@ impl Watcher {
 impl Observer for Watcher {
     fn step(&mut self, progress: &Progress) -> Command {
         self.announce();
-        let first = self.meter.is_none();
-        if first || self.told.elapsed() >= self.every {
+        if self.meter.is_none() || self.told.elapsed() >= self.every {
             self.told = Instant::now();
             let mut meter = self.meter.take().unwrap_or_else(|| Meter::new(progress));
             meter.update(progress);
@@ -106,14 +104,11 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
         _ => String::new(),
     };
     // The most frequent choice comes first: a narrow terminal cuts the end.
-    format!(
-        "t = {} of {} s{left}  Δt {:.1e} s ({})  {speed}  step {}",
-        number::plain(progress.time),
-        number::plain(progress.end),
-        progress.dt,
-        progress.limiter,
-        progress.step,
-    )
+    let [time, end] = [progress.time, progress.end].map(number::plain);
+    let Progress {
+        dt, limiter, step, ..
+    } = progress;
+    format!("t = {time} of {end} s{left}  Δt {dt:.1e} s ({limiter})  {speed}  step {step}")
 }
 
 /// Rates, averaged over the last seconds.

@@ -1,5 +1,7 @@
 //! Commands that a person can copy.
 
+use std::path::PathBuf;
+
 /// A word as a shell reads it back.
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=,:+".contains(c);
@@ -15,6 +17,16 @@ pub fn command<'o>(words: &[&str], options: impl IntoIterator<Item = (&'o str, S
     let options = options.into_iter();
     let options = options.map(|(option, value)| format!("{option} {}", quoted(&value)));
     words.chain(options).collect::<Vec<_>>().join(" ")
+}
+
+/// The options `--set` and `--allow-path`, with their values.
+pub fn overrides<'o>(
+    set: &'o [String],
+    allowed: &'o [PathBuf],
+) -> impl Iterator<Item = (&'o str, String)> {
+    let set = set.iter().map(|set| ("--set", set.clone()));
+    let allowed = allowed.iter();
+    set.chain(allowed.map(|folder| ("--allow-path", folder.display().to_string())))
 }
 
 #[cfg(test)]

@@ -5,66 +5,47 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use sph_core::number;
 use sph_run::Progress;
-use sph_study::{Cost, Options, Record, Status, Study, Variant, to_run, verdict};
+use sph_study::{Options, Record, Status, Study, Variant, to_run, verdict};
 
-use crate::number;
 use crate::terminal::display::Display;
 
 /// Wall-clock time between two lines within a variant.
 const LINE: Duration = Duration::from_secs(30);
 
 /// Watches a study and passes Ctrl-C on.
-pub struct Watcher {
+pub struct Watcher<'s> {
+    study: &'s Study,
     display: Display,
     stop: Arc<AtomicBool>,
     every: Duration,
-    /// Of every variant by name: the reported error, or the bounds it is judged by.
-    judged: BTreeMap<String, VariantReport>,
     /// Variants that are to be run or have been.
     total: usize,
-    repetitions: usize,
-    /// By variant: its name, and whether there is something to do.
-    open: Vec<(String, bool)>,
+    /// By variant: whether there is something to do.
+    open: Vec<bool>,
     state: Mutex<State>,
 }
 
-/// The report of a finished variant.
-enum VariantReport {
-    Error(String),
-    Cost(Cost),
-    Bounds(BTreeMap<String, [f64; 2]>),
-}
-
-impl VariantReport {
-    fn sentence(&self, record: &Record) -> String {
-        match self {
-            VariantReport::Error(name) => match record.error(name) {
-                Some(error) => format!("{name} {}", number::plain(error)),
-                None => format!("no {name}"),
-            },
-            VariantReport::Cost(cost) => {
-                let seconds = record.cost(*cost);
-                seconds.map_or(String::new(), |s| format!("{} {s:.2e} s", cost.name()))
-            }
-            VariantReport::Bounds(bounds) => match verdict(record, bounds) {
-                Some(found) if found.why.is_empty() => found.colour.name().to_string(),
-                Some(found) => format!("{}, {}", found.colour.name(), found.why),
-                None => record.status.name().to_string(),
-            },
-        }
+/// The error of a finished variant that is reported, its cost, or its verdict.
+fn sentence(study: &Study, variant: &Variant, record: &Record) -> String {
+    if let Some(rung) = variant.rung {
+        return match verdict(record, &study.ladders[rung.ladder].judge) {
+            Some(found) if found.why.is_empty() => found.colour.name().to_string(),
+            Some(found) => format!("{}, {}", found.colour.name(), found.why),
+            None => record.status.name().to_string(),
+        };
     }
-}
-
-fn judged(study: &Study, variant: &Variant) -> (String, VariantReport) {
-    let judged = match variant.rung {
-        Some(rung) => VariantReport::Bounds(study.ladders[rung.ladder].judge.clone()),
-        None => match (study.errors.first(), &study.file.scaling) {
-            (None, Some(scaling)) => VariantReport::Cost(scaling.cost),
-            (error, _) => VariantReport::Error(error.cloned().unwrap_or_default()),
-        },
-    };
-    (variant.name.clone(), judged)
+    let error = study.errors.first();
+    if let (None, Some(scaling)) = (error, &study.file.scaling) {
+        let (cost, seconds) = (scaling.cost.name(), record.cost(scaling.cost));
+        return seconds.map_or(String::new(), |s| format!("{cost} {s:.2e} s"));
+    }
+    let name = error.map_or("", String::as_str);
+    match record.error(name) {
+        Some(error) => format!("{name} {}", number::plain(error)),
+        None => format!("no {name}"),
+    }
 }
 
 struct State {
@@ -79,56 +60,51 @@ struct State {
     repetition: BTreeMap<String, usize>,
 }
 
-impl Watcher {
+impl<'s> Watcher<'s> {
     /// A watcher that stops the study once the flag is raised.
-    pub fn new(quiet: bool, study: &Study, options: &Options, stop: Arc<AtomicBool>) -> Self {
+    pub fn new(quiet: bool, study: &'s Study, options: &Options, stop: Arc<AtomicBool>) -> Self {
         let (display, every) = Display::new(quiet, LINE);
-        let file = &study.file;
         let open = to_run(study, options);
-        let wanted = study.variants.iter().filter(|v| v.wanted).count();
+        let total = study.variants.iter().filter(|v| v.wanted).count();
         let to_run = open.iter().filter(|o| **o).count();
-        let settled = wanted - to_run;
-        let names = study.variants.iter().map(|v| v.name.clone());
-        let watcher = Watcher {
+        let (title, all, out) = (
+            &study.file.title,
+            study.variants.len(),
+            options.out.display(),
+        );
+        display.say(&format!(
+            "{title}: {all} variants, {to_run} to run, into {out}"
+        ));
+        Watcher {
+            study,
             display,
             stop,
             every,
-            judged: study.variants.iter().map(|v| judged(study, v)).collect(),
-            total: wanted,
-            repetitions: file.repetitions,
-            open: names.zip(open).collect(),
+            total,
+            open,
             state: Mutex::new(State {
                 started: Instant::now(),
                 told: Instant::now(),
-                settled,
+                settled: total - to_run,
                 cost: BTreeMap::new(),
                 share: BTreeMap::new(),
                 repetition: BTreeMap::new(),
             }),
-        };
-        watcher.display.say(&format!(
-            "{}: {} variants, {} to run, into {}",
-            file.title,
-            study.variants.len(),
-            to_run,
-            options.out.display()
-        ));
-        watcher
+        }
     }
 
     /// True if a variant has to run.
     pub fn has_to_run(&self, k: usize) -> bool {
-        self.open.get(k).is_some_and(|(_, open)| *open)
+        self.open.get(k).is_some_and(|open| *open)
     }
 
     /// A variant is good and will take about so long.
-    pub fn assembled(&self, k: usize, work: f64) {
+    pub fn assembled(&self, variant: &Variant, work: f64) {
         let mut state = self.state();
-        if let Some((name, _)) = self.open.get(k) {
-            state.cost.insert(name.clone(), work.max(1e-3));
-            if let Display::Bar(bar) = &self.display {
-                bar.set_message(sph_io::clean(&format!("checked {name}")).into_owned());
-            }
+        state.cost.insert(variant.name.clone(), work.max(1e-3));
+        if let Display::Bar(bar) = &self.display {
+            let text = format!("checked {}", variant.name);
+            bar.set_message(sph_io::clean(&text).into_owned());
         }
         state.started = Instant::now();
     }
@@ -152,12 +128,8 @@ impl Watcher {
             _ => String::new(),
         };
         let own = state.share.get(variant).copied().unwrap_or(0.0);
-        let text = format!(
-            "{} of {}{left}  {variant} {:.0} %",
-            state.settled,
-            self.total,
-            100.0 * own
-        );
+        let (settled, total, own) = (state.settled, self.total, 100.0 * own);
+        let text = format!("{settled} of {total}{left}  {variant} {own:.0} %");
         self.display.show(share, &text);
     }
 }
@@ -166,8 +138,8 @@ impl State {
     /// Share of the estimated work that is done.
     fn done_share(&self) -> f64 {
         let all: f64 = self.cost.values().sum();
-        let done = self.share.iter();
-        let done = done.map(|(name, share)| share * self.cost.get(name).unwrap_or(&0.0));
+        let shares = self.share.iter();
+        let done = shares.map(|(name, share)| share * self.cost.get(name).unwrap_or(&0.0));
         let done: f64 = done.sum();
         match all > 0.0 {
             true => (done / all).min(1.0),
@@ -176,7 +148,7 @@ impl State {
     }
 }
 
-impl sph_study::Watcher for Watcher {
+impl sph_study::Watcher for Watcher<'_> {
     fn started(&self, variant: &Variant, repetition: usize) {
         let mut state = self.state();
         state.repetition.insert(variant.name.clone(), repetition);
@@ -192,7 +164,8 @@ impl sph_study::Watcher for Watcher {
         }
         state.told = Instant::now();
         let before = state.repetition.get(&variant.name).copied().unwrap_or(0) as f64;
-        let share = (before + progress.time / progress.end) / self.repetitions as f64;
+        let repetitions = self.study.file.repetitions as f64;
+        let share = (before + progress.time / progress.end) / repetitions;
         state.share.insert(variant.name.clone(), share);
         self.print(&state, &variant.name);
     }
@@ -208,8 +181,8 @@ impl sph_study::Watcher for Watcher {
     fn finished(&self, variant: &Variant, record: &Record) {
         let mut state = self.state();
         state.share.insert(variant.name.clone(), 1.0);
-        let mut open = self.open.iter().filter(|(_, open)| *open);
-        if !open.any(|(name, _)| *name == variant.name) {
+        let mut all = self.study.variants.iter().zip(&self.open);
+        if !all.any(|(own, open)| *open && own.name == variant.name) {
             return;
         }
         if record.status != Status::Interrupted {
@@ -218,17 +191,15 @@ impl sph_study::Watcher for Watcher {
         if record.status == Status::Skipped {
             return;
         }
-        let what = match (self.judged.get(&variant.name), &record.reason) {
-            (Some(judged), _) if record.status == Status::Done => judged.sentence(record),
-            (_, Some(reason)) => format!("{}: {reason}", record.status.name()),
-            _ => record.status.name().to_string(),
+        let what = match (record.status, &record.reason) {
+            (Status::Done, _) => sentence(self.study, variant, record),
+            (status, Some(reason)) => format!("{}: {reason}", status.name()),
+            (status, None) => status.name().to_string(),
         };
         let time = record.least_seconds();
         let time = time.map_or(String::new(), |s| format!(", {}", number::duration(s)));
-        let text = format!(
-            "{} of {}  {}: {what}{time}",
-            state.settled, self.total, variant.name
-        );
+        let (settled, total, name) = (state.settled, self.total, &variant.name);
+        let text = format!("{settled} of {total}  {name}: {what}{time}");
         self.display.say(&text);
     }
 

@@ -2,16 +2,15 @@
 
 use dem_pfv::scene::DemError;
 use serde_json::{Value as Json, json};
-use sph_core::SceneProblem;
+use sph_core::{SceneProblem, number};
 use sph_io::IoError;
+use sph_io::curves::DrawError;
 use sph_particles::RunError;
 use sph_scene::Source;
 use sph_solver::SolverError;
 use sph_study::{Mistake, ReadError, Refused};
 
-use crate::number;
-use crate::terminal::console;
-use crate::terminal::diagnostics;
+use crate::terminal::{console, diagnostics};
 
 /// The reason why a command ended early.
 pub enum Trouble {
@@ -34,6 +33,13 @@ pub enum Trouble {
     Different,
 }
 
+/// A mistake in the command line.
+impl From<String> for Trouble {
+    fn from(message: String) -> Self {
+        Trouble::Usage(message)
+    }
+}
+
 impl From<ReadError> for Trouble {
     fn from(error: ReadError) -> Self {
         match error {
@@ -52,6 +58,16 @@ impl From<Refused> for Trouble {
 impl From<IoError> for Trouble {
     fn from(error: IoError) -> Self {
         ModelError::from(RunError::Io(error)).into()
+    }
+}
+
+/// A file that cannot be written is a failure; other errors are mistakes in the arguments.
+impl From<DrawError> for Trouble {
+    fn from(error: DrawError) -> Self {
+        match error {
+            DrawError::Io(error @ (IoError::Write(..) | IoError::DiskFull(..))) => error.into(),
+            other => Trouble::usage(other.to_string()),
+        }
     }
 }
 
@@ -89,8 +105,12 @@ impl From<RunError> for ModelError {
             }
             RunError::Io(io) => {
                 told.remedy = remedy(&io);
-                if is_unreadable_checkpoint(&io) {
-                    told.more = "a checkpoint that cannot be read cannot be resumed: start again without --resume\n".into();
+                // One that could not be *written* leaves the one before.
+                if let IoError::Read(path, _) | IoError::Checkpoint(path, _) = io
+                    && path.extension().is_some_and(|e| e == "sph")
+                {
+                    let why = "a checkpoint that cannot be read cannot be resumed";
+                    told.more = format!("{why}: start again without --resume\n");
                 }
             }
             _ => {}
@@ -140,12 +160,9 @@ impl Trouble {
     /// Text of an error of a model, with places in the scene if the scene is at fault.
     pub fn in_scene(error: impl Into<ModelError>, source: &Source) -> Self {
         let told = error.into();
-        match told.mistakes.is_empty() {
-            true => told.into(),
-            false => {
-                let found = source.diagnose(&told.mistakes);
-                Trouble::Scene(Mistake::located(source, &found))
-            }
+        match told.mistakes.as_slice() {
+            [] => told.into(),
+            found => Trouble::Scene(Mistake::located(source, &source.diagnose(found))),
         }
     }
 
@@ -169,8 +186,8 @@ impl Trouble {
             Trouble::Usage(message) => format!("error: {message}\n"),
             Trouble::Scene(all) => diagnostics::render(all, colour),
             Trouble::Failed { told, advice, .. } => {
-                let advice = advice.iter().map(|advice| format!("{advice}\n"));
-                let advice: String = advice.collect();
+                let advice = advice.as_ref();
+                let advice = advice.map_or(String::new(), |advice| format!("{advice}\n"));
                 format!("error: {}\n{}{advice}", told.error, told.more)
             }
             Trouble::Interrupted | Trouble::Different => String::new(),
@@ -203,14 +220,6 @@ impl Trouble {
             console::json(&self.json());
         }
     }
-}
-
-/// True if a checkpoint could not be read; one that could not be *written* leaves the one before.
-fn is_unreadable_checkpoint(error: &IoError) -> bool {
-    let (IoError::Read(path, _) | IoError::Checkpoint(path, _)) = error else {
-        return false;
-    };
-    path.extension().is_some_and(|e| e == "sph")
 }
 
 /// First remedy where a file could not be written.

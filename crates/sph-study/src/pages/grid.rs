@@ -5,16 +5,16 @@ use std::fmt::Write as _;
 use sph_io::escape;
 
 /// A table with its heads, if there are any; every row has a class.
-pub(crate) fn grid(
-    heads: &[String],
+pub(crate) fn grid<H: AsRef<str>>(
+    heads: &[H],
     rows: &[Vec<String>],
     class: impl Fn(usize) -> String,
 ) -> String {
-    let mut text = String::from("<div class=\"wide\"><table>\n");
-    let cells = |row: &[String], tag: &str| -> String {
-        let cell = |c: &String| format!("<{tag}>{}</{tag}>", escape(c));
+    fn cells<C: AsRef<str>>(row: &[C], tag: &str) -> String {
+        let cell = |c: &C| format!("<{tag}>{}</{tag}>", escape(c.as_ref()));
         row.iter().map(cell).collect()
-    };
+    }
+    let mut text = String::from("<div class=\"wide\"><table>\n");
     if !heads.is_empty() {
         let _ = writeln!(text, "<tr>{}</tr>", cells(heads, "th"));
     }
@@ -24,11 +24,10 @@ pub(crate) fn grid(
             class => writeln!(text, "<tr class=\"{class}\">{}</tr>", cells(row, "td")),
         };
     }
-    text.push_str("</table></div>\n");
-    text
+    text + "</table></div>\n"
 }
 
 /// A table whose rows are alike.
-pub(crate) fn plain_grid(heads: &[String], rows: &[Vec<String>]) -> String {
+pub(crate) fn plain_grid(heads: &[&str], rows: &[Vec<String>]) -> String {
     grid(heads, rows, |_| String::new())
 }

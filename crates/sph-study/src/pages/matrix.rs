@@ -2,16 +2,12 @@
 
 use std::fmt::Write as _;
 
-use sph_core::number;
+use sph_core::{comma_list, number};
 use sph_io::{IoError, Plot, Series, Style, escape};
 use sph_run::Trouble;
 
 use crate::pages::grid::grid;
-use crate::results::Results;
-use crate::results::frontier::Frontier;
-use crate::results::variant_result::VariantResult;
-use crate::running::record::Status;
-use crate::running::verdict::Colour;
+use crate::{Colour, Frontier, Results, Status, VariantResult};
 
 /// All between the head of the page and the study file.
 ///
@@ -26,31 +22,25 @@ pub fn body(results: &Results) -> Result<String, IoError> {
          what comes after is not run.</p>\n",
     );
     page.push_str(&frontiers(results));
-    let plots = axes(results);
-    for (name, plot) in &plots {
-        let lines = results.frontiers.iter().filter(|f| f.axis == *name);
-        let lines: Vec<&Frontier> = lines.collect();
+    for (lines, plot) in axes(results) {
         let _ = writeln!(
             page,
             "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>",
-            escape(name),
+            escape(&lines[0].axis),
             escape(&lines[0].title),
-            escape(&bounds(lines[0]))
+            escape(&bounds(&lines[0]))
         );
         page.push_str(&plot.to_svg()?);
-        page.push_str(&runs(results, &lines));
+        page.push_str(&runs(results, lines));
     }
     Ok(page)
 }
 
 /// The bounds of an axis in words.
 fn bounds(frontier: &Frontier) -> String {
-    let one = |(name, [green, yellow]): (&String, &[f64; 2])| {
-        format!(
-            "{name}: green up to {}, yellow up to {}",
-            number::plain(*green),
-            number::plain(*yellow)
-        )
+    let one = |(name, bounds): (&String, &[f64; 2])| {
+        let [green, yellow] = bounds.map(number::plain);
+        format!("{name}: green up to {green}, yellow up to {yellow}")
     };
     let all: Vec<String> = frontier.judge.iter().map(one).collect();
     format!("Scene {}. {}", frontier.scene, all.join("; "))
@@ -59,26 +49,19 @@ fn bounds(frontier: &Frontier) -> String {
 fn frontiers(results: &Results) -> String {
     let mut text = String::from("<div class=\"wide\"><table class=\"frontier\">\n");
     for frontier in &results.frontiers {
-        let _ = write!(
-            text,
-            "<tr><th>{}</th><td>{}</td>",
-            escape(&frontier.axis),
-            escape(&frontier.combination)
-        );
+        let (axis, combination) = (escape(&frontier.axis), escape(&frontier.combination));
+        let _ = write!(text, "<tr><th>{axis}</th><td>{combination}</td>");
         for (label, name) in frontier.values.iter().zip(&frontier.variants) {
-            let verdict = results.variant(name).and_then(|v| v.verdict.clone());
-            let (mut class, why) = match verdict {
-                Some(v) => (v.colour.name().to_string(), v.why),
-                None => ("none".to_string(), "not run".to_string()),
+            let verdict = results.variant(name).and_then(|v| v.verdict.as_ref());
+            let (class, why) = verdict.map_or(("none", "not run"), |v| (v.colour.name(), &v.why));
+            let must = match frontier.must.as_ref() == Some(label) {
+                true => " must",
+                false => "",
             };
-            if frontier.must.as_ref() == Some(label) {
-                class.push_str(" must");
-            }
+            let (why, label) = (escape(why), escape(label));
             let _ = write!(
                 text,
-                "<td class=\"{class}\" title=\"{}\">{}</td>",
-                escape(&why),
-                escape(label)
+                "<td class=\"{class}{must}\" title=\"{why}\">{label}</td>"
             );
         }
         text.push_str("</tr>\n");
@@ -89,70 +72,53 @@ fn frontiers(results: &Results) -> String {
 
 /// A run as a row, each cell with its head.
 fn row(frontier: &Frontier, v: &VariantResult) -> [(&'static str, String); 12] {
-    let none = || "–".to_string();
     let value = |name: &str| v.values.get(name).cloned().unwrap_or_default();
-    let errors: Vec<String> = frontier
-        .errors
-        .iter()
-        .filter_map(|e| Some(format!("{e} {}", number::plain(v.error(e)?))))
-        .collect();
+    let error = |e: &String| Some(format!("{e} {}", number::plain(v.error(e)?)));
+    let errors = comma_list(frontier.errors.iter().filter_map(error));
     let health = &v.health;
-    let (colour, why) = match (&v.verdict, v.status) {
-        (Some(found), _) => (found.colour.name().to_string(), found.why.clone()),
-        (None, status) => (
-            status.name().to_string(),
-            v.reason.clone().unwrap_or_default(),
-        ),
+    let (colour, why) = match &v.verdict {
+        Some(found) => (found.colour.name(), found.why.clone()),
+        None => (v.status.name(), v.reason.clone().unwrap_or_default()),
     };
-    let seconds = v
-        .wall_seconds
-        .min
-        .or((v.wall_seconds.spent > 0.0).then_some(v.wall_seconds.spent));
-    let trouble = health.first_trouble.as_ref().map(trouble);
-    let energy = health.energy_drift.map(|e| format!("{e:+.1e}"));
+    let spent = Some(v.wall_seconds.spent).filter(|spent| *spent > 0.0);
+    let seconds = v.wall_seconds.min.or(spent);
     let density = health.density_range;
     let density = density.map(|[low, high]| format!("{low:.3}…{high:.3}"));
-    let steps = (v.steps > 0).then(|| number::count(v.steps as f64));
-    let errors = (!errors.is_empty()).then(|| errors.join(", "));
-    [
-        ("combination", value("combination")),
-        ("value", value("value")),
-        ("colour", colour),
-        ("why", why),
-        ("first trouble", trouble.unwrap_or_else(none)),
-        ("error", errors.unwrap_or_else(none)),
-        ("energy", energy.unwrap_or_else(none)),
-        ("density", density.unwrap_or_else(none)),
-        ("Mach", health.mach.map_or_else(none, number::plain)),
-        ("limited by", v.dt_limiter.clone().unwrap_or_else(none)),
-        ("steps", steps.unwrap_or_else(none)),
+    let row = [
+        ("combination", Some(value("combination"))),
+        ("value", Some(value("value"))),
+        ("colour", Some(colour.to_string())),
+        ("why", Some(why)),
+        ("first trouble", health.first_trouble.as_ref().map(trouble)),
+        ("error", Some(errors).filter(|errors| !errors.is_empty())),
+        ("energy", health.energy_drift.map(|e| format!("{e:+.1e}"))),
+        ("density", density),
+        ("Mach", health.mach.map(number::plain)),
+        ("limited by", v.dt_limiter.clone()),
         (
-            "wall time",
-            seconds.map_or_else(none, |s| format!("{s:.1} s")),
+            "steps",
+            (v.size.steps > 0).then(|| number::count(v.size.steps as f64)),
         ),
-    ]
+        ("wall time", seconds.map(|s| format!("{s:.1} s"))),
+    ];
+    row.map(|(head, cell)| (head, cell.unwrap_or("–".into())))
 }
 
-/// Date, program and machine.
+/// The first step that failed, in words.
 pub fn trouble(first: &Trouble) -> String {
-    let place: Vec<String> = first.position.iter().map(|x| number::plain(*x)).collect();
-    let whose = match (first.particle, place.is_empty()) {
-        (Some(particle), false) => format!(" of particle {particle} at ({})", place.join(", ")),
-        (Some(particle), true) => format!(" of particle {particle}"),
+    let place = comma_list(first.position.iter().map(|x| number::plain(*x)));
+    let whose = match (first.particle, place.as_str()) {
+        (Some(particle), "") => format!(" of particle {particle}"),
+        (Some(particle), place) => format!(" of particle {particle} at ({place})"),
         (None, _) => String::new(),
     };
-    let value = first
-        .value
-        .map_or(String::new(), |x| format!(" = {}", number::plain(x)));
-    format!(
-        "t = {} s: {}{whose}{value}, {}",
-        number::plain(first.time),
-        first.quantity,
-        first.reason
-    )
+    let value = first.value.map(number::plain);
+    let value = value.map_or(String::new(), |x| format!(" = {x}"));
+    let (time, quantity, reason) = (number::plain(first.time), &first.quantity, &first.reason);
+    format!("t = {time} s: {quantity}{whose}{value}, {reason}")
 }
 
-fn runs(results: &Results, lines: &[&Frontier]) -> String {
+fn runs(results: &Results, lines: &[Frontier]) -> String {
     let (mut heads, mut rows, mut classes) = (Vec::new(), Vec::new(), Vec::new());
     for frontier in lines {
         for name in &frontier.variants {
@@ -174,53 +140,25 @@ fn runs(results: &Results, lines: &[&Frontier]) -> String {
 
 /// The table for a terminal: one row per axis and combination.
 pub fn summary(results: &Results) -> Vec<Vec<String>> {
-    let heads = [
-        "axis",
-        "combination",
-        "green to",
-        "holds to",
-        "must",
-        "met",
-        "breaks at",
-    ];
-    let mut rows = vec![heads.map(String::from).to_vec()];
-    let none = || "–".to_string();
-    for f in &results.frontiers {
-        rows.push(vec![
-            f.axis.clone(),
-            f.combination.clone(),
-            f.green_to.clone().unwrap_or_else(none),
-            f.holds_to.clone().unwrap_or_else(none),
-            f.must.clone().unwrap_or_else(none),
-            match f.met {
-                Some(true) => "yes".into(),
-                Some(false) => "NO".into(),
-                None => none(),
-            },
-            match &f.breaks_at {
-                Some([value, why]) => format!("{value}: {why}"),
-                None => "nowhere".into(),
-            },
-        ]);
-    }
-    rows
+    let heads = "axis, combination, green to, holds to, must, met, breaks at";
+    let rows = results.frontiers.iter().map(|f| {
+        let met = f.met.map(|met| if met { "yes" } else { "NO" }.to_string());
+        let marks = [f.green_to.clone(), f.holds_to.clone(), f.must.clone(), met];
+        let broken = f.breaks_at.as_ref();
+        let broken = broken.map(|[value, why]| format!("{value}: {why}"));
+        let mut row = vec![f.axis.clone(), f.combination.clone()];
+        row.extend(marks.map(|mark| mark.unwrap_or("–".into())));
+        row.push(broken.unwrap_or("nowhere".into()));
+        row
+    });
+    let heads = heads.split(", ").map(String::from).collect();
+    std::iter::once(heads).chain(rows).collect()
 }
 
-/// The plot of every axis with its name, combinations of plugins as lines.
-pub fn axes(results: &Results) -> Vec<(String, Plot)> {
-    let mut plots: Vec<(String, Plot)> = Vec::new();
-    let mut names: Vec<&str> = Vec::new();
-    for frontier in &results.frontiers {
-        if !names.contains(&frontier.axis.as_str()) {
-            names.push(&frontier.axis);
-        }
-    }
-    for name in names {
-        let lines = results.frontiers.iter().filter(|f| f.axis == name);
-        let lines: Vec<&Frontier> = lines.collect();
-        plots.push((name.to_string(), plot(results, &lines)));
-    }
-    plots
+/// The frontiers of every axis with their plot, combinations of plugins as lines.
+pub fn axes(results: &Results) -> impl Iterator<Item = (&[Frontier], Plot)> {
+    let axes = results.frontiers.chunk_by(|a, b| a.axis == b.axis);
+    axes.map(|lines| (lines, plot(results, lines)))
 }
 
 /// Ordinate of a run: the first error of its axis, or its largest deviation of the density.
@@ -231,8 +169,8 @@ fn ordinate(frontier: &Frontier, variant: &VariantResult) -> Option<f64> {
     }
 }
 
-fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
-    let first = lines[0];
+fn plot(results: &Results, lines: &[Frontier]) -> Plot {
+    let first = &lines[0];
     let mut series = Vec::new();
     let mut broken = Vec::new();
     let mut lowest = f64::INFINITY;
@@ -242,10 +180,8 @@ fn plot(results: &Results, lines: &[&Frontier]) -> Plot {
             let Some(variant) = results.variant(name) else {
                 continue;
             };
-            let red = variant
-                .verdict
-                .as_ref()
-                .is_some_and(|v| v.colour == Colour::Red);
+            let verdict = variant.verdict.as_ref();
+            let red = verdict.is_some_and(|v| v.colour == Colour::Red);
             match ordinate(frontier, variant).filter(|y| y.is_finite()) {
                 // A logarithmic axis cannot show an error of zero.
                 Some(y) => points.push([place, y.max(1e-16)]),

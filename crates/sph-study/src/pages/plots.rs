@@ -2,19 +2,31 @@
 
 use std::collections::BTreeMap;
 
+use sph_core::some_unit;
 use sph_io::{Plot, Series, Style};
 
-use crate::results::Results;
-use crate::results::order::Orders;
-use crate::results::variant_result::SeriesResult;
+use crate::{Orders, Results, SeriesCost, SeriesResult};
 
 /// Most series of which all are named.
 const MOST: usize = 12;
 /// Series that are named where there are more than that.
 const BEST: usize = 6;
 
-/// Error against wall seconds, one line per series, with the Pareto line.
-pub fn work_precision(results: &Results) -> Plot {
+/// A plot with logarithmic axes.
+fn logarithmic(results: &Results, x_label: String, y_label: String, series: Vec<Series>) -> Plot {
+    Plot {
+        title: results.title.clone(),
+        x_label,
+        y_label,
+        log_x: true,
+        log_y: true,
+        series,
+    }
+}
+
+/// Error against wall seconds, one line per series, with the Pareto line, if errors are judged.
+pub fn work_precision(results: &Results) -> Option<Plot> {
+    results.errors.first()?;
     let time_and_error = |names: &[String]| -> Vec<[f64; 2]> {
         let point = |name: &String| {
             let variant = results.variant(name)?;
@@ -29,14 +41,8 @@ pub fn work_precision(results: &Results) -> Plot {
         let line = time_and_error(&results.pareto);
         all.push(Series::styled("Pareto", line, Style::Highlight));
     }
-    Plot {
-        title: results.title.clone(),
-        x_label: "wall time [s]".into(),
-        y_label: y_label(results),
-        log_x: true,
-        log_y: true,
-        series: all,
-    }
+    let x_label = "wall time [s]".into();
+    Some(logarithmic(results, x_label, y_label(results), all))
 }
 
 /// Error against refinement with the observed orders, if there is a refinement.
@@ -53,14 +59,9 @@ pub fn convergence(results: &Results) -> Option<Plot> {
         (name, points.into_iter().map(|(_, p)| p).collect())
     };
     let unit = sph_scene::unit(key).filter(|u| u != "1");
-    Some(Plot {
-        title: results.title.clone(),
-        x_label: unit.map_or_else(|| key.clone(), |u| format!("{key} [{u}]")),
-        y_label: y_label(results),
-        log_x: true,
-        log_y: true,
-        series: drawn(results, of),
-    })
+    let x_label = unit.map_or_else(|| key.clone(), |u| format!("{key} [{u}]"));
+    let series = drawn(results, of);
+    Some(logarithmic(results, x_label, y_label(results), series))
 }
 
 /// Means of two references against each other, if the study asks for it: markers for every number of particles, and the
@@ -73,31 +74,33 @@ pub fn means(results: &Results) -> Option<Plot> {
         let (Some(x), Some(y)) = (of(&plot.x), of(&plot.y)) else {
             continue;
         };
-        let [measured, exact] = by_size.entry(variant.particles).or_default();
+        let [measured, exact] = by_size.entry(variant.size.particles).or_default();
         measured.push([x[0], y[0]]);
         exact.push([x[1], y[1]]);
     }
     let mut series = Vec::new();
     for (particles, [measured, exact]) in by_size {
-        series.push(Series::styled(
-            format!("{particles} particles"),
-            measured,
-            Style::Markers,
-        ));
-        series.push(Series::styled(
-            format!("reference, {particles}"),
-            exact,
-            Style::Dashes,
-        ));
+        let name = format!("{particles} particles");
+        series.push(Series::styled(name, measured, Style::Markers));
+        let name = format!("reference, {particles}");
+        series.push(Series::styled(name, exact, Style::Dashes));
     }
-    Some(Plot {
-        title: results.title.clone(),
-        x_label: plot.x.clone(),
-        y_label: plot.y.clone(),
-        log_x: true,
-        log_y: true,
-        series,
-    })
+    Some(logarithmic(results, plot.x.clone(), plot.y.clone(), series))
+}
+
+/// Seconds against particles, of studies that have costs.
+pub fn costs(results: &Results) -> Option<Plot> {
+    let scale = results.scale.as_ref()?;
+    let of = |s: &SeriesCost| {
+        let name = match s.exponent {
+            Some(p) => format!("{}: exponent {p:.2}", s.name),
+            None => s.name.clone(),
+        };
+        Series::styled(name, s.points.clone(), Style::LineAndMarkers)
+    };
+    let y_label = format!("{} [s]", scale.cost.name());
+    let series = scale.series.iter().map(of).collect();
+    Some(logarithmic(results, "particles".into(), y_label, series))
 }
 
 /// Every series of which anything has run; if there are too many to be distinguished, only the most accurate on the
@@ -144,8 +147,10 @@ fn y_label(results: &Results) -> String {
     let name = results.judged();
     let with = |v: &crate::VariantResult| v.errors.get(name).cloned();
     match results.variants.iter().find_map(with) {
-        Some(e) if e.unit == "1" || e.unit.is_empty() => format!("error of {name}, {} [1]", e.norm),
-        Some(e) => format!("error of {name}, {} [{}]", e.norm, e.unit),
+        Some(e) => {
+            let unit = some_unit(&e.unit).unwrap_or("1");
+            format!("error of {name}, {} [{unit}]", e.norm)
+        }
         None => format!("error of {name}"),
     }
 }

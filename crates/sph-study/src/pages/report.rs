@@ -1,15 +1,14 @@
 //! `report.html`: all of a study on one page that needs no other file.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use sph_core::number;
+use sph_core::{comma_list, number};
 use sph_io::{IoError, escape};
 
 use crate::pages::grid::{grid, plain_grid};
 use crate::pages::{matrix, plots, table};
-use crate::results::Results;
-use crate::running::machine::Origin;
-use crate::running::record::Status;
+use crate::{Origin, Results, Scale, Status};
 
 /// Style of the page, on paper too.
 const STYLE: &str = include_str!("../../templates/report.css");
@@ -46,22 +45,18 @@ pub fn html(results: &Results) -> Result<String, IoError> {
 /// Errors, times and orders of variants of one scene.
 fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
-    if !results.errors.is_empty() {
-        let plot = plots::work_precision(results);
-        page.push_str(&headed("Error against run time", &plot.to_svg()?));
-    }
-    if let Some(plot) = plots::means(results) {
-        page.push_str(&headed("Means", &plot.to_svg()?));
-    }
-    if let Some(plot) = plots::convergence(results) {
-        page.push_str(&headed("Convergence", &plot.to_svg()?));
-        page.push_str(&orders(results));
-    }
-    if let Some(scale) = &results.scale {
-        let plot = scale.plot(&results.title);
-        page.push_str(&headed("Cost against size", &plot.to_svg()?));
-        for line in scale.lines() {
-            let _ = writeln!(page, "<p>{}</p>", escape(&line));
+    let lines = results.scale.iter().flat_map(Scale::lines);
+    let lines = lines.map(|line| format!("<p>{}</p>\n", escape(&line)));
+    let (error, none) = (plots::work_precision(results), String::new);
+    let plots = [
+        ("Error against run time", error, none()),
+        ("Means", plots::means(results), none()),
+        ("Convergence", plots::convergence(results), orders(results)),
+        ("Cost against size", plots::costs(results), lines.collect()),
+    ];
+    for (title, plot, below) in plots {
+        if let Some(plot) = plot {
+            page.push_str(&headed(title, &(plot.to_svg()? + &below)));
         }
     }
     if !results.errors.is_empty() {
@@ -74,8 +69,12 @@ fn compared(results: &Results) -> Result<String, IoError> {
     Ok(page)
 }
 
+/// A body below its title; nothing for an empty one.
 fn headed(title: &str, body: &str) -> String {
-    format!("<h2>{title}</h2>\n{body}")
+    match body {
+        "" => String::new(),
+        body => format!("<h2>{title}</h2>\n{body}"),
+    }
 }
 
 /// A text without its line breaks.
@@ -98,27 +97,18 @@ fn marked(text: &str) -> String {
 
 /// A text with its line breaks, escaped.
 fn lines(text: &str) -> String {
-    let escaped = text
-        .lines()
-        .map(|l| escape(&l.replace('\t', "    ")).into_owned());
+    let lines = text.lines().map(|l| l.replace('\t', "    "));
+    let escaped = lines.map(|l| escape(&l).into_owned());
     escaped.collect::<Vec<_>>().join("\n")
 }
 
 fn facts(results: &Results) -> String {
-    let all = || results.variants.iter().map(|v| v.status);
-    let count = |status: Status| all().filter(|s| *s == status).count();
-    let states = [
-        Status::Done,
-        Status::Failed,
-        Status::OverLimit,
-        Status::Interrupted,
-        Status::Skipped,
-        Status::Pending,
-    ];
-    let states = states.iter().filter(|s| count(**s) > 0);
-    let states: Vec<String> = states
-        .map(|s| format!("{} {}", count(*s), s.name()))
-        .collect();
+    use Status::{Done, Failed, Interrupted, OverLimit, Pending, Skipped};
+    let all = || results.variants.iter();
+    let count = |status| all().filter(|v| v.status == status).count();
+    let states = [Done, Failed, OverLimit, Interrupted, Skipped, Pending].map(|s| (count(s), s));
+    let states = states.iter().filter(|(count, _)| *count > 0);
+    let states = comma_list(states.map(|(count, status)| format!("{count} {}", status.name())));
     let manner = match results.serial {
         true => "one variant at a time",
         false => "variants side by side",
@@ -128,7 +118,7 @@ fn facts(results: &Results) -> String {
     let mut rows = vec![
         row("scene", results.scene.clone()),
         row("judged by", results.errors.join(", ")),
-        row("variants", states.join(", ")),
+        row("variants", states),
         row("machine", origin.machine.to_string()),
         row("threads", format!("{}; {manner}", results.threads())),
         row("version", format!("sph {}", origin.version)),
@@ -136,18 +126,13 @@ fn facts(results: &Results) -> String {
         row("built with", origin.built_with.clone()),
     ];
     rows.retain(|row| !row[1].is_empty());
-    let unlike = [
-        ("variants ran at", differing(results, |o| o.commit.clone())),
-        (
-            "variants ran on",
-            differing(results, |o| Some(o.machine.to_string())),
-        ),
-        (
-            "variants ran with",
-            differing(results, |o| Some(o.built_with.clone())),
-        ),
+    let unlike: [(&str, fn(&Origin) -> Option<String>); 3] = [
+        ("variants ran at", |o| o.commit.clone()),
+        ("variants ran on", |o| Some(o.machine.to_string())),
+        ("variants ran with", |o| Some(o.built_with.clone())),
     ];
-    for (name, all) in unlike {
+    for (name, of) in unlike {
+        let all = differing(results, of);
         if all.len() > 1 {
             rows.push(row(name, all.join("; ")));
         }
@@ -160,49 +145,42 @@ fn facts(results: &Results) -> String {
 
 /// Keys in which the variants that have run differ.
 fn differing(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
-    let ran = results.variants.iter().filter(|v| v.steps > 0);
-    let mut all: Vec<String> = ran.filter_map(|v| of(&v.origin)).collect();
-    all.sort();
-    all.dedup();
-    all
+    let ran = results.variants.iter().filter(|v| v.size.steps > 0);
+    let all: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
+    Vec::from_iter(all)
 }
 
 fn orders(results: &Results) -> String {
-    let heads = ["series", "error", "orders, coarse to fine", "three finest"].map(String::from);
+    let two = |o: &f64| format!("{o:.2}");
     let mut rows = Vec::new();
     for series in &results.series {
-        for (error, orders) in &series.orders {
-            if orders.between.is_empty() {
-                continue;
-            }
-            let between: Vec<String> = orders.between.iter().map(|o| format!("{o:.2}")).collect();
-            rows.push(vec![
-                series.name.clone(),
-                error.clone(),
-                between.join(", "),
-                orders
-                    .finest_three
-                    .map_or("–".into(), |o| format!("{o:.2}")),
-            ]);
-        }
+        let all = series.orders.iter().filter(|(_, o)| !o.between.is_empty());
+        rows.extend(all.map(|(error, orders)| {
+            let between = comma_list(orders.between.iter().map(two));
+            let finest = orders.finest_three.as_ref().map_or("–".into(), two);
+            vec![series.name.clone(), error.clone(), between, finest]
+        }));
     }
+    let heads = ["series", "error", "orders, coarse to fine", "three finest"];
+    some_grid(&heads, &rows)
+}
+
+/// A table whose rows are alike, if it has any.
+fn some_grid(heads: &[&str], rows: &[Vec<String>]) -> String {
     match rows.is_empty() {
         true => String::new(),
-        false => plain_grid(&heads, &rows),
+        false => plain_grid(heads, rows),
     }
 }
 
 fn best(results: &Results) -> String {
-    let heads = ["variant", results.judged(), "wall seconds"].map(String::from);
+    let heads = ["variant", results.judged(), "wall seconds"];
     let row = |name: &String| {
         let variant = results.variant(name)?;
         let error = variant.error(results.judged())?;
         let seconds = variant.wall_seconds.min?;
-        Some(vec![
-            name.clone(),
-            number::plain(error),
-            number::plain(seconds),
-        ])
+        let [error, seconds] = [error, seconds].map(number::plain);
+        Some(vec![name.clone(), error, seconds])
     };
     let rows: Vec<_> = results.pareto.iter().filter_map(row).collect();
     plain_grid(&heads, &rows)
@@ -227,16 +205,12 @@ fn failures(results: &Results) -> String {
         Some(vec![v.name.clone(), v.status.name().into(), reason])
     });
     let bad: Vec<Vec<String>> = bad.collect();
-    let heads = ["variant", "status", "reason"].map(String::from);
-    match bad.is_empty() {
-        true => String::new(),
-        false => headed("What did not end well", &plain_grid(&heads, &bad)),
-    }
+    let grid = some_grid(&["variant", "status", "reason"], &bad);
+    headed("What did not end well", &grid)
 }
 
 /// Parts of the time, of the variants that nothing beats.
 fn stages(results: &Results) -> String {
-    let heads = ["variant", "stage", "seconds", "share"].map(String::from);
     let mut rows = Vec::new();
     for variant in results.pareto.iter().filter_map(|n| results.variant(n)) {
         let all: f64 = variant.wall_seconds_by_stage.values().sum();
@@ -244,18 +218,12 @@ fn stages(results: &Results) -> String {
         stages.sort_by(|a, b| b.1.total_cmp(a.1));
         for (k, (stage, seconds)) in stages.into_iter().take(4).enumerate() {
             let name = if k == 0 { variant.name.as_str() } else { "" };
-            rows.push(vec![
-                name.to_string(),
-                stage.clone(),
-                number::plain(*seconds),
-                number::percent(seconds / all),
-            ]);
+            let (share, seconds) = (number::percent(seconds / all), number::plain(*seconds));
+            rows.push(vec![name.to_string(), stage.clone(), seconds, share]);
         }
     }
-    match rows.is_empty() {
-        true => String::new(),
-        false => headed("Where the time goes", &plain_grid(&heads, &rows)),
-    }
+    let grid = some_grid(&["variant", "stage", "seconds", "share"], &rows);
+    headed("Where the time goes", &grid)
 }
 
 #[cfg(test)]
@@ -284,10 +252,8 @@ mod tests {
 
     #[test]
     fn text_between_backticks_is_code() {
-        assert_eq!(
-            marked("`a<b` and `c`"),
-            "<code>a&lt;b</code> and <code>c</code>"
-        );
+        let both = "<code>a&lt;b</code> and <code>c</code>";
+        assert_eq!(marked("`a<b` and `c`"), both);
         assert_eq!(marked("one ` alone"), "one ` alone");
     }
 

@@ -6,10 +6,7 @@ use sph_core::number;
 use sph_io::{IoError, clean, write_whole};
 
 use crate::pages::matrix;
-use crate::results::Results;
-use crate::results::variant_result::VariantResult;
-use crate::running::cost::Cost;
-use crate::running::record::Status;
+use crate::{Cost, Results, Status, VariantResult};
 
 /// One row per variant, the first one being the heads of the columns.
 pub fn rows(results: &Results) -> Vec<Vec<String>> {
@@ -62,8 +59,8 @@ fn row(results: &Results, v: &VariantResult) -> Vec<(String, String)> {
     }
     add("wall time", seconds(v));
     let count = |n: f64| (n > 0.0).then(|| number::count(n));
-    add("steps", count(v.steps as f64));
-    add("particles", count(v.particles as f64));
+    add("steps", count(v.size.steps as f64));
+    add("particles", count(v.size.particles as f64));
     let limiter = v.dt_limiter.as_ref().map(|name| {
         let share = v.dt_limiters.get(name).copied().unwrap_or(0.0);
         format!("{name} {:.0} %", 100.0 * share)
@@ -124,9 +121,9 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
         ("solve_seconds", number(solves.map(|s| s.seconds))),
         ("solve_iterations", number(solves.map(|s| s.iterations))),
         ("solve_bytes", number(solves.map(|s| s.bytes as f64))),
-        ("threads", v.threads.to_string()),
-        ("steps", v.steps.to_string()),
-        ("particles", v.particles.to_string()),
+        ("threads", v.size.threads.to_string()),
+        ("steps", v.size.steps.to_string()),
+        ("particles", v.size.particles.to_string()),
         ("dt_limiter", v.dt_limiter.clone().unwrap_or_default()),
         ("colour", verdict.map_or("", |v| v.colour.name()).into()),
         ("why", verdict.map_or(String::new(), |v| v.why.clone())),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sph_core::SceneProblem;
+use sph_core::{SceneProblem, is_within};
 use sph_scene::Override;
 use toml::{Table, Value};
 
@@ -53,13 +53,9 @@ impl Choice {
 impl StudyAxis {
     /// True if its places set a key of the scene, or something around or in it.
     pub fn touches(&self, key: &str) -> bool {
-        let within = |inner: &str, outer: &str| {
-            let rest = inner.strip_prefix(outer);
-            rest.is_some_and(|r| r.is_empty() || r.starts_with(['.', '[']))
-        };
         let sets = self.choices.iter().flat_map(|c| &c.sets);
-        let paths = sets.map(|s| &s.value.path);
-        paths.into_iter().any(|p| within(p, key) || within(key, p))
+        let mut paths = sets.map(|s| &s.value.path);
+        paths.any(|path| is_within(path, key) || is_within(key, path))
     }
 }
 
@@ -85,7 +81,7 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
                 problems.push(SceneProblem::new(at, message));
             }
             Ok(axis) => axes.push(axis),
-            Err(found) => problems.extend(found),
+            Err(problem) => problems.push(problem),
         }
     }
     match problems.is_empty() {
@@ -97,19 +93,17 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
 /// One axis of a study file, with its path.
 ///
 /// # Errors
-/// Its mistakes, with their places in the file.
-pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<SceneProblem>> {
-    let problem = |key: &str, message: &str| vec![SceneProblem::new(format!("{at}{key}"), message)];
-    let (name, choices) = match (&axis.key, &axis.values, &axis.entries) {
+/// Its first mistake, with its place in the file.
+pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, SceneProblem> {
+    let problem = |key: &str, message: &str| SceneProblem::new(format!("{at}{key}"), message);
+    let (name, choices): (String, Vec<Choice>) = match (&axis.key, &axis.values, &axis.entries) {
         (Some(key), Some(values), None) => {
-            let name = axis.name.clone();
-            let name = name.unwrap_or_else(|| last(key).to_string());
+            let last = || key.rsplit('.').next().unwrap_or(key).to_string();
+            let name = axis.name.clone().unwrap_or_else(last);
             let labels = axis.labels.as_ref();
             if labels.is_some_and(|l| l.len() != values.len()) {
-                return Err(problem(
-                    ".labels",
-                    "there must be one label for every value",
-                ));
+                let why = "there must be one label for every value";
+                return Err(problem(".labels", why));
             }
             let choice = |(k, value): (usize, &Value)| {
                 let at = format!("{at}.values[{k}]");
@@ -123,9 +117,8 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
                     ..Choice::default()
                 })
             };
-            let choices: Result<Vec<_>, SceneProblem> =
-                values.iter().enumerate().map(choice).collect();
-            (name.clone(), choices.map_err(|p| vec![p])?)
+            let choices: Result<_, SceneProblem> = values.iter().enumerate().map(choice).collect();
+            (name.clone(), choices?)
         }
         (None, None, Some(entries)) => {
             if axis.labels.is_some() {
@@ -143,9 +136,8 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
                     ..Choice::named(&entry.name)
                 })
             };
-            let choices: Result<Vec<_>, SceneProblem> =
-                entries.iter().enumerate().map(choice).collect();
-            (name, choices.map_err(|p| vec![p])?)
+            let choices: Result<_, SceneProblem> = entries.iter().enumerate().map(choice).collect();
+            (name, choices?)
         }
         _ => {
             let message = "an axis has either `key` and `values`, or `name` and `entries`";
@@ -160,10 +152,6 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, Vec<Sce
         Some(twice) => Err(problem("", &format!("`{}` is there twice", twice.label))),
         None => Ok(StudyAxis { name, choices }),
     }
-}
-
-fn last(key: &str) -> &str {
-    key.rsplit('.').next().unwrap_or(key)
 }
 
 fn set(key: &str, value: Value, at: String) -> Result<Set, SceneProblem> {
@@ -268,10 +256,7 @@ mod tests {
             assert!(told.contains(message), "{axis}: {told}");
         }
         let twice = "[[vary]]\nkey = 'a.x'\nvalues = [1]\n[[vary]]\nkey = 'b.x'\nvalues = [1]";
-        assert!(
-            parsed(twice)
-                .unwrap_err()
-                .contains("another axis called `x`")
-        );
+        let told = parsed(twice).unwrap_err();
+        assert!(told.contains("another axis called `x`"), "{told}");
     }
 }

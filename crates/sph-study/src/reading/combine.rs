@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sph_core::{SceneProblem, suggestion};
+use sph_core::{SceneProblem, comma_list, suggestion};
 use toml::Value;
 
-use crate::reading::axis::{StudyAxis, label};
-use crate::reading::file::Combine;
+use crate::reading::axis::label;
+use crate::{Combine, StudyAxis};
 
 /// Most variants of a study.
 pub(crate) const MOST: usize = 10_000;
@@ -38,9 +38,8 @@ pub fn combinations(
     let all = all.map_err(|p| vec![p])?;
     let skipped = conditions(axes, skip)?;
     let left_out = |choices: &Vec<usize>| {
-        let holds =
-            |condition: &AxisChoices| condition.iter().all(|(k, c)| c.contains(&choices[*k]));
-        skipped.iter().any(holds)
+        let holds = |(k, labels): &(usize, Vec<usize>)| labels.contains(&choices[*k]);
+        skipped.iter().any(|condition| condition.iter().all(holds))
     };
     let kept: Vec<_> = all.into_iter().filter(|c| !left_out(c)).collect();
     match kept.is_empty() {
@@ -68,12 +67,9 @@ fn product(axes: &[StudyAxis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
 fn zipped(axes: &[StudyAxis]) -> Result<Vec<Vec<usize>>, SceneProblem> {
     let count = axes.first().map_or(1, |a| a.choices.len());
     if let Some(k) = axes.iter().position(|a| a.choices.len() != count) {
-        let message = format!(
-            "axes that go side by side are equally long: `{}` has {count}, `{}` has {}",
-            axes[0].name,
-            axes[k].name,
-            axes[k].choices.len()
-        );
+        let (first, other, long) = (&axes[0].name, &axes[k].name, axes[k].choices.len());
+        let why = "axes that go side by side are equally long";
+        let message = format!("{why}: `{first}` has {count}, `{other}` has {long}");
         return Err(SceneProblem::new(format!("vary[{k}]"), message));
     }
     Ok((0..count).map(|k| vec![k; axes.len()]).collect())
@@ -91,10 +87,8 @@ fn conditions(
     for (n, given) in skip.iter().enumerate() {
         let at = format!("skip[{n}]");
         if given.is_empty() {
-            problems.push(SceneProblem::new(
-                &at,
-                "an empty condition skips everything",
-            ));
+            let why = "an empty condition skips everything";
+            problems.push(SceneProblem::new(&at, why));
         }
         let mut condition = AxisChoices::new();
         for (name, labels) in given {
@@ -114,8 +108,7 @@ fn conditions(
 fn choices(axes: &[StudyAxis], name: &str, labels: &Value) -> Result<(usize, Vec<usize>), String> {
     let names = || axes.iter().map(|a| a.name.as_str());
     let axis = axes.iter().position(|a| a.name == name).ok_or_else(|| {
-        let near = suggestion(name, names());
-        let known = names().collect::<Vec<_>>().join(", ");
+        let (near, known) = (suggestion(name, names()), comma_list(names()));
         format!("there is no axis called `{name}`{near} (there are: {known})")
     })?;
     let labels: Vec<String> = match labels {
@@ -125,8 +118,7 @@ fn choices(axes: &[StudyAxis], name: &str, labels: &Value) -> Result<(usize, Vec
     let known = || axes[axis].choices.iter().map(|c| c.label.as_str());
     let find = |wanted: &String| {
         known().position(|l| l == wanted).ok_or_else(|| {
-            let near = suggestion(wanted, known());
-            let known = known().collect::<Vec<_>>().join(", ");
+            let (near, known) = (suggestion(wanted, known()), comma_list(known()));
             format!("the axis has no `{wanted}`{near} (it has: {known})")
         })
     };
@@ -136,28 +128,20 @@ fn choices(axes: &[StudyAxis], name: &str, labels: &Value) -> Result<(usize, Vec
 
 fn named(axes: &[StudyAxis], all: Vec<Vec<usize>>) -> Vec<Combination> {
     let mut taken = BTreeSet::new();
-    let name = |choices: &Vec<usize>| {
-        let parts = axes.iter().zip(choices);
+    let one = |choices: Vec<usize>| {
+        let parts = axes.iter().zip(&choices);
         let parts = parts.map(|(a, k)| safe(&a.choices[*k].slug));
         let parts: Vec<String> = parts.filter(|p| !p.is_empty()).collect();
-        let name: String = parts.join("_").chars().take(LONGEST).collect();
-        let name = match name.is_empty() {
-            true => "scene".to_string(),
-            false => name,
-        };
-        // Some file systems ignore case.
-        let mut free = name.clone();
-        let mut number = 1;
-        while !taken.insert(free.to_lowercase()) {
-            number += 1;
-            free = format!("{name}-{number}");
+        let mut plain: String = parts.join("_").chars().take(LONGEST).collect();
+        if plain.is_empty() {
+            plain.push_str("scene");
         }
-        free
-    };
-    let mut name = name;
-    let one = |choices: Vec<usize>| Combination {
-        name: name(&choices),
-        choices,
+        let numbered = (2..).map(|number| format!("{plain}-{number}"));
+        let mut names = std::iter::once(plain.clone()).chain(numbered);
+        // Some file systems ignore case.
+        let name = names.find(|name| taken.insert(name.to_lowercase()));
+        let name = name.unwrap_or_default();
+        Combination { name, choices }
     };
     all.into_iter().map(one).collect()
 }
@@ -180,8 +164,7 @@ pub fn safe(text: &str) -> String {
 /// The text after a `*` is tried at its first place; where the rest does not fit, the last `*` alone takes one letter
 /// more. That is enough, and its time is at most the product of both lengths.
 pub fn fits(pattern: &str, name: &str) -> bool {
-    let (pattern, name): (Vec<char>, Vec<char>) =
-        (pattern.chars().collect(), name.chars().collect());
+    let [pattern, name] = [pattern, name].map(|text| text.chars().collect::<Vec<char>>());
     let (mut p, mut n) = (0, 0);
     let mut star: Option<(usize, usize)> = None;
     while n < name.len() {
@@ -258,9 +241,7 @@ mod tests {
         assert!(fits("mor*_?5", "morris_25") && !fits("mor*_?5", "morris_125x"));
         assert!(fits("*25*", "a_225_x") && fits("", "") && fits("**", "") && !fits("", "a"));
         // Ways to spread the letters over the stars are without number.
-        assert!(!fits(
-            &"*a".repeat(40).replace("*a*a*a*a", "*a*a*a*b"),
-            &"a".repeat(120)
-        ));
+        let pattern = "*a".repeat(40).replace("*a*a*a*a", "*a*a*a*b");
+        assert!(!fits(&pattern, &"a".repeat(120)));
     }
 }

@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 use sph_core::parameters;
 use toml::{Table, Value};
 
-use crate::running::cost::Scaling;
+use crate::Scaling;
 
 /// A table whose keys are those of a scene.
 type SceneValues = serde_json::Map<String, Json>;

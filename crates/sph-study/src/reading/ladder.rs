@@ -1,26 +1,28 @@
 //! Axes that are gone along from harmless to absurd, each with its own scene.
 
-use sph_core::{SceneProblem, suggestion};
+use sph_core::{SceneProblem, comma_list, suggestion};
 use sph_scene::Source;
 
-use crate::reading::axis::{self, Choice, StudyAxis, label};
+use crate::reading::axis::label;
 use crate::reading::combine::{MOST, combinations, safe};
-use crate::reading::file::{self, Bounds, Combine, StudyFile};
-use crate::reading::mistake::Refused;
 use crate::reading::reader::{Inputs, Reader};
-use crate::reading::variant::{Ladder, Rung, SceneText, Variant};
-use crate::running::verdict::QUANTITIES;
+use crate::reading::{axis, file};
+use crate::{
+    Bounds, Choice, Combine, Ladder, QUANTITIES, Refused, Rung, SceneText, StudyAxis, StudyFile,
+    Variant,
+};
 
 /// Names of the axes to which the labels of such a study's variants belong.
 const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
 
 /// The axes of such a study as a table has them.
 pub fn columns() -> Vec<StudyAxis> {
-    let axis = |name: &&str| StudyAxis {
-        name: (*name).to_string(),
-        choices: Vec::new(),
-    };
-    COLUMNS.iter().map(axis).collect()
+    COLUMNS.map(|name| column(name, Vec::new())).to_vec()
+}
+
+fn column(name: &str, choices: Vec<Choice>) -> StudyAxis {
+    let name = name.to_string();
+    StudyAxis { name, choices }
 }
 
 /// Every axis, and its variants in the order in which they run.
@@ -45,57 +47,46 @@ pub fn read(
     }
     let mut variants = Vec::new();
     let mut mistakes = Vec::new();
-    for (k, found) in ladders.iter().enumerate() {
+    for (k, (_, scene, axes)) in ladders.iter().enumerate() {
         let common = axis::sets(&file.set, "set").and_then(|mut sets| {
             sets.extend(axis::sets(&file.axis[k].set, &format!("axis[{k}].set"))?);
             Ok(sets)
         });
         let common = common.map_err(|p| Refused::in_study(source, &[p]))?;
-        let all = combinations(&found.axes, Combine::Product, &[]);
+        let all = combinations(axes, Combine::Product, &[]);
         let all = all.map_err(|problems| Refused::in_study(source, &problems))?;
         if variants.len() + all.len() > MOST {
             let message = format!("with this axis there are more than {MOST} variants");
-            let problem = SceneProblem::new(format!("axis[{k}]"), message);
-            return Err(Refused::in_study(source, &[problem]));
+            return Err(Refused::at(source, &format!("axis[{k}]"), message));
         }
         let errors = &file.axis[k].error;
         let reader = Reader {
             file,
             source,
             inputs,
-            scene: &found.scene,
-            axes: &found.axes,
+            scene,
+            axes,
             common,
             refinement: None,
             errors: errors.paths(&format!("axis[{k}].error")),
         };
         match reader.all(&all) {
             Err(refused) => mistakes.extend(refused.mistakes),
-            Ok(read) => {
-                let placed = read.into_iter().zip(&all).map(|(mut variant, c)| {
-                    variant.rung = Some(Rung {
-                        ladder: k,
-                        combination: c.choices[1],
-                        value: c.choices[2],
-                    });
-                    variant
-                });
-                variants.extend(placed);
-            }
+            Ok(read) => variants.extend(read.into_iter().zip(&all).map(|(variant, c)| {
+                let rung = Rung {
+                    ladder: k,
+                    combination: c.choices[1],
+                    value: c.choices[2],
+                };
+                let rung = Some(rung);
+                Variant { rung, ..variant }
+            })),
         }
     }
     match mistakes.is_empty() {
-        true => Ok((ladders.into_iter().map(|l| l.ladder).collect(), variants)),
+        true => Ok((ladders.into_iter().map(|l| l.0).collect(), variants)),
         false => Err(Refused { mistakes }),
     }
-}
-
-/// A ladder with the source of its variants.
-struct LadderSource {
-    ladder: Ladder,
-    scene: SceneText,
-    /// The ladder itself, the combinations, the values.
-    axes: [StudyAxis; 3],
 }
 
 /// Mistakes of the study as a whole.
@@ -115,10 +106,8 @@ fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     let names: Vec<String> = names.collect();
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
-            problem(
-                format!("axis[{k}].name"),
-                "there is another axis of that name",
-            );
+            let why = "there is another axis of that name";
+            problem(format!("axis[{k}].name"), why);
         }
     }
     let known = || file.axis.iter().map(|a| a.name.as_str());
@@ -134,15 +123,16 @@ fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     problems
 }
 
+/// A ladder with its scene; the ladder itself, the combinations and the values as axes.
 fn one(
     file: &StudyFile,
     given: &file::Ladder,
     at: &str,
     find: &dyn Fn(&str) -> Result<SceneText, String>,
-) -> Result<LadderSource, Vec<SceneProblem>> {
+) -> Result<(Ladder, SceneText, [StudyAxis; 3]), Vec<SceneProblem>> {
     let problem =
         |key: &str, message: String| vec![SceneProblem::new(format!("{at}{key}"), message)];
-    let values = values(given, at)?;
+    let values = values(given, at).map_err(|problem| vec![problem])?;
     let labels: Vec<String> = values.choices.iter().map(|c| c.label.clone()).collect();
     let must = given.must.as_ref().map(|must| {
         let must = label(must);
@@ -165,32 +155,27 @@ fn one(
         false => (&given.judge, format!("{at}.judge")),
     };
     check(judge, &errors, &path)?;
-    let axis = |k: usize, choices| StudyAxis {
-        name: COLUMNS[k].to_string(),
-        choices,
+    let [own, combination, value] = COLUMNS;
+    let axes = [
+        column(own, vec![Choice::named(&given.name)]),
+        column(combination, plugins(file, given)?),
+        column(value, values.choices),
+    ];
+    let ladder = Ladder {
+        name: given.name.clone(),
+        title: given.title.clone(),
+        scene: scene.name.clone(),
+        errors,
+        labels,
+        must,
+        judge: judge.clone(),
+        to_the_end: given.to_the_end,
     };
-    Ok(LadderSource {
-        axes: [
-            axis(0, vec![Choice::named(&given.name)]),
-            axis(1, plugins(file, given)?),
-            axis(2, values.choices),
-        ],
-        ladder: Ladder {
-            name: given.name.clone(),
-            title: given.title.clone(),
-            scene: scene.name.clone(),
-            errors,
-            labels,
-            must,
-            judge: judge.clone(),
-            to_the_end: given.to_the_end,
-        },
-        scene,
-    })
+    Ok((ladder, scene, axes))
 }
 
 /// The values of an axis, whose labels alone name folders.
-fn values(given: &file::Ladder, at: &str) -> Result<StudyAxis, Vec<SceneProblem>> {
+fn values(given: &file::Ladder, at: &str) -> Result<StudyAxis, SceneProblem> {
     let plain = file::AxisTable {
         name: Some(given.name.clone()),
         key: given.key.clone(),
@@ -225,16 +210,14 @@ fn plugins(file: &StudyFile, given: &file::Ladder) -> Result<Vec<Choice>, Vec<Sc
 
 /// Refuses bounds of quantities that no run of the axis has, and bounds in the wrong order.
 fn check(judge: &Bounds, errors: &[String], path: &str) -> Result<(), Vec<SceneProblem>> {
-    let known = || {
-        let own = errors.iter().map(String::as_str);
-        own.chain(QUANTITIES.iter().map(|q| q.0))
-    };
+    let errors = errors.iter().map(String::as_str);
+    let known = || errors.clone().chain(QUANTITIES.iter().map(|q| q.0));
     let mut problems = Vec::new();
     for (name, [green, yellow]) in judge {
         let at = format!("{path}.{name}");
         if !known().any(|k| k == name) {
             let near = suggestion(name, known());
-            let list = known().collect::<Vec<_>>().join(", ");
+            let list = comma_list(known());
             let message = format!("nothing is called `{name}`{near} (there are: {list})");
             problems.push(SceneProblem::new(&at, message));
         }

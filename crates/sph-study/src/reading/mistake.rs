@@ -35,11 +35,8 @@ pub struct Refused {
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, mistake) in self.mistakes.iter().enumerate() {
-            let line = if k == 0 { "" } else { "\n" };
-            write!(f, "{line}{}", mistake.diagnostic)?;
-        }
-        Ok(())
+        let all = self.mistakes.iter().map(|m| m.diagnostic.to_string());
+        f.write_str(&all.collect::<Vec<_>>().join("\n"))
     }
 }
 
@@ -51,6 +48,11 @@ impl Refused {
         Refused::from_diagnostics(source, source.diagnose(problems))
     }
 
+    /// A problem of the study file at a path.
+    pub(crate) fn at(source: &Source, path: &str, message: impl Into<String>) -> Self {
+        Refused::in_study(source, &[SceneProblem::new(path, message)])
+    }
+
     /// Mistakes that have a place in a source.
     pub(crate) fn from_diagnostics(source: &Source, found: Vec<Diagnostic>) -> Self {
         let mistakes = Mistake::located(source, &found);
@@ -58,31 +60,27 @@ impl Refused {
     }
 }
 
-/// Origins of the overrides of a scene, so that its mistakes are shown where they were made.
-pub(crate) struct OverrideSources<'a> {
-    /// The study file.
-    pub study: &'a Source,
-    /// For every override of the scene the path in the study file that gives it, if it does.
-    pub given_by: &'a [Option<String>],
-}
-
-impl OverrideSources<'_> {
-    /// The mistakes of a scene: in the study file if it made them.
-    pub fn place(&self, scene: &Source, found: &[Diagnostic]) -> Vec<Mistake> {
-        let place = |d: &Diagnostic| {
-            let given = match d.origin {
-                Origin::Override(k) => self.given_by.get(k).cloned().flatten(),
-                _ => None,
-            };
-            let Some(path) = given else {
-                return Mistake::located(scene, std::slice::from_ref(d));
-            };
-            let message = match d.path.as_str() {
-                "" => d.message.clone(),
-                key => format!("{key}: {}", d.message),
-            };
-            Refused::in_study(self.study, &[SceneProblem::new(path, message)]).mistakes
+/// The mistakes of a scene: in the study file if it made them. `given_by` has for every override of the scene the path
+/// in the study file that gives it, if it does.
+pub(crate) fn placed(
+    study: &Source,
+    given_by: &[Option<String>],
+    scene: &Source,
+    found: &[Diagnostic],
+) -> Vec<Mistake> {
+    let place = |d: &Diagnostic| {
+        let given = match d.origin {
+            Origin::Override(k) => given_by.get(k).cloned().flatten(),
+            _ => None,
         };
-        found.iter().flat_map(place).collect()
-    }
+        let Some(path) = given else {
+            return Mistake::located(scene, std::slice::from_ref(d));
+        };
+        let message = match d.path.as_str() {
+            "" => d.message.clone(),
+            key => format!("{key}: {}", d.message),
+        };
+        Refused::at(study, &path, message).mistakes
+    };
+    found.iter().flat_map(place).collect()
 }

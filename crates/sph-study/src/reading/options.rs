@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::reading::variant::Variant;
-use crate::running::machine::Origin;
-use crate::running::record::Record;
+use crate::{Origin, Record, Variant};
 
 /// Options of a study.
 #[derive(Clone, Debug)]

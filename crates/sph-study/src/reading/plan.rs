@@ -6,13 +6,11 @@ use sph_core::{RegistryError, SceneProblem, suggestion, typed};
 use sph_scene::{Override, Source, read_text};
 use toml::Table;
 
-use crate::reading::axis::{self, StudyAxis};
 use crate::reading::combine::{combinations, fits};
-use crate::reading::file::StudyFile;
-use crate::reading::ladder;
-use crate::reading::mistake::{OverrideSources, Refused};
+use crate::reading::mistake::placed;
 use crate::reading::reader::{Inputs, Reader, refinement};
-use crate::reading::variant::{FindScene, Ladder, Variant};
+use crate::reading::{axis, ladder};
+use crate::{FindScene, Ladder, Refused, StudyAxis, StudyFile, Variant};
 
 /// A study whose variants are known to be good.
 #[derive(Clone, Debug)]
@@ -69,28 +67,23 @@ impl Study {
         only: &[String],
     ) -> Result<Self, ReadError> {
         let source = Source::new(text, &path.display().to_string(), &[]);
-        let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
         let table = source.table();
         let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
-        let file = study_file(&table).map_err(refused)?;
+        let file = study_file(&table).map_err(|found| Refused::in_study(&source, &found))?;
         let name = path.file_stem().and_then(|s| s.to_str());
         let folder = path.parent().unwrap_or(Path::new(""));
-        let parts = Parts {
+        let inputs = Inputs {
             name: name.unwrap_or("study").to_string(),
-            inputs: Inputs {
-                find: &|scene| find(folder, scene),
-                set,
-                only,
-            },
+            find: &|scene| find(folder, scene),
+            set,
+            only,
         };
         let study = match file.axis.is_empty() {
-            true => parts.varied(file, source)?,
-            false => parts.plan_ladders(file, source)?,
+            true => varied(&inputs, file, source)?,
+            false => plan_ladders(&inputs, file, source)?,
         };
-        if let Some(pattern) = only
-            .iter()
-            .find(|p| !study.variants.iter().any(|v| fits(p, &v.name)))
-        {
+        let fitted = |p: &String| study.variants.iter().any(|v| fits(p, &v.name));
+        if let Some(pattern) = only.iter().find(|p| !fitted(p)) {
             let names = || study.variants.iter().map(|v| v.name.as_str());
             let mut near = suggestion(pattern, names());
             if let (true, Some(one)) = (near.is_empty(), names().next()) {
@@ -106,6 +99,14 @@ impl Study {
         self.source.text()
     }
 
+    /// Variants that run one after the other because each may keep the next from being run, by their numbers.
+    pub(crate) fn chains(&self) -> Vec<Vec<usize>> {
+        let chain = |k: &usize| self.variants[*k].rung.map(|rung| rung.chain());
+        let all: Vec<usize> = (0..self.variants.len()).collect();
+        let chains = all.chunk_by(|a, b| chain(a).is_some() && chain(a) == chain(b));
+        chains.map(<[usize]>::to_vec).collect()
+    }
+
     /// Assembles a variant as a run would; returns the work of a run, of particles the pairs in the sweeps of all steps.
     ///
     /// # Errors
@@ -116,11 +117,8 @@ impl Study {
             Err(problems) => problems,
         };
         let scene = variant.subject.source();
-        let blame = OverrideSources {
-            study: &self.source,
-            given_by: &variant.given_by,
-        };
-        let mut mistakes = blame.place(scene, &scene.diagnose(&problems));
+        let found = scene.diagnose(&problems);
+        let mut mistakes = placed(&self.source, &variant.given_by, scene, &found);
         // A mistake without a key of the study still belongs to a variant.
         for mistake in &mut mistakes {
             if mistake.diagnostic.file != self.source.file {
@@ -132,92 +130,83 @@ impl Study {
     }
 }
 
-/// Name and input of a study.
-struct Parts<'a> {
-    name: String,
-    inputs: Inputs<'a>,
+/// Variants of one scene.
+fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
+    let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
+    let at = |path: &str, why: String| Refused::at(&source, path, why);
+    let axes = axis::axes(&file.vary).map_err(refused)?;
+    let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
+    let errors = file.error.paths("error");
+    if errors.is_empty() && file.scaling.is_none() {
+        let why = "a study needs an `error`, or the `scaling` of a cost";
+        return Err(at("error", why.into()));
+    }
+    for (key, name) in file.means.iter().flat_map(|m| [("x", &m.x), ("y", &m.y)]) {
+        if !errors.iter().any(|(error, _)| error == name) {
+            let near = suggestion(name, errors.iter().map(|(error, _)| error.as_str()));
+            let why = format!("`{name}` is not judged: expected a name of `error`{near}");
+            return Err(at(&format!("means.{key}"), why));
+        }
+    }
+    let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
+    if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
+        let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));
+        return Err(at(
+            "scaling.between",
+            format!("there is no axis `{name}`{near}"),
+        ));
+    }
+    let scene = match &file.scene {
+        Some(scene) => (inputs.find)(scene),
+        None => Err("a study needs a scene, or axes that have their own".into()),
+    };
+    let scene = scene.map_err(|why| at("scene", why))?;
+    let reader = Reader {
+        file: &file,
+        source: &source,
+        inputs,
+        scene: &scene,
+        axes: &axes,
+        common: axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?,
+        refinement: refinement(&file, &axes),
+        errors,
+    };
+    let variants = reader.all(&all)?;
+    Ok(Study {
+        name: inputs.name.clone(),
+        scene: scene.name.clone(),
+        errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
+        refinement: reader.refinement.clone(),
+        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        ladders: Vec::new(),
+        axes,
+        variants,
+        file,
+        source,
+    })
 }
 
-impl Parts<'_> {
-    /// Variants of one scene.
-    fn varied(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
-        let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
-        let axes = axis::axes(&file.vary).map_err(refused)?;
-        let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
-        let errors = file.error.paths("error");
-        if errors.is_empty() && file.scaling.is_none() {
-            let why = "a study needs an `error`, or the `scaling` of a cost";
-            return Err(refused(vec![SceneProblem::new("error", why)]));
+/// Axes that are gone along until they break.
+fn plan_ladders(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
+    let (ladders, variants) = ladder::read(&file, &source, inputs)?;
+    let mut scenes: Vec<&str> = Vec::new();
+    for ladder in &ladders {
+        if !scenes.contains(&ladder.scene.as_str()) {
+            scenes.push(&ladder.scene);
         }
-        for (key, name) in file.means.iter().flat_map(|m| [("x", &m.x), ("y", &m.y)]) {
-            if !errors.iter().any(|(error, _)| error == name) {
-                let near = suggestion(name, errors.iter().map(|(error, _)| error.as_str()));
-                let why = format!("`{name}` is not judged: expected a name of `error`{near}");
-                return Err(refused(vec![SceneProblem::new(
-                    format!("means.{key}"),
-                    why,
-                )]));
-            }
-        }
-        let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
-        if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
-            let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));
-            let why = format!("there is no axis `{name}`{near}");
-            return Err(refused(vec![SceneProblem::new("scaling.between", why)]));
-        }
-        let scene = match &file.scene {
-            Some(scene) => (self.inputs.find)(scene),
-            None => Err("a study needs a scene, or axes that have their own".into()),
-        };
-        let scene = scene.map_err(|why| refused(vec![SceneProblem::new("scene", why)]))?;
-        let common = axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?;
-        let reader = Reader {
-            file: &file,
-            source: &source,
-            inputs: &self.inputs,
-            scene: &scene,
-            axes: &axes,
-            common,
-            refinement: refinement(&file, &axes),
-            errors,
-        };
-        let variants = reader.all(&all)?;
-        Ok(Study {
-            name: self.name.clone(),
-            scene: scene.name.clone(),
-            errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
-            refinement: reader.refinement.clone(),
-            set: self.inputs.set.iter().map(|o| o.text.to_string()).collect(),
-            ladders: Vec::new(),
-            axes,
-            variants,
-            file,
-            source,
-        })
     }
-
-    /// Axes that are gone along until they break.
-    fn plan_ladders(&self, file: StudyFile, source: Source) -> Result<Study, Refused> {
-        let (ladders, variants) = ladder::read(&file, &source, &self.inputs)?;
-        let mut scenes: Vec<&str> = Vec::new();
-        for ladder in &ladders {
-            if !scenes.contains(&ladder.scene.as_str()) {
-                scenes.push(&ladder.scene);
-            }
-        }
-        Ok(Study {
-            name: self.name.clone(),
-            scene: scenes.join(", "),
-            errors: Vec::new(),
-            refinement: None,
-            set: self.inputs.set.iter().map(|o| o.text.to_string()).collect(),
-            axes: ladder::columns(),
-            ladders,
-            variants,
-            file,
-            source,
-        })
-    }
+    Ok(Study {
+        name: inputs.name.clone(),
+        scene: scenes.join(", "),
+        errors: Vec::new(),
+        refinement: None,
+        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        axes: ladder::columns(),
+        ladders,
+        variants,
+        file,
+        source,
+    })
 }
 
 /// Errors of loading a study.

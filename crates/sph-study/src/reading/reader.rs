@@ -8,17 +8,18 @@ use sph_run::Subject;
 use sph_scene::{Override, Source};
 use toml::{Table, Value};
 
-use crate::reading::axis::{Set, StudyAxis};
 use crate::reading::combine::{Combination, fits};
-use crate::reading::file::StudyFile;
-use crate::reading::mistake::{Mistake, OverrideSources, Refused};
-use crate::reading::variant::{SceneText, Variant, fingerprint};
+use crate::reading::mistake::placed;
+use crate::reading::variant::fingerprint;
+use crate::{Mistake, Refused, SceneText, Set, StudyAxis, StudyFile, Variant};
 
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";
 
 /// Input of a study besides its file.
 pub(crate) struct Inputs<'a> {
+    /// Name of the study.
+    pub name: String,
     /// Finds a scene by its name.
     pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
     /// Settings put on top of every variant from outside.
@@ -59,8 +60,7 @@ impl Reader<'_> {
             match self.one(combination) {
                 Ok(variant) => variants.push(variant),
                 Err(mistakes) => {
-                    let named = mistakes.into_iter().map(|m| (combination.name.as_str(), m));
-                    found.extend(named);
+                    found.extend(mistakes.into_iter().map(|m| (&*combination.name, m)))
                 }
             }
         }
@@ -95,10 +95,7 @@ impl Reader<'_> {
     fn one(&self, combination: &Combination) -> Result<Variant, Vec<Mistake>> {
         let scene = self.scene(&combination.choices)?;
         let (overrides, given_by) = self.overrides(&scene, &combination.choices);
-        let blame = OverrideSources {
-            study: self.source,
-            given_by: &given_by,
-        };
+        let place = |scene: &Source, found: &[_]| placed(self.source, &given_by, scene, found);
         let SceneText {
             text,
             file,
@@ -107,22 +104,18 @@ impl Reader<'_> {
             ..
         } = &*scene;
         let read = method.read(Source::new(text, file, &overrides).allowing(allowed));
-        let subject = read.map_err(|(source, found)| blame.place(&source, &found))?;
+        let subject = read.map_err(|(source, found)| place(&source, &found))?;
         let mut problems = self.missing_references(&*subject);
-        let refinement = self
-            .refinement
-            .as_ref()
-            .map(|key| value_at(&subject.resolved(), key));
+        let refinement = self.refinement.as_ref();
+        let refinement = refinement.map(|key| value_at(&subject.resolved(), key));
         if let Some(Err(why)) = &refinement {
             problems.push(SceneProblem::new("refinement", why.clone()));
         }
         if !problems.is_empty() {
             return Err(Refused::in_study(self.source, &problems).mistakes);
         }
-        let unreadable = |problem: SceneProblem| {
-            let found = subject.source().diagnose(&[problem]);
-            blame.place(subject.source(), &found)
-        };
+        let scene = subject.source();
+        let unreadable = |problem| place(scene, &scene.diagnose(&[problem]));
         let marks = subject.marks().map_err(unreadable)?;
         let labels = self.axes.iter().zip(&combination.choices);
         let only = self.inputs.only;
@@ -147,9 +140,8 @@ impl Reader<'_> {
         let Some((name, path)) = own.next() else {
             return Ok(Cow::Borrowed(self.scene));
         };
-        let unknown = |why| Refused::in_study(self.source, &[SceneProblem::new(path, why)]);
         let found = (self.inputs.find)(name).map(Cow::Owned);
-        found.map_err(|why| unknown(why).mistakes)
+        found.map_err(|why| Refused::at(self.source, path, why).mistakes)
     }
 
     /// Settings put on the scene, in this order, with their places.
@@ -164,11 +156,8 @@ impl Reader<'_> {
             let quiet = quiet.filter_map(|text| Override::parse(text).ok());
             all.extend(quiet.map(|o| (o, None)));
         }
-        let chosen = self
-            .axes
-            .iter()
-            .zip(choices)
-            .flat_map(|(a, k)| &a.choices[*k].sets);
+        let chosen = self.axes.iter().zip(choices);
+        let chosen = chosen.flat_map(|(axis, k)| &axis.choices[*k].sets);
         let own = self.common.iter().chain(chosen);
         all.extend(own.map(|s| (s.value.clone(), Some(s.path.clone()))));
         all.extend(self.inputs.set.iter().map(|o| (o.clone(), None)));
@@ -181,12 +170,9 @@ impl Reader<'_> {
         let missing = names.filter(|(name, _)| !known.contains(name));
         let problem = |(name, path): (String, String)| {
             let near = suggestion(&name, known.iter().map(String::as_str));
-            let list = known.join(", ");
-            let message = match list.as_str() {
-                "" => "the scene has no reference to judge by".to_string(),
-                list => {
-                    format!("the scene has no reference called `{name}`{near} (it has: {list})")
-                }
+            let message = match known.join(", ") {
+                none if none.is_empty() => "the scene has no reference to judge by".to_string(),
+                all => format!("the scene has no reference called `{name}`{near} (it has: {all})"),
             };
             SceneProblem::new(path, message)
         };
@@ -196,25 +182,18 @@ impl Reader<'_> {
 
 /// The positive number at a key of a scene.
 fn value_at(scene: &Table, key: &str) -> Result<f64, String> {
-    let mut here: Option<&Value> = None;
-    for part in key.split('.') {
-        let table = here.map_or(Some(scene), Value::as_table);
-        here = table.and_then(|t| t.get(part));
-    }
-    let number = match here {
+    let mut parts = key.split('.');
+    let first = parts.next().and_then(|part| scene.get(part));
+    let number = match parts.fold(first, |here, part| here?.as_table()?.get(part)) {
         Some(Value::Float(x)) => *x,
         Some(Value::Integer(i)) => *i as f64,
         Some(other) => {
-            return Err(format!(
-                "`{key}` is refined over and must be a number, found {other}"
-            ));
+            let why = format!("`{key}` is refined over and must be a number, found {other}");
+            return Err(why);
         }
         None => return Err(format!("no scene of the study has a value at `{key}`")),
     };
-    match number > 0.0 && number.is_finite() {
-        true => Ok(number),
-        false => Err(format!(
-            "`{key}` is refined over and must be positive, found {number}"
-        )),
-    }
+    let why = || format!("`{key}` is refined over and must be positive, found {number}");
+    let valid = number > 0.0 && number.is_finite();
+    valid.then_some(number).ok_or_else(why)
 }

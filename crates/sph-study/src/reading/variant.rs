@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sph_run::{Method, Subject};
 use toml::Table;
 
-use crate::reading::file::Bounds;
+use crate::Bounds;
 use crate::running::machine::VERSION;
 
 /// One scene of a study.

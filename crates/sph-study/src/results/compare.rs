@@ -5,8 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use sph_core::number;
 
-use crate::results::Results;
-use crate::running::machine::Origin;
+use crate::Results;
 
 /// The difference of two studies, variant by variant.
 #[derive(Clone, Debug, Serialize)]
@@ -90,16 +89,13 @@ impl Results {
 pub fn compare(first: &Results, second: &Results) -> Comparison {
     let change = |a: &crate::VariantResult| {
         let b = second.variant(&a.name)?;
-        let error = |name: &String| {
-            let pair = Pair::new(a.error(name), b.error(name));
-            (name.clone(), pair)
-        };
+        let error = |name: &String| (name.clone(), Pair::new(a.error(name), b.error(name)));
         Some(Change {
             name: a.name.clone(),
             status: [a.status, b.status].map(|s| s.name().to_string()),
             errors: first.errors.iter().map(error).collect(),
             wall_seconds: Pair::new(a.wall_seconds.min, b.wall_seconds.min),
-            steps: Pair::new(Some(a.steps as f64), Some(b.steps as f64)),
+            steps: Pair::new(Some(a.size.steps as f64), Some(b.size.steps as f64)),
         })
     };
     let variants: Vec<Change> = first.variants.iter().filter_map(change).collect();
@@ -119,32 +115,32 @@ pub fn compare(first: &Results, second: &Results) -> Comparison {
     }
 }
 
-fn notes(a: &Results, b: &Results) -> Vec<String> {
-    let mut notes = Vec::new();
-    let mut differ = |what: &str, a: String, b: String| {
-        if a != b {
-            notes.push(format!("{what}: {a} → {b}"));
-        }
+fn notes(first: &Results, second: &Results) -> Vec<String> {
+    let facts = |r: &Results| {
+        let origin = &r.origin;
+        let manner = if r.serial {
+            "one by one"
+        } else {
+            "side by side"
+        };
+        [
+            ("study", r.study.clone()),
+            ("scene", r.scene.clone()),
+            ("version", origin.version.clone()),
+            ("commit", origin.commit.clone().unwrap_or("unknown".into())),
+            ("built with", origin.built_with.clone()),
+            (
+                "machine, so that times cannot be compared",
+                origin.machine.to_string(),
+            ),
+            ("threads", r.threads()),
+            ("variants ran", manner.into()),
+        ]
     };
-    differ("study", a.study.clone(), b.study.clone());
-    differ("scene", a.scene.clone(), b.scene.clone());
-    let (x, y) = (&a.origin, &b.origin);
-    let commit = |o: &Origin| o.commit.clone().unwrap_or("unknown".into());
-    differ("version", x.version.clone(), y.version.clone());
-    differ("commit", commit(x), commit(y));
-    differ("built with", x.built_with.clone(), y.built_with.clone());
-    differ(
-        "machine, so that times cannot be compared",
-        x.machine.to_string(),
-        y.machine.to_string(),
-    );
-    differ("threads", a.threads(), b.threads());
-    let manner = |r: &Results| match r.serial {
-        true => "one by one",
-        false => "side by side",
-    };
-    differ("variants ran", manner(a).into(), manner(b).into());
-    notes
+    let both = facts(first).into_iter().zip(facts(second));
+    let differing = both.filter(|(a, b)| a != b);
+    let notes = differing.map(|((what, a), (_, b))| format!("{what}: {a} → {b}"));
+    notes.collect()
 }
 
 impl Comparison {
@@ -177,10 +173,7 @@ mod tests {
     #[test]
     fn pairs_have_ratios_where_there_are_two_numbers() {
         let pair = Pair::new(Some(2.0), Some(1.0));
-        assert_eq!(
-            (pair.ratio, pair.text().as_str()),
-            (Some(0.5), "2 → 1  ×0.500")
-        );
+        assert_eq!((pair.ratio, &*pair.text()), (Some(0.5), "2 → 1  ×0.500"));
         assert_eq!(Pair::new(Some(2.0), Some(2.0)).text(), "2");
         assert_eq!(Pair::new(None, Some(2.0)).text(), "– → 2");
         assert_eq!(Pair::new(Some(0.0), Some(2.0)).ratio, None);

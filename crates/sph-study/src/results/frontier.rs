@@ -2,11 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::reading::file::Bounds;
-use crate::reading::plan::Study;
-use crate::reading::variant::Ladder;
-use crate::results::variant_result::VariantResult;
-use crate::running::verdict::Colour;
+use crate::{Bounds, Colour, Ladder, Study, VariantResult};
 
 /// One axis, gone along with one combination of plugins.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -42,21 +38,12 @@ pub struct Frontier {
 impl Frontier {
     /// One for every axis and combination, in the order of the study.
     pub fn all(study: &Study, results: &[VariantResult]) -> Vec<Self> {
-        let mut all: Vec<(usize, usize, Vec<&VariantResult>)> = Vec::new();
-        for (variant, result) in study.variants.iter().zip(results) {
-            let Some(rung) = variant.rung else {
-                continue;
-            };
-            let (ladder, combination) = rung.chain();
-            match all.last_mut() {
-                Some((l, c, found)) if (*l, *c) == (ladder, combination) => found.push(result),
-                _ => all.push((ladder, combination, vec![result])),
-            }
-        }
-        let one = |(ladder, _, found): (usize, usize, Vec<&VariantResult>)| {
-            Frontier::from_ladder(&study.ladders[ladder], &found)
+        let one = |chain: Vec<usize>| {
+            let rung = study.variants[chain[0]].rung?;
+            let found: Vec<&VariantResult> = chain.iter().map(|k| &results[*k]).collect();
+            Some(Frontier::from_ladder(&study.ladders[rung.ladder], &found))
         };
-        all.into_iter().map(one).collect()
+        study.chains().into_iter().filter_map(one).collect()
     }
 
     fn from_ladder(ladder: &Ladder, found: &[&VariantResult]) -> Self {

@@ -50,11 +50,8 @@ mod tests {
         let points = [0.4, 0.2, 0.1, 0.05].map(|h: f64| [h, 3.0 * h.powf(1.7)]);
         let orders = Orders::from_points(&points);
         assert_eq!(orders.between.len(), 3);
-        let all = orders.between.iter().chain(&orders.finest_three);
-        assert!(
-            all.into_iter().all(|o| (o - 1.7).abs() < 1e-12),
-            "{orders:?}"
-        );
+        let mut all = orders.between.iter().chain(&orders.finest_three);
+        assert!(all.all(|o| (o - 1.7).abs() < 1e-12), "{orders:?}");
     }
 
     #[test]

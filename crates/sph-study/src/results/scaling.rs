@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use sph_core::number;
-use sph_io::{Plot, Series, Style};
+use sph_core::{comma_list, number};
 
 use crate::results::order::slope;
-use crate::results::variant_result::{SeriesResult, VariantResult};
-use crate::running::cost::{Cost, Scaling};
+use crate::{Cost, Results, Scaling, VariantResult};
 
 /// A name with its particles and seconds, by size.
 type CostSeries = (String, Vec<[f64; 2]>);
@@ -47,73 +45,40 @@ pub struct FastestRange {
 }
 
 impl Scale {
-    /// From the series of a study.
-    pub(crate) fn new<'a>(
-        scaling: &Scaling,
-        axes: &[String],
-        refining: impl Fn(&str) -> bool,
-        series: &[SeriesResult],
-        variant: impl Fn(&str) -> Option<&'a VariantResult>,
-    ) -> Self {
+    /// Of the results of a study, some `others` of whose axes neither compete nor refine.
+    pub(crate) fn new(scaling: &Scaling, results: &Results, others: &[&str]) -> Self {
         let mut costs = Vec::new();
         let mut groups: BTreeMap<String, Vec<CostSeries>> = BTreeMap::new();
-        for one in series {
-            let all: Vec<&VariantResult> = one.variants.iter().filter_map(|n| variant(n)).collect();
-            let mut points: Vec<[f64; 2]> = all
-                .iter()
-                .filter_map(|v| Some([v.particles as f64, v.cost(scaling.cost)?]))
-                .filter(|p| p.iter().all(|x| *x > 0.0))
-                .collect();
+        for one in &results.series {
+            let all = one.variants.iter().filter_map(|name| results.variant(name));
+            let all: Vec<&VariantResult> = all.collect();
+            let cost = |v: &&VariantResult| Some([v.size.particles as f64, v.cost(scaling.cost)?]);
+            let points = all.iter().filter_map(cost);
+            let points = points.filter(|p| p.iter().all(|x| *x > 0.0));
+            let mut points: Vec<[f64; 2]> = points.collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let (Some(between), Some(first)) = (&scaling.between, all.first()) else {
-                costs.push(SeriesCost::from_points(&one.name, points));
-                continue;
-            };
-            let others = axes.iter().filter(|a| *a != between && !refining(a));
-            let others: Vec<&str> = others.map(|a| first.values[a].as_str()).collect();
-            let group = groups.entry(others.join(", ")).or_default();
-            group.push((first.values[between].clone(), points.clone()));
-            costs.push(SeriesCost::from_points(&one.name, points));
+            costs.push(SeriesCost::from_points(&one.name, points.clone()));
+            if let (Some(between), Some(first)) = (&scaling.between, all.first()) {
+                let among = comma_list(others.iter().map(|axis| &first.values[*axis]));
+                let group = groups.entry(among).or_default();
+                group.push((first.values[between].clone(), points));
+            }
         }
-        let fastest = groups
-            .iter()
-            .flat_map(|(among, all)| fastest_ranges(among, all))
-            .collect();
+        let fastest = groups.iter();
+        let fastest = fastest.flat_map(|(among, all)| fastest_ranges(among, all));
         Scale {
             cost: scaling.cost,
             series: costs,
-            fastest,
-        }
-    }
-
-    /// Seconds against particles.
-    pub fn plot(&self, title: &str) -> Plot {
-        let of = |s: &SeriesCost| {
-            let name = match s.exponent {
-                Some(p) => format!("{}: exponent {p:.2}", s.name),
-                None => s.name.clone(),
-            };
-            Series::styled(name, s.points.clone(), Style::LineAndMarkers)
-        };
-        Plot {
-            title: title.to_string(),
-            x_label: "particles".into(),
-            y_label: format!("{} [s]", self.cost.name()),
-            log_x: true,
-            log_y: true,
-            series: self.series.iter().map(of).collect(),
+            fastest: fastest.collect(),
         }
     }
 
     /// Exponents and reigns as a person reads them.
     pub fn lines(&self) -> Vec<String> {
+        let cost = self.cost.name();
         let exponents = self.series.iter().filter_map(|s| {
             let p = s.exponent?;
-            Some(format!(
-                "{} of {}: exponent {p:.2}",
-                self.cost.name(),
-                s.name
-            ))
+            Some(format!("{cost} of {}: exponent {p:.2}", s.name))
         });
         let count = |n: f64| number::count(n.round());
         let reigns = self.fastest.iter().map(|r| {
@@ -131,12 +96,11 @@ impl Scale {
 impl SeriesCost {
     fn from_points(name: &str, points: Vec<[f64; 2]>) -> Self {
         let logs: Vec<[f64; 2]> = points.iter().map(|p| p.map(f64::ln)).collect();
+        let exponent = (logs.len() > 1).then(|| slope(&logs));
         SeriesCost {
             name: name.to_string(),
             points,
-            exponent: (logs.len() > 1)
-                .then(|| slope(&logs))
-                .filter(|p| p.is_finite()),
+            exponent: exponent.filter(|p| p.is_finite()),
         }
     }
 }
@@ -163,17 +127,12 @@ fn fastest_ranges(among: &str, all: &[CostSeries]) -> Vec<FastestRange> {
                     from = takeover([before, n], |m| Some([cost(*last, m)?, cost(k, m)?]));
                     reign.particles[1] = from;
                 }
-                let name = all[k].0.clone();
-                let particles = [from, n];
-                let among = among.to_string();
-                found.push((
-                    k,
-                    FastestRange {
-                        among,
-                        name,
-                        particles,
-                    },
-                ));
+                let range = FastestRange {
+                    among: among.to_string(),
+                    name: all[k].0.clone(),
+                    particles: [from, n],
+                };
+                found.push((k, range));
             }
         }
         before = n;

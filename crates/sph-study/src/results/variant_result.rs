@@ -4,13 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::reading::file::Bounds;
-use crate::reading::variant::Variant;
-use crate::results::order::Orders;
-use crate::running::cost::{Cost, SolveCost};
-use crate::running::machine::Origin;
-use crate::running::record::{Error, Health, Record, Status};
-use crate::running::verdict::{Verdict, verdict};
+use crate::{
+    Bounds, Cost, Error, Health, Orders, Origin, Record, RunSize, SolveCost, Status, Variant,
+    Verdict, verdict,
+};
 
 /// Results of a variant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -37,16 +34,9 @@ pub struct VariantResult {
     pub order: Option<f64>,
     /// Wall-clock times.
     pub wall_seconds: WallSeconds,
-    /// Threads.
-    pub threads: usize,
-    /// Free particles.
-    pub particles: usize,
-    /// Steps.
-    pub steps: u64,
-    /// Steps that were rolled back.
-    pub steps_rolled_back: u64,
-    /// Simulated time reached, s.
-    pub simulated_seconds: f64,
+    /// Size of the run.
+    #[serde(flatten)]
+    pub size: RunSize,
     /// The bound that limited most steps.
     pub dt_limiter: Option<String>,
     /// Share of the steps limited by each bound.
@@ -114,11 +104,7 @@ impl VariantResult {
                 all: record.wall_seconds.clone(),
                 spent: record.spent,
             },
-            threads: record.threads,
-            particles: record.particles,
-            steps: record.steps,
-            steps_rolled_back: record.steps_rolled_back,
-            simulated_seconds: record.simulated_seconds,
+            size: record.size.clone(),
             dt_limiter: record.limiter().map(String::from),
             dt_limiters: record.dt_limiters.clone(),
             solves: record.solves.clone(),
@@ -130,7 +116,7 @@ impl VariantResult {
 
     /// Seconds of a step or a solve.
     pub fn cost(&self, cost: Cost) -> Option<f64> {
-        cost.seconds(self.wall_seconds.min, self.steps, self.solves.as_ref())
+        cost.seconds(self.wall_seconds.min, self.size.steps, self.solves.as_ref())
     }
 
     /// An error, if the variant is finished and has it.

@@ -1,16 +1,12 @@
 //! Runs the missing variants of a study, one by one or side by side.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use sph_io::IoError;
 
-use crate::reading::options::Options;
-use crate::reading::plan::Study;
-use crate::reading::variant::Variant;
-use crate::running::record::{Record, Status};
-use crate::running::repeat::{self, Watcher};
-use crate::running::verdict::{Colour, verdict};
+use crate::running::repeat;
+use crate::{Colour, Options, Record, Status, Study, Variant, Watcher, verdict};
 
 /// Results of running a study.
 #[derive(Debug)]
@@ -36,7 +32,7 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
         true => (1, options.threads()),
         false => (options.threads().clamp(1, count.max(1)), 1),
     };
-    let chains = chains(study);
+    let chains = study.chains();
     let go_along = |chain: &[usize]| {
         let mut broken: Option<&Variant> = None;
         for &k in chain {
@@ -70,10 +66,7 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
         }
     };
     let work = || {
-        loop {
-            let Some(chain) = chains.get(next.fetch_add(1, Ordering::SeqCst)) else {
-                return;
-            };
+        while let Some(chain) = chains.get(next.fetch_add(1, Ordering::SeqCst)) {
             go_along(chain);
         }
     };
@@ -101,7 +94,7 @@ pub fn execute(study: &Study, options: &Options, watcher: &dyn Watcher) -> Outco
 pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
     let file = &study.file;
     let mut open = vec![false; study.variants.len()];
-    for chain in chains(study) {
+    for chain in study.chains() {
         for k in chain {
             let variant = &study.variants[k];
             let known = options.known(variant).unwrap_or_default();
@@ -113,21 +106,6 @@ pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
         }
     }
     open
-}
-
-/// Variants that run one after the other because each may keep the next from being run.
-fn chains(study: &Study) -> Vec<Vec<usize>> {
-    let mut chains: Vec<Vec<usize>> = Vec::new();
-    let mut last = None;
-    for (k, variant) in study.variants.iter().enumerate() {
-        let chain = variant.rung.map(|r| r.chain());
-        match chains.last_mut() {
-            Some(open) if chain.is_some() && chain == last => open.push(k),
-            _ => chains.push(vec![k]),
-        }
-        last = chain;
-    }
-    chains
 }
 
 /// True if nothing behind a variant on its axis is worth running.
@@ -151,8 +129,6 @@ fn skipped(before: &Variant, variant: &Variant, options: &Options) -> Record {
 }
 
 /// The content of a lock; no holder panics half-way through a change.
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -83,11 +83,8 @@ fn system() -> String {
 
 /// Output of a program, if it is there and succeeds.
 fn output_of(command: &mut Command) -> Option<String> {
-    let output = command
-        .stdin(Stdio::null())
-        .stderr(Stdio::null())
-        .output()
-        .ok()?;
+    let command = command.stdin(Stdio::null()).stderr(Stdio::null());
+    let output = command.output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     let text = text.trim();
     (output.status.success() && !text.is_empty()).then(|| text.to_string())
@@ -108,18 +105,15 @@ fn commit() -> Option<String> {
     folders.find_map(|folder| {
         let git = |words: &[&str]| output_of(Command::new("git").current_dir(folder).args(words));
         let root = git(&["rev-parse", "--show-toplevel"])?;
-        let ours = Path::new(&root)
-            .join("crates/sph-study/Cargo.toml")
-            .exists();
-        ours.then(|| {
-            git(&[
-                "describe",
-                "--always",
-                "--dirty",
-                "--abbrev=12",
-                "--exclude=*",
-            ])
-        })?
+        let manifest = Path::new(&root).join("crates/sph-study/Cargo.toml");
+        let describe = [
+            "describe",
+            "--always",
+            "--dirty",
+            "--abbrev=12",
+            "--exclude=*",
+        ];
+        manifest.exists().then(|| git(&describe))?
     })
 }
 

@@ -8,8 +8,8 @@ use serde_json::Value as Json;
 use sph_io::IoError;
 use sph_run::Trouble;
 
-use crate::running::cost::{Cost, SolveCost, SolveSummaries};
-use crate::running::machine::Origin;
+use crate::running::cost::SolveSummaries;
+use crate::{Cost, Origin, SolveCost};
 
 /// Name of the record in a variant's folder.
 const FILE: &str = "record.json";
@@ -67,16 +67,9 @@ pub struct Record {
     pub wall_seconds: Vec<f64>,
     /// Wall-clock seconds of the repetition under way, s.
     pub spent: f64,
-    /// Threads of the last repetition.
-    pub threads: usize,
-    /// Free particles.
-    pub particles: usize,
-    /// Steps taken.
-    pub steps: u64,
-    /// Steps that were rolled back.
-    pub steps_rolled_back: u64,
-    /// Simulated time reached, s.
-    pub simulated_seconds: f64,
+    /// Size of the last repetition.
+    #[serde(flatten)]
+    pub size: RunSize,
     /// Share of the steps limited by each bound.
     pub dt_limiters: BTreeMap<String, f64>,
     /// Its soundness.
@@ -88,6 +81,23 @@ pub struct Record {
     /// Machine and program of the run.
     #[serde(flatten)]
     pub origin: Origin,
+}
+
+/// Size of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RunSize {
+    /// Threads.
+    pub threads: usize,
+    /// Free particles, or grains.
+    #[serde(alias = "grains")]
+    pub particles: usize,
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were rolled back.
+    pub steps_rolled_back: u64,
+    /// Simulated time reached, s.
+    pub simulated_seconds: f64,
 }
 
 /// Numbers by which a run is judged; numbers that are not finite are left out.
@@ -144,12 +154,8 @@ fn one() -> String {
 #[serde(default)]
 struct RunSummary {
     wall_seconds: f64,
-    threads: usize,
-    #[serde(alias = "grains")]
-    particles: usize,
-    steps: u64,
-    steps_rolled_back: u64,
-    simulated_seconds: f64,
+    #[serde(flatten)]
+    size: RunSize,
     dt_limiters: BTreeMap<String, f64>,
     implicit_viscosity: Option<SolveSummaries>,
     errors: BTreeMap<String, Error>,
@@ -177,11 +183,7 @@ impl Record {
         let both = |[low, high]: [Option<f64>; 2]| Some([low?, high?]);
         Record {
             spent: told.wall_seconds,
-            threads: told.threads,
-            particles: told.particles,
-            steps: told.steps,
-            steps_rolled_back: told.steps_rolled_back,
-            simulated_seconds: told.simulated_seconds,
+            size: told.size,
             dt_limiters: told.dt_limiters,
             solves: told.implicit_viscosity.map(SolveCost::from_solves),
             health: Health {
@@ -229,19 +231,15 @@ impl Record {
         self.spent = 0.0;
         self.errors.clone_from(&run.errors);
         if fastest {
-            self.wall_seconds_by_stage
-                .clone_from(&run.wall_seconds_by_stage);
+            let stages = &run.wall_seconds_by_stage;
+            self.wall_seconds_by_stage.clone_from(stages);
         }
     }
 
     /// Takes over how far a repetition got.
     pub fn look(&mut self, run: &Record) {
         self.spent = run.spent;
-        self.threads = run.threads;
-        self.particles = run.particles;
-        self.steps = run.steps;
-        self.steps_rolled_back = run.steps_rolled_back;
-        self.simulated_seconds = run.simulated_seconds;
+        self.size.clone_from(&run.size);
         self.dt_limiters.clone_from(&run.dt_limiters);
         self.solves.clone_from(&run.solves);
         self.health.clone_from(&run.health);
@@ -269,7 +267,7 @@ impl Record {
 
     /// Seconds of a step or a solve.
     pub fn cost(&self, cost: Cost) -> Option<f64> {
-        cost.seconds(self.least_seconds(), self.steps, self.solves.as_ref())
+        cost.seconds(self.least_seconds(), self.size.steps, self.solves.as_ref())
     }
 
     /// Slowest repetition over the fastest, less one.
@@ -310,10 +308,8 @@ mod tests {
         let done = record(Status::Done, None);
         assert!(done.settles("a", 2, None) && !done.settles("b", 2, None));
         assert!(!done.settles("a", 3, None), "another repetition is wanted");
-        assert_eq!(
-            (done.least_seconds(), done.spread()),
-            (Some(1.0), Some(0.5))
-        );
+        assert_eq!(done.least_seconds(), Some(1.0));
+        assert_eq!(done.spread(), Some(0.5));
         assert!(record(Status::Failed, None).settles("a", 9, None));
         let late = record(Status::OverLimit, Some(60.0));
         assert!(late.settles("a", 1, Some(60.0)));

@@ -8,10 +8,7 @@ use sph_run::{
     BAD_STATE, CHECKPOINT, Command, Ended, Identity, Observer, Progress, RunOptions, Start,
 };
 
-use crate::reading::options::Options;
-use crate::reading::plan::Study;
-use crate::reading::variant::Variant;
-use crate::running::record::{Record, Status};
+use crate::{Options, Record, Status, Study, Variant};
 
 /// A watcher of a study; variants may call it from several threads.
 pub trait Watcher: Sync {
@@ -110,8 +107,8 @@ impl Job<'_> {
         let repetition = record.wall_seconds.len();
         self.watcher.started(self.variant, repetition);
         let identity = format!("{} repetition {repetition}", self.variant.fingerprint);
-        let mut options =
-            RunOptions::new(folder, Identity::of_text(identity)).threads(self.threads);
+        let identity = Identity::of_text(identity);
+        let mut options = RunOptions::new(folder, identity).threads(self.threads);
         if folder.join(CHECKPOINT).exists() {
             options.start = Start::Resumed;
         }
@@ -142,11 +139,11 @@ impl Job<'_> {
             Ended::Stopped(summary) => {
                 let run = Record::from_summary(summary);
                 record.look(&run);
-                (record.status, record.reason) = self.stopped(run.simulated_seconds, cause);
+                (record.status, record.reason) = self.stopped(run.size.simulated_seconds, cause);
             }
             Ended::Failed(summary, reason) => {
                 record.look(&Record::from_summary(summary));
-                record.threads = self.threads;
+                record.size.threads = self.threads;
                 record.status = Status::Failed;
                 record.reason = Some(reason);
                 if !self.study.file.keep_output {

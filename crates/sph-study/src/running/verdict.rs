@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use sph_core::number;
 
-use crate::reading::file::Bounds;
-use crate::running::record::{Health, Record, Status};
+use crate::{Bounds, Health, Record, Status};
 
 /// Soundness of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -54,13 +53,11 @@ pub const QUANTITIES: [(&str, HealthNumber); 7] = [
     // Largest distance of a density from its reference, over it.
     ("density", Health::density_deviation),
     // Largest density over its reference, less one.
-    ("compression", |h| {
-        h.density_range.map(|[_, high]| high - 1.0)
-    }),
+    ("compression", |h| Some(h.density_range?[1] - 1.0)),
     // Largest speed over the speed of sound.
     ("mach", |h| h.mach),
     // What the mean distance to the nearest particle lacks of a spacing, over it.
-    ("pairing", |h| h.nearest.map(|[_, mean]| 1.0 - mean)),
+    ("pairing", |h| Some(1.0 - h.nearest?[1])),
 ];
 
 /// The numbers a run can be judged by, those of its references included.
@@ -68,9 +65,10 @@ fn quantities(record: &Record) -> BTreeMap<&str, f64> {
     let errors = record.errors.iter();
     let errors = errors.map(|(name, error)| (name.as_str(), error.value));
     let own = QUANTITIES.map(|(name, of)| (name, of(&record.health)));
-    let all = errors.chain(own);
-    all.filter_map(|(name, value)| Some((name, value?)))
-        .collect()
+    let known = errors
+        .chain(own)
+        .filter_map(|(name, value)| Some((name, value?)));
+    known.collect()
 }
 
 /// The verdict on a run that has come to an end.
@@ -84,14 +82,12 @@ pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
         }
         Status::Skipped | Status::Interrupted | Status::Pending => return None,
     }
-    if record.health.escaped > 0 {
-        return red(format!(
-            "{} particles are behind a wall",
-            record.health.escaped
-        ));
+    let escaped = record.health.escaped;
+    if escaped > 0 {
+        return red(format!("{escaped} particles are behind a wall"));
     }
     let found = quantities(record);
-    let (mut worst, mut reason) = match record.steps_rolled_back {
+    let (mut worst, mut reason) = match record.size.steps_rolled_back {
         0 => (Colour::Green, String::new()),
         n => (Colour::Yellow, format!("{n} steps were tried again")),
     };
@@ -116,7 +112,7 @@ pub fn verdict(record: &Record, bounds: &Bounds) -> Option<Verdict> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::running::record::Error;
+    use crate::{Error, RunSize};
 
     fn record(error: f64, rolled_back: u64, escaped: usize) -> Record {
         let error = Error {
@@ -126,7 +122,10 @@ mod tests {
         Record {
             status: Status::Done,
             errors: [("e".to_string(), error)].into(),
-            steps_rolled_back: rolled_back,
+            size: RunSize {
+                steps_rolled_back: rolled_back,
+                ..RunSize::default()
+            },
             health: Health {
                 escaped,
                 density_range: Some([0.7, 1.1]),
@@ -141,24 +140,29 @@ mod tests {
         let bounds = |e: [f64; 2], density: [f64; 2]| -> Bounds {
             [("e".to_string(), e), ("density".to_string(), density)].into()
         };
-        let of = |record: &Record, bounds: &Bounds| {
-            let told = verdict(record, bounds).unwrap();
-            (told.colour, told.why)
-        };
         let fine = bounds([0.1, 0.2], [0.5, 1.0]);
-        assert_eq!(
-            of(&record(0.05, 0, 0), &fine),
-            (Colour::Green, String::new())
-        );
-        assert_eq!(of(&record(0.15, 0, 0), &fine).0, Colour::Yellow);
-        assert_eq!(of(&record(f64::NAN, 0, 0), &fine).0, Colour::Red);
-        assert_eq!(of(&record(0.05, 2, 0), &fine).1, "2 steps were tried again");
-        assert_eq!(of(&record(0.05, 0, 1), &fine).0, Colour::Red);
         let tight = bounds([0.1, 0.2], [0.1, 0.2]);
-        assert_eq!(
-            of(&record(0.15, 0, 0), &tight),
-            (Colour::Red, "density 0.3 > 0.2".to_string())
-        );
+        for (record, bounds, colour, why) in [
+            (record(0.05, 0, 0), &fine, Colour::Green, ""),
+            (record(0.15, 0, 0), &fine, Colour::Yellow, "e 0.15 > 0.1"),
+            (record(f64::NAN, 0, 0), &fine, Colour::Red, "e NaN > 0.2"),
+            (
+                record(0.05, 2, 0),
+                &fine,
+                Colour::Yellow,
+                "2 steps were tried again",
+            ),
+            (
+                record(0.05, 0, 1),
+                &fine,
+                Colour::Red,
+                "1 particles are behind a wall",
+            ),
+            (record(0.15, 0, 0), &tight, Colour::Red, "density 0.3 > 0.2"),
+        ] {
+            let found = verdict(&record, bounds).unwrap();
+            assert_eq!((found.colour, found.why.as_str()), (colour, why));
+        }
     }
 
     #[test]
@@ -169,15 +173,10 @@ mod tests {
             ..Record::default()
         };
         let none = Bounds::new();
-        assert_eq!(
-            verdict(&ended(Status::Failed), &none).unwrap().colour,
-            Colour::Red
-        );
-        assert_eq!(
-            verdict(&ended(Status::OverLimit), &none).unwrap().colour,
-            Colour::Red
-        );
-        assert_eq!(verdict(&ended(Status::Skipped), &none), None);
-        assert_eq!(verdict(&ended(Status::Pending), &none), None);
+        let colour = |status| verdict(&ended(status), &none).map(|v| v.colour);
+        assert_eq!(colour(Status::Failed), Some(Colour::Red));
+        assert_eq!(colour(Status::OverLimit), Some(Colour::Red));
+        assert_eq!(colour(Status::Skipped), None);
+        assert_eq!(colour(Status::Pending), None);
     }
 }

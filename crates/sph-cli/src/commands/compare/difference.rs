@@ -3,13 +3,12 @@
 use std::collections::HashMap;
 
 use serde::Serialize;
-use sph_core::unit_suffix;
+use sph_core::{comma_list, number, unit_suffix};
 
 use super::tables::{Column, Table};
-use crate::number;
 
 /// Difference of a column; numbers that are not finite are null in JSON.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub struct Difference {
     file: String,
     column: String,
@@ -41,23 +40,19 @@ struct DifferencePlace {
 pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<String>) {
     let mut remarks = Vec::new();
     let rows: HashMap<u64, usize> = b.keys.iter().copied().zip(0..).collect();
-    let pairs: Vec<(usize, usize)> = (a.keys.iter().enumerate())
-        .filter_map(|(k, key)| Some((k, *rows.get(key)?)))
-        .collect();
-    let lone = a.keys.len() + b.keys.len() - 2 * pairs.len();
+    let keys = a.keys.iter().enumerate();
+    let pairs = keys.filter_map(|(k, key)| Some((k, *rows.get(key)?)));
+    let pairs: Vec<(usize, usize)> = pairs.collect();
+    let all = a.keys.len() + b.keys.len();
+    let lone = all - 2 * pairs.len();
     if lone > 0 {
-        remarks.push(format!(
-            "{file}: {lone} of {} rows have no counterpart",
-            a.keys.len() + b.keys.len()
-        ));
+        remarks.push(format!("{file}: {lone} of {all} rows have no counterpart"));
     }
     let twin = |name: &str, of: &Table| of.columns.iter().position(|c| c.name == name);
     for (one, other, which) in [(a, b, "first"), (b, a, "second")] {
-        let all = one.columns.iter();
-        let alone = all.filter(|c| twin(&c.name, other).is_none());
-        let alone: Vec<&str> = alone.map(|c| c.name.as_str()).collect();
+        let names = one.columns.iter().map(|c| &c.name);
+        let alone = comma_list(names.filter(|name| twin(name, other).is_none()));
         if !alone.is_empty() {
-            let alone = alone.join(", ");
             remarks.push(format!("{file}: the {which} alone has {alone}"));
         }
     }
@@ -103,10 +98,7 @@ fn difference(
         unit: a.unit.clone(),
         same: true,
         largest: -1.0,
-        relative: 0.0,
-        first: 0.0,
-        second: 0.0,
-        place: DifferencePlace::default(),
+        ..Difference::default()
     };
     let mut range: f64 = 0.0;
     for &(row, twin) in pairs {
@@ -124,16 +116,15 @@ fn difference(
                 apart => apart,
             };
             if apart > found.largest {
-                found.largest = apart;
-                (found.first, found.second) = (x, y);
-                let over_time = table.over_time;
+                (found.largest, found.first, found.second) = (apart, x, y);
                 let key = table.keys.get(row).copied();
+                let (time, particle) = match table.over_time {
+                    true => (key.map(f64::from_bits), None),
+                    false => (table.time, Some(key.unwrap_or(row as u64))),
+                };
                 found.place = DifferencePlace {
-                    time: match over_time {
-                        true => key.map(f64::from_bits),
-                        false => table.time,
-                    },
-                    particle: (!over_time).then(|| key.unwrap_or(row as u64)),
+                    time,
+                    particle,
                     component: (per > 1).then_some(k),
                     position: table.places.get(row).cloned().unwrap_or_default(),
                 };
@@ -141,11 +132,7 @@ fn difference(
         }
     }
     found.largest = found.largest.max(0.0);
-    found.relative = if range > 0.0 {
-        found.largest / range
-    } else {
-        found.largest
-    };
+    found.relative = found.largest / if range > 0.0 { range } else { 1.0 };
     found
 }
 
@@ -200,8 +187,8 @@ impl DifferencePlace {
             parts.push(axis.map_or(format!("component {component}"), |a| (*a).to_string()));
         }
         if !self.position.is_empty() {
-            let at: Vec<_> = self.position.iter().map(|x| number::plain(*x)).collect();
-            parts.push(format!("at ({}) m", at.join(", ")));
+            let at = comma_list(self.position.iter().map(|x| number::plain(*x)));
+            parts.push(format!("at ({at}) m"));
         }
         parts.join(", ")
     }

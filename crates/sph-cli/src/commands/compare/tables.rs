@@ -17,9 +17,8 @@ pub struct Table {
     pub over_time: bool,
 }
 
-/// A column.
+/// A column of a file.
 pub struct Column {
-    /// Name.
     pub name: String,
     /// SI unit, empty if none is known.
     pub unit: String,
@@ -82,15 +81,14 @@ impl Table {
     /// Rows by the identity of their particles, or by their numbers where they have none.
     fn keyed(columns: Vec<Column>, time: Option<f64>) -> Self {
         let column = |name: &str| columns.iter().find(|c| c.name == name);
-        let rows = column("position").map_or(0, |c| c.values.len() / c.components.max(1));
-        let keys = match column("identity") {
-            Some(identity) => identity.values.iter().map(|x| *x as u64).collect(),
-            None => (0..rows as u64).collect(),
-        };
-        let places = column("position").map_or(Vec::new(), |c| {
+        let places: Vec<Vec<f64>> = column("position").map_or(Vec::new(), |c| {
             let rows = c.values.chunks(c.components.max(1));
             rows.map(<[f64]>::to_vec).collect()
         });
+        let keys = match column("identity") {
+            Some(identity) => identity.values.iter().map(|x| *x as u64).collect(),
+            None => (0..places.len() as u64).collect(),
+        };
         Table {
             columns,
             keys,

@@ -1,7 +1,7 @@
 //! The values that a parameter may have, where they are a few.
 
 use serde_json::Value as Json;
-use sph_core::node_of;
+use sph_core::{comma_list, node_of};
 
 /// A value that a parameter may have.
 pub struct Choice {
@@ -18,9 +18,8 @@ pub fn choices_of(schema: &Json, name: &str) -> Vec<Choice> {
     let entry = node_of(&node["items"], schema);
     let places = [parameter, node, entry].into_iter();
     let mut found = places.map(|place| listed(place, schema));
-    found
-        .find(|choices| !choices.is_empty())
-        .unwrap_or_default()
+    let found = found.find(|choices| !choices.is_empty());
+    found.unwrap_or_default()
 }
 
 fn listed(node: &Json, schema: &Json) -> Vec<Choice> {
@@ -50,14 +49,9 @@ fn tagged(form: &Json, schema: &Json) -> Option<Choice> {
         return None;
     };
     let inner = node_of(inner, schema)["properties"].as_object();
-    let keys: Vec<&str> = inner
-        .into_iter()
-        .flatten()
-        .map(|(key, _)| key.as_str())
-        .collect();
-    let inner = match keys.as_slice() {
-        [] => "…".to_string(),
-        keys => format!("{{ {} }}", keys.join(", ")),
+    let inner = match inner.filter(|keys| !keys.is_empty()) {
+        None => "…".to_string(),
+        Some(keys) => format!("{{ {} }}", comma_list(keys.keys())),
     };
     Some(Choice {
         value: format!("{{ {key} = {inner} }}"),

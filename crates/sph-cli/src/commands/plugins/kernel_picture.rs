@@ -7,7 +7,7 @@ use sph_io::{Panels, Plot, Series};
 use sph_solver::kernels::{self, Kernel};
 
 use super::picture;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::Trouble;
 use crate::tool_arguments::PluginArguments;
 
 /// Points of a curve.
@@ -29,12 +29,11 @@ pub fn draw(
         ("--strain", arguments.strain.is_none()),
     ];
     if let Some((option, _)) = of_laws.iter().find(|(_, left_out)| !left_out) {
-        return Err(Trouble::usage(format!("{option} is for laws, not kernels")));
+        return Err(format!("{option} is for laws, not kernels").into());
     }
     let kernels = plugins.iter().map(|p| kernels::kernel(p.name));
     let kernels = kernels.collect::<Result<Vec<_>, _>>();
-    let kernels = kernels.map_err(|e| Trouble::usage(e.to_string()))?;
-    picture::save(&panels(&kernels), file)
+    picture::save(&panels(&kernels.map_err(|e| e.to_string())?), file)
 }
 
 fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {

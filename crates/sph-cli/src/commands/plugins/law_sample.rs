@@ -1,19 +1,17 @@
 //! Laws with the parameters of their examples, and their overrides.
 
-use serde_json::Value as Json;
-use sph_core::{PluginInfo, RegistryError, number, suggestion};
+use sph_core::{PluginInfo, RegistryError, comma_list, number, suggestion};
 use sph_scene::Override;
 use sph_solver::rheometer::{self, Rheology};
 use toml::{Table, Value};
 
 use crate::scene_file::overrides;
-use crate::terminal::trouble::Trouble;
+use crate::terminal::Trouble;
 
 /// A law to be sheared.
 pub struct LawSample {
     /// Name, and its difference from its neighbours.
     pub label: String,
-    /// The law itself.
     pub law: Box<dyn Rheology>,
 }
 
@@ -29,15 +27,15 @@ pub fn all(
     for set in overrides(set)? {
         let (number, inside) = addressed(plugins, &set)?;
         let put = inside.apply(&mut tables[number]);
-        put.map_err(|p| Trouble::usage(format!("--set {}: {}", &set.text, p.message)))?;
+        put.map_err(|p| format!("--set {}: {}", &set.text, p.message))?;
     }
     let mut variants: Vec<(usize, Override)> = Vec::new();
     if let Some(vary) = vary {
-        let told = |why: &str| Trouble::usage(format!("--vary {vary}: {why}"));
+        let told = |why: &str| format!("--vary {vary}: {why}");
         let parsed = Override::parse(vary).map_err(|p| told(&p.message))?;
         let (number, inside) = addressed(plugins, &parsed)?;
         let Value::Array(values) = &inside.value else {
-            return Err(told("expected a list, KEY=[first, second, …]"));
+            return Err(told("expected a list, KEY=[first, second, …]").into());
         };
         for value in values {
             let one = Override::new(&inside.path, value.clone());
@@ -53,16 +51,15 @@ pub fn all(
         for variant in own {
             let mut table = table.clone();
             let put = variant.apply(&mut table);
-            put.map_err(|p| Trouble::usage(format!("--vary {}: {}", p.path, p.message)))?;
+            put.map_err(|p| format!("--vary {}: {}", p.path, p.message))?;
             let value = plainly(&variant.value);
             let differs = match &variant.value {
                 Value::Table(_) => value,
                 _ => format!("{} = {value}", &variant.path),
             };
-            let label = if several {
-                format!("{}, {differs}", plugin.name)
-            } else {
-                differs
+            let label = match several {
+                true => format!("{}, {differs}", plugin.name),
+                false => differs,
             };
             samples.push(specimen(plugin, &table, label)?);
         }
@@ -71,17 +68,15 @@ pub fn all(
 }
 
 fn specimen(plugin: &PluginInfo, table: &Table, label: String) -> Result<LawSample, Trouble> {
-    let law = rheometer::law(plugin.name, table).map_err(|e| {
-        Trouble::usage(match e {
-            RegistryError::Parameters(problems) => {
-                let each = problems.iter().map(|p| match p.path.as_str() {
-                    "" => p.message.clone(),
-                    path => format!("{path}: {}", p.message),
-                });
-                format!("{}: {}", plugin.name, each.collect::<Vec<_>>().join("; "))
-            }
-            other => other.to_string(),
-        })
+    let law = rheometer::law(plugin.name, table).map_err(|e| match e {
+        RegistryError::Parameters(problems) => {
+            let each = problems.iter().map(|p| match p.path.as_str() {
+                "" => p.message.clone(),
+                path => format!("{path}: {}", p.message),
+            });
+            format!("{}: {}", plugin.name, each.collect::<Vec<_>>().join("; "))
+        }
+        other => other.to_string(),
     })?;
     Ok(LawSample { label, law })
 }
@@ -91,13 +86,12 @@ fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override)
     if plugins.len() == 1 {
         return Ok((0, set.clone()));
     }
-    let told = |why: String| Trouble::usage(format!("{}: {why}", &set.text));
+    let told = |why: String| format!("{}: {why}", &set.text);
     let names = || plugins.iter().map(|p| p.name);
     let (first, rest) = set.path.split_once('.').unwrap_or((&set.path, ""));
     let found = names().position(|name| name == first);
     let number = found.ok_or_else(|| {
-        let near = suggestion(first, names());
-        let known = names().collect::<Vec<_>>().join(", ");
+        let (near, known) = (suggestion(first, names()), comma_list(names()));
         told(format!("`{first}` is none of the laws to be drawn{near} (they are {known}; write LAW.KEY=VALUE)"))
     })?;
     let inside = Override::new(rest, set.value.clone());
@@ -107,32 +101,23 @@ fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override)
 /// The parameters of the example in a law's documentation; none if there is no example.
 fn example(plugin: &PluginInfo) -> Table {
     let schema = (plugin.schema)();
-    let description = schema
-        .get("description")
-        .and_then(Json::as_str)
-        .unwrap_or_default();
-    let block = description
-        .split("```toml")
-        .nth(1)
-        .and_then(|t| t.split("```").next());
-    let scene: Option<Table> = block.and_then(|text| text.parse().ok());
-    let phases = scene.as_ref().and_then(|s| s.get("phase")?.as_table());
-    let phase = phases.and_then(|p| p.values().next());
-    let table = phase.and_then(|p| p.get("rheology")?.get(plugin.name)?.as_table());
-    table.cloned().unwrap_or_default()
+    let found = || {
+        let (_, block) = schema["description"].as_str()?.split_once("```toml")?;
+        let scene: Table = block.split("```").next()?.parse().ok()?;
+        let phase = scene.get("phase")?.as_table()?.values().next()?;
+        phase.get("rheology")?.get(plugin.name)?.as_table().cloned()
+    };
+    found().unwrap_or_default()
 }
 
 /// Form of a value of `--vary` in a legend: `{a = {b = 1}}` as `a b = 1`.
 fn plainly(value: &Value) -> String {
     let entry = |(key, value): (&String, &Value)| match value {
-        Value::Table(inner) => format!("{key} {}", table(inner)),
+        Value::Table(_) => format!("{key} {}", plainly(value)),
         other => format!("{key} = {}", plainly(other)),
     };
-    fn table(inner: &Table) -> String {
-        plainly(&Value::Table(inner.clone()))
-    }
     match value {
-        Value::Table(keys) => keys.iter().map(entry).collect::<Vec<_>>().join(", "),
+        Value::Table(keys) => comma_list(keys.iter().map(entry)),
         Value::String(text) => text.clone(),
         Value::Float(x) => number::plain(*x),
         other => other.to_string(),

@@ -1,11 +1,11 @@
 //! All plugins as a page of Markdown, for the book.
 
-use std::fmt::Write as _;
-
 use serde_json::Value as Json;
+use sph_core::{Parameter, PluginInfo, PluginKind, comma_list, parameters, some_unit};
 
-use super::{KERNELS, LAWS};
-use crate::terminal::layout::paragraph;
+use super::choices::choices_of;
+use super::{KERNELS, LAWS, dimensions, required};
+use crate::terminal::paragraph;
 
 /// Kinds that are drawn by `sph plugins KIND NAME --picture docs/images/FIRST-NAME.svg`: kind, FIRST, description.
 const DRAWN: [(&str, &str, &str); 2] = [
@@ -27,51 +27,40 @@ const LONGEST: usize = 120;
 /// Stands for a space at which no line ends.
 const GLUE: char = '\0';
 
-/// A page of kinds in the form of `sph plugins --json`.
-pub fn markdown(kinds: &[Json]) -> String {
+/// A page of kinds.
+pub fn markdown(kinds: &[&PluginKind]) -> String {
     let mut page = String::from(
         "# Plugins\n\nAll that a scene may name. This page is what `sph plugins --markdown` prints; a test holds it to that.\n\
          `sph plugins KIND NAME` shows one of them with a snippet for a scene.\n\n",
     );
+    let entry = |kind: &&PluginKind| item(&format!("[{0}](#{0}): {1}", kind.name, kind.purpose));
+    page.extend(kinds.iter().map(entry));
     for kind in kinds {
-        let name = text(&kind["kind"]);
-        let purpose = text(&kind["purpose"]);
-        line(&mut page, &item(&format!("[{name}](#{name}): {purpose}")));
-    }
-    for kind in kinds {
-        let (name, purpose) = (text(&kind["kind"]), text(&kind["purpose"]));
-        let default = kind["default"].as_str().map_or(String::new(), |plugin| {
+        let (name, purpose) = (kind.name, capital(kind.purpose));
+        let default = kind.default.map_or(String::new(), |plugin| {
             format!(" `{plugin}` is taken if a scene names none.")
         });
-        let head = format!("\n## {name}\n\n{}.{default}", capital(purpose));
-        line(&mut page, &head);
-        let plugins = kind["plugins"].as_array().into_iter().flatten();
-        plugins.for_each(|plugin| one(&mut page, name, plugin));
+        page.push_str(&format!("\n## {name}\n\n{purpose}.{default}\n"));
+        page.extend((kind.plugins)().iter().map(|plugin| one(name, plugin)));
     }
     page
 }
 
-fn one(page: &mut String, kind: &str, plugin: &Json) {
-    let dimensions = plugin["dimensions"].as_array().into_iter().flatten();
-    let dimensions: Vec<String> = dimensions.map(|d| format!("{d}D")).collect();
-    let provider = text(&plugin["provider"]);
-    let provider = provider.split(' ').next().unwrap_or_default();
-    let mut facts = vec![format!("source: {}", text(&plugin["source"]))];
-    if !dimensions.is_empty() {
-        facts.push(dimensions.join(" and "));
+fn one(kind: &str, plugin: &PluginInfo) -> String {
+    let (name, schema) = (plugin.name, (plugin.schema)());
+    let provider = plugin.provider.split(' ').next().unwrap_or_default();
+    let mut facts = vec![format!("source: {}", plugin.source)];
+    if !plugin.dimensions.is_empty() {
+        facts.push(dimensions(plugin, " and "));
     }
     facts.push(format!("crate `{provider}`"));
-    let (name, summary) = (text(&plugin["name"]), text(&plugin["summary"]));
-    let told = format!("{}; {}.", capital(summary), facts.join("; "));
-    line(page, &format!("\n### {name}\n\n{}", wrapped(&told, 0)));
-    if let Some(picture) = picture(kind, name) {
-        line(page, &format!("\n{picture}"));
-    }
-    let parameters = plugin["parameters"].as_array().into_iter().flatten();
-    let items: Vec<String> = parameters.map(self::parameter).collect();
-    if !items.is_empty() {
-        line(page, &format!("\n{}", items.join("\n")));
-    }
+    let summary = format!("{}; {}.", capital(plugin.summary), facts.join("; "));
+    let mut text = format!("\n### {name}\n\n{}\n", wrapped(&summary, 0));
+    text.extend(picture(kind, name).map(|picture| format!("\n{picture}\n")));
+    let all = parameters(&schema);
+    text.push_str(if all.is_empty() { "" } else { "\n" });
+    text.extend(all.iter().map(|p| parameter(p, &schema)));
+    text
 }
 
 /// A picture of a plugin, where there is one.
@@ -86,45 +75,30 @@ fn picture(kind: &str, name: &str) -> Option<String> {
 }
 
 /// A parameter: name, unit, default, meaning.
-fn parameter(parameter: &Json) -> String {
-    let unit = match text(&parameter["unit"]) {
-        "" | "1" => String::new(),
-        unit => format!("{unit}, "),
+fn parameter(parameter: &Parameter, schema: &Json) -> String {
+    let Parameter { name, source, .. } = parameter;
+    let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!("{unit}, "));
+    let default = match (&parameter.default, required(schema, name)) {
+        (_, true) => "required".to_string(),
+        (Some(value), _) if !value.is_null() => format!("default `{value}`"),
+        _ => "may be left out".to_string(),
     };
-    let default = match (&parameter["required"], &parameter["default"]) {
-        (Json::Bool(true), _) => "required".to_string(),
-        (_, Json::Null) => "may be left out".to_string(),
-        (_, value) => format!("default `{value}`"),
-    };
-    let mut meaning = text(&parameter["meaning"]).trim().to_string();
-    let choices = parameter["choices"].as_array().into_iter().flatten();
-    let choices: Vec<String> = choices.map(|c| format!("`{}`", text(c))).collect();
+    let mut meaning = parameter.meaning.trim().to_string();
+    let choices = choices_of(schema, name).into_iter();
+    let choices = comma_list(choices.map(|c| format!("`{}`", c.value)));
     if !choices.is_empty() {
-        let _ = write!(meaning, " One of {}.", choices.join(", "));
+        meaning.push_str(&format!(" One of {choices}."));
     }
-    match text(&parameter["source"]) {
-        "" => {}
-        source => {
-            let _ = write!(meaning, " Source: {source}.");
-        }
+    if !source.is_empty() {
+        meaning.push_str(&format!(" Source: {source}."));
     }
-    let name = text(&parameter["name"]);
     item(&format!("`{name}` ({unit}{default}): {meaning}"))
-}
-
-fn text(value: &Json) -> &str {
-    value.as_str().unwrap_or_default()
 }
 
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|c| c.to_uppercase().collect::<String>());
     first.unwrap_or_default() + letters.as_str()
-}
-
-fn line(page: &mut String, text: &str) {
-    page.push_str(text);
-    page.push('\n');
 }
 
 /// A text in lines that are not too long, without the end of the last one.
@@ -145,5 +119,5 @@ fn wrapped(text: &str, indent: usize) -> String {
 
 /// An item of a list.
 fn item(text: &str) -> String {
-    format!("* {}", wrapped(text, 2))
+    format!("* {}\n", wrapped(text, 2))
 }

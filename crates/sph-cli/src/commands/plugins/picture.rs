@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use sph_core::{PluginInfo, number, parse_quantity};
+use sph_core::{PluginInfo, number};
 use sph_io::{Panels, Plot, Series};
 use sph_solver::rheometer::{self, Rheology};
 
 use super::law_sample::{self, LawSample};
-use crate::commands::draw::picture;
-use crate::terminal::console;
-use crate::terminal::trouble::Trouble;
+use crate::commands::draw::{picture, quantity};
+use crate::terminal::{Trouble, console};
 use crate::tool_arguments::PluginArguments;
 
 /// Strain rates in 1/s where none are given: the ends of the axis of a flow curve.
@@ -47,9 +46,9 @@ pub fn draw(
         0 => flow(&curves, &rates)?,
         all if all == curves.len() => from_rest(&curves, &rates, strain(arguments)?)?,
         _ => {
-            return Err(Trouble::usage(
-                "laws with and without an elastic part have no common picture: draw them apart",
-            ));
+            let why =
+                "laws with and without an elastic part have no common picture: draw them apart";
+            return Err(Trouble::usage(why));
         }
     };
     save(&panels, file)
@@ -58,38 +57,33 @@ pub fn draw(
 /// Writes a picture and prints its name.
 pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
     picture("picture", file, &["svg", "png"])?;
-    let saved = panels.save(file);
-    saved.map_err(|e| Trouble::usage(e.to_string()))?;
+    panels.save(file).map_err(|e| e.to_string())?;
     console::out(&format!("wrote {}\n", file.display()));
     Ok(())
 }
 
 /// Every specimen at every pressure, or once if pressure does not matter to it.
 fn curves<'s>(samples: &'s [LawSample], pressures: &[f64]) -> Result<Vec<Curve<'s>>, Trouble> {
-    let given = if pressures.is_empty() {
-        &[PRESSURE][..]
-    } else {
-        pressures
-    };
+    let given = or_else(pressures, &[PRESSURE]);
     let mut curves = Vec::new();
-    for specimen in samples {
-        let law = &*specimen.law;
-        if !law.needs().pressure {
-            curves.push(Curve {
-                label: specimen.label.clone(),
-                law,
-                pressure: 0.0,
-            });
-            continue;
-        }
-        curves.extend(given.iter().map(|&pressure| Curve {
-            label: format!("{}, {} Pa", specimen.label, number::plain(pressure)),
-            law,
+    for LawSample { label, law } in samples {
+        let own: &[f64] = if law.needs().pressure { given } else { &[0.0] };
+        curves.extend(own.iter().map(|&pressure| Curve {
+            label: match law.needs().pressure {
+                true => format!("{label}, {} Pa", number::plain(pressure)),
+                false => label.clone(),
+            },
+            law: &**law,
             pressure,
         }));
     }
     no_more_than(MOST, curves.len())?;
     Ok(curves)
+}
+
+/// The given numbers, or others where there are none.
+fn or_else<'n>(given: &'n [f64], others: &'n [f64]) -> &'n [f64] {
+    if given.is_empty() { others } else { given }
 }
 
 fn no_more_than(most: usize, count: usize) -> Result<(), Trouble> {
@@ -131,14 +125,14 @@ fn flow(curves: &[Curve], rates: &[f64]) -> Result<Panels, Trouble> {
 
 /// Shear stress over strain at constant rates from rest, and the viscosity if there is one.
 fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Panels, Trouble> {
-    let rates = if rates.is_empty() { &RATES[..] } else { rates };
+    let rates = or_else(rates, &RATES);
     no_more_than(MOST, curves.len() * rates.len())?;
     let most = |c: &Curve| {
         let of = |&rate: &f64| yielded(c, rate);
         rates.iter().map(of).fold(0.0, f64::max)
     };
-    let end =
-        strain.unwrap_or_else(|| (4.0 * curves.iter().map(most).fold(0.0, f64::max)).min(FAR));
+    let yielding = || curves.iter().map(most).fold(0.0, f64::max);
+    let end = strain.unwrap_or_else(|| (4.0 * yielding()).min(FAR));
     let steps = 10 * POINTS;
     let strains: Vec<f64> = (0..=steps).map(|k| end * k as f64 / steps as f64).collect();
     let mut sheared = Vec::new();
@@ -156,16 +150,14 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
         series: sheared,
         ..Plot::default()
     }];
-    let ends = rates
-        .iter()
-        .fold([f64::INFINITY, 0.0], |[a, b], r| [r.min(a), r.max(b)]);
-    let fine = spread(ends[0] / 10.0, ends[1] * 10.0, POINTS);
+    let widened = |[a, b]: [f64; 2], r: &f64| [r.min(a), r.max(b)];
+    let [low, high] = rates.iter().fold([f64::INFINITY, 0.0], widened);
+    let fine = spread(low / 10.0, high * 10.0, POINTS);
     // A constant needs no panel.
-    let viscous: Vec<Series> = curves
-        .iter()
-        .filter(|c| c.law.uniform_viscosity().is_none())
-        .map(|c| Series::line(&c.label, viscosity(c, &fine)))
-        .collect();
+    let viscous = curves.iter();
+    let viscous = viscous.filter(|c| c.law.uniform_viscosity().is_none());
+    let viscous = viscous.map(|c| Series::line(&c.label, viscosity(c, &fine)));
+    let viscous: Vec<Series> = viscous.collect();
     if !viscous.is_empty() {
         panels.push(viscosities(viscous));
     }
@@ -220,26 +212,23 @@ fn ends(rates: &[f64]) -> Result<[f64; 2], Trouble> {
 fn rates(given: &[String]) -> Result<Vec<f64>, Trouble> {
     let rates = numbers("strain-rates", given, "1/s")?;
     match rates.iter().find(|r| !(1e-12..=1e12).contains(*r)) {
-        Some(wrong) => Err(Trouble::usage(format!(
-            "--strain-rates: {wrong} 1/s is not between 1e-12 and 1e12"
-        ))),
+        Some(wrong) => {
+            Err(format!("--strain-rates: {wrong} 1/s is not between 1e-12 and 1e12").into())
+        }
         None => Ok(rates),
     }
 }
 
 fn strain(arguments: &PluginArguments) -> Result<Option<f64>, Trouble> {
     match arguments.strain {
-        Some(strain) if !(1e-12..=100.0).contains(&strain) => Err(Trouble::usage(format!(
-            "--strain {strain}: expected a number between 1e-12 and 100"
-        ))),
+        Some(strain) if !(1e-12..=100.0).contains(&strain) => {
+            Err(format!("--strain {strain}: expected a number between 1e-12 and 100").into())
+        }
         strain => Ok(strain),
     }
 }
 
 fn numbers(option: &str, given: &[String], unit: &str) -> Result<Vec<f64>, Trouble> {
-    let read = |text: &String| {
-        let value = parse_quantity(text, unit);
-        value.map_err(|why| Trouble::usage(format!("--{option}: {why}")))
-    };
-    given.iter().map(read).collect()
+    let each = given.iter().map(|text| quantity(option, text, unit));
+    each.collect()
 }

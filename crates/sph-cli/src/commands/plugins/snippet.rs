@@ -1,7 +1,7 @@
 //! A plugin as lines of a scene.
 
 use serde_json::Value as Json;
-use sph_core::{Parameter, Place, PluginInfo, kind_of, parameters};
+use sph_core::{Parameter, Place, PluginInfo, comma_list, kind_of, parameters, some_unit};
 
 use super::required;
 
@@ -9,12 +9,9 @@ use super::required;
 pub fn toml_lines(kind: &str, plugin: &PluginInfo) -> String {
     let name = plugin.name;
     let schema = (plugin.schema)();
-    let keys: String = parameters(&schema)
-        .iter()
-        .map(|p| key(p, &schema))
-        .collect();
-    let place = kind_of(kind).map(|k| k.place);
-    match (place, kind) {
+    let keys = parameters(&schema);
+    let keys: String = keys.iter().map(|p| key(p, &schema)).collect();
+    match (kind_of(kind).map(|k| k.place), kind) {
         (Some(Place::InPhase), _) => format!("[phase.NAME.{kind}.{name}]\n{keys}"),
         (Some(Place::InWall), _) => format!("[wall.NAME.{kind}.{name}]\n{keys}"),
         (Some(Place::Solution), _) => format!(
@@ -38,27 +35,22 @@ fn key(parameter: &Parameter, schema: &Json) -> String {
         Some(default) => toml(default),
         None => example(&schema["properties"][name], schema),
     };
-    let unit = match parameter.unit.as_str() {
-        "" | "1" => None,
-        unit => Some(unit),
-    };
-    let note = if required { Some("required") } else { None };
-    let notes: Vec<&str> = [unit, note].into_iter().flatten().collect();
-    let hidden = if given.is_none() && !required {
-        "# "
-    } else {
-        ""
+    let note = required.then_some("required");
+    let notes = comma_list(some_unit(&parameter.unit).into_iter().chain(note));
+    let hidden = match given.is_none() && !required {
+        true => "# ",
+        false => "",
     };
     match notes.is_empty() {
         true => format!("{hidden}{name} = {value}\n"),
-        false => format!("{hidden}{name} = {value}   # {}\n", notes.join(", ")),
+        false => format!("{hidden}{name} = {value}   # {notes}\n"),
     }
 }
 
 /// A JSON value as TOML writes it on one line.
 fn toml(value: &Json) -> String {
     match value {
-        Json::Array(items) => format!("[{}]", joined(items.iter().map(toml))),
+        Json::Array(items) => format!("[{}]", comma_list(items.iter().map(toml))),
         Json::Object(fields) => {
             let fields = fields.iter().filter(|(_, v)| !v.is_null());
             table(fields.map(|(k, v)| format!("{k} = {}", toml(v))))
@@ -67,12 +59,8 @@ fn toml(value: &Json) -> String {
     }
 }
 
-fn joined(items: impl Iterator<Item = String>) -> String {
-    items.collect::<Vec<_>>().join(", ")
-}
-
 fn table(fields: impl Iterator<Item = String>) -> String {
-    match joined(fields) {
+    match comma_list(fields) {
         fields if fields.is_empty() => "{}".into(),
         fields => format!("{{ {fields} }}"),
     }
@@ -104,9 +92,9 @@ fn example(node: &Json, root: &Json) -> String {
                 let vector = node["items"]["format"] == "double";
                 let fewest = if vector { 2 } else { 1 };
                 let count = node["minItems"].as_u64().unwrap_or(fewest);
-                joined((0..count).map(|_| example(&node["items"], root)))
+                comma_list((0..count).map(|_| example(&node["items"], root)))
             };
-            let each = items.map(|all| joined(all.iter().map(|i| example(i, root))));
+            let each = items.map(|all| comma_list(all.iter().map(|i| example(i, root))));
             format!("[{}]", each.unwrap_or_else(repeated))
         }
         "object" => {

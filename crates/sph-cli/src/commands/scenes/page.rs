@@ -1,7 +1,9 @@
 //! docs/gallery.md.
 
+use sph_core::comma_list;
+
 use crate::gallery::{Entry, Gallery};
-use crate::terminal::layout::paragraph;
+use crate::terminal::paragraph;
 
 /// Longest line.
 const WIDTH: usize = 120;
@@ -27,42 +29,32 @@ pub fn markdown(gallery: &Gallery) -> String {
         if let Some(text) = &theme.text {
             page.push_str(&format!("{}\n", paragraph(0, WIDTH, text)));
         }
-        theme
-            .entry
-            .iter()
-            .for_each(|entry| page.push_str(&of_entry(entry)));
+        page.extend(theme.entry.iter().map(of_entry));
     }
     page
 }
 
 fn of_entry(entry: &Entry) -> String {
-    let names: Vec<String> = entry.scenes.keys().map(|name| link(name)).collect();
-    let times: Vec<&str> = entry.scenes.values().map(String::as_str).collect();
-    let measured = entry
-        .measured
-        .as_ref()
-        .map_or(String::new(), |m| format!(" {m}"));
+    let names = comma_list(entry.scenes.keys().map(|name| link(name)));
+    let times = comma_list(entry.scenes.values());
+    let shows = &entry.shows;
+    let measured = entry.measured.as_ref();
+    let measured = measured.map_or(String::new(), |m| format!(" {m}"));
     let images: Vec<String> = entry.scenes.keys().map(|name| image(name)).collect();
     // Its moment alone is no difference from the shipped scene.
     let picture = match entry.picture.contains(", ") {
         true => format!(" Picture at {}.", entry.picture),
         false => String::new(),
     };
+    let images = images.join(" ");
     item(&format!(
-        "* {}: {}.{measured} Time: {}.{picture} {}",
-        names.join(", "),
-        entry.shows,
-        times.join(", "),
-        images.join(" ")
+        "* {names}: {shows}.{measured} Time: {times}.{picture} {images}"
     ))
 }
 
 /// An item of a list, broken between words.
 fn item(text: &str) -> String {
-    let lines = paragraph(2, WIDTH, text);
-    lines
-        .strip_prefix("  * ")
-        .map_or(lines.clone(), |rest| format!("* {rest}"))
+    paragraph(2, WIDTH, text).replacen("  * ", "* ", 1)
 }
 
 fn link(name: &str) -> String {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value as Json, json};
 
 use super::series;
-use crate::commands::file_list::names;
+use crate::commands::file_list::{names, read_summary};
 
 const PAGE: &str = include_str!("../../../templates/view.html");
 
@@ -16,7 +16,6 @@ pub struct Answer {
     pub status: &'static str,
     /// MIME type.
     pub kind: &'static str,
-    /// Content.
     pub body: Vec<u8>,
 }
 
@@ -56,10 +55,7 @@ impl Answer {
 pub fn answer(head: &str, folder: &Path, port: u16) -> Answer {
     let mut lines = head.lines();
     let mut words = lines.next().unwrap_or_default().split(' ');
-    let (method, target) = (
-        words.next().unwrap_or_default(),
-        words.next().unwrap_or_default(),
-    );
+    let [method, target] = [(); 2].map(|()| words.next().unwrap_or_default());
     if !["GET", "HEAD"].contains(&method) {
         return Answer::refused("405 Method Not Allowed");
     }
@@ -107,8 +103,6 @@ fn file(path: &str, folder: &Path) -> Answer {
 
 /// Pictures by field, plots, whether there is a series and its first shown column, the summary if there is one.
 fn folder_state(folder: &Path) -> Json {
-    let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
-    let summary: Option<Json> = summary.and_then(|text| serde_json::from_str(&text).ok());
     let name = folder.file_name().map(|n| n.to_string_lossy().into_owned());
     json!({
         "name": name,
@@ -119,7 +113,7 @@ fn folder_state(folder: &Path) -> Json {
         "series": folder.join("series.csv").is_file(),
         "column": series::first_shown(&folder.join("series.csv")),
         "running": folder.join(".lock").exists(),
-        "summary": summary,
+        "summary": read_summary(folder),
     })
 }
 
@@ -165,18 +159,13 @@ mod tests {
         let folder = folder.canonicalize().expect("there");
         let get = |target: &str, host: &str| {
             let head = format!("GET {target} HTTP/1.1\r\nHost: {host}\r\n\r\n");
-            let answer = answer(&head, &folder, 8377);
-            (
-                answer.status.split(' ').next().unwrap_or_default(),
-                answer.body,
-            )
+            let Answer { status, body, .. } = answer(&head, &folder, 8377);
+            (status.split(' ').next().unwrap_or_default(), body)
         };
         let own = "127.0.0.1:8377";
         assert_eq!(get("/", own).0, "200");
-        assert_eq!(
-            get("/files/pictures/a%20b_0000.png?t=1", own),
-            ("200", b"png".to_vec())
-        );
+        let picture = get("/files/pictures/a%20b_0000.png?t=1", own);
+        assert_eq!(picture, ("200", b"png".to_vec()));
         let state = String::from_utf8(get("/state.json", own).1).expect("text");
         assert!(state.contains("a b"), "{state}");
         for target in [
@@ -193,13 +182,8 @@ mod tests {
         }
         assert_eq!(get("/", "evil.example:8377").0, "403");
         assert_eq!(get("/", "localhost:8377").0, "200");
-        assert_eq!(
-            answer("GET / HTTP/1.1\r\n\r\n", &folder, 8377).status,
-            "403 Forbidden"
-        );
-        assert_eq!(
-            answer("POST / HTTP/1.1\r\n", &folder, 8377).status,
-            "405 Method Not Allowed"
-        );
+        let status = |head: &str| answer(head, &folder, 8377).status;
+        assert_eq!(status("GET / HTTP/1.1\r\n\r\n"), "403 Forbidden");
+        assert_eq!(status("POST / HTTP/1.1\r\n"), "405 Method Not Allowed");
     }
 }

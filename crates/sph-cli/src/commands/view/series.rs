@@ -28,14 +28,11 @@ pub fn thinned(file: &Path, column: &str) -> Result<String> {
         let value = line.split(',').nth(place).map(|cell| cell.trim().parse());
         let value: f64 = value.and_then(|v| v.ok()).unwrap_or(f64::NAN);
         if whole && (k == 0 || k + LAST >= rows || per_part <= 2) {
-            text.push('\n');
-            text.push_str(&line);
+            text.push_str(&format!("\n{line}"));
         } else if whole && value.is_finite() {
             for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-                if end
-                    .as_ref()
-                    .is_none_or(|(_, most, _)| sign * value > sign * most)
-                {
+                let kept = end.as_ref();
+                if kept.is_none_or(|(_, most, _)| sign * value > sign * most) {
                     *end = Some((k, value, line.clone()));
                 }
             }
@@ -44,10 +41,8 @@ pub fn thinned(file: &Path, column: &str) -> Result<String> {
             let mut kept: Vec<_> = ends.iter_mut().filter_map(Option::take).collect();
             kept.sort_by_key(|(k, ..)| *k);
             kept.dedup_by_key(|(k, ..)| *k);
-            for (_, _, line) in kept {
-                text.push('\n');
-                text.push_str(&line);
-            }
+            let kept = kept.into_iter();
+            text.extend(kept.map(|(.., line)| format!("\n{line}")));
         }
     }
     text.push('\n');
@@ -73,9 +68,8 @@ pub fn first_shown(file: &Path) -> Option<String> {
     let head = lines.next()?.ok()?;
     let names: Vec<&str> = head.split(',').collect();
     let plain = |k: usize| names[k].split(['[', '.']).next().unwrap_or_default();
-    let probes: Vec<usize> = (1..names.len())
-        .filter(|k| !COMMON.contains(&plain(*k)))
-        .collect();
+    let probes = (1..names.len()).filter(|k| !COMMON.contains(&plain(*k)));
+    let probes: Vec<usize> = probes.collect();
     let mut seen = vec![None; names.len()];
     let mut changes = vec![false; names.len()];
     for line in lines.map_while(Result::ok) {
@@ -91,9 +85,7 @@ pub fn first_shown(file: &Path) -> Option<String> {
     let changing = probes.iter().find(|k| changes[**k]);
     let energy = || (1..names.len()).find(|k| plain(*k) == "kinetic_energy");
     let shown = changing.or(probes.first()).copied().or_else(energy);
-    names
-        .get(shown.unwrap_or(1))
-        .map(|name| (*name).to_string())
+    Some(names.get(shown.unwrap_or(1))?.to_string())
 }
 
 #[cfg(test)]
@@ -113,14 +105,10 @@ mod tests {
         assert_eq!(opens_on(&probes).as_deref(), Some("front[m]"));
         let still = format!("{head},gate[m]\n0,1,2,3,nan\n");
         assert_eq!(opens_on(&still).as_deref(), Some("gate[m]"));
-        assert_eq!(
-            opens_on(&format!("{head}\n0,1,2,3\n")).as_deref(),
-            Some("kinetic_energy[J]")
-        );
-        assert_eq!(
-            opens_on("time[s],height[m]\n").as_deref(),
-            Some("height[m]")
-        );
+        let energy = opens_on(&format!("{head}\n0,1,2,3\n"));
+        assert_eq!(energy.as_deref(), Some("kinetic_energy[J]"));
+        let height = opens_on("time[s],height[m]\n");
+        assert_eq!(height.as_deref(), Some("height[m]"));
     }
 
     #[test]
@@ -134,23 +122,16 @@ mod tests {
             let text = thinned(&file, column).expect("read");
             assert!((1000..3000).contains(&text.lines().count()));
             let place = if column == "b" { 2 } else { 1 };
-            let found = text
-                .lines()
-                .skip(1)
-                .map(|l| l.split(',').nth(place).expect("a number"));
-            assert_eq!(found.max(), Some(most));
-            let times = text
-                .lines()
-                .skip(1)
-                .map(|l| l.split(',').next().and_then(|t| t.parse().ok()));
-            let times: Vec<usize> = times.map(|t| t.expect("a time")).collect();
+            let cells = |place: usize| {
+                let rows = text.lines().skip(1);
+                rows.map(move |row| row.split(',').nth(place).expect("a number"))
+            };
+            assert_eq!(cells(place).max(), Some(most));
+            let times = cells(0).map(|t| t.parse().expect("a time"));
+            let times: Vec<usize> = times.collect();
             assert!(times.is_sorted() && times[0] == 0);
-            assert_eq!(
-                times[times.len() - 7..],
-                [
-                    199_993, 199_994, 199_995, 199_996, 199_997, 199_998, 199_999
-                ]
-            );
+            let last: Vec<usize> = (199_993..=199_999).collect();
+            assert_eq!(times[times.len() - 7..], last);
         }
     }
 }
