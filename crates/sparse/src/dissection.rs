@@ -43,16 +43,9 @@ impl Cutter<'_> {
             return;
         }
         let at = |u: &u32| self.places[*u as usize];
-        let low = part
-            .iter()
-            .map(at)
-            .reduce(|a, b| a.inf(&b))
-            .unwrap_or_default();
-        let high = part
-            .iter()
-            .map(at)
-            .reduce(|a, b| a.sup(&b))
-            .unwrap_or_default();
+        let first = at(&part[0]);
+        let around = |(low, high): (Vector3<_>, Vector3<_>), x| (low.inf(&x), high.sup(&x));
+        let (low, high) = part.iter().map(at).fold((first, first), around);
         let axis = (high - low).imax();
         let middle = part.len() / 2;
         part.select_nth_unstable_by(middle, |a, b| {
@@ -116,10 +109,8 @@ fn neighbours(matrix: &UpperTriangle) -> (Vec<u32>, Vec<u32>) {
     let entries = || {
         (0..n).flat_map(|c| {
             let range = matrix.starts[c] as usize..matrix.starts[c + 1] as usize;
-            matrix.rows[range]
-                .iter()
-                .map(move |r| (*r as usize, c))
-                .filter(|(r, c)| r != c)
+            let own = matrix.rows[range].iter().map(move |r| (*r as usize, c));
+            own.filter(|(r, c)| r != c)
         })
     };
     for (r, c) in entries() {

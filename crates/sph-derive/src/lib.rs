@@ -16,9 +16,8 @@
 //! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. A trait that an author derives is
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
-mod attributes;
 mod defaults;
-mod number;
+mod fields;
 mod pair_term;
 mod parameter;
 mod registration;

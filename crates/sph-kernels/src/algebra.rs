@@ -38,10 +38,8 @@ pub fn scaled(a: &[f64], c: f64) -> Vec<f64> {
 
 /// Coefficients of a'(q).
 pub fn derivative(a: &[f64]) -> Vec<f64> {
-    (1..)
-        .zip(&a[1.min(a.len())..])
-        .map(|(n, a)| f64::from(n) * a)
-        .collect()
+    let terms = (1..).zip(&a[1.min(a.len())..]);
+    terms.map(|(n, a)| f64::from(n) * a).collect()
 }
 
 /// Coefficients in s of a(q) with q = origin − s: s is the distance left of the origin.
