@@ -23,26 +23,20 @@ mod even_out;
 mod gate;
 pub mod integrators;
 mod kinds;
-mod limiter;
 mod limits;
-mod newborn;
 mod offer;
 mod plugins;
-mod refusal;
 mod step_hook;
 mod terms;
 
 pub use column::{Birth, Initial, OwnColumn};
-pub use contribution::{Contribution, Setting};
+pub use contribution::{Contribution, Refusal, Setting};
 pub use even_out::even_out;
-pub use gate::Gate;
+pub use gate::{Gate, Newborn};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
-pub use limiter::Limiter;
-pub use limits::{ForceLimit, LightBodyLimit, MotionLimit, SoundLimit};
-pub use newborn::Newborn;
+pub use limits::{ForceLimit, LightBodyLimit, Limiter, MotionLimit, SoundLimit};
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
-pub use refusal::Refusal;
 pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
 
 /// Stages of an evaluation.
