@@ -140,3 +140,13 @@ pub enum StepError {
         reason: String,
     },
 }
+
+impl StepError {
+    /// A stage that failed for a reason of its own, which has the remedy.
+    pub fn stage(stage: impl Into<String>, reason: impl Into<String>) -> Self {
+        StepError::Stage {
+            stage: stage.into(),
+            reason: reason.into(),
+        }
+    }
+}

@@ -72,18 +72,12 @@ pub fn plan(
                         .all(|w| w == s || done[w] || !needed[w] || !access[w].writes.contains(f))
                 })
         });
-        match ready {
-            Some(s) => {
-                done[s] = true;
-                order.push(s);
-            }
-            None => break,
-        }
+        let Some(stage) = ready else { break };
+        done[stage] = true;
+        order.push(stage);
     }
-    let stuck: Vec<_> = (0..stages.len())
-        .filter(|&s| needed[s] && !done[s])
-        .map(|s| stages[s].name())
-        .collect();
+    let stuck = (0..stages.len()).filter(|&s| needed[s] && !done[s]);
+    let stuck: Vec<_> = stuck.map(|s| stages[s].name()).collect();
     if !stuck.is_empty() {
         return Err(PlanError::Cycle(stuck.join(", ")));
     }

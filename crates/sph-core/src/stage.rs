@@ -75,23 +75,16 @@ impl Access {
 
     /// Joins the accesses of two pieces of work done in one walk.
     pub fn and(mut self, other: Access) -> Self {
-        other.here.into_iter().for_each(|f| push(&mut self.here, f));
-        other
-            .neighbours
-            .into_iter()
-            .for_each(|f| push(&mut self.neighbours, f));
-        other
-            .writes
-            .into_iter()
-            .for_each(|f| push(&mut self.writes, f));
-        other
-            .where_there
-            .into_iter()
-            .for_each(|f| push(&mut self.where_there, f));
-        other
-            .remembers
-            .into_iter()
-            .for_each(|f| push(&mut self.remembers, f));
+        let lists = [
+            (&mut self.here, other.here),
+            (&mut self.neighbours, other.neighbours),
+            (&mut self.writes, other.writes),
+            (&mut self.where_there, other.where_there),
+            (&mut self.remembers, other.remembers),
+        ];
+        for (own, more) in lists {
+            more.into_iter().for_each(|f| push(own, f));
+        }
         self.sweep |= other.sweep;
         self.rings = self.rings.max(other.rings);
         self

@@ -57,11 +57,8 @@ mod tests {
         let mut slopes = Slopes::default();
         slopes.renew([slope(1, 0), slope(1, 2), slope(4, 1)].into_iter());
         let walls = |particle| {
-            slopes
-                .of_particle(particle)
-                .iter()
-                .map(|s| s.wall)
-                .collect()
+            let own = slopes.of_particle(particle).iter();
+            own.map(|s| s.wall).collect()
         };
         let found: Vec<Vec<u32>> = (0..6).map(walls).collect();
         assert_eq!(found, [vec![], vec![0, 2], vec![], vec![], vec![1], vec![]]);
