@@ -3,9 +3,7 @@
 use std::sync::OnceLock;
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-use sph_core::{
-    Access, Declares, Field, Scalar, Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin,
-};
+use sph_core::{Access, Declares, Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin};
 use sph_neighbours::{
     BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values,
     WallSet, World, add_scaled, all_sums, declared, pair_term, walk_some,
@@ -72,12 +70,10 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
     }
 }
 
-/// The damper's part of the pressure.
-pub const DAMPING_PRESSURE: Field<Scalar> = Field::new(
-    "damping_pressure",
-    "Pa",
-    "pressure of the bulk viscosity against sound",
-);
+sph_core::fields! {
+    /// The damper's part of the pressure.
+    pub DAMPING_PRESSURE: Scalar = "damping_pressure", "Pa", "pressure of the bulk viscosity against sound";
+}
 
 /// q of [`AcousticDamper`].
 struct Resistance<const D: usize> {

@@ -1,8 +1,6 @@
 //! Surface tension as a continuous surface stress.
 
-use sph_core::{
-    Access, Declares, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin,
-};
+use sph_core::{Access, Declares, Stage, StepError, StepLimit, Vect, fields, parameters, plugin};
 use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot, pair_term,
     splat,
@@ -82,12 +80,10 @@ impl<const D: usize> Contribution<D> for SurfaceTension {
     }
 }
 
-/// Gradient of the colour of all other phases.
-pub const COLOUR_GRADIENT: Field<Vector> = Field::new(
-    "colour_gradient",
-    "1/m",
-    "gradient of the share of all other phases",
-);
+sph_core::fields! {
+    /// Gradient of the colour of all other phases.
+    pub COLOUR_GRADIENT: Vector = "colour_gradient", "1/m", "gradient of the share of all other phases";
+}
 
 /// [`COLOUR_GRADIENT`].
 struct ColourGradient;

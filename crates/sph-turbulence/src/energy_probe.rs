@@ -35,12 +35,11 @@ impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         if !world.free.has(TURBULENT_ENERGY.name) {
-            return Err(StepError::Stage {
-                stage: "probe `turbulent-energy`".into(),
-                reason: "no closure of this scene transports k: name one, `[eddy-viscosity.k-epsilon]` or \
-                         `[eddy-viscosity.k-length]`"
-                    .into(),
-            });
+            return Err(StepError::stage(
+                "probe `turbulent-energy`",
+                "no closure of this scene transports k: name one, `[eddy-viscosity.k-epsilon]` or \
+                         `[eddy-viscosity.k-length]`",
+            ));
         }
         let mass = world.free.get(fields::MASS)?;
         let energy = world.free.get(TURBULENT_ENERGY)?;

@@ -170,10 +170,7 @@ impl<const D: usize> SolvePressure<D> {
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }
-        solved.map_err(|e| StepError::Stage {
-            stage: NAME.into(),
-            reason: e.to_string(),
-        })?;
+        solved.map_err(|e| StepError::stage(NAME, e.to_string()))?;
         self.spread(world)
     }
 
@@ -246,12 +243,12 @@ fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;
     match constant.iter().zip(density).filter(lacks).count() {
         0 => Ok(()),
-        some => Err(StepError::Stage {
-            stage: NAME.into(),
-            reason: format!(
+        some => Err(StepError::stage(
+            NAME,
+            format!(
                 "{some} particles are at a free surface, and the scene does not say what that is: add \
                  `[surface.cone-test]`"
             ),
-        }),
+        )),
     }
 }

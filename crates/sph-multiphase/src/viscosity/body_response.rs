@@ -113,10 +113,7 @@ impl<const D: usize> BodyResponse<D> {
                  the most: multiply `run.safety` by {:.2}, or take a heavier body or less viscosity",
                 0.8 * MOST / share
             );
-            return Err(StepError::Stage {
-                stage: "friction of a light body".into(),
-                reason,
-            });
+            return Err(StepError::stage("friction of a light body", reason));
         }
         let matrix = DMatrix::identity(columns.len(), columns.len()) + coupled;
         let factor = matrix.clone().try_inverse().and_then(|m| m.cholesky());

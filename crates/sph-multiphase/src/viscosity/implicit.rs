@@ -227,10 +227,7 @@ impl<const D: usize> ImplicitViscosity<D> {
         let bytes = operator.bytes();
         drop(operator);
         system.right = right;
-        let report = solved.map_err(|e| StepError::Stage {
-            stage: Self::NAME.into(),
-            reason: e.to_string(),
-        })?;
+        let report = solved.map_err(|e| StepError::stage(Self::NAME, e.to_string()))?;
         let seconds = start.elapsed().as_secs_f64();
         self.solves.add(&report, seconds, bytes);
         Ok(())

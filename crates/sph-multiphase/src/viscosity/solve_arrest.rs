@@ -79,9 +79,9 @@ impl SolveArrest {
     /// Reason that a finished run has no result, if too much was held.
     pub(crate) fn verdict(&self) -> Option<StepError> {
         let told = self.warning()?;
-        Some(StepError::Stage {
-            stage: "elasticity at the end of the step".into(),
-            reason: format!("{told}; or allow it with `numerics.delayed_yield = true`"),
-        })
+        Some(StepError::stage(
+            "elasticity at the end of the step",
+            format!("{told}; or allow it with `numerics.delayed_yield = true`"),
+        ))
     }
 }

@@ -156,10 +156,8 @@ impl<const D: usize> Stage<World<D>> for BedShear {
             let found = self
                 .law
                 .friction_velocity(seen.slip.norm(), seen.distance, nu);
-            friction[i] = found.map_err(|error| StepError::Stage {
-                stage: "rough bed".into(),
-                reason: error.to_string(),
-            })?;
+            friction[i] =
+                found.map_err(|error| StepError::stage("rough bed", error.to_string()))?;
             distances[i] = seen.distance;
         }
         world.free.put(BED_FRICTION_VELOCITY, friction)?;

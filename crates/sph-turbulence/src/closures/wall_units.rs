@@ -54,10 +54,7 @@ impl<const D: usize> WallUnits<D> {
             };
             let found = law
                 .friction_velocity(seen.speed, seen.distance, nu)
-                .map_err(|error| StepError::Stage {
-                    stage: "damping units".into(),
-                    reason: error.to_string(),
-                })?;
+                .map_err(|error| StepError::stage("damping units", error.to_string()))?;
             for contact in walls.contacts.of_particle(i) {
                 let weight = contact.gradient.norm();
                 let sum = &mut sums[contact.element as usize];

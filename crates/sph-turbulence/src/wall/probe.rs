@@ -39,10 +39,7 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let refused = |reason: String| StepError::Stage {
-            stage: "probe `friction-velocity`".into(),
-            reason,
-        };
+        let refused = |reason: String| StepError::stage("probe `friction-velocity`", reason);
         let walls = &world.walls;
         if !walls.names.contains(&self.wall) {
             let near = suggestion(&self.wall, walls.names.iter().map(String::as_str));

@@ -72,10 +72,7 @@ impl<const D: usize> Stage<World<D>> for WallShear {
             let found = self
                 .law
                 .friction_velocity(seen.speed, seen.distance, nu)
-                .map_err(|error| StepError::Stage {
-                    stage: "wall function".into(),
-                    reason: error.to_string(),
-                })?;
+                .map_err(|error| StepError::stage("wall function", error.to_string()))?;
             // At rest the wall is one of the viscous sublayer: τ_w = η u/z.
             let friction = match seen.speed > 0.0 {
                 true => density[i] * found * found / seen.speed,
