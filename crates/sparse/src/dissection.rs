@@ -72,9 +72,8 @@ impl Cutter<'_> {
         let (mut left, mut right, mut joins) = (Vec::new(), Vec::new(), Joins::default());
         for &u in lower {
             let range = starts[u as usize] as usize..starts[u as usize + 1] as usize;
-            let over = list[range]
-                .iter()
-                .filter(|v| self.side[**v as usize] == mark);
+            let over = list[range].iter();
+            let over = over.filter(|v| self.side[**v as usize] == mark);
             let before = joins.list.len();
             for &v in over {
                 let number = &mut self.number[v as usize];

@@ -92,9 +92,8 @@ impl<E: Contract> Registry<E> {
     /// # Errors
     /// If two crates registered the same name.
     pub fn discovered() -> Result<Self, RegistryError> {
-        E::discovered()
-            .into_iter()
-            .try_fold(Self::new(), Self::with)
+        let mut all = E::discovered().into_iter();
+        all.try_fold(Self::new(), Self::with)
     }
 
     /// Adds a plugin.

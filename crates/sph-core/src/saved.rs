@@ -56,9 +56,8 @@ impl<const D: usize> Store<D> {
     /// If a column has changed its type since it was copied last.
     pub fn save_state(&self, saved: &mut Saved<D>) -> Result<(), FieldError> {
         let state = || self.entries.iter().filter(|e| e.role == Role::State);
-        let same = state()
-            .map(|e| e.name)
-            .eq(saved.columns.iter().map(|c| c.0));
+        let names = saved.columns.iter().map(|c| c.0);
+        let same = state().map(|e| e.name).eq(names);
         if !same {
             saved.columns = state().map(|e| (e.name, e.field.shape.column(0))).collect();
         }

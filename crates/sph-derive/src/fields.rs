@@ -5,9 +5,8 @@ use syn::{Attribute, Field, GenericArgument, PathArguments, Type};
 
 /// True if a field is no parameter but state of a plugin.
 pub fn is_skipped(field: &Field) -> bool {
-    words(&field.attrs, "serde")
-        .iter()
-        .any(|word| word == "skip")
+    let said = words(&field.attrs, "serde");
+    said.iter().any(|word| word == "skip")
 }
 
 /// The words within the attributes of a name: further derives and attributes of `serde`.

@@ -26,9 +26,8 @@ pub fn power(a: &[f64], n: usize) -> Vec<f64> {
 /// Coefficients of the sum a(q) + b(q).
 pub fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
     let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
-    (0..a.len().max(b.len()))
-        .map(|n| at(a, n) + at(b, n))
-        .collect()
+    let terms = 0..a.len().max(b.len());
+    terms.map(|n| at(a, n) + at(b, n)).collect()
 }
 
 /// Coefficients of c · a(q).

@@ -33,9 +33,8 @@ impl<const D: usize> Contacts<D> {
 
     /// The contacts of all particles, by particle.
     pub fn all(&self) -> impl Iterator<Item = Contact<D>> {
-        self.particles
-            .iter()
-            .flat_map(|&p| self.of_particle(p as usize))
+        let particles = self.particles.iter();
+        particles.flat_map(|&p| self.of_particle(p as usize))
     }
 
     /// True if no particle has any.

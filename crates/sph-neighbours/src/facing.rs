@@ -59,9 +59,8 @@ pub fn facing_forces<const D: usize>(
         std::array::from_fn(|k| first[k] + second[k])
     };
     let parts = |facing: &Facing| {
-        let known = facing
-            .pair
-            .map(|e| owned.has(e).then_some(elements.pressure[e]));
+        let pressure = |e: usize| owned.has(e).then_some(elements.pressure[e]);
+        let known = facing.pair.map(pressure);
         known.map(|p| p.map(|p| part(facing, p)))
     };
     for (wall, force) in forces.iter_mut().enumerate() {

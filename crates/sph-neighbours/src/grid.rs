@@ -122,9 +122,8 @@ impl<const D: usize> CellGrid<D> {
         let most = 4.0 * extent.points.max(16) as f64;
         let mut width = radius / CELLS_PER_RADIUS as f64;
         let cells = |w: f64| {
-            (0..D)
-                .map(|a| (extent_along(a) / w).floor().max(1.0))
-                .product::<f64>()
+            let along = |a: usize| (extent_along(a) / w).floor().max(1.0);
+            (0..D).map(along).product::<f64>()
         };
         while cells(width) > most {
             width *= 1.5;

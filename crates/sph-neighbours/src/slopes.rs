@@ -27,12 +27,10 @@ impl<const D: usize> Slopes<D> {
 
     /// Those of a particle.
     pub fn of_particle(&self, particle: usize) -> &[Slope<D>] {
-        let from = self
-            .all
-            .partition_point(|s| (s.particle as usize) < particle);
-        let own = self.all[from..]
-            .iter()
-            .take_while(|s| s.particle as usize == particle);
+        let before = |s: &Slope<D>| (s.particle as usize) < particle;
+        let from = self.all.partition_point(before);
+        let own = self.all[from..].iter();
+        let own = own.take_while(|s| s.particle as usize == particle);
         &self.all[from..from + own.count()]
     }
 

@@ -181,9 +181,8 @@ impl<const D: usize> World<D> {
         let domain = &self.domain;
         if domain.any_periodic() {
             let positions = self.free.get_mut(fields::POSITION)?;
-            positions
-                .par_iter_mut()
-                .for_each(|x| *x = domain.wrapped(*x));
+            let all = positions.par_iter_mut();
+            all.for_each(|x| *x = domain.wrapped(*x));
         }
         Ok(())
     }

@@ -31,9 +31,8 @@ impl<const D: usize> Parts<D> {
             (rank, slots.collect())
         };
         let sends: Vec<Partner> = all.iter().enumerate().map(to).collect();
-        let sends = sends
-            .into_iter()
-            .filter(|(to, slots)| *to != rank && !slots.is_empty());
+        let some = |(to, slots): &Partner| *to != rank && !slots.is_empty();
+        let sends = sends.into_iter().filter(some);
         let message = |(to, slots): Partner| (to, earlier.pack(|_: &AnyField| true, &slots));
         let messages = sends.map(message).collect();
         self.receive(earlier, messages)?;

@@ -236,9 +236,8 @@ impl<const D: usize> Parts<D> {
         if 1e6 * ranks as f64 <= (1.0 + UNEVEN) * total[0] as f64 {
             return Ok(());
         }
-        let places: Vec<Vect<D>> = own()
-            .map(|(k, _)| world.domain.wrapped(position[k]))
-            .collect();
+        let places = own().map(|(k, _)| world.domain.wrapped(position[k]));
+        let places: Vec<Vect<D>> = places.collect();
         self.cuts = Cuts::balanced(&places, &costs, ranks, &*self.link.transport)?;
         Ok(())
     }
@@ -283,9 +282,8 @@ impl<const D: usize> Parts<D> {
         let messages = self.link.transport.swap(out, &from)?;
         for (rank, message) in from.into_iter().zip(messages) {
             let first = free.len();
-            let slots: Vec<u32> = (first..first + come[rank] as usize)
-                .map(|k| k as u32)
-                .collect();
+            let behind = first as u32..first as u32 + come[rank] as u32;
+            let slots: Vec<u32> = behind.collect();
             free.set_len(first + slots.len());
             free.unpack(|_| true, &slots, &message)?;
         }
