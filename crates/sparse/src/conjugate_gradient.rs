@@ -20,9 +20,8 @@ pub fn conjugate_gradient(
         x.fill(0.0);
         return Ok(());
     }
-    let inverse: Vec<_> = (0..n)
-        .map(|i| 1.0 / matrix.values[matrix.diagonal(i)])
-        .collect();
+    let inverse = (0..n).map(|i| 1.0 / matrix.values[matrix.diagonal(i)]);
+    let inverse: Vec<_> = inverse.collect();
     let mut image = vec![0.0; n];
     matrix.multiply(x, &mut image);
     let mut residual: Vec<_> = right.iter().zip(&image).map(|(b, a)| b - a).collect();

@@ -43,16 +43,9 @@ impl Cutter<'_> {
             return;
         }
         let at = |u: &u32| self.places[*u as usize];
-        let low = part
-            .iter()
-            .map(at)
-            .reduce(|a, b| a.inf(&b))
-            .unwrap_or_default();
-        let high = part
-            .iter()
-            .map(at)
-            .reduce(|a, b| a.sup(&b))
-            .unwrap_or_default();
+        let first = at(&part[0]);
+        let around = |(low, high): (Vector3<_>, Vector3<_>), x| (low.inf(&x), high.sup(&x));
+        let (low, high) = part.iter().map(at).fold((first, first), around);
         let axis = (high - low).imax();
         let middle = part.len() / 2;
         part.select_nth_unstable_by(middle, |a, b| {
@@ -79,9 +72,8 @@ impl Cutter<'_> {
         let (mut left, mut right, mut joins) = (Vec::new(), Vec::new(), Joins::default());
         for &u in lower {
             let range = starts[u as usize] as usize..starts[u as usize + 1] as usize;
-            let over = list[range]
-                .iter()
-                .filter(|v| self.side[**v as usize] == mark);
+            let over = list[range].iter();
+            let over = over.filter(|v| self.side[**v as usize] == mark);
             let before = joins.list.len();
             for &v in over {
                 let number = &mut self.number[v as usize];
@@ -116,10 +108,8 @@ fn neighbours(matrix: &UpperTriangle) -> (Vec<u32>, Vec<u32>) {
     let entries = || {
         (0..n).flat_map(|c| {
             let range = matrix.starts[c] as usize..matrix.starts[c + 1] as usize;
-            matrix.rows[range]
-                .iter()
-                .map(move |r| (*r as usize, c))
-                .filter(|(r, c)| r != c)
+            let own = matrix.rows[range].iter().map(move |r| (*r as usize, c));
+            own.filter(|(r, c)| r != c)
         })
     };
     for (r, c) in entries() {

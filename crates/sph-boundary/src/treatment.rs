@@ -20,8 +20,5 @@ pub(crate) mod usaw;
 
 /// A failure of the wall stages.
 pub(crate) fn stage_error(reason: impl ToString) -> sph_core::StepError {
-    sph_core::StepError::Stage {
-        stage: "walls".into(),
-        reason: reason.to_string(),
-    }
+    sph_core::StepError::stage("walls", reason.to_string())
 }

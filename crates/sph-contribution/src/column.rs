@@ -41,19 +41,16 @@ pub struct OwnColumn<const D: usize> {
     pub within: [f64; 2],
 }
 
-/// Any number.
-const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-
 impl<const D: usize> OwnColumn<D> {
     /// A scalar with its value at the start.
     pub fn scalar(
         field: Field<Scalar>,
         initial: impl Fn(&Birth<'_, D>) -> f64 + Send + Sync + 'static,
     ) -> Self {
+        let initial = Initial::Scalar(Box::new(initial));
         OwnColumn {
-            field: field.any(),
-            initial: Initial::Scalar(Box::new(initial)),
-            within: ANY,
+            initial,
+            ..Self::zero(field.any())
         }
     }
 
@@ -62,10 +59,10 @@ impl<const D: usize> OwnColumn<D> {
         field: Field<Vector>,
         initial: impl Fn(&Birth<'_, D>) -> Vect<D> + Send + Sync + 'static,
     ) -> Self {
+        let initial = Initial::Vector(Box::new(initial));
         OwnColumn {
-            field: field.any(),
-            initial: Initial::Vector(Box::new(initial)),
-            within: ANY,
+            initial,
+            ..Self::zero(field.any())
         }
     }
 
@@ -74,7 +71,7 @@ impl<const D: usize> OwnColumn<D> {
         OwnColumn {
             field,
             initial: Initial::Zero,
-            within: ANY,
+            within: [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
 

@@ -4,7 +4,7 @@ use sph_core::{AnyField, Evolved, suggestion};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
-use crate::{Offer, OwnColumn, Refusal};
+use crate::{Offer, OwnColumn};
 
 /// The scene for a contribution.
 pub struct Setting<'a, const D: usize> {
@@ -82,5 +82,27 @@ pub trait Contribution<const D: usize> {
         _offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
         Ok(())
+    }
+}
+
+/// A key of a scene, and its fault there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The kind whose plugin's table has the key.
+    pub kind: &'static str,
+    /// The key in that table; the table itself, if empty.
+    pub key: String,
+    /// The defect and its remedy.
+    pub why: String,
+}
+
+impl Refusal {
+    /// Of a key in the table of a kind's plugin.
+    pub fn at_key(kind: &'static str, key: impl Into<String>, why: impl Into<String>) -> Self {
+        Refusal {
+            kind,
+            key: key.into(),
+            why: why.into(),
+        }
     }
 }

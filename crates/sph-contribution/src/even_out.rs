@@ -25,9 +25,8 @@ pub fn even_out<const D: usize>(
     let (position, mass) = (free.get(fields::POSITION)?, free.get(fields::MASS)?);
     let radius = world.kernel.support_radius();
     // The box of the places, which most particles are far away from.
-    let (low, high) = places
-        .iter()
-        .fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
+    let around = |(low, high): (Vect<D>, Vect<D>), p| (low.inf(p), high.sup(p));
+    let (low, high) = places.iter().fold((*first, *first), around);
     let (middle, reach) = ((low + high) * 0.5, (high - low) * 0.5);
     let all = constant.par_iter_mut().zip(position).zip(mass);
     all.with_min_len(1024).for_each(|((constant, x), m)| {

@@ -1,9 +1,9 @@
-//! Sources and sinks of particles.
+//! Sources and sinks of particles, and particles that come in.
 
-use sph_core::{Access, StepError};
+use std::sync::Arc;
+
+use sph_core::{Access, StepError, Vect};
 use sph_neighbours::World;
-
-use crate::Newborn;
 
 /// A place where particles leave or come in at the end of a step.
 ///
@@ -36,4 +36,28 @@ pub trait Gate<const D: usize>: Send {
     fn births(&mut self, _world: &mut World<D>, _dt: f64) -> Result<Vec<Newborn<D>>, StepError> {
         Ok(Vec::new())
     }
+}
+
+/// A particle that comes into the flow at the end of a step.
+///
+/// Its density is that of the equation of state's pressure there; the quantity that a formulation integrates follows
+/// from it. Densities that are sums get its mass at once: let a particle in with little of it, or where no particle is
+/// near.
+#[derive(Clone, Debug)]
+pub struct Newborn<const D: usize> {
+    /// Position, m.
+    pub position: Vect<D>,
+    /// Velocity, m/s.
+    pub velocity: Vect<D>,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Mass, kg (per metre of depth in two dimensions).
+    pub mass: f64,
+    /// Number of its phase.
+    pub phase: u32,
+    /// Its origin, for columns that [begin](crate::Birth) with it.
+    pub body: Arc<str>,
+    /// Values of columns that contributions bring along, by the names of the columns; the others begin with the values
+    /// of the columns.
+    pub values: Arc<[(String, f64)]>,
 }

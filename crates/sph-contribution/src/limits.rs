@@ -1,11 +1,24 @@
-//! The steps that sound and forces allow.
+//! Bounds on the time step: those of a plugin, and the steps that sound and forces allow.
 
 use rayon::prelude::*;
 use sph_core::{StepError, StepLimit, fields};
 use sph_neighbours::{World, lightness};
 use sph_rheology::state::{BoundState, Laws};
 
-use crate::Limiter;
+/// A plugin's bound on the step at the present state.
+pub trait Limiter<const D: usize>: Send + Sync {
+    /// The bound with its name.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError>;
+    /// The formula, for listings.
+    fn formula(&self) -> String;
+    /// Remedies that take the bound away or lengthen it, for runs that it holds up; a sentence without its end.
+    fn remedy(&self) -> Option<String> {
+        None
+    }
+}
 
 /// Δt ≤ C h / c with the largest local speed of sound, Ghaïtanellis 2017, Eq. 2.104.
 pub struct SoundLimit {

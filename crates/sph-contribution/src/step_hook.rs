@@ -23,11 +23,8 @@ pub struct Forces<'a, const D: usize> {
 impl<'a, const D: usize> Forces<'a, D> {
     /// One after the other.
     pub fn iter(&self) -> impl Iterator<Item = &'a dyn Interaction<D>> + use<'a, D> {
-        let sweep = self
-            .sweep
-            .iter()
-            .map(|term| -> &'a dyn Interaction<D> { &**term });
-        let outside = self.outside.iter();
+        let (sweep, outside) = (self.sweep.iter(), self.outside.iter());
+        let sweep = sweep.map(|term| -> &'a dyn Interaction<D> { &**term });
         sweep.chain(outside.map(|force| -> &'a dyn Interaction<D> { &**force }))
     }
 }

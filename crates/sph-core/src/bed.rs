@@ -18,38 +18,32 @@ pub struct LevelGrid {
 
 impl LevelGrid {
     /// Number of places.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.count[0] * self.count[1]
     }
 
     /// True if there is no place.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Column and row of a place.
-    #[must_use]
     pub fn index(&self, place: usize) -> [usize; 2] {
         [place % self.count[0], place / self.count[0]]
     }
 
     /// Position of a place, m.
-    #[must_use]
     pub fn position(&self, place: usize) -> [f64; 2] {
         let index = self.index(place);
         std::array::from_fn(|k| self.lower[k] + self.cell[k] * index[k] as f64)
     }
 
     /// The part of the plane that is nearer to a place than to others, m² (m in two dimensions).
-    #[must_use]
     pub fn area(&self, place: usize) -> f64 {
         self.side(place, 0) * self.side(place, 1)
     }
 
     /// The extent of that part along an axis, m.
-    #[must_use]
     pub fn side(&self, place: usize, axis: usize) -> f64 {
         let (index, count) = (self.index(place)[axis], self.count[axis]);
         let at_end = index == 0 || index + 1 == count;
@@ -60,13 +54,11 @@ impl LevelGrid {
     }
 
     /// The place next to one along an axis, upwards; none behind the last of an axis that is not periodic.
-    #[must_use]
     pub fn next(&self, place: usize, axis: usize) -> Option<usize> {
         self.stepped(place, axis, 1)
     }
 
     /// The place before one along an axis; none before the first of an axis that is not periodic.
-    #[must_use]
     pub fn before(&self, place: usize, axis: usize) -> Option<usize> {
         self.stepped(place, axis, -1)
     }
@@ -82,7 +74,6 @@ impl LevelGrid {
     }
 
     /// The four places around a position, m, with their weights in the bilinear mean; the nearest ones from beyond the grid.
-    #[must_use]
     pub fn around(&self, at: [f64; 2]) -> [(usize, f64); 4] {
         let side = |k: usize| {
             let steps = (at[k] - self.lower[k]) / self.cell[k];
@@ -112,7 +103,6 @@ impl LevelGrid {
     }
 
     /// True if a position, m, is between places, or at the first or the last ones.
-    #[must_use]
     pub fn has(&self, at: [f64; 2]) -> bool {
         (0..2).filter(|k| self.count[*k] > 1).all(|k| {
             let steps = (at[k] - self.lower[k]) / self.cell[k];
@@ -122,7 +112,6 @@ impl LevelGrid {
     }
 
     /// The bilinear mean of values of the places at a position, m.
-    #[must_use]
     pub fn mean(&self, values: &[f64], at: [f64; 2]) -> f64 {
         self.around(at).iter().map(|(k, w)| w * values[*k]).sum()
     }
@@ -172,14 +161,12 @@ pub struct Bed {
 }
 
 /// The horizontal part of a position, m.
-#[must_use]
 pub fn horizontal<const D: usize>(x: &[f64; D]) -> [f64; 2] {
     [x[0], if D == 3 { x[1] } else { 0.0 }]
 }
 
 impl Bed {
     /// A bed as it is drawn, with its places and first levels, m.
-    #[must_use]
     pub fn drawn(grid: LevelGrid, levels: Vec<f64>) -> Self {
         let count = grid.len();
         Bed {
@@ -204,13 +191,11 @@ impl Bed {
     }
 
     /// Present level at a place, m.
-    #[must_use]
     pub fn level(&self, place: usize) -> f64 {
         self.drawn[place] + self.lift[place]
     }
 
     /// The lift of a point of the walls that was drawn somewhere, m.
-    #[must_use]
     pub fn lift_of<const D: usize>(&self, drawn: &[f64; D]) -> f64 {
         let at = horizontal(drawn);
         if !self.grid.has(at) {
@@ -221,7 +206,6 @@ impl Bed {
     }
 
     /// True if a point of the walls that was drawn somewhere follows the bed.
-    #[must_use]
     pub fn moves<const D: usize>(&self, drawn: &[f64; D]) -> bool {
         let at = horizontal(drawn);
         let height = drawn[D - 1] - self.grid.mean(&self.drawn, at);
@@ -229,7 +213,6 @@ impl Bed {
     }
 
     /// The upward velocity of a point of the walls at its present position, m/s.
-    #[must_use]
     pub fn rate_of<const D: usize>(&self, present: &[f64; D]) -> f64 {
         let at = horizontal(present);
         if !self.grid.has(at) {
@@ -247,7 +230,6 @@ impl Bed {
     }
 
     /// Shields number at a place; 0 as long as no grains lie there.
-    #[must_use]
     pub fn shields(&self, place: usize) -> f64 {
         let [x, y] = self.shear[place];
         match self.unit_shear > 0.0 {
@@ -257,7 +239,6 @@ impl Bed {
     }
 
     /// All that changes, for files.
-    #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         let mut all = [&self.lift[..], &self.rate].concat();
         all.extend(self.shear.iter().chain(&self.transport).flatten());
@@ -267,7 +248,6 @@ impl Bed {
 
     /// Takes the values of [`numbers`](Self::numbers); the rest of the numbers, or none if there are too few or
     /// impossible ones.
-    #[must_use]
     pub fn put<'a>(&mut self, numbers: &'a [f64]) -> Option<&'a [f64]> {
         let count = self.lift.len();
         let (own, rest) = numbers.split_at_checked(6 * count + 3)?;

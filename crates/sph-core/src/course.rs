@@ -18,18 +18,7 @@ pub enum Course {
         /// T, s.
         over: f64,
     },
-    /// s = a [r(t) sin(2πt/T + φ) − r(0) sin φ], r rising smoothly (6x⁵ − 15x⁴ + 10x³) from 0 to 1.
-    Sine {
-        /// a, m or rad.
-        amplitude: f64,
-        /// T, s.
-        period: f64,
-        /// φ, rad.
-        phase: f64,
-        /// Time in which r rises, s; 0 for r = 1 from the start.
-        ramp: f64,
-    },
-    /// s = r(t) Σ a sin(ωt + φ) − r(0) Σ a sin φ, r rising smoothly as that of a sine.
+    /// s = r(t) Σ a sin(ωt + φ) − r(0) Σ a sin φ, r rising smoothly (6x⁵ − 15x⁴ + 10x³) from 0 to 1.
     Sum {
         /// Shared by the pieces that a wall is drawn in.
         parts: Arc<[SinePart]>,
@@ -88,22 +77,24 @@ pub struct Rotation<const D: usize> {
 }
 
 impl Course {
+    /// s = a [r(t) sin(2πt/T + φ) − r(0) sin φ] of an amplitude a, m or rad, a period T, s, a phase φ, rad, and the time in
+    /// which r rises, s.
+    pub fn sine(amplitude: f64, period: f64, phase: f64, ramp: f64) -> Self {
+        let frequency = TAU / period;
+        let part = SinePart {
+            amplitude,
+            frequency,
+            phase,
+        };
+        let parts = [part].into();
+        Self::Sum { parts, ramp }
+    }
+
     /// True if it is a course at all: finite, with positive periods and ascending instants.
     pub fn is_sound(&self) -> bool {
         match self {
             Self::Steady { speed } => speed.is_finite(),
             Self::Ramp { speed, over } => speed.is_finite() && *over > 0.0 && over.is_finite(),
-            Self::Sine {
-                amplitude,
-                period,
-                phase,
-                ramp,
-            } => {
-                let finite = [amplitude, period, phase, ramp]
-                    .iter()
-                    .all(|x| x.is_finite());
-                finite && *period > 0.0 && *ramp >= 0.0
-            }
             Self::Sum { parts, ramp } => {
                 let finite = |p: &SinePart| [p.amplitude, p.frequency, p.phase].map(f64::is_finite);
                 let sound = |p: &SinePart| finite(p) == [true; 3] && p.frequency > 0.0;
@@ -121,7 +112,6 @@ impl Course {
     pub fn moves(&self) -> bool {
         match self {
             Self::Steady { speed } | Self::Ramp { speed, .. } => *speed != 0.0,
-            Self::Sine { amplitude, .. } => *amplitude != 0.0,
             Self::Sum { parts, .. } => parts.iter().any(|p| p.amplitude != 0.0),
             Self::Table { rows } => rows.windows(2).any(|w| w[0][1] != w[1][1]),
         }
@@ -155,19 +145,6 @@ impl Course {
                 rate: *speed,
                 acceleration: 0.0,
             },
-            Self::Sine {
-                amplitude,
-                period,
-                phase,
-                ramp,
-            } => {
-                let part = SinePart {
-                    amplitude: *amplitude,
-                    frequency: TAU / period,
-                    phase: *phase,
-                };
-                sines(&[part], *ramp, t)
-            }
             Self::Sum { parts, ramp } => sines(parts, *ramp, t),
             Self::Table { rows } => along(rows, t),
         }
@@ -255,12 +232,7 @@ mod tests {
                 speed: -1.3,
                 over: 0.8,
             },
-            Course::Sine {
-                amplitude: 0.2,
-                period: 1.3,
-                phase: 0.4,
-                ramp: 1.1,
-            },
+            Course::sine(0.2, 1.3, 0.4, 1.1),
             Course::Sum {
                 parts: [[0.1, 4.0, 0.3], [0.05, 9.0, -1.0]]
                     .map(|[amplitude, frequency, phase]| SinePart {
@@ -292,12 +264,7 @@ mod tests {
 
     #[test]
     fn courses_start_from_zero_and_tables_end_at_rest() {
-        let sine = Course::Sine {
-            amplitude: 2.0,
-            period: 1.0,
-            phase: 1.0,
-            ramp: 0.0,
-        };
+        let sine = Course::sine(2.0, 1.0, 1.0, 0.0);
         assert_eq!(sine.at(0.0).value, 0.0);
         let table = Course::Table {
             rows: [[0.5, 0.0], [1.0, 3.0]].into(),

@@ -4,18 +4,6 @@ use nalgebra::SMatrix;
 
 use crate::{Symmetric, Vect};
 
-macro_rules! each_column {
-    ($column:expr, $items:ident => $done:expr) => {
-        match $column {
-            Column::Scalar($items) => $done,
-            Column::Vector($items) => $done,
-            Column::Index($items) => $done,
-            Column::Tensor($items) => $done,
-            Column::SymmetricTensor($items) => $done,
-        }
-    };
-}
-
 /// One real number per particle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scalar;
@@ -39,48 +27,39 @@ pub struct SymmetricTensor;
 /// A column of one of the supported types.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column<const D: usize> {
-    /// Reals.
     Scalar(Vec<f64>),
-    /// Vectors.
     Vector(Vec<Vect<D>>),
-    /// Unsigned integers.
     Index(Vec<u32>),
-    /// D × D tensors.
     Tensor(Vec<SMatrix<f64, D, D>>),
-    /// Symmetric tensors in space.
     SymmetricTensor(Vec<Symmetric>),
 }
 
 impl<const D: usize> Column<D> {
-    /// Number of entries.
-    pub fn len(&self) -> usize {
-        each_column!(self, items => items.len())
-    }
-
-    /// True if there is no entry.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Bytes of an entry.
-    pub(crate) fn bytes_each(&self) -> usize {
+    /// Number of entries, and bytes of each.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        fn size<T>(items: &[T]) -> [usize; 2] {
+            [items.len(), size_of::<T>()]
+        }
         match self {
-            Column::Scalar(_) => 8,
-            Column::Vector(_) => 8 * D,
-            Column::Index(_) => 4,
-            Column::Tensor(_) => 8 * D * D,
-            Column::SymmetricTensor(_) => 48,
+            Column::Scalar(items) => size(items),
+            Column::Vector(items) => size(items),
+            Column::Index(items) => size(items),
+            Column::Tensor(items) => size(items),
+            Column::SymmetricTensor(items) => size(items),
         }
     }
 
-    /// `n` zero entries of the same type.
-    pub(crate) fn zeros(&self, n: usize) -> Self {
+    /// The entries of these slots, in this order.
+    pub(crate) fn picked(&self, slots: &[u32]) -> Self {
+        fn pick<T: Copy>(items: &[T], slots: &[u32]) -> Vec<T> {
+            slots.iter().map(|s| items[*s as usize]).collect()
+        }
         match self {
-            Column::Scalar(_) => Scalar::column(n),
-            Column::Vector(_) => Vector::column(n),
-            Column::Index(_) => Index::column(n),
-            Column::Tensor(_) => Tensor::column(n),
-            Column::SymmetricTensor(_) => SymmetricTensor::column(n),
+            Column::Scalar(items) => Column::Scalar(pick(items, slots)),
+            Column::Vector(items) => Column::Vector(pick(items, slots)),
+            Column::Index(items) => Column::Index(pick(items, slots)),
+            Column::Tensor(items) => Column::Tensor(pick(items, slots)),
+            Column::SymmetricTensor(items) => Column::SymmetricTensor(pick(items, slots)),
         }
     }
 
@@ -93,11 +72,6 @@ impl<const D: usize> Column<D> {
             Column::Tensor(items) => items.resize(n, SMatrix::zeros()),
             Column::SymmetricTensor(items) => items.resize(n, Symmetric::ZERO),
         }
-    }
-
-    /// No entry, of the same type.
-    pub(crate) fn empty(&self) -> Self {
-        self.zeros(0)
     }
 }
 

@@ -40,26 +40,16 @@ mod field_list;
 #[cfg(feature = "plugins")]
 pub mod fields;
 #[cfg(feature = "plugins")]
-mod insertion;
-#[cfg(feature = "plugins")]
 mod kinds;
-#[cfg(feature = "plugins")]
-mod limit;
 #[cfg(feature = "plugins")]
 mod parcel;
 pub mod place_cells;
 #[cfg(feature = "plugins")]
 mod plan;
-#[cfg(feature = "plugins")]
-mod plugin_choice;
-#[cfg(feature = "plugins")]
-mod plugin_info;
 mod pool;
 mod random;
 #[cfg(feature = "plugins")]
 mod registry;
-#[cfg(feature = "plugins")]
-mod removal;
 #[cfg(feature = "plugins")]
 mod saved;
 mod sets;
@@ -88,27 +78,24 @@ pub use winding::Winding;
 pub use crate::{
     axis::Axis,
     error::{FieldError, PlanError, RegistryError, StepError},
-    evolve::{Evolved, Recall, System},
+    evolve::{Evolved, Recall, StepLimit, System},
     field::{
         AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, some_unit,
         unit_suffix,
     },
     field_list::{Columns, FieldList},
     kinds::{
-        FlowNature, LawNature, LawNatures, Place, PluginKind, SuitedPlugin, Suits, Work, kind_of,
-        kinds,
+        FlowNature, LawNature, LawNatures, Place, PluginInfo, PluginKind, SuitedPlugin, Suits,
+        Work, kind_of, kinds,
     },
-    limit::StepLimit,
     plan::{Plan, plan},
-    plugin_choice::PluginChoice,
-    plugin_info::PluginInfo,
     registry::{
-        Contract, Makes, Parameter, Registry, node_of, parameters, plugins_of, schema_of, typed,
+        Contract, Makes, Parameter, PluginChoice, Registry, node_of, parameters, plugins_of,
+        schema_of, typed,
     },
     saved::Saved,
     stage::{Access, Declares, Stage, stage},
-    store::{Plain, Role, Store},
-    turnover::{Inserted, Removed},
+    store::{Inserted, Plain, Removed, Role, Store},
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{

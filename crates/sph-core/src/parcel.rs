@@ -3,50 +3,42 @@
 use nalgebra::SMatrix;
 
 use crate::field::{AnyField, Column};
-use crate::store::Entry;
 use crate::{FieldError, Store, Symmetric, Vect};
 
-/// Takes the next item off a message.
-struct Reader<'a>(&'a [u8]);
-
-impl Reader<'_> {
-    fn real(&mut self) -> f64 {
-        f64::from_le_bytes(self.take())
-    }
-
-    fn take<const N: usize>(&mut self) -> [u8; N] {
-        let (item, rest) = self.0.split_first_chunk().unwrap_or((&[0; N], &[]));
-        self.0 = rest;
-        *item
-    }
+/// Takes the next bytes off a message.
+fn take<const N: usize>(from: &mut &[u8]) -> [u8; N] {
+    let (item, rest) = from.split_first_chunk().unwrap_or((&[0; N], &[]));
+    *from = rest;
+    *item
 }
 
-fn put(to: &mut Vec<u8>, value: f64) {
-    to.extend_from_slice(&value.to_le_bytes());
+fn put(to: &mut Vec<u8>, values: &[f64]) {
+    for value in values {
+        to.extend_from_slice(&value.to_le_bytes());
+    }
 }
 
 impl<const D: usize> Store<D> {
     /// Bytes of one particle over the columns that are `wanted`.
     pub fn parcel_bytes(&self, wanted: impl Fn(&AnyField) -> bool) -> usize {
         let all = self.entries.iter().filter(|e| wanted(&e.field));
-        all.map(|e| e.column.bytes_each()).sum()
+        all.map(|e| e.column.size()[1]).sum()
     }
 
-    /// Adds the entries of these slots to a message, column by column, of the columns that are `wanted`.
-    pub fn pack(&self, wanted: impl Fn(&AnyField) -> bool, slots: &[u32], to: &mut Vec<u8>) {
-        to.reserve(slots.len() * self.parcel_bytes(&wanted));
+    /// A message with the entries of these slots, column by column, of the columns that are `wanted`.
+    pub fn pack(&self, wanted: impl Fn(&AnyField) -> bool, slots: &[u32]) -> Vec<u8> {
+        let mut to = Vec::with_capacity(slots.len() * self.parcel_bytes(&wanted));
         let at = || slots.iter().map(|s| *s as usize);
         for entry in self.entries.iter().filter(|e| wanted(&e.field)) {
             match &entry.column {
-                Column::Scalar(v) => at().for_each(|s| put(to, v[s])),
-                Column::Vector(v) => at().for_each(|s| v[s].iter().for_each(|x| put(to, *x))),
+                Column::Scalar(v) => at().for_each(|s| put(&mut to, &[v[s]])),
+                Column::Vector(v) => at().for_each(|s| put(&mut to, v[s].as_slice())),
                 Column::Index(v) => at().for_each(|s| to.extend_from_slice(&v[s].to_le_bytes())),
-                Column::Tensor(v) => at().for_each(|s| v[s].iter().for_each(|x| put(to, *x))),
-                Column::SymmetricTensor(v) => {
-                    at().for_each(|s| v[s].0.iter().for_each(|x| put(to, *x)));
-                }
+                Column::Tensor(v) => at().for_each(|s| put(&mut to, v[s].as_slice())),
+                Column::SymmetricTensor(v) => at().for_each(|s| put(&mut to, &v[s].0)),
             }
         }
+        to
     }
 
     /// Overwrites the entries of these slots with the result of [`pack`](Self::pack) of a store with the same columns.
@@ -57,22 +49,25 @@ impl<const D: usize> Store<D> {
         &mut self,
         wanted: impl Fn(&AnyField) -> bool,
         slots: &[u32],
-        from: &[u8],
+        mut from: &[u8],
     ) -> Result<(), FieldError> {
         let expected = slots.len() * self.parcel_bytes(&wanted);
         if from.len() != expected {
             return Err(FieldError::Length("message", from.len(), expected));
         }
-        let mut from = Reader(from);
+        fn real(from: &mut &[u8]) -> f64 {
+            f64::from_le_bytes(take(from))
+        }
+        let from = &mut from;
         let at = || slots.iter().map(|s| *s as usize);
         for entry in self.entries.iter_mut().filter(|e| wanted(&e.field)) {
             match &mut entry.column {
-                Column::Scalar(v) => at().for_each(|s| v[s] = from.real()),
-                Column::Vector(v) => at().for_each(|s| v[s] = Vect::from_fn(|_, _| from.real())),
-                Column::Index(v) => at().for_each(|s| v[s] = u32::from_le_bytes(from.take())),
-                Column::Tensor(v) => at().for_each(|s| v[s] = SMatrix::from_fn(|_, _| from.real())),
+                Column::Scalar(v) => at().for_each(|s| v[s] = real(from)),
+                Column::Vector(v) => at().for_each(|s| v[s] = Vect::from_fn(|_, _| real(from))),
+                Column::Index(v) => at().for_each(|s| v[s] = u32::from_le_bytes(take(from))),
+                Column::Tensor(v) => at().for_each(|s| v[s] = SMatrix::from_fn(|_, _| real(from))),
                 Column::SymmetricTensor(v) => at().for_each(|s| {
-                    v[s] = Symmetric(std::array::from_fn(|_| from.real()));
+                    v[s] = Symmetric(std::array::from_fn(|_| real(from)));
                 }),
             }
         }
@@ -81,28 +76,16 @@ impl<const D: usize> Store<D> {
 
     /// A copy of all particles with all their columns, of which none has left or come in.
     pub fn copied(&self) -> Store<D> {
-        let entries = self.entries.iter().map(|entry| Entry {
-            column: entry.column.clone(),
-            ..*entry
-        });
-        let mut copied = Store::new(self.len);
-        copied.entries = entries.collect();
-        copied
+        Store {
+            entries: self.entries.clone(),
+            ..Store::new(self.len)
+        }
     }
 
     /// Keeps the particles of these slots, in this order, with all their columns.
     pub fn keep_slots(&mut self, slots: &[u32]) {
-        fn keep<T: Copy>(items: &mut Vec<T>, slots: &[u32]) {
-            *items = slots.iter().map(|s| items[*s as usize]).collect();
-        }
         for entry in &mut self.entries {
-            match &mut entry.column {
-                Column::Scalar(v) => keep(v, slots),
-                Column::Vector(v) => keep(v, slots),
-                Column::Index(v) => keep(v, slots),
-                Column::Tensor(v) => keep(v, slots),
-                Column::SymmetricTensor(v) => keep(v, slots),
-            }
+            entry.column = entry.column.picked(slots);
         }
         self.len = slots.len();
     }
@@ -138,8 +121,7 @@ mod tests {
         *from.get_mut(I).unwrap() = vec![7, 8, u32::MAX];
         from.get_mut(T).unwrap()[2][(0, 1)] = 3.0;
         from.get_mut(Y).unwrap()[2].0[5] = 4.0;
-        let mut message = Vec::new();
-        from.pack(|_| true, &[2, 0], &mut message);
+        let message = from.pack(|_| true, &[2, 0]);
         assert_eq!(message.len(), 2 * from.bytes_per_particle());
         let mut to = store(4);
         to.unpack(|_| true, &[1, 3], &message).unwrap();
@@ -152,9 +134,7 @@ mod tests {
         to.keep_slots(&[3, 1]);
         assert_eq!((to.len(), to.get(I).unwrap()), (2, &[7, u32::MAX][..]));
         let only = |f: &AnyField| f.name == I.name;
-        message.clear();
-        from.pack(only, &[1], &mut message);
-        to.unpack(only, &[0], &message).unwrap();
+        to.unpack(only, &[0], &from.pack(only, &[1])).unwrap();
         assert_eq!(to.get(I).unwrap(), [8, u32::MAX]);
     }
 }

@@ -1,7 +1,7 @@
 //! From goals to an ordered list of stages: prune stages that are not needed, then sort.
 
 use crate::field::AnyField;
-use crate::{Declares, PlanError};
+use crate::{Access, Declares, PlanError};
 
 /// The offered stages that run, in their order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -58,9 +58,8 @@ pub fn plan(
 
     // Repeatedly take the first stage whose reads are all written: the order of offering
     // decides between equals, so the plan does not depend on anything else.
-    let seen: Vec<Vec<AnyField>> = (access.iter())
-        .map(|a| [a.reads(), a.where_there.clone()].concat())
-        .collect();
+    let both = |a: &Access| [a.reads(), a.where_there.clone()].concat();
+    let seen: Vec<Vec<AnyField>> = access.iter().map(both).collect();
     let mut done = vec![false; stages.len()];
     let mut order = Vec::new();
     loop {
@@ -72,18 +71,12 @@ pub fn plan(
                         .all(|w| w == s || done[w] || !needed[w] || !access[w].writes.contains(f))
                 })
         });
-        match ready {
-            Some(s) => {
-                done[s] = true;
-                order.push(s);
-            }
-            None => break,
-        }
+        let Some(stage) = ready else { break };
+        done[stage] = true;
+        order.push(stage);
     }
-    let stuck: Vec<_> = (0..stages.len())
-        .filter(|&s| needed[s] && !done[s])
-        .map(|s| stages[s].name())
-        .collect();
+    let stuck = (0..stages.len()).filter(|&s| needed[s] && !done[s]);
+    let stuck: Vec<_> = stuck.map(|s| stages[s].name()).collect();
     if !stuck.is_empty() {
         return Err(PlanError::Cycle(stuck.join(", ")));
     }
@@ -94,7 +87,7 @@ pub fn plan(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Access, Field, Scalar};
+    use crate::{Field, Scalar};
 
     const A: Field<Scalar> = Field::new("a", "1", "source");
     const B: Field<Scalar> = Field::new("b", "1", "from a");

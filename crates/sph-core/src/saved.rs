@@ -12,32 +12,28 @@ pub struct Saved<const D: usize> {
     columns: Vec<(&'static str, Column<D>)>,
 }
 
-macro_rules! both {
-    ($to:expr, $from:expr, $name:expr, $work:expr) => {
-        match ($to, $from) {
-            (Column::Scalar(to), Column::Scalar(from)) => $work(to, from),
-            (Column::Vector(to), Column::Vector(from)) => $work(to, from),
-            (Column::Index(to), Column::Index(from)) => $work(to, from),
-            (Column::Tensor(to), Column::Tensor(from)) => $work(to, from),
-            (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => $work(to, from),
-            _ => return Err(FieldError::Type($name)),
-        }
-    };
-}
-
-fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
-    to.clear();
-    to.extend_from_slice(from);
-}
-
-fn put<T: Copy>(to: &mut [T], from: &[T], places: Option<&[u32]>) {
-    match places {
-        None => to.copy_from_slice(from),
-        Some(places) => {
-            let from = places.iter().map(|&p| from[p as usize]);
-            to.iter_mut().zip(from).for_each(|(to, from)| *to = from);
+/// Overwrites a column with the entries of another of its type, or with those in some places of the other.
+fn copy<const D: usize>(
+    to: &mut Column<D>,
+    (name, from): (&'static str, &Column<D>),
+    places: Option<&[u32]>,
+) -> Result<(), FieldError> {
+    fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) {
+        to.clear();
+        match places {
+            None => to.extend_from_slice(from),
+            Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
         }
     }
+    match (to, from) {
+        (Column::Scalar(to), Column::Scalar(from)) => put(to, from, places),
+        (Column::Vector(to), Column::Vector(from)) => put(to, from, places),
+        (Column::Index(to), Column::Index(from)) => put(to, from, places),
+        (Column::Tensor(to), Column::Tensor(from)) => put(to, from, places),
+        (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => put(to, from, places),
+        _ => return Err(FieldError::Type(name)),
+    }
+    Ok(())
 }
 
 impl<const D: usize> Saved<D> {
@@ -60,14 +56,13 @@ impl<const D: usize> Store<D> {
     /// If a column has changed its type since it was copied last.
     pub fn save_state(&self, saved: &mut Saved<D>) -> Result<(), FieldError> {
         let state = || self.entries.iter().filter(|e| e.role == Role::State);
-        let same = state()
-            .map(|e| e.name)
-            .eq(saved.columns.iter().map(|c| c.0));
+        let names = saved.columns.iter().map(|c| c.0);
+        let same = state().map(|e| e.name).eq(names);
         if !same {
-            saved.columns = state().map(|e| (e.name, e.column.empty())).collect();
+            saved.columns = state().map(|e| (e.name, e.field.shape.column(0))).collect();
         }
-        for (entry, (name, to)) in state().zip(&mut saved.columns) {
-            both!(to, &entry.column, name, copy);
+        for (entry, (_, to)) in state().zip(&mut saved.columns) {
+            copy(to, (entry.name, &entry.column), None)?;
         }
         saved.len = self.len;
         saved.taken.clone_from(&self.taken);
@@ -103,18 +98,14 @@ impl<const D: usize> Store<D> {
         let state = |e: &&mut crate::store::Entry<D>| e.role == Role::State && wanted(e.name);
         for entry in self.entries.iter_mut().filter(state) {
             let Some(from) = saved.column(entry.name) else {
-                entry.column = entry.column.zeros(len);
+                entry.column = entry.field.shape.column(len);
                 continue;
             };
-            if places.map_or(from.len(), <[u32]>::len) != len {
-                return Err(FieldError::Length(entry.name, from.len(), len));
+            let [copied, _] = from.size();
+            if places.map_or(copied, <[u32]>::len) != len {
+                return Err(FieldError::Length(entry.name, copied, len));
             }
-            both!(
-                &mut entry.column,
-                from,
-                entry.name,
-                |to: &mut Vec<_>, from: &Vec<_>| put(to, from, places)
-            );
+            copy(&mut entry.column, (entry.name, from), places)?;
         }
         Ok(())
     }

@@ -4,10 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{
-    Access, Columns, Field, FieldError, FieldList, Inserted, Kind, Removed, StepError, Symmetric,
-    Vect,
-};
+use crate::{Access, Columns, Field, FieldError, FieldList, Kind, StepError, Symmetric, Vect};
 
 /// Treatment of a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +15,7 @@ pub enum Role {
     Derived,
 }
 
+#[derive(Clone)]
 pub(crate) struct Entry<const D: usize> {
     pub name: &'static str,
     pub field: AnyField,
@@ -26,6 +24,7 @@ pub(crate) struct Entry<const D: usize> {
 }
 
 /// The columns of one set of particles.
+#[derive(Default)]
 pub struct Store<const D: usize> {
     pub(crate) len: usize,
     pub(crate) entries: Vec<Entry<D>>,
@@ -47,6 +46,30 @@ pub(crate) struct SortBuffers<const D: usize> {
     symmetric: Vec<Symmetric>,
 }
 
+/// Particles of one phase that one outlet has taken out of a store.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Removed {
+    /// Number of the outlet.
+    pub outlet: u32,
+    /// Number of the phase.
+    pub phase: u32,
+    /// Mass, kg (per metre of depth in 2D).
+    pub mass: f64,
+    /// Number of particles.
+    pub particles: u64,
+}
+
+/// Particles that came into a store after the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inserted {
+    /// Identities that were given so far, those of the start included: none of them is given again.
+    pub identities: u32,
+    /// Mass that came in after the start, kg (per metre of depth in two dimensions).
+    pub mass: f64,
+    /// Particles that came in after the start.
+    pub particles: u64,
+}
+
 /// A column as plain numbers, for files.
 #[derive(Clone, Debug)]
 pub enum Plain<'a> {
@@ -59,7 +82,7 @@ pub enum Plain<'a> {
 impl<const D: usize> Columns<D> for Store<D> {
     fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         let found = self.unwatched(field)?;
-        self.note_read(field.name);
+        self.watch.read(field.name);
         Ok(found)
     }
 }
@@ -69,11 +92,7 @@ impl<const D: usize> Store<D> {
     pub fn new(len: usize) -> Self {
         Store {
             len,
-            entries: Vec::new(),
-            taken: Vec::new(),
-            born: Inserted::default(),
-            watch: Watch::default(),
-            spare: SortBuffers::default(),
+            ..Store::default()
         }
     }
 
@@ -96,23 +115,21 @@ impl<const D: usize> Store<D> {
         let undeclared = self.watch.end();
         match undeclared.is_empty() {
             true => Ok(()),
-            false => Err(StepError::Stage {
-                stage: name(),
-                reason: format!("it {} without declaring it", undeclared.join(" and ")),
-            }),
+            false => Err(StepError::stage(
+                name(),
+                format!("it {} without declaring it", undeclared.join(" and ")),
+            )),
         }
     }
 
-    fn note_read(&self, name: &'static str) {
-        if cfg!(debug_assertions) {
-            self.watch.read(name);
-        }
+    fn entry(&self, name: &'static str) -> Result<&Entry<D>, FieldError> {
+        let found = self.entries.iter().find(|e| e.name == name);
+        found.ok_or(FieldError::Missing(name))
     }
 
-    fn note_write(&self, name: &'static str) {
-        if cfg!(debug_assertions) {
-            self.watch.write(name);
-        }
+    fn column_mut(&mut self, name: &'static str) -> Result<&mut Column<D>, FieldError> {
+        let found = self.entries.iter_mut().find(|e| e.name == name);
+        Ok(&mut found.ok_or(FieldError::Missing(name))?.column)
     }
 
     /// Number of particles.
@@ -176,11 +193,8 @@ impl<const D: usize> Store<D> {
     /// # Errors
     /// As [`get`](Self::get).
     pub fn unwatched<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
-        let entry = self.entries.iter().find(|e| e.name == field.name);
-        let entry = entry.ok_or(FieldError::Missing(field.name))?;
-        K::items(&entry.column)
-            .map(Vec::as_slice)
-            .ok_or(FieldError::Type(field.name))
+        let items = K::items(&self.entry(field.name)?.column);
+        items.map(Vec::as_slice).ok_or(FieldError::Type(field.name))
     }
 
     /// The entries of a column, to be changed.
@@ -192,11 +206,9 @@ impl<const D: usize> Store<D> {
         field: Field<K>,
     ) -> Result<&mut Vec<K::Item<D>>, FieldError> {
         if self.has(field.name) {
-            self.note_write(field.name);
+            self.watch.write(field.name);
         }
-        let entry = self.entries.iter_mut().find(|e| e.name == field.name);
-        let entry = entry.ok_or(FieldError::Missing(field.name))?;
-        K::items_mut(&mut entry.column).ok_or(FieldError::Type(field.name))
+        K::items_mut(self.column_mut(field.name)?).ok_or(FieldError::Type(field.name))
     }
 
     /// Takes a column out so that it can be written while others are read.
@@ -286,8 +298,7 @@ impl<const D: usize> Store<D> {
     /// If the column is missing, of another type, or of another length.
     pub fn set_real(&mut self, name: &'static str, values: &[f64]) -> Result<(), FieldError> {
         let len = self.len;
-        let entry = self.entries.iter_mut().find(|e| e.name == name);
-        match &mut entry.ok_or(FieldError::Missing(name))?.column {
+        match self.column_mut(name)? {
             Column::Scalar(v) if values.len() == len => v.copy_from_slice(values),
             Column::Vector(v) if values.len() == D * len => {
                 for (item, chunk) in v.iter_mut().zip(values.chunks_exact(D)) {
@@ -316,8 +327,7 @@ impl<const D: usize> Store<D> {
     /// If the column is missing, of another type, or of another length.
     pub fn set_index(&mut self, name: &'static str, values: &[u32]) -> Result<(), FieldError> {
         let len = self.len;
-        let entry = self.entries.iter_mut().find(|e| e.name == name);
-        match &mut entry.ok_or(FieldError::Missing(name))?.column {
+        match self.column_mut(name)? {
             Column::Index(v) if values.len() == len => v.copy_from_slice(values),
             Column::Index(_) => return Err(FieldError::Length(name, values.len(), len)),
             _ => return Err(FieldError::Type(name)),
@@ -327,6 +337,6 @@ impl<const D: usize> Store<D> {
 
     /// Bytes of one particle over all columns.
     pub fn bytes_per_particle(&self) -> usize {
-        self.entries.iter().map(|e| e.column.bytes_each()).sum()
+        self.parcel_bytes(|_| true)
     }
 }

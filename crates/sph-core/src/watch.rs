@@ -53,24 +53,31 @@ impl Watch {
         std::mem::take(&mut at_work.all[place].undeclared)
     }
 
+    /// Notes that the innermost work reads a column; in builds with debug assertions alone, as all of this.
     pub fn read(&self, name: &'static str) {
-        if let Some(last) = self.at_work().innermost() {
-            let known = last.reads.contains(&name) || last.writes.contains(&name);
-            last.note(known, "reads", name);
-        }
+        self.touch("reads", name, |own| {
+            own.reads.contains(&name) || own.writes.contains(&name)
+        });
     }
 
+    /// Notes that it writes one.
     pub fn write(&self, name: &'static str) {
-        if let Some(last) = self.at_work().innermost() {
-            let known = last.writes.contains(&name);
-            last.note(known, "writes", name);
-        }
+        self.touch("writes", name, |own| own.writes.contains(&name));
     }
-}
 
-impl WorksInProgress {
-    fn innermost(&mut self) -> Option<&mut AccessRecord> {
-        self.all[..self.depth].last_mut()
+    fn touch(&self, does: &str, name: &str, declared: impl Fn(&AccessRecord) -> bool) {
+        if !cfg!(debug_assertions) {
+            return;
+        }
+        let mut at_work = self.at_work();
+        let depth = at_work.depth;
+        let Some(last) = at_work.all[..depth].last_mut() else {
+            return;
+        };
+        let what = || format!("{does} `{name}`");
+        if !declared(last) && !last.undeclared.contains(&what()) {
+            last.undeclared.push(what());
+        }
     }
 }
 
@@ -90,15 +97,5 @@ impl AccessRecord {
             self.reads.extend(always);
         }
         self.writes.extend(access.writes.iter().map(name));
-    }
-
-    fn note(&mut self, known: bool, does: &str, name: &str) {
-        if known {
-            return;
-        }
-        let what = format!("{does} `{name}`");
-        if !self.undeclared.contains(&what) {
-            self.undeclared.push(what);
-        }
     }
 }

@@ -5,8 +5,7 @@ use quote::{ToTokens, format_ident, quote};
 use syn::ext::IdentExt;
 use syn::{DeriveInput, Field, Generics, parse_quote};
 
-use crate::attributes::is_skipped;
-use crate::number::optional;
+use crate::fields::{is_skipped, optional};
 use crate::parameter::{Fallback, Parameter};
 
 /// The type whose parameters are read, with the functions that make their defaults.

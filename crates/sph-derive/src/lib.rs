@@ -16,9 +16,8 @@
 //! `#[serde(skip)]` keeps is neither cloned nor printed, unless it is plain numbers. A trait that an author derives is
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
-mod attributes;
 mod defaults;
-mod number;
+mod fields;
 mod pair_term;
 mod parameter;
 mod registration;
@@ -74,9 +73,8 @@ pub fn plain_parameters(arguments: TokenStream, item: TokenStream) -> TokenStrea
 }
 
 fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
-    table::plain(item, is_plugin)
-        .unwrap_or_else(syn::Error::into_compile_error)
-        .into()
+    let code = table::plain(item, is_plugin);
+    code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
 /// A pair term: its columns and constants, declared once in the struct that holds them while a sweep goes on.
@@ -94,9 +92,8 @@ fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
 pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let term = parse_macro_input!(arguments as pair_term::Term);
     let item = parse_macro_input!(item as DeriveInput);
-    pair_term::expand(&term, item)
-        .unwrap_or_else(syn::Error::into_compile_error)
-        .into()
+    let code = pair_term::expand(&term, item);
+    code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
 /// The table, and the registration of a plugin. After a mistake in the words of a parameter all goes on without them, so

@@ -6,7 +6,10 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Data, DeriveInput, Error, Expr, Field, GenericParam, Token, Type};
 
+use crate::fields::optional;
+
 const FORM: &str = "expected `Term, \"name in plans\"`: the type of the parameters, and the name";
+const NAMED: &str = "a bound term is a struct with named fields";
 const WORDS: &str = "a field has one of `#[here(FIELD)]`, `#[both(FIELD)]`, `#[neighbours(FIELD)]`, `#[where_there(FIELD)]`, \
      `#[rate(FIELD)]` and `#[value(expression)]`; a column may say when it is read: `#[both(FIELD, if condition)]`";
 
@@ -53,10 +56,6 @@ struct Entry {
     value: TokenStream,
 }
 
-fn is_option(ty: &Type) -> bool {
-    matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == "Option"))
-}
-
 impl Entry {
     fn new(field: &Field, attribute: &Attribute) -> syn::Result<Self> {
         let word = attribute.path().get_ident().map(ToString::to_string);
@@ -82,7 +81,7 @@ impl Entry {
         let method = format_ident!("{word}");
         let add = quote!(access = access.#method(#column););
         let get = quote!(world.free.get(#column));
-        let optional = is_option(&field.ty);
+        let optional = optional(&field.ty).is_some();
         Ok(match (condition, word == "where_there") {
             (_, true) => Entry {
                 access: add,
@@ -107,18 +106,12 @@ impl Entry {
 /// The bound term without its words, and the `PairTerm`.
 pub fn expand(term: &Term, mut item: DeriveInput) -> syn::Result<TokenStream> {
     let Data::Struct(data) = &mut item.data else {
-        return Err(Error::new_spanned(
-            &item.ident,
-            "a bound term is a struct with named fields",
-        ));
+        return Err(Error::new_spanned(&item.ident, NAMED));
     };
     let (mut access, mut fields) = (TokenStream::new(), TokenStream::new());
     for field in &mut data.fields {
         let Some(name) = field.ident.clone() else {
-            return Err(Error::new_spanned(
-                field,
-                "a bound term is a struct with named fields",
-            ));
+            return Err(Error::new_spanned(field, NAMED));
         };
         let known = |a: &Attribute| {
             let words = ["here", "both", "neighbours", "where_there", "rate", "value"];

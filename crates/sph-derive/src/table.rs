@@ -6,9 +6,8 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
 
-use crate::attributes::{is_skipped, words};
 use crate::defaults::Defaults;
-use crate::number::is_number;
+use crate::fields::{is_number, is_skipped, words};
 use crate::parameter::value;
 
 /// The module with `serde` and `schemars`.

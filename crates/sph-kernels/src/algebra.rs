@@ -26,9 +26,8 @@ pub fn power(a: &[f64], n: usize) -> Vec<f64> {
 /// Coefficients of the sum a(q) + b(q).
 pub fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
     let at = |c: &[f64], n: usize| c.get(n).copied().unwrap_or(0.0);
-    (0..a.len().max(b.len()))
-        .map(|n| at(a, n) + at(b, n))
-        .collect()
+    let terms = 0..a.len().max(b.len());
+    terms.map(|n| at(a, n) + at(b, n)).collect()
 }
 
 /// Coefficients of c · a(q).
@@ -38,10 +37,8 @@ pub fn scaled(a: &[f64], c: f64) -> Vec<f64> {
 
 /// Coefficients of a'(q).
 pub fn derivative(a: &[f64]) -> Vec<f64> {
-    (1..)
-        .zip(&a[1.min(a.len())..])
-        .map(|(n, a)| f64::from(n) * a)
-        .collect()
+    let terms = (1..).zip(&a[1.min(a.len())..]);
+    terms.map(|(n, a)| f64::from(n) * a).collect()
 }
 
 /// Coefficients in s of a(q) with q = origin − s: s is the distance left of the origin.

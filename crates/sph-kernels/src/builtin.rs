@@ -1,8 +1,7 @@
 //! The kernels that come with the crate: name, summary, source and shape of each in one place.
 
-use crate::spline::spline;
-use crate::wendland::wendland;
-use crate::{Kernel, PolynomialKernel};
+use crate::algebra::{power, product, scaled, sum};
+use crate::{Kernel, PiecewisePolynomial, PolynomialKernel};
 
 /// Declares kernels: `function, "name", "one sentence", "source", shape;`.
 macro_rules! kernels {
@@ -146,4 +145,28 @@ kernels! {
     /// ```
     quintic_spline, "quintic-spline", "quintic B-spline, support 3h",
         "Schoenberg 1946; Morris et al. 1997", spline(5, &[(3.0, 1.0), (2.0, -6.0), (1.0, 15.0)]);
+}
+
+/// Wendland functions, support 2h: (1 − q/2)ⁿ times a polynomial of least degree on [0, 2).
+fn wendland(n: usize, factor: &[f64]) -> PiecewisePolynomial {
+    PiecewisePolynomial {
+        breaks: vec![0.0, 2.0],
+        pieces: vec![product(&power(&[1.0, -0.5], n), factor)],
+    }
+}
+
+/// Schoenberg's B-splines: Σ weight (edge − q)₊ⁿ over the (edge, weight) list, edges descending.
+fn spline(n: usize, terms: &[(f64, f64)]) -> PiecewisePolynomial {
+    let mut breaks = vec![0.0];
+    let mut pieces = Vec::new();
+    for k in (0..terms.len()).rev() {
+        let piece = terms[..=k]
+            .iter()
+            .fold(Vec::new(), |total, &(edge, weight)| {
+                sum(&total, &scaled(&power(&[edge, -1.0], n), weight))
+            });
+        breaks.push(terms[k].0);
+        pieces.push(piece);
+    }
+    PiecewisePolynomial { breaks, pieces }
 }

@@ -39,11 +39,8 @@ pub(crate) fn value(shape: &PiecewisePolynomial, scale: f64) -> Pieces {
 /// The first piece is divided by q on its coefficients unless f'(0) ≠ 0, the others have a
 /// constant term in f' and are divided by the number q.
 pub(crate) fn factor(shape: &PiecewisePolynomial, scale: f64) -> Pieces {
-    let mut derivatives: Vec<_> = shape
-        .pieces
-        .iter()
-        .map(|piece| algebra::derivative(piece))
-        .collect();
+    let derivatives = shape.pieces.iter().map(|piece| algebra::derivative(piece));
+    let mut derivatives: Vec<_> = derivatives.collect();
     let divided_from = match derivatives[0].first() {
         Some(cusp) if *cusp != 0.0 => 0.0,
         Some(_) => {

@@ -55,8 +55,6 @@ mod polynomial_sampler;
 mod quadrature;
 mod sampler;
 mod scalar_sampler;
-mod spline;
-mod wendland;
 
 pub use builtin::{
     builtin, by_name, cubic_spline, quartic_spline, quintic_spline, wendland_c2, wendland_c4,

@@ -76,6 +76,17 @@ impl Range {
         let outside = (r2 >= self.radius_squared) | (free > self.support);
         if outside { self.support } else { free }
     }
+
+    /// Leaves a formula's values at the squared distances in `out`.
+    fn fill<F: Formula>(&self, formula: &F, r2: &[f64], out: &mut [f64]) {
+        assert_eq!(r2.len(), out.len());
+        dispatch(Loop {
+            range: self,
+            formula,
+            r2,
+            out,
+        });
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -108,31 +119,11 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     }
 
     fn value(&self, r2: &[f64], w: &mut [f64]) {
-        assert_eq!(r2.len(), w.len());
-        let (range, formula) = (&self.range, &self.value);
-        dispatch(Loop {
-            range,
-            formula,
-            r2,
-            out: w,
-        });
+        self.range.fill(&self.value, r2, w);
     }
 
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
-        assert_eq!(r2.len(), factor.len());
-        let (range, formula) = (&self.range, &self.factor);
-        dispatch(Loop {
-            range,
-            formula,
-            r2,
-            out: factor,
-        });
-    }
-
-    fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]) {
-        assert_eq!((r2.len(), r2.len()), (w.len(), factor.len()));
-        self.value(r2, w);
-        self.gradient_factor(r2, factor);
+        self.range.fill(&self.factor, r2, factor);
     }
 }
 

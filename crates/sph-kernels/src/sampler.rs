@@ -38,11 +38,14 @@ pub trait Sampler: Send + Sync + Debug {
     /// If the slices differ in length.
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]);
 
-    /// [`Sampler::value`] and [`Sampler::gradient_factor`] in one pass.
+    /// [`Sampler::value`] and [`Sampler::gradient_factor`] together.
     ///
     /// # Panics
     /// If the slices differ in length.
-    fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]);
+    fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]) {
+        self.value(r2, w);
+        self.gradient_factor(r2, factor);
+    }
 }
 
 /// Panics unless h can be a smoothing length.

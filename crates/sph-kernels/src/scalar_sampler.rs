@@ -87,11 +87,4 @@ impl<K: Kernel> Sampler for ScalarSampler<K> {
             *factor = self.at_squared(*r2).1;
         }
     }
-
-    fn both(&self, r2: &[f64], w: &mut [f64], factor: &mut [f64]) {
-        assert_eq!((r2.len(), r2.len()), (w.len(), factor.len()));
-        for ((w, factor), r2) in w.iter_mut().zip(factor).zip(r2) {
-            (*w, *factor) = self.at_squared(*r2);
-        }
-    }
 }

@@ -65,12 +65,10 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
     }
 }
 
-/// The damper's part of the pressure.
-pub const DAMPING_PRESSURE: Field<Scalar> = Field::new(
-    "damping_pressure",
-    "Pa",
-    "pressure of the bulk viscosity against sound",
-);
+sph_core::fields! {
+    /// The damper's part of the pressure.
+    pub DAMPING_PRESSURE: Scalar = "damping_pressure", "Pa", "pressure of the bulk viscosity against sound";
+}
 
 /// q of [`AcousticDamper`], with α ρ₀ c, kg/(m² s), and ρ₀, kg/m³, of every phase.
 fn resistance<const D: usize>(impedance: Vec<f64>, densities: Vec<f64>) -> impl Stage<World<D>> {

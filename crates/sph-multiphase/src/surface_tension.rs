@@ -82,12 +82,10 @@ impl<const D: usize> Contribution<D> for SurfaceTension {
     }
 }
 
-/// Gradient of the colour of all other phases.
-pub const COLOUR_GRADIENT: Field<Vector> = Field::new(
-    "colour_gradient",
-    "1/m",
-    "gradient of the share of all other phases",
-);
+sph_core::fields! {
+    /// Gradient of the colour of all other phases.
+    pub COLOUR_GRADIENT: Vector = "colour_gradient", "1/m", "gradient of the share of all other phases";
+}
 
 /// [`COLOUR_GRADIENT`].
 fn colour_gradient<const D: usize>() -> impl Stage<World<D>> {

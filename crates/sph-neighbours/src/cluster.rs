@@ -33,6 +33,7 @@ pub struct Cluster<'a, const D: usize> {
 }
 
 /// Memory kept from cluster to cluster; one per thread.
+#[derive(Default)]
 pub(crate) struct Buffers<const D: usize> {
     /// Squared distances, one number per lane for each candidate; infinite for a particle and itself.
     pub distance2: Vec<f64>,
@@ -52,22 +53,6 @@ pub(crate) struct Buffers<const D: usize> {
     pub sums: crate::particles::Rows,
     /// True if `free` is of the cluster at hand.
     rows: bool,
-}
-
-impl<const D: usize> Default for Buffers<D> {
-    fn default() -> Self {
-        Buffers {
-            distance2: Vec::new(),
-            separation: Vec::new(),
-            factor: Vec::new(),
-            value: Vec::new(),
-            scaled: Default::default(),
-            walls: std::array::from_fn(|_| Scratch::new()),
-            free: std::array::from_fn(|_| Scratch::new()),
-            sums: Vec::new(),
-            rows: false,
-        }
-    }
 }
 
 impl<const D: usize> Buffers<D> {
@@ -123,7 +108,7 @@ impl<const D: usize> Cluster<'_, D> {
     /// Its particles, which follow each other.
     #[inline(always)]
     pub fn members(&self) -> Range<usize> {
-        self.members.from..self.members.from + self.members.count
+        self.members.range()
     }
 
     /// Possible neighbours of any of them, in index order, the particles themselves among them.
@@ -166,14 +151,9 @@ impl<const D: usize> Cluster<'_, D> {
             self.fill_rows();
         }
         for k in 0..self.members.count {
-            let particle = self.members.from + k;
             let neighbourhood = Neighbourhood {
-                particle,
                 free: self.buffers.free[k].row(),
-                wall: self.buffers.walls[k].row(),
-                contacts: self.contacts.of_particle(particle),
-                inverse_renormalisation: self.inverse_renormalisation[k],
-                scaling: self.scaling,
+                ..self.walls(k)
             };
             visit(k, &neighbourhood);
         }

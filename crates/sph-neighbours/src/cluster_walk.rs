@@ -1,24 +1,25 @@
-//! Walks over clusters that make rows of matrices, and other results that are no sums.
+//! Walks over clusters that make something else than rates: of sums in lanes, rows of matrices, and results that are no
+//! sums.
 
 use std::ops::Range;
 
 use sph_core::{Pool, StepError};
 use sph_kernels::Sampler;
-use sph_kernels::lanes::{Body, Lane, dispatch_at};
+use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
+use crate::blocks::each_block;
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
-use crate::members::groups;
+use crate::pair_sum::{PairSum, sum_cluster};
 use crate::particles::Particles;
 use crate::separation::grow;
 use crate::sweep::{Sweep, TaskScratch};
-use crate::{CHUNK, World};
+use crate::{CHUNK, Neighbourhood, World};
 
 /// Goes over the clusters of a world at the present places, block by block.
 pub struct ClusterWalk<'w, const D: usize> {
     sweep: Sweep<'w, D, dyn Sampler>,
     pool: &'w Pool<TaskScratch<D>>,
-    lanes: usize,
 }
 
 impl<'w, const D: usize> ClusterWalk<'w, D> {
@@ -30,7 +31,6 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         Ok(ClusterWalk {
             sweep: Sweep::new(world, &*world.kernel)?,
             pool: &world.lists.pools.sweeps,
-            lanes: sph_kernels::lanes::width().lanes(),
         })
     }
 
@@ -60,13 +60,10 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         others: impl Fn(&mut S, Range<usize>),
     ) {
         let mut room = self.pool.acquire();
-        for cluster in self.sweep.clusters(block) {
-            for members in groups(cluster, self.lanes) {
-                let own = members.from..members.from + members.count;
-                match own.clone().any(&wanted) {
-                    true => visit(hand, &mut self.sweep.measured(&mut room.0, members)),
-                    false => others(hand, own),
-                }
+        for members in self.sweep.clusters(block) {
+            match members.range().any(&wanted) {
+                true => visit(hand, &mut self.sweep.measured(&mut room.0, members)),
+                false => others(hand, members.range()),
             }
         }
     }
@@ -134,4 +131,35 @@ impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body
             }
         }
     }
+}
+
+/// Results of `of` for the sum over free neighbours and the walls near every particle that is wanted, into a place per
+/// particle; those of others stay as they are. The neighbourhood's free row is empty.
+///
+/// # Errors
+/// If the world has no positions.
+pub fn walk_in_lanes<const D: usize, S: PairSum<D>, R: Send>(
+    world: &World<D>,
+    sum: &S,
+    wanted: impl Fn(usize) -> bool + Sync,
+    out: &mut [R],
+    of: impl Fn(S::Sum<f64>, &Neighbourhood<'_, D>) -> R + Sync,
+) -> Result<(), StepError> {
+    let sweep = Sweep::new(world, &*world.kernel)?;
+    each_block(out, CHUNK, &|block, out| {
+        let mut room = world.lists.pools.sweeps.acquire();
+        sweep.each_wanted(block, &wanted, &mut room.0, |cluster| {
+            if S::VALUES {
+                cluster.weigh(&*world.kernel);
+            }
+            let mut rows = std::mem::take(&mut cluster.buffers.sums);
+            sum_cluster(sum, cluster, &mut rows);
+            for (k, i) in cluster.members().enumerate().filter(|(_, i)| wanted(*i)) {
+                let sum = S::Sum::<f64>::one(&rows, k);
+                out[i - block * CHUNK] = of(sum, &cluster.walls(k));
+            }
+            cluster.buffers.sums = rows;
+        });
+    });
+    Ok(())
 }

@@ -38,46 +38,11 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// Finds, for every cluster of points, the points nearer than `reach` to any of its members.
+    /// Finds, for every cluster of targets that follow each other, the points nearer than `reach` to any of its members; none
+    /// around clusters all of whose members are `idle`: no sum of theirs is needed.
     ///
     /// The candidates stand in the grid's cell order, which is index order where the points are sorted.
     pub fn build<const D: usize>(
-        &mut self,
-        points: &[Vect<D>],
-        grid: &CellGrid<D>,
-        reach: f64,
-        domain: &Domain<D>,
-        pool: &Pool<TaskScratch>,
-    ) {
-        self.build_but(points, grid, (reach, domain), pool, None);
-    }
-
-    /// The same, with no neighbours around clusters all of whose members are `idle`: no sum of theirs is needed.
-    pub(crate) fn build_but<const D: usize>(
-        &mut self,
-        points: &[Vect<D>],
-        grid: &CellGrid<D>,
-        within: (f64, &Domain<D>),
-        pool: &Pool<TaskScratch>,
-        idle: Option<&[bool]>,
-    ) {
-        self.build_all([points, points], grid, within, pool, idle);
-    }
-
-    /// The same for clusters of targets that follow each other and points around them.
-    pub fn build_around<const D: usize>(
-        &mut self,
-        targets: &[Vect<D>],
-        points: &[Vect<D>],
-        grid: &CellGrid<D>,
-        reach: f64,
-        domain: &Domain<D>,
-        pool: &Pool<TaskScratch>,
-    ) {
-        self.build_all([targets, points], grid, (reach, domain), pool, None);
-    }
-
-    fn build_all<const D: usize>(
         &mut self,
         [targets, points]: [&[Vect<D>]; 2],
         grid: &CellGrid<D>,
@@ -150,8 +115,8 @@ impl Clusters {
                     let mut used = 0;
                     for c in 0..all.clusters() {
                         let members = all.members(c, b * CHUNK);
-                        let own =
-                            members.from - b * CHUNK..members.from - b * CHUNK + members.count;
+                        let first = members.from - b * CHUNK;
+                        let own = first..first + members.count;
                         let room = &mut buffer[used..used + members.candidates.len()];
                         used += cluster(scratch, members, room, &mut numbers[own]);
                         block.starts.push(used as u32);

@@ -188,10 +188,8 @@ impl<'a, const D: usize> ContactRow<'a, D> {
 
     /// Their number.
     pub fn len(&self) -> usize {
-        self.runs
-            .iter()
-            .map(|run| (run.to - run.from) as usize)
-            .sum()
+        let each = self.runs.iter().map(|run| run.to - run.from);
+        each.sum::<u32>() as usize
     }
 
     /// True if there are none.
@@ -288,11 +286,10 @@ mod tests {
             [f64::from(element) + at, 1.0]
         };
         block.set_states(&state);
-        let all: Vec<_> = block
-            .row(0..2)
-            .iter()
-            .map(|c| (c.gradient[2], c.pressure))
-            .collect();
-        assert_eq!(all, [(1.0, 4.0), (2.0, 5.0), (3.0, 29.5)]);
+        let all = block.row(0..2).iter().map(|c| (c.gradient[2], c.pressure));
+        assert_eq!(
+            all.collect::<Vec<_>>(),
+            [(1.0, 4.0), (2.0, 5.0), (3.0, 29.5)]
+        );
     }
 }

@@ -14,17 +14,9 @@ use crate::{Contact, ContactBlock, ContactRow};
 pub struct Contacts<const D: usize> {
     /// Particles that have contacts, ascending.
     pub particles: Vec<u32>,
-    /// For every free particle where its contacts are.
-    places: Vec<ContactRange>,
+    /// Block and planes of the contacts of every free particle; no plane where it sees no wall.
+    places: Vec<(u32, Range<u32>)>,
     blocks: Vec<ContactBlock<D>>,
-}
-
-/// Planes of a block; none where a particle sees no wall.
-#[derive(Clone, Copy, Debug, Default)]
-struct ContactRange {
-    block: u32,
-    from: u32,
-    to: u32,
 }
 
 impl<const D: usize> Contacts<D> {
@@ -32,8 +24,8 @@ impl<const D: usize> Contacts<D> {
     #[inline(always)]
     pub fn of_particle(&self, particle: usize) -> ContactRow<'_, D> {
         match self.places.get(particle) {
-            Some(place) if place.from < place.to => {
-                self.blocks[place.block as usize].row(place.from..place.to)
+            Some((block, planes)) if !planes.is_empty() => {
+                self.blocks[*block as usize].row(planes.clone())
             }
             _ => ContactRow::NONE,
         }
@@ -41,9 +33,8 @@ impl<const D: usize> Contacts<D> {
 
     /// The contacts of all particles, by particle.
     pub fn all(&self) -> impl Iterator<Item = Contact<D>> {
-        self.particles
-            .iter()
-            .flat_map(|&p| self.of_particle(p as usize))
+        let particles = self.particles.iter();
+        particles.flat_map(|&p| self.of_particle(p as usize))
     }
 
     /// True if no particle has any.
@@ -63,14 +54,14 @@ impl<const D: usize> Contacts<D> {
     /// Bytes that all contacts need; buffers may hold more.
     pub fn bytes(&self) -> usize {
         let blocks = self.blocks.iter().map(ContactBlock::bytes).sum::<usize>();
-        blocks + size_of::<ContactRange>() * self.places.len() + 4 * self.particles.len()
+        blocks + size_of_val(&self.places[..]) + 4 * self.particles.len()
     }
 
     /// Clears the contacts, so that `particles` free ones have none, and hands out the blocks for new ones.
     pub fn take_blocks(&mut self, particles: usize) -> Vec<ContactBlock<D>> {
         self.particles.clear();
         self.places.clear();
-        self.places.resize(particles, ContactRange::default());
+        self.places.resize(particles, (0, 0..0));
         std::mem::take(&mut self.blocks)
     }
 
@@ -85,11 +76,7 @@ impl<const D: usize> Contacts<D> {
             return;
         }
         self.particles.push(particle);
-        self.places[particle as usize] = ContactRange {
-            block: block as u32,
-            from: planes.start,
-            to: planes.end,
-        };
+        self.places[particle as usize] = (block as u32, planes);
     }
 }
 
@@ -130,22 +117,18 @@ mod tests {
             [0, 1, 3].map(|k| contacts.of_particle(k).elements().len()),
             [3, 0, 1]
         );
-        let sizes: Vec<_> = contacts
-            .all()
-            .map(|c| (c.gradient[1], c.distance))
-            .collect();
-        assert_eq!(sizes, [(1.0, 0.0), (2.0, 0.0), (3.0, 2.0), (4.0, 0.0)]);
+        let sizes = contacts.all().map(|c| (c.gradient[1], c.distance));
+        assert_eq!(
+            sizes.collect::<Vec<_>>(),
+            [(1.0, 0.0), (2.0, 0.0), (3.0, 2.0), (4.0, 0.0)]
+        );
         contacts.set_states(|element, _| [f64::from(element), 2.0]);
         let pressures: Vec<_> = contacts.all().map(|c| c.pressure).collect();
         assert_eq!(pressures, [7.0, 8.0, 4.0, 9.0]);
         let mut one = ContactBlock::default();
         one.push_row(contacts.of_particle(0), |element| element != 8);
-        let kept: Vec<_> = one
-            .row(0..2)
-            .iter()
-            .map(|c| (c.element, c.pressure))
-            .collect();
-        assert_eq!(kept, [(7, 7.0), (4, 4.0)]);
+        let kept = one.row(0..2).iter().map(|c| (c.element, c.pressure));
+        assert_eq!(kept.collect::<Vec<_>>(), [(7, 7.0), (4, 4.0)]);
         contacts.take_blocks(4);
         assert!(contacts.is_empty() && contacts.of_particle(3).is_empty());
     }

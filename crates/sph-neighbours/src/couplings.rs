@@ -67,6 +67,20 @@ impl Couplings {
         self.blocks.iter().map(of).sum()
     }
 
+    /// The groups of a block, each with its columns and numbers.
+    fn groups(&self, block: usize) -> impl Iterator<Item = (&Group, &[u32], &[f64])> {
+        let kept = &self.blocks[block];
+        let (mut start, mut rest) = (0, &kept.numbers[..]);
+        kept.groups.iter().map(move |group| {
+            let columns = &kept.columns[start..group.to as usize];
+            start = group.to as usize;
+            let own = columns.len() * self.kinds.count() * group.width.lanes();
+            let (numbers, behind) = rest.split_at(own);
+            rest = behind;
+            (group, columns, numbers)
+        })
+    }
+
     /// The couplings among particles at the places of a world, which must be those where they were found.
     ///
     /// # Errors
@@ -105,12 +119,7 @@ impl<const D: usize> CouplingsAt<'_, D> {
         of: impl Fn(usize, Vect<D>) -> Vect<D> + Sync,
     ) {
         each_block(out, CHUNK, &|block, out| {
-            let kept = &self.couplings.blocks[block];
-            let mut start = 0;
-            let numbers = &mut &kept.numbers[..];
-            for group in &kept.groups {
-                let columns = &kept.columns[start..group.to as usize];
-                start = group.to as usize;
+            for (group, columns, numbers) in self.couplings.groups(block) {
                 let from = group.from as usize;
                 let own = from..from + group.count as usize;
                 let first = from - block * CHUNK;
@@ -121,19 +130,16 @@ impl<const D: usize> CouplingsAt<'_, D> {
         });
     }
 
-    /// The sums of a group, whose numbers are taken from the front of those that are left.
+    /// The sums of a group.
     fn group(
         &self,
         group: &Group,
         columns: &[u32],
-        numbers: &mut &[f64],
+        numbers: &[f64],
         u: &[Vect<D>],
         out: &mut [Vect<D>],
     ) {
         let kinds = self.couplings.kinds;
-        let taken = columns.len() * kinds.count() * group.width.lanes();
-        let (own, rest) = numbers.split_at(taken);
-        *numbers = rest;
         let from = group.from as usize;
         let there = from..from + group.count as usize;
         let product = Product {
@@ -142,7 +148,7 @@ impl<const D: usize> CouplingsAt<'_, D> {
             positions: self.positions,
             u,
             columns,
-            numbers: own,
+            numbers,
             domain: group.wraps.then_some(self.domain),
             out,
         };
@@ -159,13 +165,8 @@ impl<const D: usize> CouplingsAt<'_, D> {
     /// the last.
     pub fn each<V: Visitor<D>>(&self, block: usize, visitor: &mut V) {
         let kinds = self.couplings.kinds;
-        let kept = &self.couplings.blocks[block];
-        let (mut start, mut first) = (0, 0);
-        for group in &kept.groups {
+        for (group, columns, numbers) in self.couplings.groups(block) {
             let lanes = group.width.lanes();
-            let columns = &kept.columns[start..group.to as usize];
-            let numbers = &kept.numbers[first..][..columns.len() * kinds.count() * lanes];
-            (start, first) = (group.to as usize, first + numbers.len());
             for lane in 0..group.count as usize {
                 let a = group.from as usize + lane;
                 visitor.begin(a, columns.len());
@@ -231,11 +232,8 @@ impl<const D: usize, const EVEN: bool, const ALONG: bool> Body for ProductBody<'
         let own = places::<D, L>(product.own);
         let mut sum = [L::splat(0.0); D];
         let each = (usize::from(EVEN) + usize::from(ALONG)) * L::N;
-        let pairs = product
-            .columns
-            .iter()
-            .zip(product.numbers.chunks_exact(each));
-        for (&j, numbers) in pairs {
+        let numbers = product.numbers.chunks_exact(each);
+        for (&j, numbers) in product.columns.iter().zip(numbers) {
             let j = j as usize;
             let relative = minus(&own, &product.u[j]);
             if EVEN {

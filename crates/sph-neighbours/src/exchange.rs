@@ -29,19 +29,17 @@ impl<const D: usize> World<D> {
     /// Replaces each value by the largest of all.
     ///
     /// # Errors
-    /// If the particles elsewhere are lost, as everywhere below.
+    /// If the particles elsewhere are lost; as everywhere below.
     pub fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {
-        self.communicator
-            .as_ref()
-            .map_or(Ok(()), |communicator| communicator.largest(values))
+        match &self.communicator {
+            Some(link) => Ok(link.agree(false, values)?),
+            None => Ok(()),
+        }
     }
 
     /// The items of all, one's own among them.
-    ///
-    /// # Errors
-    /// As [`largest`](Self::largest).
     pub fn of_all<T: Words>(&self, own: Vec<T>) -> Result<Vec<T>, StepError> {
-        let Some(communicator) = &self.communicator else {
+        let Some(link) = &self.communicator else {
             return Ok(own);
         };
         let mut words = Vec::new();
@@ -51,7 +49,7 @@ impl<const D: usize> World<D> {
             item.write(&mut words);
             words[length] = (words.len() - length - 1) as u64;
         }
-        let words = communicator.gather(&words)?;
+        let words = link.gather(&words)?;
         let (mut all, mut rest) = (Vec::new(), &words[..]);
         while let Some((length, behind)) = rest.split_first() {
             let (item, others) = behind.split_at((*length as usize).min(behind.len()));
@@ -62,9 +60,6 @@ impl<const D: usize> World<D> {
     }
 
     /// A list of which each item is known where it is `owned`, and `otherwise` nowhere.
-    ///
-    /// # Errors
-    /// As [`largest`](Self::largest).
     pub fn agreed<T: Words>(
         &self,
         list: Vec<T>,
@@ -87,7 +82,7 @@ impl<const D: usize> World<D> {
     /// Runs a stage within other work: copies of particles follow their owners at once.
     ///
     /// # Errors
-    /// Those of the stage, and as [`largest`](Self::largest).
+    /// Those of the stage.
     pub fn run(&mut self, stage: &mut dyn Stage<World<D>>) -> Result<(), StepError> {
         stage.run(self)?;
         match self.communicator.is_some() {
@@ -98,13 +93,10 @@ impl<const D: usize> World<D> {
 
     /// Gives copies the sums of work with this access over the neighbours of their owners. The rest is computed for
     /// copies, too.
-    ///
-    /// # Errors
-    /// As [`largest`](Self::largest).
     pub fn refresh(&mut self, access: &Access) -> Result<(), StepError> {
         let sums = access.sweep && !access.writes.is_empty();
-        match self.communicator.clone().filter(|_| sums) {
-            Some(communicator) => communicator.update_ghosts(&mut self.free, &access.writes),
+        match self.communicator.as_ref().filter(|_| sums) {
+            Some(link) => Ok(link.update_ghosts(&mut self.free, |f| access.writes.contains(f))?),
             None => Ok(()),
         }
     }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_kernels::Sampler;
 
-use crate::{CellGrid, Domain, WallForce, World, cross};
+use crate::{CellGrid, WallForce, World, cross};
 
 /// Corners that are as near to each other are one, over the size of an element.
 const SAME_PLACE: f64 = 1e-6;
@@ -55,16 +55,12 @@ pub fn facing_forces<const D: usize>(
         let at_s = elements.centre[s] + world.walls.round(elements.wall[s]);
         let apart = elements.centre[s] - elements.centre[t];
         let at_t = at_s - world.domain.nearest_image(apart);
-        let [first, second] = [(at_s, on_s), (at_t, on_t)].map(|(x, f)| cross(&x, &f));
-        let mut both = [0.0; 6];
-        both[..D].copy_from_slice((on_s + on_t).as_slice());
-        (0..3).for_each(|k| both[3 + k] = first[k] + second[k]);
-        both
+        let [first, second] = [(at_s, on_s), (at_t, on_t)].map(|(x, f)| WallForce::parts(&x, &f));
+        std::array::from_fn(|k| first[k] + second[k])
     };
     let parts = |facing: &Facing| {
-        let known = facing
-            .pair
-            .map(|e| owned.has(e).then_some(elements.pressure[e]));
+        let pressure = |e: usize| owned.has(e).then_some(elements.pressure[e]);
+        let known = facing.pair.map(pressure);
         known.map(|p| p.map(|p| part(facing, p)))
     };
     for (wall, force) in forces.iter_mut().enumerate() {
@@ -76,9 +72,7 @@ pub fn facing_forces<const D: usize>(
             let pair = &pairs[k / 2];
             of_wall(&pair).then(|| parts(pair)[k % 2]).flatten()
         };
-        let sums = world.sums_of(2 * pairs.len(), &one)?;
-        force.force = Vect::from_fn(|k, _| sums[k]);
-        force.moment = [sums[3], sums[4], sums[5]];
+        *force = WallForce::from_sums(world.sums_of(2 * pairs.len(), &one)?);
     }
     Ok(forces)
 }
@@ -131,16 +125,30 @@ fn near<const D: usize, N: PartialEq + Sync>(
     let place = |s: usize| world.domain.wrapped(elements.centre[s]);
     let places: Vec<_> = held.iter().map(|s| place(*s)).collect();
     let grid = CellGrid::new(&places, radius, &world.domain);
-    let reach = Reach::around(&held, &places, &number);
+    // Boxes around the elements of every wall.
+    let mut boxes: Vec<(N, [Vect<D>; 2])> = Vec::new();
+    for (s, x) in held.iter().zip(&places) {
+        match boxes.iter_mut().find(|(other, _)| *other == number(*s)) {
+            Some((_, [low, high])) => (*low, *high) = (low.inf(x), high.sup(x)),
+            None => boxes.push((number(*s), [*x; 2])),
+        }
+    }
+    let within = |x: &Vect<D>, [low, high]: &[Vect<D>; 2]| {
+        let along = |k: usize| x[k] > low[k] - radius && x[k] < high[k] + radius;
+        (0..D).all(|k| world.domain.periodic[k] || along(k))
+    };
     let before = |t: usize| {
         let mut found = Vec::new();
-        let x = place(t);
-        if !reach.others_near(&x, number(t), radius, &world.domain) {
+        let (x, own) = (place(t), number(t));
+        if !boxes
+            .iter()
+            .any(|(other, of)| *other != own && within(&x, of))
+        {
             return found;
         }
         grid.ranges(&x, radius, |range| {
             let near = grid.order()[range].iter().map(|k| held[*k as usize]);
-            for s in near.filter(|s| number(*s) != number(t)) {
+            for s in near.filter(|s| number(*s) != own) {
                 let apart = elements.centre[s] - elements.centre[t];
                 let distance = world.domain.nearest_image(apart).norm();
                 if distance < radius {
@@ -152,34 +160,6 @@ fn near<const D: usize, N: PartialEq + Sync>(
     };
     let all = (0..elements.centre.len()).into_par_iter().with_min_len(256);
     all.flat_map_iter(before).collect()
-}
-
-/// Boxes around the elements of every wall.
-struct Reach<const D: usize, N>(Vec<(N, [Vect<D>; 2])>);
-
-impl<const D: usize, N: PartialEq> Reach<D, N> {
-    fn around(held: &[usize], places: &[Vect<D>], number: impl Fn(usize) -> N) -> Self {
-        let mut all: Vec<(N, [Vect<D>; 2])> = Vec::new();
-        for (s, x) in held.iter().zip(places) {
-            let own = number(*s);
-            match all.iter_mut().find(|(other, _)| *other == own) {
-                Some((_, [low, high])) => {
-                    (*low, *high) = (low.inf(x), high.sup(x));
-                }
-                None => all.push((own, [*x; 2])),
-            }
-        }
-        Reach(all)
-    }
-
-    /// True if a place is within a radius of the box of a wall of another number, by the box alone.
-    fn others_near(&self, x: &Vect<D>, own: N, radius: f64, domain: &Domain<D>) -> bool {
-        let near = |[low, high]: &[Vect<D>; 2]| {
-            let along = |k: usize| x[k] > low[k] - radius && x[k] < high[k] + radius;
-            (0..D).all(|k| domain.periodic[k] || along(k))
-        };
-        self.0.iter().any(|(other, of)| *other != own && near(of))
-    }
 }
 
 /// True if two elements have a corner at the same place.

@@ -80,34 +80,27 @@ impl<const D: usize> CellGrid<D> {
     /// Points outside the box count for the cell at its edge, which is still correct.
     pub fn new(positions: &[Vect<D>], radius: f64, domain: &Domain<D>) -> Self {
         let mut grid = Self::default();
-        grid.renew(positions, radius, domain);
+        grid.renew(None, positions, radius, domain);
         grid
     }
 
-    /// The same in the memory of this grid.
-    pub fn renew(&mut self, positions: &[Vect<D>], radius: f64, domain: &Domain<D>) {
-        self.cells(&Extent::around(positions), radius, domain);
-        self.sort(positions);
-    }
-
-    /// The same with the cells of a larger set of points, of which these are some: they come in the order that they have
-    /// among all. Only the cells around these points are held, along axes that are not periodic.
-    pub fn renew_among(
+    /// The same in the memory of this grid, with the cells of an extent of a larger set of points, if these are some of such:
+    /// they come in the order that they have among all. Then only the cells around these points are held, along axes that
+    /// are not periodic.
+    pub fn renew(
         &mut self,
-        extent: &Extent<D>,
+        among: Option<&Extent<D>>,
         positions: &[Vect<D>],
         radius: f64,
         domain: &Domain<D>,
     ) {
-        self.cells(extent, radius, domain);
         let own = Extent::around(positions);
-        let corners = [own.lower, own.upper].map(|x| {
-            let at = |axis| self.coordinate(&x, axis);
-            std::array::from_fn::<usize, D, _>(at)
-        });
-        for axis in (0..D).filter(|a| !domain.periodic[*a]) {
-            self.first[axis] = corners[0][axis];
-            self.counts[axis] = corners[1][axis] + 1 - corners[0][axis];
+        self.cells(among.unwrap_or(&own), radius, domain);
+        if among.is_some() {
+            for axis in (0..D).filter(|a| !domain.periodic[*a]) {
+                let [low, high] = [own.lower, own.upper].map(|x| self.coordinate(&x, axis));
+                (self.first[axis], self.counts[axis]) = (low, high + 1 - low);
+            }
         }
         self.sort(positions);
     }
@@ -129,9 +122,8 @@ impl<const D: usize> CellGrid<D> {
         let most = 4.0 * extent.points.max(16) as f64;
         let mut width = radius / CELLS_PER_RADIUS as f64;
         let cells = |w: f64| {
-            (0..D)
-                .map(|a| (extent_along(a) / w).floor().max(1.0))
-                .product::<f64>()
+            let along = |a: usize| (extent_along(a) / w).floor().max(1.0);
+            (0..D).map(along).product::<f64>()
         };
         while cells(width) > most {
             width *= 1.5;

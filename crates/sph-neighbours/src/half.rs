@@ -17,7 +17,7 @@ impl SweepHalf {
         let mut edge = vec![false; sent.len()];
         for block in 0..sent.len().div_ceil(CHUNK) {
             for members in lists.of_block(block) {
-                let own = members.from..members.from + members.count;
+                let own = members.range();
                 let some = sent[own.clone()].iter().any(|sent| *sent);
                 edge[own].fill(some);
             }

@@ -13,7 +13,7 @@ use crate::pair_sum::PairSum;
 use crate::particles::{Particles, Rows, make_room as room_for};
 use crate::scaling::Scaling;
 use crate::separation::Distances;
-use crate::sweep::wrapping;
+use crate::walk::wrapping;
 use crate::{Clusters, Domain, HiddenPairs, WallPoints, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
@@ -43,7 +43,7 @@ pub fn kernel_sums<const D: usize>(
         inside.resize(all.candidates.len(), false);
         for members in groups(all, width.lanes()) {
             let first = members.from - all.from;
-            let near = (members.from..members.from + members.count).find_map(domain);
+            let near = members.range().find_map(domain);
             dispatch_at(
                 width,
                 Distances::<D, false> {
@@ -170,7 +170,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
         let (values, inside, rows) = &mut *room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
-                let own = members.from..members.from + members.count;
+                let own = members.range();
                 let mut near = targets[own.clone()].iter();
                 let around = TargetPoints {
                     targets,

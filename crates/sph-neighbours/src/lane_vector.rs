@@ -23,14 +23,6 @@ pub fn vector<const D: usize, L: Lane>(lanes: &[L; D], lane: usize) -> Vect<D> {
     v
 }
 
-/// Puts a vector into a lane.
-#[inline(always)]
-pub fn set<const D: usize, L: Lane>(lanes: &mut [L; D], lane: usize, v: &Vect<D>) {
-    for k in 0..D {
-        lanes[k].set(lane, v[k]);
-    }
-}
-
 /// Positive where the phases are not `other`: they are small whole numbers, exact as any.
 #[inline(always)]
 pub fn unlike<L: Lane>(phases: L, other: u32) -> L {

@@ -1,5 +1,7 @@
 //! Members of a cluster, and their candidates.
 
+use std::ops::Range;
+
 use sph_kernels::lanes::MOST;
 
 /// Some particles that follow each other, and all that any of them may have within reach.
@@ -14,6 +16,12 @@ pub(crate) struct Members<'a> {
 }
 
 impl<'a> Members<'a> {
+    /// The particles.
+    #[inline(always)]
+    pub fn range(&self) -> Range<usize> {
+        self.from..self.from + self.count
+    }
+
     /// The same with other candidates.
     pub fn with(self, candidates: &'a [u32]) -> Self {
         Members { candidates, ..self }

@@ -35,18 +35,12 @@ impl Owned {
 impl<const D: usize> World<D> {
     /// The particles that count in sums over all.
     pub fn owned(&self) -> Owned {
-        Owned(
-            self.communicator
-                .as_ref()
-                .map(|communicator| communicator.own(&self.free)),
-        )
+        Owned(self.communicator.as_ref().map(|link| link.own(&self.free)))
     }
 
     /// Particles whose sums over neighbours are not needed; `None` if all are needed.
     pub fn idle(&self) -> Option<Vec<bool>> {
-        self.communicator
-            .as_ref()
-            .and_then(|communicator| communicator.idle(&self.free))
+        self.communicator.as_ref()?.idle(&self.free)
     }
 
     /// The elements of walls that count in sums over all.

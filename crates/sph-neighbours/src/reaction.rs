@@ -3,7 +3,7 @@
 use sph_core::{StepError, Vect, fields};
 
 use crate::facing::facing_forces;
-use crate::{Interaction, WallForce, WallPart, World, cross, wall_parts};
+use crate::{Interaction, WallForce, WallPart, World, wall_parts};
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
 ///
@@ -22,14 +22,11 @@ pub fn wall_forces<const D: usize>(
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let mut forces = reactions(world, terms, wanted)?;
     let facing = facing_forces(world, wanted)?;
-    forces
-        .iter_mut()
-        .zip(&facing)
-        .for_each(|(f, more)| f.add(more));
+    let both = forces.iter_mut().zip(&facing);
+    both.for_each(|(f, more)| f.add(more));
     for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
-        let sums = pressure_on(world, wall as u32)?;
-        total.pressure_force = Vect::from_fn(|k, _| sums[k]);
-        total.pressure_moment = [sums[3], sums[4], sums[5]];
+        let pressure = WallForce::from_sums(pressure_on(world, wall as u32)?);
+        (total.pressure_force, total.pressure_moment) = (pressure.force, pressure.moment);
     }
     Ok(forces)
 }
@@ -58,22 +55,15 @@ pub fn reactions<const D: usize>(
     let sees = |i: usize| owned.has(i) && sees(i);
     let mut parts: Vec<Vec<[f64; 6]>> = vec![Vec::new(); wanted.len()];
     for part in wall_parts(world, terms, sees)? {
-        let mut both = [0.0; 6];
-        both[..D].copy_from_slice(part.force.as_slice());
         let place = image_beside_wall(world, &positions[part.particle as usize], &part);
-        both[3..].copy_from_slice(&cross(&place, &part.force));
-        parts[part.wall as usize].push(both);
+        parts[part.wall as usize].push(WallForce::parts(&place, &part.force));
     }
     let all = parts.iter().zip(wanted).map(|(parts, wanted)| {
         if !wanted {
             return Ok(WallForce::unknown());
         }
         let sums = world.sums_of(parts.len(), &|k| Some(parts[k]))?;
-        Ok(WallForce {
-            force: Vect::from_fn(|k, _| sums[k]),
-            moment: [sums[3], sums[4], sums[5]],
-            ..WallForce::zero()
-        })
+        Ok(WallForce::from_sums(sums))
     });
     all.collect()
 }
@@ -111,10 +101,7 @@ fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], 
     let round = world.walls.round(wall);
     let part = |s: usize| {
         let force = elements.normal[s] * (-elements.pressure[s] * elements.measure[s]);
-        let mut both = [0.0; 6];
-        both[..D].copy_from_slice(force.as_slice());
-        both[3..].copy_from_slice(&cross(&(elements.centre[s] + round), &force));
-        both
+        WallForce::parts(&(elements.centre[s] + round), &force)
     };
     let on = |s: usize| elements.wall[s] == wall && owned.has(s);
     world.sums_of(elements.centre.len(), &|s| on(s).then(|| part(s)))

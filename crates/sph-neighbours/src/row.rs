@@ -80,17 +80,6 @@ pub struct Scratch<const D: usize> {
 }
 
 impl<const D: usize> Scratch<D> {
-    /// Empty buffers.
-    pub fn new() -> Self {
-        Scratch {
-            index: Vec::new(),
-            separation: Vec::new(),
-            distance2: Vec::new(),
-            factor: Vec::new(),
-            len: 0,
-        }
-    }
-
     /// Keeps the candidates within the support and evaluates F for them.
     ///
     /// `own` is left out: the target's index where it is one of the sources, else [`NOBODY`].
@@ -195,7 +184,7 @@ impl<const D: usize> Scratch<D> {
 
     /// A copy of a row with the sources that count.
     pub(crate) fn copied(row: &Row<'_, D>, counts: impl Fn(u32) -> bool) -> Self {
-        let mut kept = Scratch::new();
+        let mut kept = Scratch::default();
         for k in (0..row.index.len()).filter(|k| counts(row.index[*k])) {
             kept.index.push(row.index[k]);
             kept.separation.push(row.separation[k]);
@@ -231,16 +220,8 @@ impl<const D: usize> Scratch<D> {
 }
 
 /// Buffers for the rows of free neighbours and wall points.
+#[derive(Default)]
 pub struct Rows<const D: usize> {
     pub(crate) free: Scratch<D>,
     pub(crate) wall: Scratch<D>,
-}
-
-impl<const D: usize> Default for Rows<D> {
-    fn default() -> Self {
-        Rows {
-            free: Scratch::new(),
-            wall: Scratch::new(),
-        }
-    }
 }

@@ -27,12 +27,10 @@ impl<const D: usize> Slopes<D> {
 
     /// Those of a particle.
     pub fn of_particle(&self, particle: usize) -> &[Slope<D>] {
-        let from = self
-            .all
-            .partition_point(|s| (s.particle as usize) < particle);
-        let own = self.all[from..]
-            .iter()
-            .take_while(|s| s.particle as usize == particle);
+        let before = |s: &Slope<D>| (s.particle as usize) < particle;
+        let from = self.all.partition_point(before);
+        let own = self.all[from..].iter();
+        let own = own.take_while(|s| s.particle as usize == particle);
         &self.all[from..from + own.count()]
     }
 
@@ -57,11 +55,8 @@ mod tests {
         let mut slopes = Slopes::default();
         slopes.renew([slope(1, 0), slope(1, 2), slope(4, 1)].into_iter());
         let walls = |particle| {
-            slopes
-                .of_particle(particle)
-                .iter()
-                .map(|s| s.wall)
-                .collect()
+            let own = slopes.of_particle(particle).iter();
+            own.map(|s| s.wall).collect()
         };
         let found: Vec<Vec<u32>> = (0..6).map(walls).collect();
         assert_eq!(found, [vec![], vec![0, 2], vec![], vec![], vec![1], vec![]]);

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 
-use crate::{Communicator, Owned, World};
+use crate::decomposition::Link;
+use crate::{Owned, World};
 
 /// The vectors of a solve, with a value for each particle: copies of particles that are at home elsewhere follow their
 /// owners, and products are those of all rows. Where all particles are here, nothing has to follow.
 pub struct Space<const D: usize> {
-    communicator: Option<Arc<dyn Communicator<D>>>,
+    link: Option<Arc<Link>>,
     owned: Owned,
     particles: usize,
 }
@@ -28,11 +29,11 @@ impl<const D: usize> World<D> {
     /// # Errors
     /// If the particles elsewhere are lost.
     pub fn space(&self) -> Result<Space<D>, StepError> {
-        if let Some(communicator) = &self.communicator {
-            communicator.begin_solve()?;
+        if let Some(link) = &self.communicator {
+            link.any(false, false)?;
         }
         Ok(Space {
-            communicator: self.communicator.clone(),
+            link: self.communicator.clone(),
             owned: self.owned(),
             particles: self.free.len(),
         })
@@ -42,7 +43,7 @@ impl<const D: usize> World<D> {
 impl<const D: usize> Space<D> {
     /// True if all rows are here.
     pub fn is_whole(&self) -> bool {
-        self.communicator.is_none()
+        self.link.is_none()
     }
 
     /// Particles, copies among them.
@@ -56,16 +57,9 @@ impl<const D: usize> Space<D> {
     }
 
     /// Gives copies the values of their owners.
-    pub fn refresh(&self, values: &mut [Vect<D>]) {
-        if let Some(communicator) = &self.communicator {
-            communicator.mirror(values);
-        }
-    }
-
-    /// The same of a vector with one number for each particle.
-    pub fn refresh_numbers(&self, values: &mut [Vect<1>]) {
-        if let Some(communicator) = &self.communicator {
-            communicator.mirror_scalars(values);
+    pub fn refresh<const C: usize>(&self, values: &mut [Vect<C>]) {
+        if let Some(link) = &self.link {
+            link.mirror(values);
         }
     }
 
@@ -76,12 +70,12 @@ impl<const D: usize> Space<D> {
         mark: impl Fn(&T) -> bool,
         of: impl Fn(usize, bool) -> T,
     ) {
-        let (Some(communicator), Some(own)) = (&self.communicator, self.owned.marks()) else {
+        let (Some(link), Some(own)) = (&self.link, self.owned.marks()) else {
             return;
         };
         let marks = values.iter().map(|value| f64::from(u8::from(mark(value))));
         let mut marks: Vec<Vect<1>> = marks.map(|mark| Vect::from([mark])).collect();
-        communicator.mirror_scalars(&mut marks);
+        link.mirror(&mut marks);
         let all = values.iter_mut().zip(own).enumerate();
         for (i, (value, _)) in all.filter(|(_, (_, own))| !**own) {
             *value = of(i, marks[i][0] > 0.0);
@@ -95,25 +89,23 @@ impl<const D: usize> Space<D> {
 
     /// The same of rows of which some are `owned`.
     pub fn inner_of<const C: usize>(&self, owned: &Owned, x: &[Vect<C>], y: &[Vect<C>]) -> f64 {
-        match (&self.communicator, owned.marks()) {
-            (Some(communicator), Some(own)) => communicator.add(inner_of(x, y, own)),
+        match (&self.link, owned.marks()) {
+            (Some(link), Some(own)) => link.add(inner_of(x, y, own)),
             _ => inner(x, y),
         }
     }
 
     /// True if it holds for all particles with rows.
     pub fn all(&self, holds: bool) -> bool {
-        match &self.communicator {
+        match &self.link {
             None => holds,
-            Some(communicator) => communicator.most(f64::from(u8::from(!holds))) == 0.0,
+            Some(link) => link.most(f64::from(u8::from(!holds))) == 0.0,
         }
     }
 
     /// The largest value of all particles with rows.
     pub fn largest(&self, value: f64) -> f64 {
-        self.communicator
-            .as_ref()
-            .map_or(value, |communicator| communicator.most(value))
+        self.link.as_ref().map_or(value, |link| link.most(value))
     }
 }
 

@@ -17,7 +17,7 @@ impl<const D: usize> World<D> {
     /// sum does not depend on the order, the threads, nor on the ranks of the particles.
     ///
     /// # Errors
-    /// If another rank has failed.
+    /// If another rank has failed, as everywhere below.
     pub fn sums<const N: usize>(
         &self,
         each: impl Fn(usize) -> [f64; N] + Sync,
@@ -27,9 +27,6 @@ impl<const D: usize> World<D> {
     }
 
     /// The same of `count` values, some of which may be missing; of several ranks each has some. Each is asked for twice.
-    ///
-    /// # Errors
-    /// As [`sums`](Self::sums).
     pub fn sums_of<const N: usize>(
         &self,
         count: usize,
@@ -58,9 +55,6 @@ impl<const D: usize> World<D> {
 
     /// The sums of parts by the number of their place, below `count`; of several ranks each has some. They depend neither on the
     /// order nor on the owners, as [`sums`](Self::sums).
-    ///
-    /// # Errors
-    /// As [`sums`](Self::sums).
     pub fn sums_by_place(
         &self,
         parts: &[(usize, f64)],
@@ -78,23 +72,19 @@ impl<const D: usize> World<D> {
             sums[*place] = sums[*place].wrapping_add(whole);
         }
         self.total(&mut sums)?;
-        let both = sums.iter().zip(shifts);
-        Ok(both
-            .map(|(sum, shift)| scaled(*sum as f64, -shift))
-            .collect())
+        let each = |(sum, shift): (&i128, i32)| scaled(*sum as f64, -shift);
+        Ok(sums.iter().zip(shifts).map(each).collect())
     }
 
     /// Adds the whole numbers of all ranks.
     fn total(&self, sums: &mut [i128]) -> Result<(), StepError> {
-        let Some(communicator) = &self.communicator else {
+        let Some(link) = &self.communicator else {
             return Ok(());
         };
         let limb = |sum: i128, k: usize| (sum as u128 >> (32 * k)) as u64 & 0xFFFF_FFFF;
-        let mut limbs: Vec<u64> = sums
-            .iter()
-            .flat_map(|sum| (0..LIMBS).map(|k| limb(*sum, k)))
-            .collect();
-        communicator.total(&mut limbs)?;
+        let limbs = |sum: &i128| std::array::from_fn::<_, LIMBS, _>(|k| limb(*sum, k));
+        let mut limbs: Vec<u64> = sums.iter().flat_map(limbs).collect();
+        link.total(&mut limbs)?;
         for (sum, limbs) in sums.iter_mut().zip(limbs.chunks(LIMBS)) {
             let joined = |all: u128, (k, limb): (usize, &u64)| {
                 all.wrapping_add(u128::from(*limb) << (32 * k))

@@ -2,8 +2,9 @@
 
 use std::borrow::Borrow;
 
+use rayon::iter::Either;
 use rayon::prelude::*;
-use sph_core::{Access, StepError, Vect, fields};
+use sph_core::{Access, StepError, Vect};
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{MOST, Width, width};
 
@@ -11,9 +12,9 @@ use crate::cluster::{Buffers, Cluster};
 use crate::half::is_wanted;
 use crate::list::CHUNK;
 use crate::members::{Members, groups};
-use crate::scaling::Scaling;
 use crate::term::{Interaction, RowTerm, WithTerm};
-use crate::{Clusters, Domain, NOBODY, Neighbourhood, Rates, TRANSPORTED, World};
+use crate::walk::Surroundings;
+use crate::{Neighbourhood, Rates, TRANSPORTED, World};
 
 /// Sums all terms of all particles.
 ///
@@ -144,63 +145,46 @@ where
 {
     let sweep = Sweep::new(world, kernel)?;
     let start = Rates::from_acceleration(world.gravity + world.driving);
-    let room = || world.lists.pools.sweeps.acquire();
     let half = world.lists.sweep_half.as_ref();
-    let work = |room: &mut TaskScratch<D>, block: usize, particles: usize| {
-        let (buffers, rates) = room;
-        rates.clear();
-        rates.resize(particles, start);
-        sweep.block(term, |i| is_wanted(half, i), buffers, block, rates);
-    };
-    // The requested particles of a block, by their places in it.
-    let wanted = |(block, k): (usize, usize)| is_wanted(half, block * CHUNK + k);
+    let wanted = |i: usize| is_wanted(half, i);
     let Sums {
         acceleration,
         scalar,
         more,
     } = sums;
-    let all = acceleration.par_chunks_mut(CHUNK).enumerate();
-    match (scalar, more) {
-        (Some(scalar), []) => {
-            all.zip(scalar.par_chunks_mut(CHUNK))
-                .for_each_init(room, |room, ((c, a), s)| {
-                    work(room, c, a.len());
-                    let all = a.iter_mut().zip(s).zip(&room.1).enumerate();
-                    for (_, ((a, s), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
-                        (*a, *s) = (rates.acceleration, rates.scalar);
-                    }
-                });
-        }
-        (None, []) => all.for_each_init(room, |room, (c, a)| {
-            work(room, c, a.len());
-            let all = a.iter_mut().zip(&room.1).enumerate();
-            for (_, (a, rates)) in all.filter(|(k, _)| wanted((c, *k))) {
-                *a = rates.acceleration;
+    let count = acceleration.len().div_ceil(CHUNK);
+    let more = Some(more).filter(|more| !more.is_empty());
+    let all = acceleration.par_chunks_mut(CHUNK);
+    let all = all
+        .zip(blocks_of(scalar, count))
+        .zip(blocks_of(more, count));
+    let room = || world.lists.pools.sweeps.acquire();
+    all.enumerate()
+        .for_each_init(room, |room, (block, ((a, mut s), mut m))| {
+            let rates = sweep.block(term, &wanted, room, block, (a.len(), start));
+            let rates = rates.iter().enumerate();
+            for (k, rates) in rates.filter(|(k, _)| wanted(block * CHUNK + k)) {
+                a[k] = rates.acceleration;
+                if let Some(s) = &mut s {
+                    s[k] = rates.scalar;
+                }
+                if let Some(m) = &mut m {
+                    m[k] = rates.more;
+                }
             }
-        }),
-        (Some(scalar), more) => {
-            let scalars = scalar.par_chunks_mut(CHUNK).zip(more.par_chunks_mut(CHUNK));
-            all.zip(scalars)
-                .for_each_init(room, |room, ((c, a), (s, m))| {
-                    work(room, c, a.len());
-                    let all = a.iter_mut().zip(s).zip(m).zip(&room.1).enumerate();
-                    for (_, (((a, s), m), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
-                        (*a, *s, *m) = (rates.acceleration, rates.scalar, rates.more);
-                    }
-                });
-        }
-        (None, more) => {
-            all.zip(more.par_chunks_mut(CHUNK))
-                .for_each_init(room, |room, ((c, a), m)| {
-                    work(room, c, a.len());
-                    let all = a.iter_mut().zip(m).zip(&room.1).enumerate();
-                    for (_, ((a, m), rates)) in all.filter(|(k, _)| wanted((c, *k))) {
-                        (*a, *m) = (rates.acceleration, rates.more);
-                    }
-                });
-        }
-    }
+        });
     Ok(())
+}
+
+/// The blocks of a column, or as many times none.
+fn blocks_of<T: Send>(
+    column: Option<&mut [T]>,
+    blocks: usize,
+) -> impl IndexedParallelIterator<Item = Option<&mut [T]>> {
+    match column {
+        Some(column) => Either::Left(column.par_chunks_mut(CHUNK).map(Some)),
+        None => Either::Right((0..blocks).into_par_iter().map(|_| None)),
+    }
 }
 
 /// Accelerations that one term alone gives the particles that are `wanted`; zero for the others.
@@ -220,10 +204,7 @@ pub fn accelerations_of<const D: usize>(
         all.for_each_init(
             || world.lists.pools.sweeps.acquire(),
             |room, (c, a)| {
-                let (buffers, rates) = &mut **room;
-                rates.clear();
-                rates.resize(a.len(), start);
-                sweep.block(bound, &wanted, buffers, c, rates);
+                let rates = sweep.block(bound, &wanted, room, c, (a.len(), start));
                 for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
                     *a = match wanted(c * CHUNK + k) {
                         true => rates.acceleration,
@@ -241,57 +222,49 @@ pub(crate) type TaskScratch<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
 /// Input of a walk over neighbourhoods.
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
-    world: &'a World<D>,
+    around: Surroundings<'a, D>,
     kernel: &'a K,
-    positions: &'a [Vect<D>],
-    points: &'a [Vect<D>],
-    renormalisation: Option<&'a [f64]>,
-    scaling: Option<Scaling<'a, D>>,
-    lists: &'a Clusters,
     width: Width,
 }
 
 impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
     pub fn new(world: &'a World<D>, kernel: &'a K) -> Result<Self, StepError> {
         Ok(Sweep {
-            world,
+            around: Surroundings::new(world)?,
             kernel,
-            positions: world.free.get(fields::POSITION)?,
-            points: match world.walls.points.in_sums() {
-                true => &world.walls.points.position,
-                false => &[],
-            },
-            renormalisation: world.free.get(fields::RENORMALISATION).ok(),
-            scaling: Scaling::from_store(&world.free, &*world.kernel),
-            lists: world.lists.nearest(),
             width: width(),
         })
     }
 
     /// Number of particles.
     pub fn particles(&self) -> usize {
-        self.positions.len()
+        self.around.particles()
     }
 
-    /// The clusters of a block.
+    /// The clusters of a block, each of at most as many particles as there are lanes.
     pub fn clusters(&self, block: usize) -> impl Iterator<Item = Members<'a>> {
-        self.lists.of_block(block)
+        let lanes = self.width.lanes();
+        let all = self.around.lists.of_block(block);
+        all.flat_map(move |cluster| groups(cluster, lanes))
     }
 
-    /// Adds a term's rates to the particles of a block, in clusters with a `wanted` particle.
-    fn block<T: RowTerm<D> + ?Sized>(
+    /// A term's rates of the particles of a block, from those that each starts with, in clusters with a `wanted` particle.
+    fn block<'r, T: RowTerm<D> + ?Sized>(
         &self,
         term: &T,
         wanted: impl Fn(usize) -> bool,
-        buffers: &mut Buffers<D>,
+        (buffers, rates): &'r mut TaskScratch<D>,
         block: usize,
-        rates: &mut [Rates<D>],
-    ) {
+        (particles, start): (usize, Rates<D>),
+    ) -> &'r [Rates<D>] {
+        rates.clear();
+        rates.resize(particles, start);
         self.each_wanted(block, wanted, buffers, |cluster| {
             let own = cluster.members();
             let first = own.start - block * CHUNK;
             term.cluster(cluster, &mut rates[first..first + own.len()]);
         });
+        rates
     }
 
     /// Calls `visit` with the clusters of a block where anyone is `wanted`.
@@ -302,12 +275,9 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         buffers: &mut Buffers<D>,
         mut visit: impl FnMut(&mut Cluster<'_, D>),
     ) {
-        for cluster in self.clusters(block) {
-            for members in groups(cluster, self.width.lanes()) {
-                let mut own = members.from..members.from + members.count;
-                if own.any(&wanted) {
-                    visit(&mut self.measured(buffers, members));
-                }
+        for members in self.clusters(block) {
+            if members.range().any(&wanted) {
+                visit(&mut self.measured(buffers, members));
             }
         }
     }
@@ -318,35 +288,20 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         buffers: &'b mut Buffers<D>,
         members: Members<'b>,
     ) -> Cluster<'b, D> {
-        let world = self.world;
-        let hidden = &world.lists.hidden;
-        let own = members.from..members.from + members.count;
+        let around = &self.around;
+        let contacts = &around.world.walls.contacts;
         let mut inverse_renormalisation = [1.0; MOST];
-        if let Some(gamma) = self.renormalisation {
-            let gamma = &gamma[own.clone()];
-            let both = inverse_renormalisation.iter_mut().zip(gamma);
-            both.for_each(|(inverse, gamma)| *inverse = 1.0 / gamma);
-        }
-        let contacts = &world.walls.contacts;
         let (mut domain, mut beside) = (None, false);
-        for (i, row) in own.zip(&mut buffers.walls) {
-            beside |= !contacts.of_particle(i).is_empty();
-            let x = &self.positions[i];
-            let near = wrapping(&world.domain, x, world.reach());
+        for (k, (i, row)) in members.range().zip(&mut buffers.walls).enumerate() {
+            inverse_renormalisation[k] = around.inverse_renormalisation(i);
+            let near = around.wrapping(i);
             domain = domain.or(near);
-            row.clear();
-            if !self.points.is_empty() {
-                let candidates = world.lists.wall.row(i);
-                if !candidates.is_empty() {
-                    row.fill(x, self.points, candidates, NOBODY, near, self.kernel);
-                    row.hide(&hidden.points, i);
-                    beside = true;
-                }
-            }
+            beside |= around.fill_wall(row, i, near, self.kernel);
+            beside |= !contacts.of_particle(i).is_empty();
         }
-        let (positions, blocked) = (self.positions, &hidden.particles);
+        let (positions, blocked) = (around.position, &around.world.lists.hidden.particles);
         buffers.measure(self.width, members, positions, domain, blocked, self.kernel);
-        let scaling = self.scaling.as_ref();
+        let scaling = around.scaling.as_ref();
         let scaled = scaling.filter(|scaling| scaling.acts(members));
         if let Some(scaling) = scaled {
             buffers.scale(self.width, members, scaling);
@@ -364,13 +319,4 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
             buffers,
         }
     }
-}
-
-pub(crate) fn wrapping<'a, const D: usize>(
-    domain: &'a Domain<D>,
-    x: &Vect<D>,
-    reach: f64,
-) -> Option<&'a Domain<D>> {
-    // The particle itself may have left the box by up to the skin since the last build.
-    domain.near_periodic_face(x, 2.0 * reach).then_some(domain)
 }

@@ -1,18 +1,19 @@
 //! Walks that make something else than rates of the neighbourhoods.
 
 use sph_core::{StepError, Vect, fields};
+use sph_kernels::Sampler;
 
 use crate::blocks::each_block;
 use crate::scaling::Scaling;
-use crate::{CHUNK, Clusters, NOBODY, Neighbourhood, Rows, World};
+use crate::{CHUNK, Clusters, Domain, NOBODY, Neighbourhood, Rows, Scratch, World};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.
 pub struct Surroundings<'w, const D: usize> {
-    world: &'w World<D>,
-    position: &'w [Vect<D>],
+    pub(crate) world: &'w World<D>,
+    pub(crate) position: &'w [Vect<D>],
     renormalisation: Option<&'w [f64]>,
-    scaling: Option<Scaling<'w, D>>,
-    lists: &'w Clusters,
+    pub(crate) scaling: Option<Scaling<'w, D>>,
+    pub(crate) lists: &'w Clusters,
 }
 
 impl<'w, const D: usize> Surroundings<'w, D> {
@@ -35,6 +36,44 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         self.position.len()
     }
 
+    /// 1/γ of a particle.
+    #[inline(always)]
+    pub(crate) fn inverse_renormalisation(&self, particle: usize) -> f64 {
+        self.renormalisation.map_or(1.0, |g| 1.0 / g[particle])
+    }
+
+    /// The domain, where images across periodic faces may be nearer to a particle.
+    pub(crate) fn wrapping(&self, particle: usize) -> Option<&'w Domain<D>> {
+        wrapping(
+            &self.world.domain,
+            &self.position[particle],
+            self.world.reach(),
+        )
+    }
+
+    /// Fills the row of wall points around a particle; true if there may be any.
+    pub(crate) fn fill_wall<K: Sampler + ?Sized>(
+        &self,
+        row: &mut Scratch<D>,
+        particle: usize,
+        near: Option<&Domain<D>>,
+        kernel: &K,
+    ) -> bool {
+        row.clear();
+        let points = &self.world.walls.points;
+        let candidates = match points.in_sums() {
+            true => self.world.lists.wall.row(particle),
+            false => &[],
+        };
+        if candidates.is_empty() {
+            return false;
+        }
+        let x = &self.position[particle];
+        row.fill(x, &points.position, candidates, NOBODY, near, kernel);
+        row.hide(&self.world.lists.hidden.points, particle);
+        true
+    }
+
     /// The neighbourhood of a particle.
     pub fn neighbourhood<'a>(
         &'a self,
@@ -43,33 +82,31 @@ impl<'w, const D: usize> Surroundings<'w, D> {
     ) -> Neighbourhood<'a, D> {
         let world = self.world;
         let kernel = &*world.kernel;
-        let x = &self.position[particle];
-        let near = world.domain.near_periodic_face(x, 2.0 * world.reach());
-        let domain = near.then_some(&world.domain);
+        let (x, domain) = (&self.position[particle], self.wrapping(particle));
         let (candidates, own) = (self.lists.candidates(particle), particle as u32);
         rows.free
             .fill(x, self.position, candidates, own, domain, kernel);
-        let hidden = &world.lists.hidden;
-        rows.free.hide(&hidden.particles, particle);
-        rows.wall.clear();
-        if world.walls.points.in_sums() {
-            let points = &world.walls.points.position[..];
-            let candidates = world.lists.wall.row(particle);
-            if !candidates.is_empty() {
-                rows.wall
-                    .fill(x, points, candidates, NOBODY, domain, kernel);
-                rows.wall.hide(&hidden.points, particle);
-            }
-        }
+        rows.free.hide(&world.lists.hidden.particles, particle);
+        self.fill_wall(&mut rows.wall, particle, domain, kernel);
         Neighbourhood {
             particle,
             free: rows.free.row(),
             wall: rows.wall.row(),
             contacts: world.walls.contacts.of_particle(particle),
-            inverse_renormalisation: self.renormalisation.map_or(1.0, |g| 1.0 / g[particle]),
+            inverse_renormalisation: self.inverse_renormalisation(particle),
             scaling: self.scaling.as_ref(),
         }
     }
+}
+
+/// The domain, where images across periodic faces may be nearer to a place.
+pub(crate) fn wrapping<'a, const D: usize>(
+    domain: &'a Domain<D>,
+    x: &Vect<D>,
+    reach: f64,
+) -> Option<&'a Domain<D>> {
+    // The particle itself may have left the box by up to the skin since the last build.
+    domain.near_periodic_face(x, 2.0 * reach).then_some(domain)
 }
 
 /// The neighbourhood of one particle, and kernel values where they were requested.

@@ -20,25 +20,42 @@ pub struct WallForce<const D: usize> {
 }
 
 impl<const D: usize> WallForce<D> {
-    /// No force.
-    pub fn zero() -> Self {
+    /// The same number in all components of forces and moments.
+    fn repeat(number: f64) -> Self {
         WallForce {
-            force: Vect::zeros(),
-            moment: [0.0; 3],
-            pressure_force: Vect::zeros(),
-            pressure_moment: [0.0; 3],
+            force: Vect::repeat(number),
+            moment: [number; 3],
+            pressure_force: Vect::repeat(number),
+            pressure_moment: [number; 3],
             depth: 0.0,
         }
     }
 
+    /// No force.
+    pub fn zero() -> Self {
+        Self::repeat(0.0)
+    }
+
     /// A force that was not measured.
     pub(crate) fn unknown() -> Self {
+        Self::repeat(f64::NAN)
+    }
+
+    /// A force on a wall at a place, N, and its moment about the origin, N m: the summands of
+    /// [`from_sums`](Self::from_sums).
+    pub fn parts(place: &Vect<D>, force: &Vect<D>) -> [f64; 6] {
+        let mut both = [0.0; 6];
+        both[..D].copy_from_slice(force.as_slice());
+        both[3..].copy_from_slice(&cross(place, force));
+        both
+    }
+
+    /// The force and the moment that [`parts`](Self::parts) add up to.
+    pub fn from_sums(sums: [f64; 6]) -> Self {
         WallForce {
-            force: Vect::repeat(f64::NAN),
-            moment: [f64::NAN; 3],
-            pressure_force: Vect::repeat(f64::NAN),
-            pressure_moment: [f64::NAN; 3],
-            depth: 0.0,
+            force: Vect::from_fn(|k, _| sums[k]),
+            moment: [sums[3], sums[4], sums[5]],
+            ..Self::zero()
         }
     }
 
@@ -73,6 +90,16 @@ impl<const D: usize> WallForce<D> {
         add_moment(&mut self.pressure_moment, other.pressure_moment);
         self.depth += other.depth;
     }
+}
+
+/// r × f; the third component alone in two dimensions.
+pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
+    let at = |v: &Vect<D>, k: usize| v.get(k).copied().unwrap_or(0.0);
+    [
+        at(r, 1) * at(f, 2) - at(r, 2) * at(f, 1),
+        at(r, 2) * at(f, 0) - at(r, 0) * at(f, 2),
+        at(r, 0) * at(f, 1) - at(r, 1) * at(f, 0),
+    ]
 }
 
 /// Adds a moment, component by component.

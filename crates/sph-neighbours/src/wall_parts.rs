@@ -1,6 +1,5 @@
 //! Forces of every particle on each wall.
 
-use std::array::from_fn;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -84,6 +83,7 @@ pub fn wall_parts<const D: usize>(
 }
 
 /// The walls before the members of a cluster, one by one.
+#[derive(Default)]
 struct SeparateWalls<const D: usize> {
     near: Vec<WallMember>,
     /// Of members that see several walls.
@@ -115,18 +115,6 @@ struct Piece<const D: usize> {
     deficit: f64,
     /// Acceleration of the member by all terms with this wall alone and γ = 1, m/s².
     acceleration: Vect<D>,
-}
-
-impl<const D: usize> Default for SeparateWalls<D> {
-    fn default() -> Self {
-        SeparateWalls {
-            near: Vec::new(),
-            pieces: Vec::new(),
-            whole: Vec::new(),
-            bare: Vec::new(),
-            walls: Vec::new(),
-        }
-    }
 }
 
 fn all<const D: usize>(contacts: &ContactBlock<D>) -> ContactRow<'_, D> {
@@ -195,14 +183,7 @@ impl<const D: usize> SeparateWalls<D> {
                 own_pieces.for_each(|p| pieces[p].sum(own, term));
             });
         }
-        let points = cluster
-            .buffers
-            .walls
-            .iter()
-            .any(|w| !w.row().index.is_empty());
-        if points {
-            cluster.buffers.walls = from_fn::<_, MOST, _>(|_| Scratch::new());
-        }
+        cluster.buffers.walls.iter_mut().for_each(Scratch::clear);
         let unsloped = cluster.scaling.map(|s| s.with_slope(Vect::zeros()));
         let mut without = Cluster {
             contacts: none,

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
+use crate::decomposition::Link;
 use crate::pools::Pools;
 use crate::{
-    CellGrid, Clusters, Communicator, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints,
-    WallSet,
+    CellGrid, Clusters, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints, WallSet,
 };
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.
@@ -31,7 +31,8 @@ pub struct Lists<const D: usize> {
     pub of_elements: Clusters,
     /// Positions of the free particles at the last build, m.
     pub reference: Vec<Vect<D>>,
-    reference_points: Vec<Vect<D>>,
+    /// Positions of the wall points at the last build, m.
+    pub reference_points: Vec<Vect<D>>,
     /// Pairs that walls hide from each other; none until the walls give them at the present positions.
     pub hidden: Hidden,
     /// The particles of a sweep that runs in halves.
@@ -54,11 +55,6 @@ impl<const D: usize> Lists<D> {
             0 => &self.of_points,
             _ => &self.of_elements,
         }
-    }
-
-    /// Positions of the wall points at the last build, m.
-    pub fn reference_points(&self) -> &Vec<Vect<D>> {
-        &self.reference_points
     }
 }
 
@@ -93,7 +89,7 @@ pub struct World<const D: usize> {
     /// That of all particles, where others hold some of them; `None` where all are here.
     pub extent: Option<Extent<D>>,
     /// Other ranks with particles of this flow; `None` where all are here.
-    pub communicator: Option<Arc<dyn Communicator<D>>>,
+    pub communicator: Option<Arc<Link>>,
 }
 
 impl<const D: usize> World<D> {
@@ -127,7 +123,7 @@ impl<const D: usize> World<D> {
     /// True if a particle moved so far that the lists may miss a pair.
     ///
     /// # Errors
-    /// If there is no position column.
+    /// If there is no position column, as everywhere below.
     pub fn lists_expired(&self) -> Result<bool, FieldError> {
         let positions = self.free.get(fields::POSITION)?;
         if self.lists.builds == 0 || positions.len() != self.lists.reference.len() {
@@ -146,9 +142,6 @@ impl<const D: usize> World<D> {
     }
 
     /// Sorts the particles by cell, and in a cell by identity, and builds all lists anew.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn rebuild_lists(&mut self) -> Result<(), FieldError> {
         self.wrap()?;
         let order = self.order()?;
@@ -156,9 +149,6 @@ impl<const D: usize> World<D> {
     }
 
     /// The same for particles whose [order](Self::order) is known.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn rebuild_lists_in(&mut self, order: Option<&[u32]>) -> Result<(), FieldError> {
         if let Some(order) = order {
             self.free.permute(order);
@@ -175,9 +165,6 @@ impl<const D: usize> World<D> {
 
     /// Puts the particles into the order of lists at their places, without building these: for a rank that sends most
     /// of them away.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn sort(&mut self) -> Result<(), FieldError> {
         self.wrap()?;
         if let Some(order) = self.order()? {
@@ -190,24 +177,17 @@ impl<const D: usize> World<D> {
     }
 
     /// Moves particles into the box along its periodic axes.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn wrap(&mut self) -> Result<(), FieldError> {
         let domain = &self.domain;
         if domain.any_periodic() {
             let positions = self.free.get_mut(fields::POSITION)?;
-            positions
-                .par_iter_mut()
-                .for_each(|x| *x = domain.wrapped(*x));
+            let all = positions.par_iter_mut();
+            all.for_each(|x| *x = domain.wrapped(*x));
         }
         Ok(())
     }
 
     /// The order of lists at the present positions; `None` if the particles have it.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn order(&self) -> Result<Option<Vec<u32>>, FieldError> {
         Ok(self.order_at(self.free.get(fields::POSITION)?))
     }
@@ -228,10 +208,8 @@ impl<const D: usize> World<D> {
         pool: &'s Pool<CellGrid<D>>,
     ) -> PoolGuard<'s, CellGrid<D>> {
         let mut grid = pool.acquire();
-        match &self.extent {
-            None => grid.renew(positions, self.reach(), &self.domain),
-            Some(all) => grid.renew_among(all, positions, self.reach(), &self.domain),
-        }
+        let (among, reach) = (self.extent.as_ref(), self.reach());
+        grid.renew(among, positions, reach, &self.domain);
         grid
     }
 
@@ -263,14 +241,11 @@ impl<const D: usize> World<D> {
         // Grids stand on it while the lists are changed.
         let pools = std::mem::take(&mut self.lists.pools);
         self.build_lists_on(&pools, &positions, &points);
-        let lists = &mut self.lists;
-        lists.pools = pools;
-        lists.reference_points = points;
-        lists.reference = positions;
-        lists.time = time;
-        lists.builds += 1;
+        self.lists.pools = pools;
+        self.lists_would_be_of(positions, points, time);
+        self.lists.builds += 1;
         // The particles may have been sorted.
-        lists.hidden = Hidden::default();
+        self.lists.hidden = Hidden::default();
     }
 
     fn build_lists_on(&mut self, pools: &Pools<D>, positions: &[Vect<D>], points: &[Vect<D>]) {
@@ -280,24 +255,18 @@ impl<const D: usize> World<D> {
         let lists = &mut self.lists;
         let domain = &self.domain;
         let idle = idle.as_deref().filter(|idle| idle.len() == positions.len());
-        lists
-            .free
-            .build_but(positions, &grid, (reach, domain), &pools.clusters, idle);
+        let (within, pool) = ((reach, domain), &pools.clusters);
+        lists.free.build([positions; 2], &grid, within, pool, idle);
         if self.walls.points.in_sums() {
             let first = self.walls.points.corners;
             let summed = &points[first..];
             let mut wall_grid = pools.grids.acquire();
-            wall_grid.renew(summed, reach, domain);
-            lists.wall.build_on(
-                &pools.lists,
-                [positions, summed],
-                &wall_grid,
-                (reach, domain),
-            );
-            lists.wall.shift(first as u32);
-            lists
-                .of_points
-                .build_around(summed, positions, &grid, reach, domain, &pools.clusters);
+            wall_grid.renew(None, summed, reach, domain);
+            let wall = &mut lists.wall;
+            wall.build_on(&pools.lists, [positions, summed], &wall_grid, within);
+            wall.shift(first as u32);
+            let list = &mut lists.of_points;
+            list.build([summed, positions], &grid, within, pool, None);
         }
         let elements = &self.walls.elements;
         if elements.centre.is_empty() || (self.walls.at_corners && self.walls.points.corners == 0) {
@@ -314,7 +283,7 @@ impl<const D: usize> World<D> {
             }
         }
         let list = &mut lists.of_elements;
-        list.build_around(&places, positions, &grid, reach, domain, &pools.clusters);
+        list.build([&places, positions], &grid, within, pool, None);
     }
 
     /// Drops the lists that hold at the positions of before.
@@ -325,9 +294,6 @@ impl<const D: usize> World<D> {
     }
 
     /// Rebuilds the lists if they expired; returns whether it did.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn refresh_lists(&mut self) -> Result<bool, FieldError> {
         self.forget_pruned();
         let expired = self.lists_expired()?;
@@ -339,15 +305,11 @@ impl<const D: usize> World<D> {
 }
 
 fn largest_step<const D: usize>(now: &[Vect<D>], then: &[Vect<D>]) -> f64 {
-    let largest = now
-        .par_iter()
-        .zip(then)
-        .with_min_len(1024)
-        .map(|(a, b)| {
-            let step = (a - b).norm_squared();
-            // A NaN must win the maximum.
-            if step.is_nan() { f64::INFINITY } else { step }
-        })
-        .reduce(|| 0.0, f64::max);
-    largest.sqrt()
+    let both = now.par_iter().zip(then).with_min_len(1024);
+    let steps = both.map(|(a, b)| {
+        let step = (a - b).norm_squared();
+        // A NaN must win the maximum.
+        if step.is_nan() { f64::INFINITY } else { step }
+    });
+    steps.reduce(|| 0.0, f64::max).sqrt()
 }

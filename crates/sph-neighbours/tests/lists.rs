@@ -39,7 +39,7 @@ fn check<const D: usize>(n: usize, seed: u64, reach: f64, periodic: [bool; D]) {
         let mut list = NeighbourList::default();
         list.build(points, points, &grid, reach, &domain);
         let mut clusters = Clusters::default();
-        clusters.build(points, &grid, reach, &domain, &Pool::default());
+        clusters.build([points; 2], &grid, (reach, &domain), &Pool::default(), None);
         for i in 0..n {
             let mut row = list.row(i).to_vec();
             row.sort_unstable();

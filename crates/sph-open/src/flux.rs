@@ -1,17 +1,15 @@
 //! Change of densities by the flux through faces.
 
 use rayon::prelude::*;
-use sph_core::{Field, Scalar, StepError, fields};
+use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
 use crate::faces::{CLOSED, Faces};
 
-/// ρ Σ u_s·∇γ_as over open elements, as it was in the last step.
-pub const OPEN_FLUX: Field<Scalar> = Field::new(
-    "open_flux",
-    "kg/(m³ s)",
-    "mass that open faces let into the support in the last step",
-);
+sph_core::fields! {
+    /// ρ Σ u_s·∇γ_as over open elements, as it was in the last step.
+    pub OPEN_FLUX: Scalar = "open_flux", "kg/(m³ s)", "mass that open faces let into the support in the last step";
+}
 
 impl<const D: usize> Faces<D> {
     /// Advances the density constants by the fluid that passes in `dt` seconds.

@@ -7,29 +7,19 @@ use sph_core::{
 };
 use sph_neighbours::World;
 
-/// Length of the velocity.
-pub const SPEED: Field<Scalar> = Field::new("speed", "m/s", "length of the velocity");
-/// ω = ∂v/∂x − ∂u/∂y in the plane, positive where the fluid turns to the left.
-pub const VORTICITY: Field<Scalar> = Field::new(
-    "vorticity",
-    "1/s",
-    "curl of the velocity, ∂v/∂x − ∂u/∂y in the plane",
-);
-/// ω = ∇×u in space.
-pub const VORTICITY_IN_SPACE: Field<Vector> =
-    Field::new("vorticity", "1/s", "curl of the velocity");
-/// Q = ½(|Ω|² − |S|²): positive in vortices. Source: Hunt, Wray & Moin 1988.
-pub const Q_CRITERION: Field<Scalar> = Field::new(
-    "q_criterion",
-    "1/s²",
-    "half of the squared rotation rate less the squared strain rate, positive in vortices",
-);
-/// τ = η γ̇ with the viscosity of law and eddies; of an elastic law the viscous part alone.
-pub const SHEAR_STRESS: Field<Scalar> = Field::new(
-    "shear_stress",
-    "Pa",
-    "viscosity times the magnitude of the strain rate; the viscous part alone",
-);
+sph_core::fields! {
+    pub SPEED: Scalar = "speed", "m/s", "length of the velocity";
+    /// ω = ∂v/∂x − ∂u/∂y in the plane, positive where the fluid turns to the left.
+    pub VORTICITY: Scalar = "vorticity", "1/s", "curl of the velocity, ∂v/∂x − ∂u/∂y in the plane";
+    /// ω = ∇×u in space.
+    pub VORTICITY_IN_SPACE: Vector = "vorticity", "1/s", "curl of the velocity";
+    /// Q = ½(|Ω|² − |S|²): positive in vortices. Source: Hunt, Wray & Moin 1988.
+    pub Q_CRITERION: Scalar = "q_criterion", "1/s²",
+        "half of the squared rotation rate less the squared strain rate, positive in vortices";
+    /// τ = η γ̇ with the viscosity of law and eddies; of an elastic law the viscous part alone.
+    pub SHEAR_STRESS: Scalar = "shear_stress", "Pa",
+        "viscosity times the magnitude of the strain rate; the viscous part alone";
+}
 
 /// Fields of this page and of the core that are made from the velocity gradient.
 const OF_GRADIENTS: [&str; 5] = [

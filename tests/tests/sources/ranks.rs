@@ -15,14 +15,10 @@ const KNOWS: [&str; 7] = [
 ];
 
 /// Words that no other crate may say, comments included, and what it has instead.
-const REFUSED: [(&[&str], &str); 4] = [
+const REFUSED: [(&[&str], &str); 3] = [
     (
         &["rank", "ranks", "communicator", "Communicator"],
-        "`World::sums`, `World::largest` and `World::of_all`, which are of all particles",
-    ),
-    (
-        &["begin_solve", "mirror_scalars"],
-        "`World::space`, whose vectors are of all particles",
+        "`World::sums`, `World::largest`, `World::of_all` and `World::space`, which are of all particles",
     ),
     (
         &["ghost", "ghosts"],

@@ -207,12 +207,7 @@ mod tests {
 
     #[test]
     fn velocity_and_acceleration_are_those_of_the_pose() {
-        let sine = Course::Sine {
-            amplitude: 0.4,
-            period: 1.1,
-            phase: 0.3,
-            ramp: 0.6,
-        };
+        let sine = Course::sine(0.4, 1.1, 0.3, 0.6);
         check(
             &RigidMotion::<2> {
                 translations: vec![Translation {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{FreeBody, WallForce, World, cross};
+use sph_neighbours::{FreeBody, WallForce, World};
 
 use crate::NearElement;
 use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
@@ -149,10 +149,8 @@ fn blows<const D: usize, M: WallMesh<D>>(
     for (p, corrected) in changed.iter().filter(|(p, _)| owned.has(*p)) {
         for (wall, push, image) in &corrected.pushes {
             let force = push * (-mass[*p] / dt);
-            let mut both = [0.0; 6];
-            both[..D].copy_from_slice(force.as_slice());
-            both[3..].copy_from_slice(&cross(&(position[*p] - image), &force));
-            each[outline.groups[*wall]].push(both);
+            let parts = WallForce::parts(&(position[*p] - image), &force);
+            each[outline.groups[*wall]].push(parts);
         }
     }
     let whole = |(wall, blows): (usize, &Vec<[f64; 6]>)| {
@@ -160,11 +158,7 @@ fn blows<const D: usize, M: WallMesh<D>>(
             return Ok(WallForce::zero());
         }
         let sums = world.sums_of(blows.len(), &|k| Some(blows[k]))?;
-        Ok(WallForce {
-            force: Vect::from_fn(|k, _| sums[k]),
-            moment: [sums[3], sums[4], sums[5]],
-            ..WallForce::zero()
-        })
+        Ok(WallForce::from_sums(sums))
     };
     each.iter().enumerate().map(whole).collect()
 }

@@ -40,14 +40,14 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
             return;
         }
         let Some(places) = self.places else {
-            self.space.refresh_numbers(x);
+            self.space.refresh(x);
             return;
         };
         let mut all = vec![Vect::<1>::zeros(); self.space.particles()];
         for (place, x) in places.iter().zip(&*x) {
             all[*place as usize] = *x;
         }
-        self.space.refresh_numbers(&mut all);
+        self.space.refresh(&mut all);
         for (place, x) in places.iter().zip(x) {
             *x = all[*place as usize];
         }

@@ -8,19 +8,14 @@ use sph_neighbours::{
 
 use super::half_space::HalfSpace;
 
-/// N_a/γ_a, by which a divergence becomes exact for linear velocities: 0 where the support is full.
-pub const MOMENT_EXCESS: Field<SymmetricTensor> = Field::new(
-    "moment_excess",
-    "1",
-    "inverse of the first moment of a support cut by a free surface, less one, over γ",
-);
-
-/// The share of a support that the arrangement explains as lacking.
-pub(super) const EXPLAINED_DEFICIT: Field<Scalar> = Field::new(
-    "explained_deficit",
-    "1",
-    "share of the support that the free surface takes, by its place",
-);
+sph_core::fields! {
+    /// N_a/γ_a, by which a divergence becomes exact for linear velocities: 0 where the support is full.
+    pub MOMENT_EXCESS: SymmetricTensor = "moment_excess", "1",
+        "inverse of the first moment of a support cut by a free surface, less one, over γ";
+    /// The share of a support that the arrangement explains as lacking.
+    pub(super) EXPLAINED_DEFICIT: Scalar = "explained_deficit", "1",
+        "share of the support that the free surface takes, by its place";
+}
 
 /// Share of a support that lacks, from which N counts as a whole. Ours: where N starts with a lack of 0.01, and K′ with it, a
 /// wave loses three times as much.

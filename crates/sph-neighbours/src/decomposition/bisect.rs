@@ -58,10 +58,7 @@ pub fn bisect<const D: usize>(
         let costs = costs.len();
         return Err(DecompositionError::Length { costs, particles });
     }
-    let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
-    if let Some(particle) = (0..particles).find(|k| !whole(k) || costs[*k].is_infinite()) {
-        return Err(DecompositionError::NotFinite { particle });
-    }
+    check(places, costs)?;
     let mut all: Vec<u32> = (0..particles as u32).collect();
     let mut owners = vec![0; particles];
     let mut cutter = Cutter {
@@ -71,6 +68,18 @@ pub fn bisect<const D: usize>(
     };
     cutter.cut(&mut all, 0..ranks as u32);
     Ok(owners)
+}
+
+/// Refuses places and costs that cannot be divided.
+pub(crate) fn check<const D: usize>(
+    places: &[Vect<D>],
+    costs: &[f64],
+) -> Result<(), DecompositionError> {
+    let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
+    match (0..places.len()).find(|k| !whole(k) || costs[*k].is_infinite()) {
+        Some(particle) => Err(DecompositionError::NotFinite { particle }),
+        None => Ok(()),
+    }
 }
 
 struct Cutter<'a, const D: usize> {
@@ -133,18 +142,14 @@ mod tests {
     fn every_rank_has_its_share_of_the_cost() {
         let places = lattice();
         // The right third costs five times as much.
-        let costs: Vec<f64> = places
-            .iter()
-            .map(|x| if x[0] < 40.0 { 1.0 } else { 5.0 })
-            .collect();
+        let cost = |x: &Vector2<f64>| if x[0] < 40.0 { 1.0 } else { 5.0 };
+        let costs: Vec<f64> = places.iter().map(cost).collect();
         let total: f64 = costs.iter().sum();
         for ranks in [1, 2, 3, 5, 8, 16] {
             let owners = bisect(&places, &costs, ranks).expect("owners");
             let mut shares = vec![0.0; ranks];
-            owners
-                .iter()
-                .zip(&costs)
-                .for_each(|(o, c)| shares[*o as usize] += c);
+            let all = owners.iter().zip(&costs);
+            all.for_each(|(o, c)| shares[*o as usize] += c);
             // Each of at most log₂ cuts is off by half a particle, 5.
             let bound = 2.5 * (ranks as f64).log2().ceil() + 1e-9;
             for share in shares {

@@ -2,7 +2,8 @@
 
 use sph_core::Vect;
 
-use crate::decomposition::{DecompositionError, Transport, TransportError};
+use crate::decomposition::bisect::check;
+use crate::decomposition::{PartError, Transport, TransportError};
 
 /// Halvings of an interval until its ends are one number, or nearly.
 const HALVINGS: usize = 52;
@@ -50,11 +51,8 @@ impl<const D: usize> Cuts<D> {
         costs: &[f64],
         ranks: usize,
         communicator: &dyn Transport,
-    ) -> Result<Self, CutError> {
-        let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
-        if let Some(particle) = (0..places.len()).find(|k| !whole(k) || costs[*k].is_infinite()) {
-            return Err(DecompositionError::NotFinite { particle }.into());
-        }
+    ) -> Result<Self, PartError> {
+        check(places, costs)?;
         let mean = mean(costs, communicator)?;
         let grains = |c: &f64| 1 + (c / (mean * GRAIN)).min(1e6) as u64;
         let costs: Vec<u64> = costs.iter().map(grains).collect();
@@ -82,7 +80,7 @@ impl<const D: usize> Cuts<D> {
         places: &[Vect<D>],
         costs: &[u64],
         communicator: &dyn Transport,
-    ) -> Result<(), CutError> {
+    ) -> Result<(), PartError> {
         let level = groups.iter().map(|g| g.ranks).max().unwrap_or(1);
         let mut numbers = vec![None; self.ranks];
         for (number, group) in groups.iter().enumerate() {
@@ -124,11 +122,9 @@ impl<const D: usize> Cuts<D> {
             let mut below = vec![0_u64; groups.len()];
             for ((x, cost), group) in places.iter().zip(costs).zip(&of) {
                 let Some(g) = *group else { continue };
-                below[g] += if x[axes[g]] < middle(&between[g]) {
-                    *cost
-                } else {
-                    0
-                };
+                if x[axes[g]] < middle(&between[g]) {
+                    below[g] += cost;
+                }
             }
             communicator.total(&mut below)?;
             for (g, group) in groups.iter().enumerate() {
@@ -181,18 +177,6 @@ fn mean(costs: &[f64], communicator: &dyn Transport) -> Result<f64, TransportErr
     Ok((sums[0] as f64 / 1e6 / sums[1].max(1) as f64).max(1e-6) * most[0])
 }
 
-/// Errors of cuts.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CutError {
-    /// The particles cannot be divided.
-    #[error(transparent)]
-    Particles(#[from] DecompositionError),
-    /// Messages fail.
-    #[error(transparent)]
-    Transport(#[from] TransportError),
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,26 +206,19 @@ mod tests {
                     "{ranks} ranks: {share} of {mean}"
                 );
             }
-            let split = std::thread::scope(|scope| {
-                let halves =
-                    Thread::communicator(2)
-                        .into_iter()
-                        .enumerate()
-                        .map(|(k, communicator)| {
-                            let (places, costs) = (&places, &costs);
-                            scope.spawn(move || {
-                                let own = |n: &usize| n % 2 == k;
-                                let own: Vec<usize> = (0..places.len()).filter(own).collect();
-                                let mine: Vec<_> = own.iter().map(|n| places[*n]).collect();
-                                let price: Vec<_> = own.iter().map(|n| costs[*n]).collect();
-                                Cuts::balanced(&mine, &price, ranks, &communicator).expect("cuts")
-                            })
-                        });
-                let halves: Vec<_> = halves.collect();
-                halves
-                    .into_iter()
-                    .map(|h| h.join().expect("a rank"))
-                    .collect::<Vec<_>>()
+            let half = |k: usize, communicator: Thread| {
+                let own = || (0..places.len()).filter(move |n| n % 2 == k);
+                let mine: Vec<_> = own().map(|n| places[n]).collect();
+                let price: Vec<_> = own().map(|n| costs[n]).collect();
+                Cuts::balanced(&mine, &price, ranks, &communicator).expect("cuts")
+            };
+            let split: Vec<_> = std::thread::scope(|scope| {
+                let halves = Thread::communicator(2).into_iter().enumerate();
+                let halves: Vec<_> = halves
+                    .map(|(k, communicator)| scope.spawn(move || half(k, communicator)))
+                    .collect();
+                let joined = halves.into_iter().map(|h| h.join().expect("a rank"));
+                joined.collect()
             });
             assert_eq!(split, vec![cuts.clone(), cuts], "{ranks} ranks");
         }

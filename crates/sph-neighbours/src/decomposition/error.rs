@@ -4,7 +4,7 @@ use serde::Serialize;
 use sph_core::{FieldError, StepError};
 use thiserror::Error;
 
-use crate::decomposition::{CutError, DecompositionError, TransportError};
+use crate::decomposition::{DecompositionError, TransportError};
 
 /// Errors that keep a rank from its part.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -24,23 +24,11 @@ pub enum PartError {
     Elsewhere,
 }
 
-impl From<CutError> for PartError {
-    fn from(error: CutError) -> Self {
-        match error {
-            CutError::Particles(e) => PartError::Particles(e),
-            CutError::Transport(e) => PartError::Transport(e),
-        }
-    }
-}
-
 impl From<PartError> for StepError {
     fn from(error: PartError) -> Self {
         match error {
             PartError::Field(e) => StepError::Field(e),
-            other => StepError::Stage {
-                stage: "ranks".into(),
-                reason: other.to_string(),
-            },
+            other => StepError::stage("ranks", other.to_string()),
         }
     }
 }

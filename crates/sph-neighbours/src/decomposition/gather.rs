@@ -3,7 +3,7 @@
 use sph_core::{AnyField, Vect};
 
 use crate::World;
-use crate::decomposition::owner::OWNER;
+use crate::decomposition::link::OWNER;
 use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
@@ -21,9 +21,7 @@ impl<const D: usize> Parts<D> {
         let owners = world.free.get(OWNER)?;
         let own = |k: &usize| owners[*k] == rank;
         let slots: Vec<u32> = (0..owners.len()).filter(own).map(|k| k as u32).collect();
-        let mut message = Vec::new();
-        let wanted = |f: &AnyField| f.name != OWNER.name;
-        world.free.pack(wanted, &slots, &mut message);
+        let mut message = world.free.pack(|f: &AnyField| f.name != OWNER.name, &slots);
         let reference = &world.lists.reference;
         let numbers = slots.iter().flat_map(|s| reference[*s as usize].iter());
         numbers.for_each(|x| message.extend_from_slice(&x.to_le_bytes()));
@@ -43,12 +41,8 @@ fn join<const D: usize>(
 ) -> Result<(), PartError> {
     let wanted = |f: &AnyField| f.name != OWNER.name;
     // Columns that came into being on the way.
-    let missing: Vec<_> = part
-        .free
-        .columns()
-        .map(|(name, _, role, ..)| (name, role))
-        .collect();
-    for (field, (_, role)) in part.free.fields().zip(missing) {
+    let roles = part.free.columns().map(|(_, _, role, ..)| role);
+    for (field, role) in part.free.fields().zip(roles) {
         if wanted(&field) {
             whole.free.add_any(field, role);
         }
@@ -76,7 +70,7 @@ fn join<const D: usize>(
     }
     whole.time = part.time;
     whole.dt = part.dt;
-    let points = part.lists.reference_points().clone();
+    let points = part.lists.reference_points.clone();
     whole.lists_would_be_of(reference, points, part.lists.time);
     Ok(())
 }

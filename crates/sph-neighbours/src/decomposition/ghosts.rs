@@ -38,10 +38,8 @@ impl<const D: usize> RankBox<D> {
                 false => outside(x[axis]),
                 true => {
                     let images = [-1.0, 0.0, 1.0].map(|n| x[axis] + n * domain.length(axis));
-                    images
-                        .map(outside)
-                        .into_iter()
-                        .fold(f64::INFINITY, f64::min)
+                    let all = images.map(outside).into_iter();
+                    all.fold(f64::INFINITY, f64::min)
                 }
             }
         };

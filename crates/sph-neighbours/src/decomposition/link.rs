@@ -3,11 +3,12 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
-use sph_core::{AnyField, StepError, Store, Vect};
+use sph_core::{AnyField, Field, Index, StepError, Store, Vect};
 
-use crate::decomposition::owner::OWNER;
 use crate::decomposition::{PartError, Transport};
-use crate::{Communicator, World};
+
+/// The rank that owns a particle.
+pub const OWNER: Field<Index> = Field::new("owner", "1", "rank that owns the particle");
 
 /// Slots that are sent to, or received from, a rank.
 pub(crate) type Partner = (usize, Vec<u32>);
@@ -21,23 +22,25 @@ pub(crate) struct Partners {
     pub receives: Vec<Partner>,
 }
 
-/// The connection of a rank with the others.
+/// The connection of a rank with the others between which a flow is divided. All ranks call the same methods in the same
+/// order.
 #[derive(Debug)]
-pub(crate) struct Link {
+pub struct Link {
+    /// The messages.
     pub transport: Arc<dyn Transport>,
-    pub partners: RwLock<Partners>,
+    pub(crate) partners: RwLock<Partners>,
     /// Number of times that a stage goes from particles to their neighbours.
-    pub rings: usize,
+    pub(crate) rings: usize,
     /// True once all ranks have got the failure at hand.
     told: AtomicBool,
     /// True if messages failed where no error could be returned.
     lost: AtomicBool,
-    pub messages: AtomicU64,
-    pub bytes: AtomicU64,
+    pub(crate) messages: AtomicU64,
+    pub(crate) bytes: AtomicU64,
 }
 
 impl Link {
-    pub fn new(transport: Arc<dyn Transport>, rings: usize) -> Self {
+    pub(crate) fn new(transport: Arc<dyn Transport>, rings: usize) -> Self {
         Link {
             transport,
             partners: RwLock::default(),
@@ -49,11 +52,11 @@ impl Link {
         }
     }
 
-    pub fn partners(&self) -> RwLockReadGuard<'_, Partners> {
+    pub(crate) fn partners(&self) -> RwLockReadGuard<'_, Partners> {
         self.partners.read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub fn count(&self, out: &[(usize, Vec<u8>)]) {
+    pub(crate) fn count(&self, out: &[(usize, Vec<u8>)]) {
         let bytes = out.iter().map(|(_, m)| m.len() as u64).sum();
         self.messages.fetch_add(out.len() as u64, Ordering::Relaxed);
         self.bytes.fetch_add(bytes, Ordering::Relaxed);
@@ -61,6 +64,9 @@ impl Link {
 
     /// Replaces each value by the largest of all ranks, if none has failed. Every message between ranks is preceded by
     /// this or is this, so that a rank that fails anywhere in a step reaches the others, which wait here.
+    ///
+    /// # Errors
+    /// If a rank has failed, on all ranks alike, or messages fail; as everywhere below.
     pub fn agree(&self, failed: bool, values: &mut [f64]) -> Result<(), PartError> {
         let failed = failed || self.lost.load(Ordering::Relaxed);
         let mut all = values.to_vec();
@@ -83,6 +89,14 @@ impl Link {
         let mut said = [f64::from(u8::from(yes))];
         self.agree(failed, &mut said)?;
         Ok(said[0] > 0.0)
+    }
+
+    /// The least of every value over all ranks.
+    pub fn least(&self, values: &mut [f64]) -> Result<(), PartError> {
+        values.iter_mut().for_each(|v| *v = -*v);
+        self.agree(false, values)?;
+        values.iter_mut().for_each(|v| *v = -*v);
+        Ok(())
     }
 
     /// Confirms the success of all ranks at the end of a work in which some may have failed, with or without a message.
@@ -111,12 +125,41 @@ impl Link {
             return cause;
         };
         match all.iter().position(|text| !text.is_empty()) {
-            Some(rank) if rank != self.transport.rank() => StepError::Stage {
-                stage: format!("rank {rank}"),
-                reason: String::from_utf8_lossy(&all[rank]).into_owned(),
-            },
+            Some(rank) if rank != self.transport.rank() => StepError::stage(
+                format!("rank {rank}"),
+                String::from_utf8_lossy(&all[rank]).into_owned(),
+            ),
             _ => cause,
         }
+    }
+
+    /// Marks of own particles; the others are copies.
+    pub(crate) fn own<const D: usize>(&self, free: &Store<D>) -> Vec<bool> {
+        let rank = self.transport.rank() as u32;
+        let owners = free.unwatched(OWNER).unwrap_or(&[]);
+        owners.iter().map(|o| *o == rank).collect()
+    }
+
+    /// Marks of particles that need no sum over neighbours here, because their owner sends it; `None` if all need
+    /// theirs.
+    pub(crate) fn idle<const D: usize>(&self, free: &Store<D>) -> Option<Vec<bool>> {
+        let ghosts = || self.own(free).iter().map(|own| !own).collect();
+        (self.rings == 1).then(ghosts)
+    }
+
+    /// Replaces each number by its sum over all ranks, which wraps around.
+    pub(crate) fn total(&self, numbers: &mut [u64]) -> Result<(), PartError> {
+        self.any(false, false)?;
+        Ok(self.transport.total(numbers)?)
+    }
+
+    /// The numbers of all ranks, one rank's behind the other's.
+    pub(crate) fn gather(&self, own: &[u64]) -> Result<Vec<u64>, PartError> {
+        self.any(false, false)?;
+        let bytes: Vec<u8> = own.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let all = self.transport.all(&bytes)?;
+        let words = all.iter().flat_map(|message| message.as_chunks::<8>().0);
+        Ok(words.map(|b| u64::from_le_bytes(*b)).collect())
     }
 
     /// Results of `pack` for the particles that others have copies of, by their ranks.
@@ -128,7 +171,7 @@ impl Link {
 
     /// Sends messages to the ranks with copies, and does some `work` meanwhile; returns the messages for the ghosts,
     /// owner by owner.
-    fn swapped(
+    pub(crate) fn swapped(
         &self,
         out: Vec<(usize, Vec<u8>)>,
         work: &mut dyn FnMut(),
@@ -140,44 +183,17 @@ impl Link {
         Ok(self.transport.swap_during(out, &from, work)?)
     }
 
-    /// Gives ghosts the values of their owners in the columns that are `wanted`.
-    pub fn update_ghosts<const D: usize>(
-        &self,
-        free: &mut Store<D>,
-        wanted: impl Fn(&AnyField) -> bool,
-    ) -> Result<(), PartError> {
-        self.any(false, false)?;
-        let out = self.columns(free, &wanted);
-        let messages = self.swapped(out, &mut || ())?;
-        self.take_in(free, &wanted, &messages)
-    }
-
-    /// The same; does some `work` while the messages are on their way.
-    pub fn update_ghosts_during<const D: usize>(
-        &self,
-        world: &mut World<D>,
-        wanted: impl Fn(&AnyField) -> bool,
-        mut work: impl FnMut(&mut World<D>),
-    ) -> Result<(), PartError> {
-        self.any(false, false)?;
-        let out = self.columns(&world.free, &wanted);
-        let messages = self.swapped(out, &mut || work(world))?;
-        self.take_in(&mut world.free, &wanted, &messages)
-    }
-
-    fn columns<const D: usize>(
+    /// Messages with the columns that are `wanted`.
+    pub(crate) fn columns<const D: usize>(
         &self,
         free: &Store<D>,
         wanted: impl Fn(&AnyField) -> bool,
     ) -> Vec<(usize, Vec<u8>)> {
-        self.packed(|slots| {
-            let mut message = Vec::new();
-            free.pack(&wanted, slots, &mut message);
-            message
-        })
+        self.packed(|slots| free.pack(&wanted, slots))
     }
 
-    fn take_in<const D: usize>(
+    /// Overwrites the columns of ghosts with messages of their owners.
+    pub(crate) fn take_in<const D: usize>(
         &self,
         free: &mut Store<D>,
         wanted: impl Fn(&AnyField) -> bool,
@@ -187,6 +203,17 @@ impl Link {
             free.unpack(&wanted, slots, message)?;
         }
         Ok(())
+    }
+
+    /// Gives ghosts the values of their owners in the columns that are `wanted`.
+    pub fn update_ghosts<const D: usize>(
+        &self,
+        free: &mut Store<D>,
+        wanted: impl Fn(&AnyField) -> bool,
+    ) -> Result<(), PartError> {
+        self.any(false, false)?;
+        let messages = self.swapped(self.columns(free, &wanted), &mut || ())?;
+        self.take_in(free, &wanted, &messages)
     }
 
     /// Of vectors of D components: places, or single numbers.
@@ -206,80 +233,34 @@ impl Link {
     }
 }
 
-impl<const D: usize> Communicator<D> for Link {
-    fn own(&self, free: &Store<D>) -> Vec<bool> {
-        let rank = self.transport.rank() as u32;
-        let owners = free.unwatched(OWNER).unwrap_or(&[]);
-        owners.iter().map(|o| *o == rank).collect()
-    }
-
-    fn idle(&self, free: &Store<D>) -> Option<Vec<bool>> {
-        let ghosts = || {
-            Communicator::<D>::own(self, free)
-                .iter()
-                .map(|own| !own)
-                .collect()
-        };
-        (self.rings == 1).then(ghosts)
-    }
-
-    fn largest(&self, values: &mut [f64]) -> Result<(), StepError> {
-        Ok(self.agree(false, values)?)
-    }
-
-    fn total(&self, numbers: &mut [u64]) -> Result<(), StepError> {
-        self.any(false, false)?;
-        Ok(self.transport.total(numbers).map_err(PartError::from)?)
-    }
-
-    fn gather(&self, own: &[u64]) -> Result<Vec<u64>, StepError> {
-        self.any(false, false)?;
-        let bytes: Vec<u8> = own.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let all = self.transport.all(&bytes).map_err(PartError::from)?;
-        let words = all.iter().flat_map(|message| message.as_chunks::<8>().0);
-        Ok(words.map(|b| u64::from_le_bytes(*b)).collect())
-    }
-
-    fn update_ghosts(&self, free: &mut Store<D>, columns: &[AnyField]) -> Result<(), StepError> {
-        Ok(Link::update_ghosts(self, free, |f| columns.contains(f))?)
-    }
-
-    fn begin_solve(&self) -> Result<(), StepError> {
-        self.any(false, false)?;
-        Ok(())
-    }
-
-    fn mirror(&self, values: &mut [Vect<D>]) {
-        if self.mirrored(values).is_err() {
+/// Methods of a solve, in which no rank may fail: after [`any`](Link::any) has found that none has, they return no error.
+impl Link {
+    /// The result of messages in a solve; none if they fail, of which the next check between ranks knows.
+    fn held<T, E>(&self, sent: Result<T, E>) -> Option<T> {
+        if sent.is_err() {
             self.lost.store(true, Ordering::Relaxed);
         }
+        sent.ok()
     }
 
-    fn mirror_scalars(&self, values: &mut [Vect<1>]) {
-        if self.mirrored(values).is_err() {
-            self.lost.store(true, Ordering::Relaxed);
-        }
+    /// Gives copies the values of their owners in a vector of a solve.
+    pub(crate) fn mirror<const D: usize>(&self, values: &mut [Vect<D>]) {
+        self.held(self.mirrored(values));
     }
 
-    fn most(&self, value: f64) -> f64 {
+    /// The largest value of all ranks, in a solve.
+    pub(crate) fn most(&self, value: f64) -> f64 {
         let mut value = [value];
-        if self.transport.largest(&mut value).is_err() {
-            self.lost.store(true, Ordering::Relaxed);
-        }
+        self.held(self.transport.largest(&mut value));
         value[0]
     }
 
-    fn add(&self, part: f64) -> f64 {
-        match self.transport.all(&part.to_le_bytes()) {
-            Ok(all) => {
-                let value =
-                    |m: &Vec<u8>| m.as_chunks::<8>().0.first().map(|b| f64::from_le_bytes(*b));
-                all.iter().filter_map(value).sum()
-            }
-            Err(_) => {
-                self.lost.store(true, Ordering::Relaxed);
-                part
-            }
-        }
+    /// The sum of all ranks' parts, in the order of the ranks.
+    pub(crate) fn add(&self, part: f64) -> f64 {
+        let all = self.held(self.transport.all(&part.to_le_bytes()));
+        all.map_or(part, |all| {
+            let value = |m: &Vec<u8>| m.as_chunks::<8>().0.first().map(|b| f64::from_le_bytes(*b));
+            all.iter().filter_map(value).sum()
+        })
     }
 }

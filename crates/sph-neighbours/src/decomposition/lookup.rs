@@ -2,8 +2,7 @@
 
 use sph_core::{AnyField, Slots, Store, fields};
 
-use crate::decomposition::link::Partner;
-use crate::decomposition::owner::OWNER;
+use crate::decomposition::link::{OWNER, Partner};
 use crate::decomposition::{PartError, Parts};
 
 impl<const D: usize> Parts<D> {
@@ -32,14 +31,9 @@ impl<const D: usize> Parts<D> {
             (rank, slots.collect())
         };
         let sends: Vec<Partner> = all.iter().enumerate().map(to).collect();
-        let sends = sends
-            .into_iter()
-            .filter(|(to, slots)| *to != rank && !slots.is_empty());
-        let message = |(to, slots): Partner| {
-            let mut message = Vec::new();
-            earlier.pack(|_: &AnyField| true, &slots, &mut message);
-            (to, message)
-        };
+        let some = |(to, slots): &Partner| *to != rank && !slots.is_empty();
+        let sends = sends.into_iter().filter(some);
+        let message = |(to, slots): Partner| (to, earlier.pack(|_: &AnyField| true, &slots));
         let messages = sends.map(message).collect();
         self.receive(earlier, messages)?;
         let then = Slots::from_identities(earlier.get(fields::IDENTITY)?);

@@ -10,8 +10,7 @@ use std::sync::{Arc, PoisonError};
 use sph_core::{AnyField, Role, Store, Vect, fields};
 
 use crate::decomposition::ghosts::{Needs, RankBox};
-use crate::decomposition::link::{Link, Partner, Partners};
-use crate::decomposition::owner::OWNER;
+use crate::decomposition::link::{Link, OWNER, Partner, Partners};
 use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
 use crate::{Extent, World};
 
@@ -29,17 +28,16 @@ pub struct Traffic {
     pub bytes: u64,
     /// Particles that went to another rank.
     pub moved: u64,
-    /// Times that the space was cut anew.
-    pub cuts: u64,
 }
 
 /// A rank's part of a flow.
 #[derive(Debug)]
 pub struct Parts<const D: usize> {
-    pub(crate) link: Arc<Link>,
+    /// Its connection with the others.
+    pub link: Arc<Link>,
     cuts: Cuts<D>,
-    /// Particles that went to another rank, and how often the space was cut anew.
-    changes: [u64; 2],
+    /// Particles that went to another rank.
+    moved: u64,
     /// Rebuilds since the last check of the parts.
     builds: u64,
 }
@@ -64,7 +62,7 @@ impl<const D: usize> Parts<D> {
         }
         let cuts = match Thread::communicator(1).first() {
             Some(alone) => Cuts::balanced(&reference, &vec![1.0; particles], ranks, alone)?,
-            None => return Err(crate::decomposition::DecompositionError::NoRanks.into()),
+            None => return Err(DecompositionError::NoRanks.into()),
         };
         let owners: Vec<u32> = reference.iter().map(|x| cuts.owner(x)).collect();
         world.free.add(OWNER, Role::State);
@@ -87,26 +85,16 @@ impl<const D: usize> Parts<D> {
         world.free.keep_slots(&kept);
         let link = Arc::new(Link::new(transport, rings));
         world.communicator = Some(link.clone());
-        let points = world.lists.reference_points().clone();
+        let points = world.lists.reference_points.clone();
         world.build_lists_from(places, points, world.lists.time);
         let parts = Parts {
             link,
             cuts,
-            changes: [0; 2],
+            moved: 0,
             builds: BUILDS_TO_LOOK - 1,
         };
         parts.know_ghosts(&world.free, sends)?;
         Ok(parts)
-    }
-
-    /// The ranks' connection.
-    pub fn transport(&self) -> &Arc<dyn Transport> {
-        &self.link.transport
-    }
-
-    /// True if this rank writes the common results.
-    pub fn is_first(&self) -> bool {
-        self.link.transport.rank() == 0
     }
 
     /// Data sent so far.
@@ -114,8 +102,7 @@ impl<const D: usize> Parts<D> {
         Traffic {
             messages: self.link.messages.load(Ordering::Relaxed),
             bytes: self.link.bytes.load(Ordering::Relaxed),
-            moved: self.changes[0],
-            cuts: self.changes[1],
+            moved: self.moved,
         }
     }
 
@@ -134,14 +121,9 @@ impl<const D: usize> Parts<D> {
     /// Finds the ghosts, by their owners; drops partners with nothing to share.
     fn know_ghosts(&self, free: &Store<D>, mut sends: Vec<Partner>) -> Result<(), PartError> {
         let owners = free.get(OWNER)?;
-        let rank = self.link.transport.rank();
-        let ranks = self.link.transport.ranks();
-        let mut receives: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
-        for (slot, owner) in owners.iter().enumerate() {
-            if *owner as usize != rank {
-                receives[*owner as usize].1.push(slot as u32);
-            }
-        }
+        let (rank, ranks) = (self.link.transport.rank(), self.link.transport.ranks());
+        let mut receives = by_owner(owners, ranks);
+        receives[rank].1.clear();
         receives.retain(|(_, slots)| !slots.is_empty());
         sends.retain(|(_, slots)| !slots.is_empty());
         let partners = self.link.partners.write();
@@ -149,29 +131,20 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Gives ghosts the values of their owners in the columns that are `wanted`.
+    /// As [`Link::update_ghosts`]; does some `work` while the messages are on their way.
     ///
     /// # Errors
     /// Another rank that has failed; messages that fail.
-    pub fn update_ghosts(
-        &mut self,
-        free: &mut Store<D>,
-        wanted: impl Fn(&AnyField) -> bool,
-    ) -> Result<(), PartError> {
-        self.link.update_ghosts(free, wanted)
-    }
-
-    /// The same; does some `work` while the messages are on their way.
-    ///
-    /// # Errors
-    /// As [`update_ghosts`](Self::update_ghosts).
     pub fn update_ghosts_during(
         &self,
         world: &mut World<D>,
         wanted: impl Fn(&AnyField) -> bool,
-        work: impl FnMut(&mut World<D>),
+        mut work: impl FnMut(&mut World<D>),
     ) -> Result<(), PartError> {
-        self.link.update_ghosts_during(world, wanted, work)
+        self.link.any(false, false)?;
+        let out = self.link.columns(&world.free, &wanted);
+        let messages = self.link.swapped(out, &mut || work(world))?;
+        self.link.take_in(&mut world.free, &wanted, &messages)
     }
 
     /// Marks of particles that are sent to another rank, out of so many.
@@ -212,13 +185,9 @@ impl<const D: usize> Parts<D> {
     ) -> Result<(), PartError> {
         self.balance(world, cost)?;
         world.wrap()?;
-        let rank = self.link.transport.rank() as u32;
-        let owners = world.free.get(OWNER)?;
-        let own: Vec<u32> = (0..owners.len())
-            .filter(|k| owners[*k] == rank)
-            .map(|k| k as u32)
-            .collect();
-        world.free.keep_slots(&own);
+        let (rank, ranks) = (self.link.transport.rank(), self.link.transport.ranks());
+        let (_, own) = &by_owner(world.free.get(OWNER)?, ranks)[rank];
+        world.free.keep_slots(own);
         self.move_house(world)?;
         let own = world.free.len();
         let around = self.rank_boxes(world)?;
@@ -227,7 +196,9 @@ impl<const D: usize> Parts<D> {
         let to = |r: &usize| (*r, needs.slots(&places, &around[*r], |_| true));
         let sends: Vec<Partner> = self.link.transport.other_ranks().iter().map(to).collect();
         drop(needs);
-        self.deliver(world, &sends)?;
+        // Ghosts come in behind the rank's own.
+        let copies = self.pack(world, &sends);
+        self.receive(&mut world.free, copies)?;
         world.extent = Some(self.extent(&places)?);
         let order = world.order()?;
         if let Some(order) = &order {
@@ -265,11 +236,9 @@ impl<const D: usize> Parts<D> {
         if 1e6 * ranks as f64 <= (1.0 + UNEVEN) * total[0] as f64 {
             return Ok(());
         }
-        let places: Vec<Vect<D>> = own()
-            .map(|(k, _)| world.domain.wrapped(position[k]))
-            .collect();
+        let places = own().map(|(k, _)| world.domain.wrapped(position[k]));
+        let places: Vec<Vect<D>> = places.collect();
         self.cuts = Cuts::balanced(&places, &costs, ranks, &*self.link.transport)?;
-        self.changes[1] += 1;
         Ok(())
     }
 
@@ -279,32 +248,19 @@ impl<const D: usize> Parts<D> {
         let places = world.free.get(fields::POSITION)?.iter();
         let owners: Vec<u32> = places.map(|x| self.cuts.owner(x)).collect();
         world.free.set_index(OWNER.name, &owners)?;
-        let mut leaving: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
-        for (slot, owner) in owners.iter().enumerate() {
-            leaving[*owner as usize].1.push(slot as u32);
-        }
+        let mut leaving = by_owner(&owners, ranks);
         let stay = std::mem::take(&mut leaving[rank].1);
         leaving.retain(|(_, slots)| !slots.is_empty());
         let moved: usize = leaving.iter().map(|(_, slots)| slots.len()).sum();
-        self.changes[0] += moved as u64;
+        self.moved += moved as u64;
         let leavers = self.pack(world, &leaving);
         world.free.keep_slots(&stay);
         self.receive(&mut world.free, leavers)
     }
 
-    /// Ghosts come in behind the rank's own.
-    fn deliver(&mut self, world: &mut World<D>, sends: &[Partner]) -> Result<(), PartError> {
-        let messages = self.pack(world, sends);
-        self.receive(&mut world.free, messages)
-    }
-
     fn pack(&self, world: &World<D>, to: &[Partner]) -> Vec<(usize, Vec<u8>)> {
         let some = to.iter().filter(|(_, slots)| !slots.is_empty());
-        let message = |(rank, slots): &Partner| {
-            let mut message = Vec::new();
-            world.free.pack(|_| true, slots, &mut message);
-            (*rank, message)
-        };
+        let message = |(rank, slots): &Partner| (*rank, world.free.pack(|_| true, slots));
         some.map(message).collect()
     }
 
@@ -326,9 +282,8 @@ impl<const D: usize> Parts<D> {
         let messages = self.link.transport.swap(out, &from)?;
         for (rank, message) in from.into_iter().zip(messages) {
             let first = free.len();
-            let slots: Vec<u32> = (first..first + come[rank] as usize)
-                .map(|k| k as u32)
-                .collect();
+            let behind = first as u32..first as u32 + come[rank] as u32;
+            let slots: Vec<u32> = behind.collect();
             free.set_len(first + slots.len());
             free.unpack(|_| true, &slots, &message)?;
         }
@@ -348,24 +303,15 @@ impl<const D: usize> Parts<D> {
                 upper: Vect::from_fn(|k, _| at(D + k)),
             }
         };
-        Ok(self
-            .link
-            .transport
-            .all(&bytes)?
-            .into_iter()
-            .map(read)
-            .collect())
+        let all = self.link.transport.all(&bytes)?;
+        Ok(all.into_iter().map(read).collect())
     }
 
     /// The extent of the particles of all ranks; `own` are those of this one.
     fn extent(&self, own: &[Vect<D>]) -> Result<Extent<D>, PartError> {
         let around = RankBox::around(own.iter());
-        let numbers = around
-            .lower
-            .iter()
-            .map(|x| -x)
-            .chain(around.upper.iter().copied());
-        let mut corners: Vec<f64> = numbers.collect();
+        let lower = around.lower.iter().map(|x| -x);
+        let mut corners: Vec<f64> = lower.chain(around.upper.iter().copied()).collect();
         self.link.transport.largest(&mut corners)?;
         let mut points = [own.len() as u64];
         self.link.transport.total(&mut points)?;
@@ -375,6 +321,15 @@ impl<const D: usize> Parts<D> {
             points: points[0] as usize,
         })
     }
+}
+
+/// Slots of particles by the ranks that own them.
+fn by_owner(owners: &[u32], ranks: usize) -> Vec<Partner> {
+    let mut all: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
+    for (slot, owner) in owners.iter().enumerate() {
+        all[*owner as usize].1.push(slot as u32);
+    }
+    all
 }
 
 /// The slots that are sent, after the particles have been sorted, ascending: then the ghosts of a rank are in the same order as

@@ -77,10 +77,8 @@ mod tests {
         std::thread::scope(|scope| {
             let communicator = Thread::communicator(ranks);
             let work = &work;
-            let all: Vec<_> = communicator
-                .into_iter()
-                .map(|rank| scope.spawn(move || work(&rank)))
-                .collect();
+            let one = |rank: Thread| scope.spawn(move || work(&rank));
+            let all: Vec<_> = communicator.into_iter().map(one).collect();
             all.into_iter().map(|t| t.join().expect("a rank")).collect()
         })
     }

@@ -38,9 +38,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 
     /// As [`swap`](Self::swap); does some `work` while the messages are on their way.
-    ///
-    /// # Errors
-    /// As [`swap`](Self::swap).
     fn swap_during(
         &self,
         out: Vec<(usize, Vec<u8>)>,
@@ -49,9 +46,6 @@ pub trait Transport: Send + Sync + Debug {
     ) -> Result<Vec<Vec<u8>>, TransportError>;
 
     /// The messages of all ranks, in their order.
-    ///
-    /// # Errors
-    /// As [`swap`](Self::swap).
     fn all(&self, own: &[u8]) -> Result<Vec<Vec<u8>>, TransportError> {
         let others = self.other_ranks();
         let out = others.iter().map(|r| (*r, own.to_vec())).collect();
@@ -61,9 +55,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 
     /// The messages of all ranks, in their order, at rank 0; nothing elsewhere.
-    ///
-    /// # Errors
-    /// As [`swap`](Self::swap).
     fn gather(&self, own: Vec<u8>) -> Result<Vec<Vec<u8>>, TransportError> {
         if self.rank() > 0 {
             self.swap(vec![(0, own)], &[])?;
@@ -75,9 +66,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 
     /// Replaces each value by the largest that any rank has; NaN counts as infinite.
-    ///
-    /// # Errors
-    /// As [`swap`](Self::swap).
     fn largest(&self, values: &mut [f64]) -> Result<(), TransportError> {
         let own: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
         for other in self.all(&own)? {
@@ -89,9 +77,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 
     /// Replaces each number by its sum over all ranks.
-    ///
-    /// # Errors
-    /// As [`swap`](Self::swap).
     fn total(&self, numbers: &mut [u64]) -> Result<(), TransportError> {
         let own: Vec<u8> = numbers.iter().flat_map(|v| v.to_le_bytes()).collect();
         numbers.fill(0);
@@ -104,9 +89,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 
     /// Gives every rank a number, and takes one from each.
-    ///
-    /// # Errors
-    /// As [`swap`](Self::swap).
     fn all_to_all(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
         let others = self.other_ranks();
         let out = others

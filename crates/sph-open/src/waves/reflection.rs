@@ -75,10 +75,7 @@ struct Sums {
 const CLEAR: f64 = 1.0 / 3.0;
 
 fn refused(reason: impl Into<String>) -> StepError {
-    StepError::Stage {
-        stage: "probe `reflection`".into(),
-        reason: reason.into(),
-    }
+    StepError::stage("probe `reflection`", reason)
 }
 
 impl ReflectionProbe {

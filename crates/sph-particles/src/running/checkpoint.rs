@@ -65,7 +65,7 @@ pub fn save<const D: usize, T: Serialize>(
     }
     for (name, positions) in [
         (REFERENCE, &world.lists.reference),
-        (WALL_REFERENCE, world.lists.reference_points()),
+        (WALL_REFERENCE, &world.lists.reference_points),
     ] {
         columns.push(Column {
             name: name.into(),

@@ -6,13 +6,10 @@ use sph_core::StepError;
 pub(crate) fn standing_still(time: f64, dt: f64, target: f64, limiter: &str) -> Option<StepError> {
     // The rest of the way to an output may be as short: it is made up for after the step.
     let moves = time + dt > time || time + dt >= target * (1.0 - 1e-12);
-    (!moves).then(|| StepError::Stage {
-        stage: "clock".into(),
-        reason: format!(
+    (!moves).then(|| StepError::stage("clock", format!(
             "a step of {dt:.1e} s, which `{limiter}` allows, does not move it any more: lower the stiffness, the \
              viscosity or the speed behind it, or raise `run.safety`"
-        ),
-    })
+        )))
 }
 
 #[cfg(test)]

@@ -79,12 +79,12 @@ impl DepartureWatch {
     /// The reason for the run's end, if a body has left the domain.
     pub fn verdict(&self) -> Option<StepError> {
         let (name, time) = self.gone.as_ref()?;
-        Some(StepError::Stage {
-            stage: WALL_MOTION.into(),
-            reason: format!(
+        Some(StepError::stage(
+            WALL_MOTION,
+            format!(
                 "the body `{name}` has left the domain by t = {time:.4} s: its force is too large, or `numerics.domain` too small"
             ),
-        })
+        ))
     }
 }
 

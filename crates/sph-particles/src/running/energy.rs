@@ -106,9 +106,11 @@ impl EnergyWatch {
 
     /// The error of a run that made too much energy.
     pub fn verdict(&self) -> Option<StepError> {
-        (self.share > GROSS).then(|| StepError::Stage {
-            stage: "energy".into(),
-            reason: format!("{}: results of such a run are wrong", self.message()),
+        (self.share > GROSS).then(|| {
+            StepError::stage(
+                "energy",
+                format!("{}: results of such a run are wrong", self.message()),
+            )
         })
     }
 

@@ -39,15 +39,15 @@ impl MachWatch {
     /// The reason for the run's end, if too much of it is faster than sound and the scene does not allow that.
     pub fn verdict(&self, scene: &Scene) -> Option<StepError> {
         let share = self.supersonic.filter(|_| !scene.numerics.supersonic)?;
-        Some(StepError::Stage {
-            stage: "Mach number".into(),
-            reason: format!(
+        Some(StepError::stage(
+            "Mach number",
+            format!(
                 "{:.0} % of the mass is faster than its sound, and results of such a run are wrong: raise \
                  `speed_of_sound` or `velocity_scale` of the phase to ten times the largest speed, or allow it with \
                  `numerics.supersonic = true`",
                 100.0 * share
             ),
-        })
+        ))
     }
 }
 

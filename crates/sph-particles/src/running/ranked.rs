@@ -92,7 +92,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut flow.parts else {
             return Ok(());
         };
-        parts.all_well().map_err(StepError::from)?;
+        parts.link.any(false, false).map_err(StepError::from)?;
         let whole = self.whole.as_mut().map(|w| &mut w.flow);
         let Some(whole) = whole else {
             return Ok(parts.gather(&flow.world, None).map_err(StepError::from)?);
@@ -119,7 +119,7 @@ impl<const D: usize> Running<'_, D> {
         if evaluated {
             let world = &mut whole.world;
             let reference = world.lists.reference.clone();
-            let points = world.lists.reference_points().clone();
+            let points = world.lists.reference_points.clone();
             let (time, builds) = (world.lists.time, world.lists.builds);
             world.forget_pruned();
             world.build_lists_from(reference, points, time);
@@ -181,7 +181,7 @@ impl<const D: usize> Running<'_, D> {
             near.distances,
         ];
         let own = own.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let all = parts.transport().gather(own);
+        let all = parts.link.transport.gather(own);
         let all = all.map_err(|e| StepError::from(PartError::from(e)))?;
         let read = |message: &Vec<u8>| {
             let numbers = message.as_chunks::<8>().0;
@@ -214,7 +214,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return own;
         };
-        match parts.confirm(own.is_some()) {
+        match parts.link.confirm(own.is_some()) {
             Ok(()) => None,
             Err(elsewhere) => Some(own.unwrap_or_else(|| elsewhere.into())),
         }
@@ -228,7 +228,7 @@ impl<const D: usize> Running<'_, D> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return written;
         };
-        match parts.confirm(written.is_err()) {
+        match parts.link.confirm(written.is_err()) {
             Err(PartError::Elsewhere) if written.is_err() => written,
             Err(other) => Err(StepError::from(other).into()),
             Ok(()) => Ok(()),
@@ -239,7 +239,7 @@ impl<const D: usize> Running<'_, D> {
     pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {
             None => cause,
-            Some(parts) => parts.share_failure(cause),
+            Some(parts) => parts.link.share_failure(cause),
         }
     }
 }

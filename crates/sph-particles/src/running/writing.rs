@@ -31,7 +31,7 @@ impl<const D: usize> Running<'_, D> {
         frames: Option<&mut Frames>,
     ) -> Result<Vec<String>, RunError> {
         let parts = self.parts.flow.parts.as_ref();
-        let communicator = parts.map(|p| (p.transport().rank(), p.transport().ranks()));
+        let communicator = parts.map(|p| (p.link.transport.rank(), p.link.transport.ranks()));
         let together = self.scene.output.vtk && !shows_depths(self.scene);
         let among = communicator.filter(|(_, ranks)| together && *ranks > 1);
         let shown = self.whole.as_ref().unwrap_or(&self.parts);

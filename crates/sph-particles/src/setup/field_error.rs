@@ -72,10 +72,7 @@ impl<const D: usize> Probe<D> for ErrorProbe<D> {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let compared = Compared::with_solution(world, &self.field, &*self.solution);
-        let compared = compared.map_err(|reason| StepError::Stage {
-            stage: "references".into(),
-            reason,
-        })?;
+        let compared = compared.map_err(|reason| StepError::stage("references", reason))?;
         let volume = world.free.get(fields::VOLUME)?;
         let Compared {
             values,

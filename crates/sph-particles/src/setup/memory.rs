@@ -106,7 +106,7 @@ fn lists<const D: usize>(world: &World<D>) -> f64 {
         None => free,
     };
     let others = clusters(&lists.of_points) + clusters(&lists.of_elements) + list(&lists.wall);
-    let places = lists.reference.len() + lists.reference_points().len();
+    let places = lists.reference.len() + lists.reference_points.len();
     free + pruned + others + (8 * D * places) as f64
 }
 

@@ -1,8 +1,8 @@
 //! Messages of a scene on several machines.
 
 use serde::Serialize;
-use sph_core::{Declares, System, fields};
-use sph_neighbours::decomposition::{Halo, bisect, exchanges};
+use sph_core::{Access, Declares, System, fields};
+use sph_neighbours::decomposition::{Halo, bisect};
 use sph_scene::Scene;
 use sph_solver::step::costs;
 use sph_solver::{Flow, SolverError};
@@ -91,17 +91,22 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     })
 }
 
+/// Columns that ghosts get after each stage: those that it has summed over neighbours. Ghosts compute all others
+/// themselves.
 fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {
-    let stages: Vec<_> = flow.stages.iter().map(|s| s.access()).collect();
     let free = &flow.world.free;
-    let one = |exchange: sph_neighbours::decomposition::Exchange| {
-        let columns = exchange.columns.iter().filter(|f| free.has(f.name));
+    let stages = flow
+        .stages
+        .iter()
+        .map(|stage| (stage.name(), stage.access()));
+    let sums = stages.filter(|(_, access)| access.sweep);
+    let all = sums.map(|(stage, Access { writes, .. })| {
+        let columns = writes.iter().filter(|f| free.has(f.name));
         ExchangeUse {
-            stage: flow.stages[exchange.stage].name(),
-            bytes: free.parcel_bytes(|f| exchange.columns.contains(f)),
+            stage,
+            bytes: free.parcel_bytes(|f| writes.contains(f)),
             columns: columns.map(|f| f.name.to_string()).collect(),
         }
-    };
-    let all = exchanges(&stages).into_iter().map(one);
+    });
     all.filter(|told| told.bytes > 0).collect()
 }

@@ -136,10 +136,7 @@ fn relax_positions<const D: usize>(
         advance(world, walls, &all, &held)?;
         world.refresh_lists()?;
     }
-    result.ok_or_else(|| StepError::Stage {
-        stage: "relaxation".into(),
-        reason: "no step was taken".into(),
-    })
+    result.ok_or_else(|| StepError::stage("relaxation", "no step was taken"))
 }
 
 fn advance<const D: usize>(
@@ -218,5 +215,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
         }
     };
     let rows = (0..position.len()).into_par_iter().with_min_len(CHUNK);
-    Ok(rows.map_init(|| (Scratch::new(), Vec::new()), of).collect())
+    Ok(rows
+        .map_init(|| (Scratch::default(), Vec::new()), of)
+        .collect())
 }

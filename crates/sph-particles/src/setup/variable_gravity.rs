@@ -80,12 +80,7 @@ pub(crate) fn head<const D: usize>(
 
 fn given_of<const D: usize>(given: &GravityOverTime) -> Result<AddedGravity<D>, SolverError> {
     if let Some(sine) = &given.sine {
-        let course = Course::Sine {
-            amplitude: 1.0,
-            period: sine.period,
-            phase: sine.phase,
-            ramp: sine.ramp,
-        };
+        let course = Course::sine(1.0, sine.period, sine.phase, sine.ramp);
         let first = if sine.ramp > 0.0 {
             0.0
         } else {

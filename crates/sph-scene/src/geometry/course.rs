@@ -130,12 +130,7 @@ impl ImposedCourse<'_> {
             return Ok(Course::Ramp { speed, over });
         }
         if let Some([amplitude, period, phase, ramp]) = self.sine {
-            return Ok(Course::Sine {
-                amplitude,
-                period,
-                phase,
-                ramp,
-            });
+            return Ok(Course::sine(amplitude, period, phase, ramp));
         }
         if let Some(table) = &self.rows.table {
             let rows = table.as_slice().into();

@@ -47,12 +47,7 @@ fn units_of_courses_and_of_columns_reach_si() {
         rotate = { centre = [0, 0], table = [[0, \"0 deg\"], [\"1 min\", \"180 deg\"]] }";
     let found = courses(folder.path(), text).unwrap();
     let pi = std::f64::consts::PI;
-    let sine = Course::Sine {
-        amplitude: 0.05,
-        period: 2.0,
-        phase: pi,
-        ramp: 1.0,
-    };
+    let sine = Course::sine(0.05, 2.0, pi, 1.0);
     let ramp = Course::Ramp {
         speed: 0.1,
         over: 0.5,

@@ -7,47 +7,24 @@ use sph_neighbours::World;
 
 use crate::seepage::PoreResistance;
 
-/// Volume φ of the grains per volume of a soil; 0 outside of soils.
-pub const PACKING: Field<Scalar> = Field::new(
-    "packing",
-    "1",
-    "volume of the grains per volume of the soil",
-);
-
-/// Volume G of the grains of a particle, which stays.
-pub const GRAIN_VOLUME: Field<Scalar> = Field::new(
-    "grain_volume",
-    "m^d",
-    "volume of the grains of a particle of soil",
-);
-
-/// Pressure of the fluid in the pores less that of the same fluid at rest; 0 outside of soils.
-pub const EXCESS_PORE_PRESSURE: Field<Scalar> = Field::new(
-    "excess_pore_pressure",
-    "Pa",
-    "pressure of the fluid in the pores of a soil less that at rest",
-);
-
-/// Effective pressure of the soil if the fluid in its pores were at rest.
-pub const DRAINED_PRESSURE: Field<Scalar> = Field::new(
-    "drained_pressure",
-    "Pa",
-    "effective pressure of a soil with the fluid in its pores at rest",
-);
-
-/// The drained pressure at the last solve; negative before the first.
-pub const EARLIER_DRAINED_PRESSURE: Field<Scalar> = Field::new(
-    "earlier_drained_pressure",
-    "Pa",
-    "drained pressure at the last solve for the pore pressure",
-);
-
-/// Pressure of the grains with the friction that dilation adds: p' (1 + tan ψ/μ).
-pub const FRICTION_PRESSURE: Field<Scalar> = Field::new(
-    "friction_pressure",
-    "Pa",
-    "effective pressure, enlarged by the friction of dilation",
-);
+sph_core::fields! {
+    /// Volume φ of the grains per volume of a soil; 0 outside of soils.
+    pub PACKING: Scalar = "packing", "1", "volume of the grains per volume of the soil";
+    /// Volume G of the grains of a particle, which stays.
+    pub GRAIN_VOLUME: Scalar = "grain_volume", "m^d", "volume of the grains of a particle of soil";
+    /// Pressure of the fluid in the pores less that of the same fluid at rest; 0 outside of soils.
+    pub EXCESS_PORE_PRESSURE: Scalar = "excess_pore_pressure", "Pa",
+        "pressure of the fluid in the pores of a soil less that at rest";
+    /// Effective pressure of the soil if the fluid in its pores were at rest.
+    pub DRAINED_PRESSURE: Scalar = "drained_pressure", "Pa",
+        "effective pressure of a soil with the fluid in its pores at rest";
+    /// The drained pressure at the last solve; negative before the first.
+    pub EARLIER_DRAINED_PRESSURE: Scalar = "earlier_drained_pressure", "Pa",
+        "drained pressure at the last solve for the pore pressure";
+    /// Pressure of the grains with the friction that dilation adds: p' (1 + tan ψ/μ).
+    pub FRICTION_PRESSURE: Scalar = "friction_pressure", "Pa",
+        "effective pressure, enlarged by the friction of dilation";
+}
 
 /// Permeability k of a packing, m².
 #[derive(Clone, Copy, Debug)]

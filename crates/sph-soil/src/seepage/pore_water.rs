@@ -281,10 +281,7 @@ impl<const D: usize> Seeps<D> {
         let matrix = Matrix::new(pattern, Entries::Scalar(values));
         let system = ParticleMatrix::new(&matrix, &space, Some(&places));
         let solved = self.solver.solve(&system, &right, &mut x);
-        solved.map_err(|e| StepError::Stage {
-            stage: "seepage".into(),
-            reason: e.to_string(),
-        })?;
+        solved.map_err(|e| StepError::stage("seepage", e.to_string()))?;
         let found = net.particles.iter().map(|&i| match soil(i) {
             true => x[row[i as usize] as usize][0],
             false => present[i as usize],

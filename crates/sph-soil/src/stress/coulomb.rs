@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Symmetric, Vect, fields};
-use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, cross, wall_parts};
+use sph_neighbours::{Contact, Interaction, WallForce, WallPart, World, wall_parts};
 
 /// Coulomb's friction on walls that have a coefficient μ: the wall pulls at the soil with μ times what
 /// the soil presses on it, against the sliding, and at most with what stops it within the step.
@@ -167,17 +167,9 @@ fn wall_forces<const D: usize>(
                 return None;
             }
             let force = -pull.change * (mass[i] * gradient / (pull.gradient * dt));
-            let mut both = [0.0; 6];
-            both[..D].copy_from_slice(force.as_slice());
-            both[3..].copy_from_slice(&cross(&position[i], &force));
-            Some(both)
+            Some(WallForce::parts(&position[i], &force))
         };
-        let sums = world.sums_of(pulls.len(), &part)?;
-        Ok(WallForce {
-            force: Vect::from_fn(|k, _| sums[k]),
-            moment: [sums[3], sums[4], sums[5]],
-            ..WallForce::zero()
-        })
+        Ok(WallForce::from_sums(world.sums_of(pulls.len(), &part)?))
     };
     let force = |wall: usize| match rubs(wall) {
         true => on(wall),

@@ -302,10 +302,7 @@ impl<const D: usize> Solve<D> {
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }
-        solved.map_err(|e| StepError::Stage {
-            stage: "effective pressure".into(),
-            reason: e.to_string(),
-        })
+        solved.map_err(|e| StepError::stage("effective pressure", e.to_string()))
     }
 
     /// True if a multiple of the interval has passed within the last step: the same for a run that was interrupted.

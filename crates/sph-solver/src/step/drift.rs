@@ -86,10 +86,7 @@ impl<const D: usize> Flow<D> {
             std::mem::swap(&mut set.forces, &mut self.loads);
             let moved = walls.advance(set, gravity, time, dt);
             std::mem::swap(&mut set.forces, &mut self.loads);
-            moved.map_err(|e| StepError::Stage {
-                stage: WALL_MOTION.into(),
-                reason: e.to_string(),
-            })?;
+            moved.map_err(|e| StepError::stage(WALL_MOTION, e.to_string()))?;
         }
         self.timings[MOTION].spent += start.elapsed();
         Ok(())

@@ -38,10 +38,10 @@ impl<const D: usize> Flow<D> {
     /// As [`let_in`](Self::let_in); a flow that no particle may come into.
     pub fn insert(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
         let Some(nursery) = self.nursery.take() else {
-            return Err(StepError::Stage {
-                stage: "births".into(),
-                reason: "no particle may come into this flow".into(),
-            });
+            return Err(StepError::stage(
+                "births",
+                "no particle may come into this flow",
+            ));
         };
         let done = self.insert_all(&nursery, all);
         self.nursery = Some(nursery);
@@ -80,9 +80,9 @@ impl<const D: usize> Flow<D> {
             && (newborn.phase as usize) < self.laws.len();
         match sound {
             true => Ok(()),
-            false => Err(StepError::Stage {
-                stage: "births".into(),
-                reason: format!(
+            false => Err(StepError::stage(
+                "births",
+                format!(
                     "a particle from `{}` is born at {:?} with {} kg, {} kg/m³ and the phase {}: one of them is impossible",
                     newborn.body,
                     newborn.position.as_slice(),
@@ -90,7 +90,7 @@ impl<const D: usize> Flow<D> {
                     newborn.density,
                     newborn.phase
                 ),
-            }),
+            )),
         }
     }
 
@@ -173,7 +173,9 @@ impl<const D: usize> Flow<D> {
         if let Some(parts) = &mut self.parts {
             // It is a sum over neighbours.
             let integrated: Vec<_> = self.integrated.iter().map(|f| f.any()).collect();
-            parts.update_ghosts(&mut self.world.free, |f| integrated.contains(f))?;
+            parts
+                .link
+                .update_ghosts(&mut self.world.free, |f| integrated.contains(f))?;
         }
         Ok(())
     }

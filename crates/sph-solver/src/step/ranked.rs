@@ -45,7 +45,7 @@ impl<const D: usize> Flow<D> {
         };
         let bad = guard::positions(&self.world).err();
         let expired = self.world.lists_expired()?;
-        match parts.any(bad.is_some(), expired) {
+        match parts.link.any(bad.is_some(), expired) {
             Err(PartError::Elsewhere) if bad.is_some() => Err(bad.unwrap_or_else(failed_elsewhere)),
             Err(other) => Err(other.into()),
             Ok(false) => {
@@ -81,7 +81,7 @@ impl<const D: usize> Flow<D> {
     pub fn least_limits(&mut self, limits: &mut [StepLimit]) -> Result<(), StepError> {
         if let Some(parts) = &mut self.parts {
             let mut times: Vec<f64> = limits.iter().map(|l| l.dt).collect();
-            parts.least(&mut times)?;
+            parts.link.least(&mut times)?;
             limits.iter_mut().zip(times).for_each(|(l, dt)| l.dt = dt);
         }
         Ok(())
@@ -91,7 +91,7 @@ impl<const D: usize> Flow<D> {
     pub fn tell_all(&mut self) -> Result<(), StepError> {
         match &mut self.parts {
             None => Ok(()),
-            Some(parts) => Ok(parts.update_ghosts(&mut self.world.free, |_| true)?),
+            Some(parts) => Ok(parts.link.update_ghosts(&mut self.world.free, |_| true)?),
         }
     }
 
@@ -99,7 +99,7 @@ impl<const D: usize> Flow<D> {
     pub fn any_rank(&mut self, own: bool) -> Result<bool, StepError> {
         match &mut self.parts {
             None => Ok(own),
-            Some(parts) => Ok(parts.any(false, own)?),
+            Some(parts) => Ok(parts.link.any(false, own)?),
         }
     }
 }

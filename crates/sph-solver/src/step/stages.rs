@@ -4,16 +4,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use sph_boundary::Wall;
-use sph_core::{Access, AnyField, Declares, Field, Scalar, Stage, StepError, Vect, fields};
+use sph_core::{Access, AnyField, Declares, Stage, StepError, Vect, fields};
 use sph_multiphase::Diffused;
 use sph_neighbours::{Interaction, Sums, TRANSPORTED, World, all_sums, declared, is_wanted};
 
-/// Stands for all that walls carry; not a column of the free particles.
-pub const WALL_STATE: Field<Scalar> = Field::new(
-    "wall_state",
-    "Pa",
-    "pressure and volume at wall points and elements",
-);
+sph_core::fields! {
+    /// Stands for all that walls carry; not a column of the free particles.
+    pub WALL_STATE: Scalar = "wall_state", "Pa", "pressure and volume at wall points and elements";
+}
 
 /// A piece of work of an evaluation: of the walls, which the flow has, or a stage.
 pub enum Work<const D: usize> {

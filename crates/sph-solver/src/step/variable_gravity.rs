@@ -74,12 +74,7 @@ mod tests {
     #[test]
     fn a_sine_is_that_of_its_phase_from_the_start() {
         let (period, phase) = (1.3, 0.7_f64);
-        let course = Course::Sine {
-            amplitude: 1.0,
-            period,
-            phase,
-            ramp: 0.0,
-        };
+        let course = Course::sine(1.0, period, phase, 0.0);
         let amplitude = Vect::<2>::new(3.0, -0.5);
         let swing = VariableGravity {
             given: AddedGravity::Sine(amplitude, course, phase.sin()),

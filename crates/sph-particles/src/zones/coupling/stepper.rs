@@ -118,10 +118,10 @@ impl<const D: usize> Stepper<D> {
         let factor = self.scene.run.safety * self.scale;
         let (dt, limiter) = next_step(&limits, factor, [time, target], target - time);
         if time + dt <= time {
-            return Err(StepError::Stage {
-                stage: limiter.into(),
-                reason: format!("a step of {dt:e} s does not move the clock at {time} s"),
-            });
+            return Err(StepError::stage(
+                limiter,
+                format!("a step of {dt:e} s does not move the clock at {time} s"),
+            ));
         }
         self.limiter = limiter;
         self.evaluated = false;
