@@ -140,3 +140,11 @@ pub enum StepError {
         reason: String,
     },
 }
+
+impl StepError {
+    /// A stage that failed for a reason of its own.
+    pub fn stage(stage: impl Into<String>, reason: impl Into<String>) -> Self {
+        let (stage, reason) = (stage.into(), reason.into());
+        StepError::Stage { stage, reason }
+    }
+}

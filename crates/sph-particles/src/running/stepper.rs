@@ -65,10 +65,7 @@ impl<const D: usize> Stepper<D> {
     /// # Errors
     /// If there is no such column of state, its length is another, or a number is not finite.
     pub fn set(&mut self, name: &str, values: &[f64]) -> Result<(), StepError> {
-        let refused = |reason: String| StepError::Stage {
-            stage: format!("setting `{name}`"),
-            reason,
-        };
+        let refused = |reason: String| StepError::stage(format!("setting `{name}`"), reason);
         let free = &mut self.parts.flow.world.free;
         let state = |role: Role| role == Role::State;
         let found = free.columns().find(|(n, ..)| *n == name);

@@ -90,9 +90,6 @@ impl<const D: usize> Level<D> {
     }
 
     fn named(&self, cause: StepError) -> StepError {
-        StepError::Stage {
-            stage: format!("zone `{}`", self.name),
-            reason: cause.to_string(),
-        }
+        StepError::stage(format!("zone `{}`", self.name), cause.to_string())
     }
 }
