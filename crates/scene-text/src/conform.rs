@@ -22,10 +22,9 @@ pub fn conform(value: &mut Value, schema: &Json) -> Result<Vec<SceneProblem>, Ve
         remarks: Vec::new(),
     };
     walk.value(value, schema, "", None);
-    if walk.problems.is_empty() {
-        Ok(walk.remarks)
-    } else {
-        Err(walk.problems)
+    match walk.problems.is_empty() {
+        true => Ok(walk.remarks),
+        false => Err(walk.problems),
     }
 }
 
@@ -37,11 +36,8 @@ struct Walk<'s> {
 
 impl<'s> Walk<'s> {
     fn resolve(&self, schema: &'s Json) -> &'s Json {
-        let target = schema
-            .get("$ref")
-            .and_then(Json::as_str)
-            .and_then(|r| r.strip_prefix('#'))
-            .and_then(|pointer| self.root.pointer(pointer));
+        let target = schema.get("$ref").and_then(Json::as_str);
+        let target = target.and_then(|r| self.root.pointer(r.strip_prefix('#')?));
         target.unwrap_or(schema)
     }
 
@@ -86,10 +82,8 @@ impl<'s> Walk<'s> {
                 self.problem(path, "expected true or false".into());
             }
             Some("string") if value.as_str().is_none() => {
-                self.problem(
-                    path,
-                    format!("expected a string, found {}", describe(value)),
-                );
+                let found = describe(value);
+                self.problem(path, format!("expected a string, found {found}"));
             }
             Some("array") => self.array(value, schema, path, unit),
             Some("object") => self.object(value, schema, path),
@@ -140,11 +134,8 @@ impl<'s> Walk<'s> {
         match wanted.into_iter().collect::<Option<Vec<_>>>() {
             Some(mut all) if all.len() > 1 => {
                 all.dedup();
-                let found = describe(value);
-                self.problem(
-                    path,
-                    format!("expected {}, found {found}", all.join(" or ")),
-                );
+                let (wanted, found) = (all.join(" or "), describe(value));
+                self.problem(path, format!("expected {wanted}, found {found}"));
             }
             _ => self.problems.extend(first.unwrap_or_default()),
         }
@@ -167,10 +158,9 @@ impl<'s> Walk<'s> {
                 // `probe.NAME` is a probe.
                 let what = path.split('.').next().filter(|root| !root.is_empty());
                 let what = what.unwrap_or("table");
-                let message = format!(
-                    "there is no {what} of the {key} `{kind}`{near} (there are: {})",
-                    known()
-                );
+                let known = known();
+                let message =
+                    format!("there is no {what} of the {key} `{kind}`{near} (there are: {known})");
                 self.problem(&joined(path, key), message);
             }
         }
@@ -183,24 +173,15 @@ impl<'s> Walk<'s> {
         path: &str,
     ) {
         let names: Vec<&str> = names.collect();
-        let expected = || {
-            names
-                .iter()
-                .map(|n| format!("`{n}`"))
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
+        let expected: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+        let expected = expected.join(", ");
         match value.as_str() {
             Some(text) if names.contains(&text) => {}
-            Some(text) => self.problem(
-                path,
-                format!(
-                    "`{text}` is not one of {}{}",
-                    expected(),
-                    suggestion(text, names.iter().copied())
-                ),
-            ),
-            None => self.problem(path, format!("expected one of {}", expected())),
+            Some(text) => {
+                let near = suggestion(text, names);
+                self.problem(path, format!("`{text}` is not one of {expected}{near}"));
+            }
+            None => self.problem(path, format!("expected one of {expected}")),
         }
     }
 
@@ -219,10 +200,8 @@ impl<'s> Walk<'s> {
             }
         };
         if !number.is_finite() {
-            return self.problem(
-                path,
-                format!("expected a finite number{of}, found {number}"),
-            );
+            let message = format!("expected a finite number{of}, found {number}");
+            return self.problem(path, message);
         }
         *value = Value::Float(number);
         let before = self.problems.len();
@@ -244,9 +223,8 @@ impl<'s> Walk<'s> {
 
     fn range(&mut self, x: f64, schema: &Json, path: &str, unit: Option<&str>) {
         let bound = |key: &str| schema.get(key).and_then(Json::as_f64);
-        let unit = unit
-            .filter(|u| *u != "1")
-            .map_or(String::new(), |u| format!(" {u}"));
+        let unit = unit.filter(|u| *u != "1");
+        let unit = unit.map_or(String::new(), |u| format!(" {u}"));
         type Violated = fn(f64, f64) -> bool;
         let checks: [(&str, Violated, &str); 4] = [
             ("minimum", |x, b| x < b, "at least"),
@@ -322,10 +300,8 @@ impl<'s> Walk<'s> {
                         "" => "none is taken here".to_string(),
                         list => format!("valid here: {list}"),
                     };
-                    self.problem(
-                        &join(key),
-                        format!("`{key}` is not a known key{near} ({known})"),
-                    );
+                    let message = format!("`{key}` is not a known key{near} ({known})");
+                    self.problem(&join(key), message);
                 }
                 (None, Some(schema @ Json::Object(_))) => {
                     self.value(item, schema, &join(key), None)
@@ -333,12 +309,8 @@ impl<'s> Walk<'s> {
                 _ => {}
             }
         }
-        for name in schema
-            .get("required")
-            .and_then(Json::as_array)
-            .into_iter()
-            .flatten()
-        {
+        let required = schema.get("required").and_then(Json::as_array);
+        for name in required.into_iter().flatten() {
             let name = name.as_str().unwrap_or_default();
             if !table.contains_key(name) {
                 let meaning = properties
@@ -366,18 +338,11 @@ fn tag(option: &Json) -> Option<(&str, &str, &Json)> {
 /// The expected type of a value of another type.
 fn wanted_in_its_place(problems: &[SceneProblem], path: &str) -> Option<String> {
     let [problem] = problems else { return None };
-    let (wanted, _) = problem
-        .message
-        .strip_prefix("expected ")?
-        .split_once(", found ")?;
-    let kinds = [
-        "a list",
-        "a table",
-        "a string",
-        "a whole number",
-        "a number",
-    ];
-    let kind = kinds.iter().any(|kind| wanted.starts_with(kind));
+    let wanted = problem.message.strip_prefix("expected ")?;
+    let (wanted, _) = wanted.split_once(", found ")?;
+    let kinds = ["list", "table", "string", "whole number", "number"];
+    let kind = wanted.strip_prefix("a ");
+    let kind = kind.is_some_and(|wanted| kinds.iter().any(|kind| wanted.starts_with(kind)));
     (problem.path == path && kind).then(|| wanted.to_string())
 }
 

@@ -1,4 +1,4 @@
-//! The schema in a form for editors.
+//! The schema in a form for editors, and its defaults.
 
 use serde_json::{Value as Json, json};
 
@@ -35,4 +35,14 @@ pub fn for_editors(schema: &mut Json) {
         Json::Array(items) => items.iter_mut().for_each(for_editors),
         _ => {}
     }
+}
+
+/// The default of every property that has one, by name.
+pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    properties
+        .into_iter()
+        .flatten()
+        .filter_map(|(name, p)| p.get("default").map(|d| (name.clone(), d.clone())))
+        .collect()
 }

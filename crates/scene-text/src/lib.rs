@@ -20,7 +20,6 @@
 //! ```
 
 mod conform;
-mod defaults;
 mod diagnostic;
 mod editors;
 mod files;
@@ -36,13 +35,11 @@ mod quantity;
 mod source;
 #[cfg(feature = "surface")]
 pub mod surface;
-mod table;
 mod text;
 
 pub use conform::conform;
-pub use defaults::defaults;
 pub use diagnostic::{Diagnostic, Origin, line_and_column};
-pub use editors::for_editors;
+pub use editors::{defaults, for_editors};
 pub use files::named_files;
 pub use names::{comma_list, is_within, nearest, suggestion};
 pub use overrides::{OnePlugin, Override};

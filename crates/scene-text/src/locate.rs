@@ -15,7 +15,7 @@ pub(crate) struct Place {
 ///
 /// A key with a value gives the span of both; a table gives the span of its name.
 pub(crate) fn locate(table: &DeTable<'_>, path: &str) -> Place {
-    let mut here = 0..0;
+    let mut span = 0..0;
     let mut rest = path;
     let mut inside = TextNode::Table(table);
     while !rest.is_empty() {
@@ -24,13 +24,11 @@ pub(crate) fn locate(table: &DeTable<'_>, path: &str) -> Place {
             TextNode::List(items) => indexed(items, rest),
             TextNode::Leaf => None,
         };
-        let Some((span, value, remaining)) = step else {
-            return Place {
-                span: here,
-                exact: false,
-            };
+        let Some((there, value, remaining)) = step else {
+            let exact = false;
+            return Place { span, exact };
         };
-        here = span;
+        span = there;
         rest = remaining.strip_prefix('.').unwrap_or(remaining);
         inside = match value.get_ref() {
             DeValue::Table(table) => TextNode::Table(table),
@@ -38,10 +36,8 @@ pub(crate) fn locate(table: &DeTable<'_>, path: &str) -> Place {
             _ => TextNode::Leaf,
         };
     }
-    Place {
-        span: here,
-        exact: true,
-    }
+    let exact = true;
+    Place { span, exact }
 }
 
 enum TextNode<'t> {

@@ -92,33 +92,18 @@ mod tests {
 
     #[test]
     fn numbers_read_well() {
-        let plains = [
-            0.0,
-            0.0125,
-            1.234_567e-5,
-            1682.0,
-            0.5,
-            -3.0,
-            2.5e9,
-            99_999.6,
-        ];
+        let plains = [0.0, 0.0125, 1.23457e-5, 1682.0, 0.5, -3.0, 2.5e9, 99_999.6];
         let texts = [
             "0", "0.0125", "1.235e-5", "1682", "0.5", "-3", "2.5e9", "100000",
         ];
         assert_eq!(plains.map(plain), texts);
-        assert_eq!(
-            [12.0, 1682.0, -1682.0, 1e6].map(count),
-            ["12", "1 682", "-1 682", "1 000 000"]
-        );
-        assert_eq!(
-            [5.0, 59.7, 60.0, 3725.0].map(duration),
-            ["5.0 s", "1 min", "1 min", "1 h 2 min"]
-        );
+        let counts = [12.0, 1682.0, -1682.0, 1e6].map(count);
+        assert_eq!(counts, ["12", "1 682", "-1 682", "1 000 000"]);
+        let durations = [5.0, 59.7, 60.0, 3725.0].map(duration);
+        assert_eq!(durations, ["5.0 s", "1 min", "1 min", "1 h 2 min"]);
         assert_eq!(duration(200_000.0), "2 d 8 h");
         assert_eq!([12.0, 2e6, 3e13].map(bytes), ["12 B", "2.0 MB", "30 TB"]);
-        assert_eq!(
-            [1.0, 1e-5, 0.0].map(percent),
-            ["100.0 %", "<0.1 %", "0.0 %"]
-        );
+        let percents = [1.0, 1e-5, 0.0].map(percent);
+        assert_eq!(percents, ["100.0 %", "<0.1 %", "0.0 %"]);
     }
 }

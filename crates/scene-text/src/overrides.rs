@@ -57,9 +57,8 @@ impl Override {
     /// # Errors
     /// If there is no `=`, the path is not one, or the value is broken TOML.
     pub fn parse(text: &str) -> Result<Self, SceneProblem> {
-        let (path, value) = text
-            .split_once('=')
-            .ok_or_else(|| SceneProblem::new(text, "expected `path.to.key=value`, found no `=`"))?;
+        let none = || SceneProblem::new(text, "expected `path.to.key=value`, found no `=`");
+        let (path, value) = text.split_once('=').ok_or_else(none)?;
         let (path, value) = (path.trim(), value.trim());
         let value = match value.parse::<Value>() {
             Ok(value) => value,
@@ -112,24 +111,20 @@ impl Override {
                     if self.replaces(depth) {
                         table.retain(|name, _| name == key);
                     }
-                    let last = depth + 1 == self.segments.len();
-                    if last {
+                    if depth + 1 == self.segments.len() {
                         table.insert(key.clone(), self.value.clone());
                         return Ok(());
                     }
-                    table
-                        .entry(key.clone())
-                        .or_insert_with(|| Value::Table(Table::new()))
+                    let inner = table.entry(key.clone());
+                    inner.or_insert_with(|| Value::Table(Table::new()))
                 }
                 (Segment::Key(key), _) => {
                     return Err(format!("there is no key `{key}` in what is not a table"));
                 }
                 (Segment::Index(k), Value::Array(items)) => {
                     let count = items.len();
-                    let entry = items.get_mut(*k);
-                    entry.ok_or(format!(
-                        "there is no entry {k} in a list of {count}, counted from 0"
-                    ))?
+                    let why = format!("there is no entry {k} in a list of {count}, counted from 0");
+                    items.get_mut(*k).ok_or(why)?
                 }
                 (Segment::Index(k), _) => {
                     return Err(format!("there is no entry {k} in what is not a list"));
@@ -142,15 +137,12 @@ impl Override {
 
     /// True if the key at that depth names a plugin where there is exactly one.
     fn replaces(&self, depth: usize) -> bool {
+        let named = |(wanted, segment): (&&str, &Segment)| match segment {
+            Segment::Key(key) => *wanted == "*" || wanted == key,
+            Segment::Index(_) => false,
+        };
         let fits = |pattern: &Vec<&str>| {
-            pattern.len() == depth
-                && pattern
-                    .iter()
-                    .zip(&self.segments)
-                    .all(|(wanted, segment)| match segment {
-                        Segment::Key(key) => *wanted == "*" || wanted == key,
-                        Segment::Index(_) => false,
-                    })
+            pattern.len() == depth && pattern.iter().zip(&self.segments).all(named)
         };
         single().iter().any(fits)
     }
@@ -172,11 +164,9 @@ fn segments(path: &str) -> Result<Vec<Segment>, String> {
         rest = after;
         while let Some(bracket) = rest.strip_prefix('[') {
             let (index, after) = bracket.split_once(']').ok_or("a bracket is not closed")?;
-            let index = index
-                .trim()
-                .parse()
-                .map_err(|_| format!("`{index}` is not an index"))?;
-            found.push(Segment::Index(index));
+            let number = index.trim().parse();
+            let number = number.map_err(|_| format!("`{index}` is not an index"))?;
+            found.push(Segment::Index(number));
             rest = after;
         }
         if found.len() > DEEPEST {
@@ -207,47 +197,25 @@ mod tests {
 
     #[test]
     fn values_lists_and_plugin_tables_are_set() {
-        let scene = "[probe.P1]\nat = [1, 2]\n[kernel.a]\nx = 1\n[smoother.b]";
-        assert_eq!(
-            after(scene, "probe.P1.at=[3,4]").unwrap()["probe"]["P1"]["at"][1].as_integer(),
-            Some(4)
-        );
-        assert_eq!(
-            after(scene, "probe.P1.at[0]=5").unwrap()["probe"]["P1"]["at"][0].as_integer(),
-            Some(5)
-        );
-        assert_eq!(
-            after(scene, "run.end=10 s").unwrap()["run"]["end"].as_str(),
-            Some("10 s")
-        );
-        assert_eq!(
-            after(scene, "kernel.a.x=2").unwrap()["kernel"]["a"]["x"].as_integer(),
-            Some(2)
-        );
-        assert!(
-            after(scene, "smoother={}").unwrap()["smoother"]
-                .as_table()
-                .unwrap()
-                .is_empty()
-        );
+        let scene = "probe.P1.at = [1, 2]\nkernel.a.x = 1\nsmoother.b = {}";
+        for (set, key, value) in [
+            ("probe.P1.at=[3,4]", "probe", "{ P1 = { at = [3, 4] } }"),
+            ("probe.P1.at[0]=5", "probe", "{ P1 = { at = [5, 2] } }"),
+            ("run.end=10 s", "run", "{ end = \"10 s\" }"),
+            ("kernel.a.x=2", "kernel", "{ a = { x = 2 } }"),
+            ("smoother={}", "smoother", "{}"),
+        ] {
+            let value: Value = value.parse().unwrap();
+            assert_eq!(after(scene, set).unwrap()[key], value);
+        }
     }
 
     #[test]
     fn another_plugin_takes_the_place_of_the_present_one() {
         let table = after("[kernel.a]\nx = 1", "kernel.b={}").unwrap();
-        assert_eq!(
-            table["kernel"]
-                .as_table()
-                .unwrap()
-                .keys()
-                .collect::<Vec<_>>(),
-            ["b"]
-        );
-        let table = after(
-            "[phase.w.rheology.a]\n[phase.v.rheology.a]",
-            "phase.w.rheology.b.k=1",
-        )
-        .unwrap();
+        assert_eq!(table["kernel"], "{ b = {} }".parse::<Value>().unwrap());
+        let scene = "[phase.w.rheology.a]\n[phase.v.rheology.a]";
+        let table = after(scene, "phase.w.rheology.b.k=1").unwrap();
         assert!(table["phase"]["w"]["rheology"].get("a").is_none());
         assert!(table["phase"]["v"]["rheology"].get("a").is_some());
     }

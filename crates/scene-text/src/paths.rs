@@ -90,12 +90,8 @@ fn real(path: &Path) -> Option<PathBuf> {
 }
 
 fn real_folder(folder: &Path) -> Option<PathBuf> {
-    let here = Path::new(".");
-    let folder = if folder.as_os_str().is_empty() {
-        here
-    } else {
-        folder
-    };
+    let unnamed = folder.as_os_str().is_empty();
+    let folder = if unnamed { Path::new(".") } else { folder };
     folder.canonicalize().ok()
 }
 

@@ -36,12 +36,11 @@ impl PictureRange {
 
     /// Names of the fields that have values of their own.
     pub fn fields(&self) -> impl Iterator<Item = &String> {
-        match self {
+        let own = match self {
             PictureRange::All(_) => None,
             PictureRange::ByField(ranges) => Some(ranges.keys()),
-        }
-        .into_iter()
-        .flatten()
+        };
+        own.into_iter().flatten()
     }
 
     /// A problem for each pair whose first value is not less than its second, by the key under `path`.
@@ -50,9 +49,9 @@ impl PictureRange {
         let pairs = match self {
             PictureRange::All(range) => vec![(path.to_string(), *range)],
             PictureRange::ByField(ranges) => {
-                let of_field =
-                    |(field, range): (&String, &[f64; 2])| (format!("{path}.{field}"), *range);
-                ranges.iter().map(of_field).collect()
+                let ranges = ranges.iter();
+                let paths = ranges.map(|(field, range)| (format!("{path}.{field}"), *range));
+                paths.collect()
             }
         };
         let falling = pairs.into_iter().filter(|(_, [low, high])| low >= high);

@@ -49,14 +49,27 @@ impl Problems {
             [] => self.add(path, format!("a {what} is missing: {all}")),
             [_] => return true,
             [_, .., last] => {
-                let message = format!(
-                    "only one {what} can stand here, found {}{advice}",
-                    given.join(", ")
-                );
+                let all = given.join(", ");
+                let message = format!("only one {what} can stand here, found {all}{advice}");
                 self.add(format!("{path}.{last}"), message);
             }
         }
         false
+    }
+
+    /// Checks that one of two keys alone is given; the second has a name, at which `both` is said.
+    pub fn either(
+        &mut self,
+        given: [bool; 2],
+        path: &str,
+        neither: &str,
+        (second, both): (&str, &str),
+    ) {
+        match given {
+            [false, false] => self.add(path, neither),
+            [true, true] => self.add(format!("{path}.{second}"), both),
+            _ => {}
+        }
     }
 
     /// Checks that one of some keys at most is given.

@@ -1,5 +1,7 @@
 //! Numbers with units in strings: "10 kPa", "1e-3 Pa s", "35 deg", "9.81 m/s^2".
 
+use std::f64::consts::PI;
+
 /// Exponents of metre, kilogram and second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dimensions {
@@ -46,21 +48,13 @@ const PLAIN: [(&str, f64, Dimensions); 10] = [
     ("1", 1.0, Dimensions::new(0, 0, 0)),
     ("%", 0.01, Dimensions::new(0, 0, 0)),
     ("rad", 1.0, Dimensions::new(0, 0, 0)),
-    (
-        "deg",
-        std::f64::consts::PI / 180.0,
-        Dimensions::new(0, 0, 0),
-    ),
-    ("°", std::f64::consts::PI / 180.0, Dimensions::new(0, 0, 0)),
+    ("deg", PI / 180.0, Dimensions::new(0, 0, 0)),
+    ("°", PI / 180.0, Dimensions::new(0, 0, 0)),
     ("bar", 1e5, Dimensions::new(-1, 1, -2)),
     ("min", 60.0, Dimensions::new(0, 0, 1)),
     ("h", 3600.0, Dimensions::new(0, 0, 1)),
     ("t", 1e3, Dimensions::new(0, 1, 0)),
-    (
-        "rpm",
-        std::f64::consts::PI / 30.0,
-        Dimensions::new(0, 0, -1),
-    ),
+    ("rpm", PI / 30.0, Dimensions::new(0, 0, -1)),
 ];
 
 /// Larger exponents than this occur in no unit; they must not overflow the sums.
@@ -132,30 +126,19 @@ pub fn unit_factor(unit: &str, alike: &str) -> Result<f64, String> {
 fn one_symbol(symbol: &str) -> Result<(f64, Dimensions, i32), String> {
     let plain = symbol.replace('²', "^2").replace('³', "^3");
     let (name, power) = match plain.split_once('^') {
-        Some((name, power)) => (
-            name,
-            power
-                .parse::<i32>()
-                .ok()
-                .filter(|p| p.abs() <= LARGEST_POWER)
-                .ok_or_else(|| format!("`{power}` is not an exponent in the unit `{symbol}`"))?,
-        ),
+        Some((name, power)) => {
+            let why = || format!("`{power}` is not an exponent in the unit `{symbol}`");
+            let known = |p: &i32| p.abs() <= LARGEST_POWER;
+            (name, power.parse().ok().filter(known).ok_or_else(why)?)
+        }
         None => (plain.as_str(), 1),
     };
-    let known = |n: &str| {
-        PLAIN
-            .iter()
-            .chain(BASE.iter())
-            .find(|u| u.0 == n)
-            .map(|u| (u.1, u.2))
-    };
-    if let Some((value, dims)) = known(name) {
-        return Ok((value, dims, power));
+    if let Some((_, value, dims)) = PLAIN.iter().chain(&BASE).find(|u| u.0 == name) {
+        return Ok((*value, *dims, power));
     }
     for (prefix, scale) in PREFIXES {
-        let base = name
-            .strip_prefix(prefix)
-            .and_then(|rest| BASE.iter().find(|u| u.0 == rest));
+        let rest = name.strip_prefix(prefix);
+        let base = rest.and_then(|rest| BASE.iter().find(|u| u.0 == rest));
         if let Some(base) = base {
             return Ok((scale * base.1, base.2, power));
         }
@@ -172,9 +155,8 @@ fn one_symbol(symbol: &str) -> Result<(f64, Dimensions, i32), String> {
 pub fn parse_quantity(text: &str, expected: &str) -> Result<f64, String> {
     let text = text.trim();
     let end = number_end(text);
-    let number: f64 = text[..end]
-        .parse()
-        .map_err(|_| format!("`{text}` does not start with a number"))?;
+    let number = text[..end].parse::<f64>();
+    let number = number.map_err(|_| format!("`{text}` does not start with a number"))?;
     if !number.is_finite() {
         return Err(format!("`{text}` is not finite"));
     }
@@ -199,31 +181,23 @@ pub fn parse_quantity(text: &str, expected: &str) -> Result<f64, String> {
 /// The 15-digit decimal next to `x` if rounding alone separates them: 1 g/cm³ is 1000 kg/m³.
 fn tidy(x: f64) -> f64 {
     let decimal = format!("{x:.14e}").parse().unwrap_or(x);
-    if (x - decimal).abs() <= 4.0 * f64::EPSILON * x.abs() {
-        decimal
-    } else {
-        x
-    }
+    let near = (x - decimal).abs() <= 4.0 * f64::EPSILON * x.abs();
+    if near { decimal } else { x }
 }
 
 /// The end of the leading decimal number of a text.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
-    let mut end = 0;
-    while end < bytes.len() {
-        let exponent_sign = end > 0 && matches!(bytes[end - 1], b'e' | b'E');
-        let exponent = matches!(bytes[end], b'e' | b'E')
-            && bytes
-                .get(end + 1)
-                .is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-'));
-        let sign = matches!(bytes[end], b'+' | b'-') && (end == 0 || exponent_sign);
-        if bytes[end].is_ascii_digit() || bytes[end] == b'.' || exponent || sign {
-            end += 1;
-        } else {
-            break;
-        }
-    }
-    end
+    let follows = |k: usize| {
+        let next = bytes.get(k + 1);
+        next.is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-'))
+    };
+    let belongs = |k: &usize| match bytes[*k] {
+        b'e' | b'E' => follows(*k),
+        b'+' | b'-' => *k == 0 || matches!(bytes[*k - 1], b'e' | b'E'),
+        byte => byte.is_ascii_digit() || byte == b'.',
+    };
+    (0..bytes.len()).take_while(belongs).count()
 }
 
 #[cfg(test)]
@@ -251,23 +225,16 @@ mod tests {
 
     #[test]
     fn wrong_units_are_named() {
-        assert!(
-            parse_quantity("3 kPa", "m")
-                .unwrap_err()
-                .contains("like `m`")
-        );
-        assert!(
-            parse_quantity("3 parsec", "m")
-                .unwrap_err()
-                .contains("parsec")
-        );
-        assert!(parse_quantity("abc", "m").unwrap_err().contains("number"));
-        assert!(parse_quantity("nan", "m").is_err());
-        assert!(
-            parse_quantity("3 W^2000000000", "m")
-                .unwrap_err()
-                .contains("exponent")
-        );
-        assert!(parse_quantity("1e999", "m").unwrap_err().contains("finite"));
+        for (text, told) in [
+            ("3 kPa", "like `m`"),
+            ("3 parsec", "parsec"),
+            ("abc", "number"),
+            ("nan", ""),
+            ("3 W^2000000000", "exponent"),
+            ("1e999", "finite"),
+        ] {
+            let why = parse_quantity(text, "m").unwrap_err();
+            assert!(why.contains(told), "{why}");
+        }
     }
 }

@@ -4,12 +4,14 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use toml::Table;
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
 use crate::locate::locate;
 use crate::overrides::Override;
 use crate::paths::{PathProblem, joined, within};
+use crate::text::FILE_BYTES;
 use crate::{MOST_PROBLEMS, SceneProblem, is_within};
 
 /// The text of a scene file and the overrides on top of it.
@@ -69,11 +71,9 @@ impl Source {
     /// of overrides last. Of more than [`MOST_PROBLEMS`] the first are placed.
     pub fn diagnose(&self, problems: &[SceneProblem]) -> Vec<Diagnostic> {
         let table = DeTable::parse_recoverable(&self.text).0;
-        let mut all: Vec<Diagnostic> = problems
-            .iter()
-            .take(MOST_PROBLEMS)
-            .map(|p| self.place(table.get_ref(), p))
-            .collect();
+        let placed = problems.iter().take(MOST_PROBLEMS);
+        let placed = placed.map(|p| self.place(table.get_ref(), p));
+        let mut all: Vec<Diagnostic> = placed.collect();
         all.sort_by_key(|d| (d.origin, d.span.start, d.span.end));
         all.dedup();
         all
@@ -106,9 +106,8 @@ impl Source {
         let text = self.text_at(origin);
         let start = floor_char(text, span.start);
         let end = floor_char(text, span.end.max(span.start));
-        let end = text[start..end]
-            .find(['\n', '\r'])
-            .map_or(end, |n| start + n);
+        let first = text[start..end].find(['\n', '\r']);
+        let end = first.map_or(end, |n| start + n);
         let (line, column) = line_and_column(text, start);
         let file = match origin {
             Origin::File => self.file.clone(),
@@ -139,5 +138,109 @@ impl Source {
             true => joined(folder, file),
             false => within(folder, file, &self.allowed),
         }
+    }
+}
+
+impl Source {
+    /// The table of the text with the overrides applied.
+    ///
+    /// # Errors
+    /// Errors of syntax, and overrides that do not fit the text.
+    pub fn table(&self) -> Result<Table, Vec<Diagnostic>> {
+        let text = self.text();
+        let whole = |message: &str| vec![self.diagnostic(Origin::File, 0..0, "", message)];
+        if text.len() > FILE_BYTES {
+            let most = FILE_BYTES >> 20;
+            return Err(whole(&format!("the file is longer than {most} MiB")));
+        }
+        let syntax = |e: &toml::de::Error| {
+            let span = e.span().unwrap_or_else(|| too_deep(text, e.message()));
+            let message = match e.message() {
+                long if long.contains("as i128") => "the integer does not fit into 64 bits",
+                message => message,
+            };
+            self.diagnostic(Origin::File, span, "", message)
+        };
+        let (_, errors) = DeTable::parse_recoverable(text);
+        if !errors.is_empty() {
+            let told = errors.iter().take(MOST_PROBLEMS);
+            let mut all: Vec<_> = told.map(syntax).collect();
+            all.sort_by_key(|d| (d.span.start, d.span.end));
+            all.dedup_by_key(|d| d.line);
+            return Err(without_echoes(all));
+        }
+        let mut table: Table = toml::from_str(text).map_err(|e| vec![syntax(&e)])?;
+        let apply = |o: &Override| o.apply(&mut table).err();
+        let problems: Vec<_> = self.overrides.iter().filter_map(apply).collect();
+        match problems.is_empty() {
+            true => Ok(table),
+            false => Err(self.diagnose(&problems)),
+        }
+    }
+}
+
+/// Takes an array that is not closed for one mistake: each line after it is a value without a comma to the reader of TOML.
+fn without_echoes(mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    const ECHO: &str = "missing comma between array elements";
+    let is_echo = |d: &Diagnostic| d.message.starts_with(ECHO);
+    let echoes = all.iter().filter(|d| is_echo(d)).count();
+    let mut told = false;
+    all.retain(|d| !is_echo(d) || !std::mem::replace(&mut told, true));
+    if echoes > 1
+        && let Some(first) = all.iter_mut().find(|d| is_echo(d))
+    {
+        first.message =
+            "an array is not closed: a `]` is missing here or before, or a comma".into();
+    }
+    all
+}
+
+/// Deepest nesting that the reader of TOML takes.
+const DEEPEST: usize = 80;
+
+/// Place at which a text is nested too deeply: the reader reports it without a place.
+fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
+    if !message.contains("recursion") {
+        return 0..0;
+    }
+    let mut depth = 0_usize;
+    // Of a key in this place: `a.b.c` is nested as well.
+    let mut dots = 0_usize;
+    for (k, byte) in text.bytes().enumerate() {
+        match byte {
+            b'[' | b'{' => depth += 1,
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            b'.' => dots += 1,
+            b'-' | b'_' | b'"' | b'\'' => {}
+            b if b.is_ascii_alphanumeric() => {}
+            _ => dots = 0,
+        }
+        if depth + dots > DEEPEST {
+            return k..k + 1;
+        }
+    }
+    0..0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_that_is_not_closed_is_one_mistake_and_a_missing_comma_stays_one() {
+        let told = |text: &str| {
+            let all = Source::new(text, "t.toml", &[]).table();
+            let all = all.expect_err("a mistake");
+            assert_eq!(all.len(), 1, "{all:?}");
+            (all[0].line, all[0].message.clone())
+        };
+        let open = told("a = [[0, 1], [2, 3, [4, 5]]\nb = true\nc = \"x\"\n[d]\ne = 1\n");
+        let (line, message) = &open;
+        assert!(
+            *line <= 2 && message.starts_with("an array is not closed"),
+            "{open:?}"
+        );
+        let comma = told("a = [[1] [2]]\nb = 3\n");
+        assert!(comma.1.starts_with("missing comma"), "{comma:?}");
     }
 }

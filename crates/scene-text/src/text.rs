@@ -27,10 +27,8 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     }
     let file = File::open(path).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
-    let most = FILE_BYTES as u64 + 1;
-    file.take(most)
-        .read_to_end(&mut bytes)
-        .map_err(|e| e.to_string())?;
+    let read = file.take(FILE_BYTES as u64 + 1).read_to_end(&mut bytes);
+    read.map_err(|e| e.to_string())?;
     if bytes.len() > FILE_BYTES {
         return Err(format!("it is longer than {} MiB", FILE_BYTES >> 20));
     }

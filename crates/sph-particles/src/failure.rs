@@ -5,4 +5,3 @@ pub(crate) mod error;
 pub(crate) mod findings;
 pub(crate) mod remedies;
 pub(crate) mod roll_back;
-pub(crate) mod trouble;

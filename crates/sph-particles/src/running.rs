@@ -1,26 +1,16 @@
 //! Particles as a model that is run: steps, rows, fields, checkpoints.
 
-pub(crate) mod beginning;
 pub(crate) mod checkpoint;
-pub(crate) mod clock;
-pub(crate) mod colours;
 pub(crate) mod counters;
 pub(crate) mod course;
-pub(crate) mod departure;
 pub(crate) mod drawn_flow;
-pub(crate) mod edges;
-pub(crate) mod energy;
-pub(crate) mod identity;
-pub(crate) mod mach;
 pub(crate) mod model;
 pub(crate) mod next_step;
-pub(crate) mod on_threads;
 pub(crate) mod output;
 pub(crate) mod pieces;
 pub(crate) mod ranked;
-pub(crate) mod ready;
 pub(crate) mod run;
-pub(crate) mod series;
 pub(crate) mod stepper;
 pub(crate) mod trial;
+pub(crate) mod watches;
 pub(crate) mod writing;

@@ -1,17 +1,16 @@
-//! Scenes of particles as subjects of runs.
+//! Scenes of particles as subjects of runs, with their identities: the scene and the files that it reads.
 
 use std::sync::Arc;
 
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
-use sph_run::{Ended, FileMark, Method, RunOptions, Subject, Watch, unusable};
+use sph_run::{Ended, FileMark, Identity, Method, RunOptions, Subject, Watch, unusable};
 use sph_scene::{Diagnostic, Loaded, Source, read};
 use sph_solver::SolverError;
 use toml::Table;
 
 use crate::failure::error::RunError;
-use crate::running::identity::marks;
 use crate::running::run::run;
 use crate::setup::examine;
 
@@ -50,13 +49,9 @@ impl Subject for Scene {
     }
 
     fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
-        let marks = marks(&self.0).map_err(|error| match error {
-            SolverError::Scene(problems) => {
-                let first = problems.into_iter().next();
-                first.unwrap_or_else(|| SceneProblem::new("", ""))
-            }
-            other => SceneProblem::new("", other.to_string()),
-        })?;
+        let first = |error| problems(error).into_iter().next();
+        let none = || SceneProblem::new("", "");
+        let marks = marks(&self.0).map_err(|error| first(error).unwrap_or_else(none))?;
         let each = |mark: FileMark| (mark.key, mark.content.to_string());
         Ok(marks.into_iter().map(each).collect())
     }
@@ -67,11 +62,8 @@ impl Subject for Scene {
 
     /// Pairs in the sweeps of all steps.
     fn assemble(&self) -> Result<f64, Vec<SceneProblem>> {
-        match examine(&self.0.scene) {
-            Ok(examined) => Ok(examined.pairs),
-            Err(SolverError::Scene(problems)) => Err(problems),
-            Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
-        }
+        let examined = examine(&self.0.scene).map_err(problems)?;
+        Ok(examined.pairs)
     }
 
     fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
@@ -81,6 +73,14 @@ impl Subject for Scene {
             Err(RunError::Io(error)) => Err(error),
             Err(error) => Ok(Ended::Failed(known(&error), error.to_string())),
         }
+    }
+}
+
+/// The problems of a scene; of other errors one.
+fn problems(error: SolverError) -> Vec<SceneProblem> {
+    match error {
+        SolverError::Scene(problems) => problems,
+        other => vec![SceneProblem::new("", other.to_string())],
     }
 }
 
@@ -105,4 +105,40 @@ fn cannot_resume(error: &RunError) -> bool {
         RunError::Io(io) => unusable(io),
         _ => false,
     }
+}
+
+/// Longest file that a scene may name, bytes: that of a triangle mesh.
+const LONGEST: u64 = 512 << 20;
+
+/// That of a scene: its text, its overrides, and the content of every file that it names.
+///
+/// # Errors
+/// A file that cannot be read, at its key.
+pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
+    let source = &loaded.source;
+    let set = source.overrides.iter();
+    let set = set.map(|o| format!("\n--set {}", &o.text));
+    let text = std::iter::once(source.text().to_string()).chain(set);
+    Ok(Identity {
+        files: marks(loaded)?,
+        ..Identity::of_text(text.collect::<String>())
+    })
+}
+
+/// Every file that a scene names, with its contents.
+///
+/// # Errors
+/// A file that cannot be read, at its key.
+pub fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SolverError> {
+    let mark = |file: sph_scene::DataFile| {
+        let path = file.path;
+        let path = path.map_err(|e| SolverError::at(file.key.clone(), e.to_string()))?;
+        let content = sph_io::checksum(&path, LONGEST);
+        Ok(FileMark {
+            content: content.map_err(|e| SolverError::at(file.key.clone(), e.to_string()))?,
+            key: file.key,
+            file: file.named,
+        })
+    };
+    loaded.files().into_iter().map(mark).collect()
 }

@@ -1,12 +1,12 @@
 //! Zones of finer particles, each a flow of its own that shares time, walls and laws with the flow around it.
 //!
-//! * [`attach()`]: the zones of a scene.
+//! * [`attach()`]: the zones of a scene, and the scene of each.
 //! * `frame`: the box of a zone, its core, and the band around it.
-//! * `sample`, `fit`: the state of particles near a box, and its value anywhere by a fit.
-//! * `guard`: the band, in which finer particles follow those around; `spread` keeps them apart.
+//! * `sample`: the state of particles near a box, and its value anywhere by a fit.
+//! * `guard`: the band, in which finer particles follow those around; they are kept apart.
 //! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepper`]: steps of a
 //!   flow with its zones.
-//! * `checkpoints`, `refusals`, `scene_of_zone`: files, scenes that cannot have zones, and the scene of a zone.
+//! * `checkpoints`, `refusals`: files, and scenes that cannot have zones.
 //!
 //! All particles of a flow keep one spacing, so that kernels, lists and walls are those of any flow. In the core of a
 //! zone the coarser particles are drawn to the finer ones, in the band around it the finer ones follow the coarser. After
@@ -15,13 +15,10 @@
 mod attach;
 mod checkpoints;
 mod coupling;
-mod fit;
 mod frame;
 mod guard;
 mod refusals;
 mod sample;
-mod scene_of_zone;
-mod spread;
 
 pub(crate) use attach::attach;
 pub(crate) use coupling::{Coupling, Level};

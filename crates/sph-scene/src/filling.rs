@@ -1,6 +1,4 @@
 //! From bodies to particles.
 
 pub(crate) mod disorder;
-pub(crate) mod estimate;
 pub(crate) mod fill;
-pub(crate) mod nodes;

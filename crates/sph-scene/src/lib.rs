@@ -54,9 +54,7 @@ mod tables;
 
 pub use drawings::drawing::DrawingError;
 pub use filling::disorder::{disturb, noise};
-pub use filling::estimate::estimate;
-pub use filling::fill::{BodyParticles, fill};
-pub use filling::nodes::Offset;
+pub use filling::fill::{BodyParticles, Offset, estimate, fill};
 pub use geometry::course::Courses;
 pub use geometry::level::LevelSurface;
 pub use geometry::outlines::Line;
@@ -64,30 +62,27 @@ pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
 pub use geometry::sided::sense;
-pub use reading::files::DataFile;
-pub use reading::load::{LoadError, Loaded, Refused, load, parse, read};
+pub use reading::load::{DataFile, LoadError, Loaded, Refused, load, parse, read};
 pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
-    Diagnostic, Origin, Override, PathProblem, PictureRange, Source, read_text, within,
+    Diagnostic, Origin, Override, PathProblem, PictureRange, Source, given, read_text, within,
 };
-pub use tables::body::{Body, BodyShape, Filling, Pressure};
+pub use tables::body::{Body, BodyShape, Filling, Phase, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
-pub use tables::erodible::Erodible;
-pub use tables::gravity::{GravityOverTime, GravitySine};
 pub use tables::motion::{
     AngularRamp, AngularSine, CourseRows, Levels, Motion, Ramp, Rotation, Sine, Translate,
 };
-pub use tables::numerics::{Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run};
-pub use tables::outlet::Outlet;
+pub use tables::numerics::{
+    GravityOverTime, GravitySine, Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run,
+};
+pub use tables::outlet::{Outlet, Zone};
 pub use tables::output::Output;
-pub use tables::phase::Phase;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};
-pub use tables::wall::{FluidSide, FrictionForm, SlipCondition, Wall};
+pub use tables::wall::{Erodible, FluidSide, FrictionForm, SlipCondition, Wall};
 pub use tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
 pub use tables::wave::{Heading, Wave, WaveKind};
-pub use tables::zone::Zone;

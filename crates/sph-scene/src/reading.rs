@@ -1,7 +1,6 @@
 //! From a text to tables that conform to the schema, and places of mistakes in it.
 
 pub(crate) mod columns;
-pub(crate) mod files;
 pub(crate) mod hints;
 pub(crate) mod kinematic;
 pub(crate) mod limits;

@@ -2,16 +2,12 @@
 
 pub(crate) mod body;
 pub(crate) mod body_shapes;
-pub(crate) mod erodible;
-pub(crate) mod gravity;
 pub(crate) mod motion;
 pub(crate) mod numerics;
 pub(crate) mod outlet;
 pub(crate) mod output;
-pub(crate) mod phase;
 pub(crate) mod reference;
 pub(crate) mod scene;
 pub(crate) mod wall;
 pub(crate) mod wall_shapes;
 pub(crate) mod wave;
-pub(crate) mod zone;

@@ -24,10 +24,27 @@ impl From<sph_core::FieldError> for SolverError {
     }
 }
 
+impl From<SceneProblem> for SolverError {
+    fn from(problem: SceneProblem) -> Self {
+        SolverError::Scene(vec![problem])
+    }
+}
+
 impl SolverError {
     /// One problem at a key of the scene.
     pub fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
-        SolverError::Scene(vec![SceneProblem::new(path, message)])
+        SceneProblem::new(path, message).into()
+    }
+
+    /// All problems of a scene, if there are some.
+    ///
+    /// # Errors
+    /// The problems.
+    pub fn of(problems: Vec<SceneProblem>) -> Result<(), Self> {
+        match problems.is_empty() {
+            true => Ok(()),
+            false => Err(SolverError::Scene(problems)),
+        }
     }
 
     /// 2 for a bad scene, 1 for everything that went wrong later.

@@ -3,7 +3,6 @@
 pub(crate) mod assembly;
 pub(crate) mod choices;
 pub(crate) mod planning;
-pub(crate) mod transported;
 
 pub use assembly::{FlowInputs, joined};
 pub use choices::{Choices, own_accounts, plugins, shown};

@@ -82,14 +82,12 @@ fn contradicts(triangle: &Triangle, corners: &[[f64; 3]; 3]) -> bool {
 /// It takes whatever begins with `solid` for ascii, though many programs begin binary files so,
 /// and it stops at the end of the first of several solids.
 fn prepared(mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
-    let solid = bytes
-        .trim_ascii_start()
-        .get(..5)
-        .is_some_and(|start| start.eq_ignore_ascii_case(b"solid"));
+    let start = bytes.trim_ascii_start().get(..5);
+    let solid = start.is_some_and(|start| start.eq_ignore_ascii_case(b"solid"));
     let declared = bytes
         .get(80..HEADER)
-        .and_then(|count| count.try_into().ok())
-        .map(|count| u32::from_le_bytes(count) as usize);
+        .and_then(|count| count.try_into().ok());
+    let declared = declared.map(|count| u32::from_le_bytes(count) as usize);
     let needed = |count: usize| HEADER + RECORD * count;
     if solid && declared.is_none_or(|count| needed(count) != bytes.len()) {
         return joined(&bytes);
@@ -100,16 +98,15 @@ fn prepared(mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
             bytes.len()
         ));
     };
+    let room = (bytes.len() - HEADER) / RECORD;
     if count > TRIANGLES {
         return Err(format!(
-            "declares {count} facets, more than {TRIANGLES}; it has room for {}",
-            (bytes.len() - HEADER) / RECORD
+            "declares {count} facets, more than {TRIANGLES}; it has room for {room}"
         ));
     }
-    if needed(count) > bytes.len() {
+    if count > room {
         return Err(format!(
-            "declares {count} facets and ends after {}: it is cut short",
-            (bytes.len() - HEADER) / RECORD
+            "declares {count} facets and ends after {room}: it is cut short"
         ));
     }
     bytes[..80].fill(0);

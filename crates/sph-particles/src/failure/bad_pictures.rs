@@ -64,7 +64,7 @@ pub fn draw<const D: usize>(
         label: &label,
         diameter: world.spacing,
         walls: &walls,
-        view: view::<D>(),
+        view: if D == 2 { View::Plane } else { View::Front },
         range: range(&values),
         ring,
         ..Picture::new(&points, &values)
@@ -81,38 +81,24 @@ pub fn draw<const D: usize>(
     if let Some(at) = ring {
         let reach = REACH * world.spacing;
         let up = if D == 2 { 1 } else { 2 };
+        let (wide, thin) = (1.5 * reach, SLICE * world.spacing);
         let within = |p: &[f64; 3]| {
             let near = |k: usize, r: f64| (p[k] - at[k]).abs() <= r;
-            near(0, 1.5 * reach)
-                && near(up, 1.5 * reach)
-                && (D == 2 || near(1, SLICE * world.spacing))
+            near(0, wide) && near(up, wide) && (D == 2 || near(1, thin))
         };
-        let (points, values): (Vec<_>, Vec<_>) = points
-            .iter()
-            .zip(&values)
-            .filter(|(p, _)| within(p))
-            .map(|(p, v)| (*p, *v))
-            .unzip();
+        let near = points.iter().copied().zip(values.iter().copied());
+        let (points, values): (Vec<_>, Vec<_>) = near.filter(|(p, _)| within(p)).unzip();
         let span = |k: usize| [at[k] - reach, at[k] + reach];
-        save(
-            &Picture {
-                window: Some([span(0), span(up)]),
-                range: range(&values),
-                points: &points,
-                values: &values,
-                ..whole.clone()
-            },
-            BAD_STATE_NEAR,
-        );
+        let near = Picture {
+            window: Some([span(0), span(up)]),
+            range: range(&values),
+            points: &points,
+            values: &values,
+            ..whole.clone()
+        };
+        save(&near, BAD_STATE_NEAR);
     }
     written
-}
-
-fn view<const D: usize>() -> View {
-    match D {
-        2 => View::Plane,
-        _ => View::Front,
-    }
 }
 
 /// Between which values nearly all lie; none if they are all alike.

@@ -28,11 +28,8 @@ pub fn remedies(
         let failed = told.iter().filter(|(name, _)| name == stage);
         all.extend(failed.map(|(_, what)| what.clone()));
     }
-    all.extend(
-        found
-            .largest()
-            .and_then(|share| against_term(scene, share, told)),
-    );
+    let largest = found.largest();
+    all.extend(largest.and_then(|share| against_term(scene, share, told)));
     all.extend(against_crowding(found));
     all.extend(against_step(scene, found));
     all
@@ -67,9 +64,8 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
         ]),
         StepError::Bad { .. } if found.largest().is_none() => {
             let smoother = defaults::suggested("smoother").into_iter();
-            smoother
-                .map(|s| format!("give the scene a smoother ({s})"))
-                .collect()
+            let remedy = smoother.map(|s| format!("give the scene a smoother ({s})"));
+            remedy.collect()
         }
         _ => Vec::new(),
     }
@@ -99,11 +95,9 @@ fn against_term(scene: &Scene, share: &Share, told: &Remedies) -> Option<String>
     }
     let what = match share.kind.as_str() {
         "formulation" => match (scene.choice("smoother"), defaults::suggested("smoother")) {
-            (None, Some(smoother)) => {
-                format!(
-                    "give the scene a smoother ({smoother}), or look whether bodies overlap or collide"
-                )
-            }
+            (None, Some(smoother)) => format!(
+                "give the scene a smoother ({smoother}), or look whether bodies overlap or collide"
+            ),
             _ => "look whether bodies overlap or collide there".into(),
         },
         kind => told.iter().find(|(k, _)| *k == kind)?.1.clone(),

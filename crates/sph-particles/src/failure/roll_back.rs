@@ -6,14 +6,14 @@ use sph_core::{StepError, Vect, fields};
 use sph_run::{BAD_STATE, CHECKPOINT, RunCounters, Status, Watch};
 
 use crate::failure::bad_pictures;
-use crate::failure::error::{Failure, RunError};
-use crate::failure::findings::{Findings, Suspect, place_of, shares_on, sighting, suspect};
+use crate::failure::findings::{
+    Findings, Suspect, place_of, shares_on, sighting, suspect, trouble,
+};
 use crate::failure::remedies::remedies;
-use crate::failure::trouble::trouble;
-use crate::results::summary::Summary;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::write_everything;
 use crate::setup::Leak;
+use crate::{Failure, RunError, Summary};
 
 /// Distance from a leak, in kernel supports, within which it is the cause: neighbours of the particles that it
 /// disturbs are two supports away.

@@ -118,14 +118,12 @@ impl<const D: usize> Balance<D> {
                 largest_density: ratio,
             }
         };
-        let batches = mass.len().div_ceil(BATCH);
-        let parts: Vec<Self> = (0..batches)
-            .into_par_iter()
-            .map(|b| {
-                let range = b * BATCH..((b + 1) * BATCH).min(mass.len());
-                range.map(one).fold(Self::zero(), Self::and)
-            })
-            .collect();
+        let batch = |b: usize| {
+            let range = b * BATCH..((b + 1) * BATCH).min(mass.len());
+            range.map(one).fold(Self::zero(), Self::and)
+        };
+        let batches = (0..mass.len().div_ceil(BATCH)).into_par_iter();
+        let parts: Vec<Self> = batches.map(batch).collect();
         Ok(parts.into_iter().fold(Self::zero(), Self::and))
     }
 }

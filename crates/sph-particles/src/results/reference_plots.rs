@@ -42,11 +42,8 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
             Some(width) => norm::moving_mean(times, values, width),
             None => values.to_vec(),
         };
-        let unit = measured
-            .columns
-            .iter()
-            .find(|c| c.name == *probe)
-            .map(|c| c.unit.clone());
+        let mut columns = measured.columns.iter();
+        let unit = columns.find(|c| c.name == *probe).map(|c| &*c.unit);
         let Ok(table) = reference_table(reference, path) else {
             continue;
         };
@@ -57,10 +54,8 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
         let at = scaled(0, reference.scale_time, reference.offset_time);
         let shown = shown(&at, scene.run.end);
         let of = |column: Vec<f64>| -> Vec<f64> {
-            shown
-                .iter()
-                .filter_map(|k| column.get(*k).copied())
-                .collect()
+            let of_column = shown.iter().filter_map(|k| column.get(*k));
+            of_column.copied().collect()
         };
         let value = |k: usize| of(scaled(k, reference.scale_value, reference.offset_value));
         let at = of(at);
@@ -73,7 +68,7 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
             _ if at.len() > MOST_MARKERS => Series::line(source, pairs(&at, &value(1))),
             _ => Series::markers(source, pairs(&at, &value(1))),
         };
-        let y_label = match unit.as_deref() {
+        let y_label = match unit {
             None | Some("" | "1") => probe.clone(),
             Some(unit) => format!("{probe} [{unit}]"),
         };
@@ -92,22 +87,17 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
 /// Authors of the reference: the text of a line `# Source: …` of its file up to the year.
 fn source(path: &Path) -> Option<String> {
     let lines = BufReader::new(File::open(path).ok()?).lines();
-    let heads = lines
-        .map_while(Result::ok)
-        .take_while(|line| line.starts_with('#'));
-    let mut sources = heads.filter_map(|line| cited(line.split_once("Source:")?.1));
-    sources.next()
+    let lines = lines.map_while(Result::ok);
+    let mut heads = lines.take_while(|line| line.starts_with('#'));
+    heads.find_map(|line| cited(line.split_once("Source:")?.1))
 }
 
 /// Authors and year of a source; of many authors the first.
 fn cited(source: &str) -> Option<String> {
     let source = source.trim();
     let year = |(k, _): &(usize, &str)| {
-        let digits = source[k + 1..]
-            .chars()
-            .take_while(char::is_ascii_digit)
-            .count();
-        digits == 4
+        let digits = source[k + 1..].chars().take_while(char::is_ascii_digit);
+        digits.count() == 4
     };
     let Some((open, _)) = source.match_indices('(').find(year) else {
         // The source of a reference that this project has computed names it before its first colon.
@@ -141,16 +131,15 @@ mod tests {
     #[test]
     fn a_legend_names_authors_and_year() {
         let faltinsen = " Faltinsen O.M., Rognebakke O.F., Lukovsky I.A., Timokha A.N. (2000) J. Fluid Mech. (407)";
-        assert_eq!(
-            cited(faltinsen).as_deref(),
-            Some("Faltinsen O.M. et al. (2000)")
-        );
-        assert_eq!(
-            cited("Enet F., Grilli S.T. (2007) Exp").as_deref(),
-            Some("Enet F., Grilli S.T. (2007)")
-        );
+        let enet = "Enet F., Grilli S.T. (2007) Exp";
         let own = "computed for this project: potential flow (linear)";
-        assert_eq!(cited(own).as_deref(), Some("computed for this project"));
+        for (source, legend) in [
+            (faltinsen, "Faltinsen O.M. et al. (2000)"),
+            (enet, "Enet F., Grilli S.T. (2007)"),
+            (own, "computed for this project"),
+        ] {
+            assert_eq!(cited(source).as_deref(), Some(legend));
+        }
         assert_eq!(cited(" "), None);
     }
 

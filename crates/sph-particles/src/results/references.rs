@@ -43,16 +43,14 @@ pub fn errors<const D: usize>(
             (None, Some(probe), Some(table)) => {
                 let column = table.column(probe).map(<[f64]>::to_vec);
                 let times = table.column("time").unwrap_or(&[]);
-                match column {
-                    Some(values) => {
-                        let values = match reference.average {
-                            Some(width) => norm::moving_mean(times, &values, width),
-                            None => values,
-                        };
-                        against_series(reference, times, &values, solution)?
-                    }
-                    None => Err(absent(probe)),
-                }
+                let values = column.ok_or_else(|| absent(probe));
+                values.and_then(|values| {
+                    let values = match reference.average {
+                        Some(width) => norm::moving_mean(times, &values, width),
+                        None => values,
+                    };
+                    against_series(reference, times, &values, solution)
+                })
             }
             _ => Err("it names neither a field nor a probe".to_string()),
         };
@@ -83,7 +81,10 @@ fn entry(value: f64, reference: &Reference, samples: usize, window: [f64; 2]) ->
     ErrorEntry {
         value: value.is_finite().then_some(value),
         norm: reference.norm().name(),
-        unit: "1".into(),
+        unit: match reference.norm() {
+            Norm::Absolute => "".into(),
+            _ => "1".into(),
+        },
         samples,
         window,
         against,
@@ -108,21 +109,20 @@ fn against_field<const D: usize>(
         components,
     } = Compared::with_solution(&flow.world, field, solution)?;
     let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
-    let (value, unit) = match reference.norm() {
-        Norm::L2 => (norm::l2(&values, &exact, volume, components), "1"),
-        Norm::L1 => (norm::l1(&values, &exact, components), "1"),
-        Norm::Linf => (norm::linf(&values, &exact, components), "1"),
-        Norm::Amplitude => (norm::amplitude(&values, &exact, volume, components), "1"),
-        Norm::Rms => (
-            norm::rms(&difference, volume, components, reference.scale_value),
-            "1",
-        ),
-        Norm::Absolute => (difference.iter().fold(0.0_f64, |m, d| m.max(d.abs())), ""),
+    let value = match reference.norm() {
+        Norm::L2 => norm::l2(&values, &exact, volume, components),
+        Norm::L1 => norm::l1(&values, &exact, components),
+        Norm::Linf => norm::linf(&values, &exact, components),
+        Norm::Amplitude => norm::amplitude(&values, &exact, volume, components),
+        Norm::Rms => norm::rms(&difference, volume, components, reference.scale_value),
+        Norm::Absolute => largest(&difference),
         other => return Err(format!("the norm `{}` is for probes", other.name())),
     };
-    let mut entry = entry(value, reference, volume.len(), [time, time]);
-    entry.unit = unit.to_string();
-    Ok(entry)
+    Ok(entry(value, reference, volume.len(), [time, time]))
+}
+
+fn largest(differences: &[f64]) -> f64 {
+    differences.iter().fold(0.0_f64, |m, d| m.max(d.abs()))
 }
 
 /// True if a time counts.
@@ -164,28 +164,19 @@ fn against_series<const D: usize>(
     times: &[f64],
     values: &[f64],
     solution: Option<&dyn Solution<D>>,
-) -> Result<Result<ErrorEntry, String>, RunError> {
-    let counts = |t: f64| counts(reference, t);
+) -> Result<ErrorEntry, String> {
     match reference.norm() {
-        Norm::DecayRate => return Ok(decay(reference, times, values, solution, counts)),
-        _ if reference.stands_alone() => return Ok(averaged(reference, times, values)),
+        Norm::DecayRate => return decay(reference, times, values, solution),
+        _ if reference.stands_alone() => return averaged(reference, times, values),
         _ => {}
     }
-    let Some(path) = &reference.path else {
-        return Ok(Err(
-            "a probe is compared with a `file`, or by the norm `decay-rate`".into(),
-        ));
-    };
+    let path = reference.path.as_ref();
+    let path = path.ok_or("a probe is compared with a `file`, or by the norm `decay-rate`")?;
     // It was good when the run began; results computed since are not lost with it.
-    let table = match reference_table(reference, path) {
-        Ok(table) => table,
-        Err(gone) => return Ok(Err(gone.to_string())),
-    };
-    let samples = match Samples::from_table(reference, &table, times, values) {
-        Some(samples) => samples,
-        None => return Ok(Err("no time of the reference lies within the run".into())),
-    };
-    Ok(samples.error(reference, [times, values]))
+    let table = reference_table(reference, path).map_err(|gone| gone.to_string())?;
+    let samples = Samples::from_table(reference, &table, times, values);
+    let samples = samples.ok_or("no time of the reference lies within the run")?;
+    samples.error(reference, [times, values])
 }
 
 /// A series where a reference has values, and both there.
@@ -230,11 +221,8 @@ impl Samples {
             last: 0.0,
             window: [f64::INFINITY, f64::NEG_INFINITY],
         };
-        for (k, &t) in at
-            .iter()
-            .enumerate()
-            .filter(|(_, t)| counts(reference, **t))
-        {
+        let counted = at.iter().enumerate();
+        for (k, &t) in counted.filter(|(_, t)| counts(reference, **t)) {
             let Some(u) = norm::at(times, values, t).filter(|u| u.is_finite()) else {
                 continue;
             };
@@ -265,28 +253,27 @@ impl Samples {
             ..
         } = self;
         let n = differences.len();
-        let largest = || differences.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
         let ones = vec![1.0; n];
         let both = compared.iter().zip(differences);
         let exact_plus: Vec<f64> = both.map(|(e, d)| e + d).collect();
-        let (value, unit) = match reference.norm() {
-            Norm::RmsOverRange => (norm::rms_over_range(differences, compared), "1"),
-            Norm::Band => (self.outside, "1"),
-            Norm::Final => (self.last, "1"),
-            Norm::Absolute => (largest(), ""),
-            Norm::L2 => (norm::l2(&exact_plus, compared, &ones, 1), "1"),
-            Norm::L1 => (norm::l1(&exact_plus, compared, 1), "1"),
-            Norm::Linf => (norm::linf(&exact_plus, compared, 1), "1"),
-            Norm::Range => (norm::range_error(&exact_plus, compared), "1"),
+        let value = match reference.norm() {
+            Norm::RmsOverRange => norm::rms_over_range(differences, compared),
+            Norm::Band => self.outside,
+            Norm::Final => self.last,
+            Norm::Absolute => largest(differences),
+            Norm::L2 => norm::l2(&exact_plus, compared, &ones, 1),
+            Norm::L1 => norm::l1(&exact_plus, compared, 1),
+            Norm::Linf => norm::linf(&exact_plus, compared, 1),
+            Norm::Range => norm::range_error(&exact_plus, compared),
             Norm::PeakTime => {
                 let peak = |values: &[f64]| norm::peak_time(instants, values).unwrap_or(f64::NAN);
-                ((peak(&exact_plus) / peak(compared) - 1.0).abs(), "1")
+                (peak(&exact_plus) / peak(compared) - 1.0).abs()
             }
             Norm::Lag => {
                 let period = reference.period;
                 let period = period.ok_or("the norm `lag` needs the `period`")?;
                 let found = norm::lag(series, [instants, compared], 0.5 * period);
-                (found.map_or(f64::NAN, |lag| lag.abs() / period), "1")
+                found.map_or(f64::NAN, |lag| lag.abs() / period)
             }
             Norm::Rms
             | Norm::Amplitude
@@ -296,9 +283,7 @@ impl Samples {
             | Norm::ErrorMean
             | Norm::Period => return Err("this norm is for fields".into()),
         };
-        let mut entry = entry(value, reference, n, self.window);
-        entry.unit = unit.to_string();
-        Ok(entry)
+        Ok(entry(value, reference, n, self.window))
     }
 }
 
@@ -307,14 +292,11 @@ fn decay<const D: usize>(
     times: &[f64],
     values: &[f64],
     solution: Option<&dyn Solution<D>>,
-    counts: impl Fn(f64) -> bool,
 ) -> Result<ErrorEntry, String> {
     let exact = solution.and_then(|s| s.energy_rate());
     let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
-    let pairs = times
-        .iter()
-        .zip(values)
-        .filter(|(t, v)| counts(**t) && **v > 0.0);
+    let pairs = times.iter().zip(values);
+    let pairs = pairs.filter(|(t, v)| counts(reference, **t) && **v > 0.0);
     let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
     if t.len() < 2 {
         return Err("fewer than two rows of the series count".into());

@@ -13,7 +13,7 @@ use crate::results::balance::{Balance, FAST};
 use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Summary};
 use crate::results::{reference_plots, references};
 use crate::running::course::Running;
-use crate::running::mach::SHARE;
+use crate::running::watches::SHARE;
 use crate::setup::Memory;
 
 impl<const D: usize> Running<'_, D> {
@@ -37,7 +37,6 @@ impl<const D: usize> Running<'_, D> {
         };
         let balance = Balance::from_flow(flow)?;
         let drift = self.drift(&balance);
-        let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
         let steps = self.counters.steps;
         let particles = world.free.len();
         let stage_seconds = self.stage_seconds(books);
@@ -47,7 +46,10 @@ impl<const D: usize> Running<'_, D> {
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
         let ranks = self.shares.len().max(1);
-        let [dt_limiters, dt_limits] = self.bounds_of_steps();
+        let limited = self.counters.limited.iter();
+        let share = |(name, n): (&String, &u64)| (name.clone(), *n as f64 / steps.max(1) as f64);
+        let dt_limiters = limited.map(share).collect();
+        let dt_limits = advice::mean_limits(&self.counters.bounds, steps);
         let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
         let escaped = flow.escaped_from(self.walls())?;
         let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
@@ -122,15 +124,6 @@ impl<const D: usize> Running<'_, D> {
         Ok(errors)
     }
 
-    /// By the names of bounds: the share of the steps that each limited, and its mean.
-    fn bounds_of_steps(&self) -> [BTreeMap<String, f64>; 2] {
-        let steps = self.counters.steps;
-        let limited = self.counters.limited.iter();
-        let share = |(name, n): (&String, &u64)| (name.clone(), *n as f64 / steps.max(1) as f64);
-        let means = advice::mean_limits(&self.counters.bounds, steps);
-        [limited.map(share).collect(), means]
-    }
-
     /// Advice for a shorter run.
     fn advise(
         &self,
@@ -158,14 +151,11 @@ impl<const D: usize> Running<'_, D> {
         let momentum = balance.momentum.iter().zip(then);
         let momentum = momentum.map(|(now, then)| (now - f64::from_bits(*then)).powi(2));
         let momentum = momentum.sum::<f64>().sqrt();
-        let over = |x: f64, scale: f64| if scale > 0.0 { x / scale } else { 0.0 };
         let extrema = &self.extrema;
         let [highest, ..] = extrema.peaks;
+        let more = balance.mass + flow.mass_left() - flow.world.free.inserted().mass - mass;
         Drift {
-            mass: over(
-                balance.mass + flow.mass_left() - flow.world.free.inserted().mass - mass,
-                mass,
-            ),
+            mass: over(more, mass),
             momentum: over(momentum, extrema.momentum_scale),
             energy: over(balance.energy() - energy, extrema.energy_scale),
             energy_rise: over((highest - energy).max(0.0), extrema.energy_scale),
@@ -218,6 +208,11 @@ impl<const D: usize> Running<'_, D> {
         }
         mach
     }
+}
+
+/// A number over a scale; 0 where there is none.
+fn over(x: f64, scale: f64) -> f64 {
+    if scale > 0.0 { x / scale } else { 0.0 }
 }
 
 fn listing(folder: &Path) -> Vec<String> {

@@ -11,7 +11,7 @@ use toml::{Table, Value};
 use crate::failure::error::RunError;
 use crate::running::drawn_flow::{drawn_walls, padded};
 use crate::running::pieces::points;
-use crate::setup::{Assembled, assemble};
+use crate::setup::{Assembled, assemble, box_around, corner};
 
 const NORMAL: Colour = Colour([0x7a, 0x7a, 0x7a]);
 const OPEN: Colour = Colour([0x1b, 0x9e, 0x3c]);
@@ -91,9 +91,7 @@ fn draw<const D: usize>(scene: &Scene, path: &Path) -> Result<(), RunError> {
 impl<const D: usize> Notes<D> {
     fn around(flow: &Flow<D>) -> Result<Self, RunError> {
         let particles = flow.world.free.get(fields::POSITION)?;
-        let all = particles.iter().chain(&flow.world.walls.points.position);
-        let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
-        let [low, high] = all.fold(none, |[low, high], x| [low.inf(x), high.sup(x)]);
+        let [low, high] = box_around(particles.iter().chain(&flow.world.walls.points.position));
         let wide = (high - low).max();
         Ok(Notes {
             lines: Vec::new(),
@@ -111,16 +109,13 @@ impl<const D: usize> Notes<D> {
     /// A line. The picture shows it unless it leads far away from particles and walls.
     fn line(&mut self, points: &[Vect<D>], colour: Colour) {
         let far = FAR * (self.high - self.low).max();
-        let beside =
-            |x: &&Vect<D>| (0..D).all(|k| self.low[k] - far < x[k] && x[k] < self.high[k] + far);
-        let ends = [self.low, self.high];
-        let ends = points
-            .iter()
-            .filter(beside)
-            .fold(ends, |[low, high], x| [low.inf(x), high.sup(x)]);
-        [self.low, self.high] = ends;
-        self.lines
-            .push((points.iter().map(padded).collect(), colour));
+        let [lower, upper] = [self.low.add_scalar(-far), self.high.add_scalar(far)];
+        let beside = |x: &&Vect<D>| (0..D).all(|k| lower[k] < x[k] && x[k] < upper[k]);
+        for x in points.iter().filter(beside) {
+            (self.low, self.high) = (self.low.inf(x), self.high.sup(x));
+        }
+        let line = points.iter().map(padded).collect();
+        self.lines.push((line, colour));
     }
 
     fn cross(&mut self, at: &Vect<D>, size: f64, colour: Colour) {
@@ -136,8 +131,7 @@ impl<const D: usize> Notes<D> {
 
     /// The edges of a box.
     fn frame(&mut self, low: &Vect<D>, high: &Vect<D>, colour: Colour) {
-        let corner =
-            |n: usize| Vect::<D>::from_fn(|k, _| if n >> k & 1 == 0 { low[k] } else { high[k] });
+        let corner = |n: usize| corner(low, high, n);
         for n in 0..1usize << D {
             for k in (0..D).filter(|k| n >> k & 1 == 0) {
                 self.line(&[corner(n), corner(n | 1 << k)], colour);
@@ -152,9 +146,8 @@ impl<const D: usize> Notes<D> {
         let every = elements.centre.len().div_ceil(TICKS).max(1);
         for (k, centre) in elements.centre.iter().enumerate() {
             if open(k) && D == 2 {
-                let ends =
-                    elements.corners[k].map(|c| flow.world.walls.points.position[c as usize]);
-                self.line(&ends, OPEN);
+                let points = &flow.world.walls.points.position;
+                self.line(&elements.corners[k].map(|c| points[c as usize]), OPEN);
             }
             if k % every == 0 {
                 let colour = if open(k) { OPEN } else { NORMAL };
@@ -177,12 +170,10 @@ impl<const D: usize> Notes<D> {
         let places = parts.flow.world.free.get(fields::POSITION)?;
         for (number, name) in scene.body.keys().enumerate() {
             let of = places.iter().zip(&parts.body_of);
-            let own: Vec<&Vect<D>> = of
-                .filter(|(_, b)| **b as usize == number)
-                .map(|(x, _)| x)
-                .collect();
-            if !own.is_empty() {
-                let middle = own.iter().copied().sum::<Vect<D>>() / own.len() as f64;
+            let own = || of.clone().filter(|(_, b)| **b as usize == number);
+            let count = own().count();
+            if count > 0 {
+                let middle = own().map(|(x, _)| x).sum::<Vect<D>>() / count as f64;
                 self.text(&middle, &format!("body {name}"));
             }
         }
@@ -206,11 +197,8 @@ impl<const D: usize> Notes<D> {
     /// Parts of a probe that have a place: a point, a line, a box, a gauge that stands upright.
     fn probe(&mut self, name: &str, table: &Table) {
         let list = |key: &str| table.get(key).and_then(lengths);
-        let place = |key: &str| {
-            list(key)
-                .filter(|x| x.len() == D)
-                .map(|x| Vect::<D>::from_column_slice(&x))
-        };
+        let point = |x: Vec<f64>| (x.len() == D).then(|| Vect::<D>::from_column_slice(&x));
+        let place = |key: &str| list(key).and_then(point);
         let is = |kind: &str| table.get("kind").and_then(Value::as_str) == Some(kind);
         if let Some(at) = place("at").filter(|_| !is("reflection")) {
             self.cross(&at, 1.2, PROBE);
@@ -240,11 +228,9 @@ impl<const D: usize> Notes<D> {
             let [low, high] = table.get(key)?.as_array()?.as_slice() else {
                 return None;
             };
-            let corner = |value| lengths(value).filter(|x| x.len() == D);
-            Some((corner(low)?, corner(high)?))
+            Some((point(lengths(low)?)?, point(lengths(high)?)?))
         };
         if let Some((low, high)) = corners("box").or_else(|| corners("within")) {
-            let [low, high] = [low, high].map(|x| Vect::<D>::from_column_slice(&x));
             self.frame(&low, &high, PROBE);
             self.text(&high, name);
         }

@@ -50,28 +50,27 @@ pub fn save<const D: usize, T: Serialize>(
     run: &T,
 ) -> Result<(), RunError> {
     let world = &flow.world;
+    let column = |name: &str, components, data| Column {
+        name: name.into(),
+        components,
+        data,
+    };
     let mut columns = Vec::new();
     for (name, _, role, components, values) in world.free.columns() {
         if role == Role::State {
-            columns.push(Column {
-                name: name.to_string(),
-                components,
-                data: match values {
-                    Plain::Real(v) => ColumnData::F64(v.into_owned()),
-                    Plain::Index(v) => ColumnData::U32(v.to_vec()),
-                },
-            });
+            let data = match values {
+                Plain::Real(v) => ColumnData::F64(v.into_owned()),
+                Plain::Index(v) => ColumnData::U32(v.to_vec()),
+            };
+            columns.push(column(name, components, data));
         }
     }
     for (name, positions) in [
         (REFERENCE, &world.lists.reference),
         (WALL_REFERENCE, &world.lists.reference_points),
     ] {
-        columns.push(Column {
-            name: name.into(),
-            components: D,
-            data: ColumnData::F64(positions.iter().flatten().copied().collect()),
-        });
+        let numbers = positions.iter().flatten().copied().collect();
+        columns.push(column(name, D, ColumnData::F64(numbers)));
     }
     if let Some(walls) = walls {
         let states = walls.states();
@@ -83,14 +82,10 @@ pub fn save<const D: usize, T: Serialize>(
             (WALL_LIST_STATES, listed),
             (WALL_LOADS, loads),
         ];
-        for (name, numbers) in all.into_iter().filter(|(_, n)| !n.is_empty()) {
-            columns.push(Column {
-                name: name.into(),
-                components: 1,
-                data: ColumnData::F64(numbers),
-            });
-        }
+        let all = all.into_iter().filter(|(_, n)| !n.is_empty());
+        columns.extend(all.map(|(name, numbers)| column(name, 1, ColumnData::F64(numbers))));
     }
+    let born = world.free.inserted();
     let meta = Meta {
         identity: identity.clone(),
         dimension: D,
@@ -98,10 +93,7 @@ pub fn save<const D: usize, T: Serialize>(
             time: world.time.to_bits(),
             dt: world.dt.to_bits(),
             list_builds: world.lists.builds,
-            born: Some({
-                let born = world.free.inserted();
-                (born.identities, born.mass.to_bits(), born.particles)
-            }),
+            born: Some((born.identities, born.mass.to_bits(), born.particles)),
             list_time: Some(world.lists.time.to_bits()),
         },
         run,
@@ -174,11 +166,7 @@ pub fn start_from<const D: usize>(
     let blank = flow.is_blank();
     let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
     believable(&meta.clock, scene, path)?;
-    let identity = checkpoint.column(fields::IDENTITY.name).map(|c| &c.data);
-    let there = match identity {
-        Some(ColumnData::U32(v)) => v.len(),
-        _ => 0,
-    };
+    let there = identities(&checkpoint).map_or(0, <[u32]>::len);
     let here = flow.world.free.len();
     if (there > here && flow.nursery.is_none()) || (there < here && flow.outlets.is_empty()) {
         let why = format!("it has {there} particles, the scene {here}");
@@ -206,6 +194,14 @@ fn read<const D: usize, T: DeserializeOwned>(
     Ok((checkpoint, meta))
 }
 
+/// The identities of the particles in a checkpoint, if it has them.
+fn identities(checkpoint: &Checkpoint) -> Option<&[u32]> {
+    match &checkpoint.column(fields::IDENTITY.name)?.data {
+        ColumnData::U32(identities) => Some(identities),
+        _ => None,
+    }
+}
+
 /// Sets all columns that carry the state; takes out particles that left by an outlet.
 fn fill<const D: usize>(
     flow: &mut Flow<D>,
@@ -216,12 +212,7 @@ fn fill<const D: usize>(
     if let Some((identities, mass, particles)) = clock.born {
         let mass = f64::from_bits(mass);
         let known = flow.world.free.inserted().identities;
-        let comes_in = flow.nursery.is_some();
-        let sound = if comes_in {
-            identities >= known
-        } else {
-            identities == known
-        };
+        let sound = identities == known || flow.nursery.is_some() && identities > known;
         if !(sound && mass >= 0.0 && mass.is_finite()) {
             return Err(refused(path, "its births are not the scene's"));
         }
@@ -231,11 +222,8 @@ fn fill<const D: usize>(
             particles,
         });
     }
-    if let Some(ColumnData::U32(v)) = checkpoint
-        .column(fields::IDENTITY.name)
-        .map(|c| &c.data)
-        .filter(|_| !flow.outlets.is_empty() || flow.nursery.is_some())
-    {
+    let comes_or_goes = !flow.outlets.is_empty() || flow.nursery.is_some();
+    if let Some(v) = identities(checkpoint).filter(|_| comes_or_goes) {
         flow.world.free.set_len(v.len());
     }
     for name in flow.state_columns() {
@@ -333,31 +321,21 @@ fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>, RunE
     let free = &flow.world.free;
     let mut seen = HashSet::new();
     let given = free.inserted().identities;
-    let mut new = |id: u32| id < given && seen.insert(id);
-    let positions = free.get(fields::POSITION)?;
-    Ok(if !free.get(fields::IDENTITY)?.iter().all(|id| new(*id)) {
+    let mut new = |id: &u32| *id < given && seen.insert(*id);
+    let known = free.get(fields::IDENTITY)?.iter().all(&mut new);
+    let mut phases = free.get(fields::PHASE).into_iter().flatten();
+    let mut places = free.get(fields::POSITION)?.iter().flatten();
+    let mut masses = free.get(fields::MASS)?.iter();
+    let mut speeds = free.get(fields::VELOCITY)?.iter().flatten();
+    Ok(if !known {
         Some("its particles are not the scene's")
-    } else if free.has(fields::PHASE.name)
-        && free
-            .get(fields::PHASE)?
-            .iter()
-            .any(|p| *p as usize >= flow.laws.len())
-    {
+    } else if phases.any(|p| *p as usize >= flow.laws.len()) {
         Some("its phases are not the scene's")
-    } else if positions.iter().flatten().any(|x| !x.is_finite()) {
+    } else if places.any(|x| !x.is_finite()) {
         Some("it has particles that are nowhere")
-    } else if free
-        .get(fields::MASS)?
-        .iter()
-        .any(|m| !(*m > 0.0 && m.is_finite()))
-    {
+    } else if masses.any(|m| !(*m > 0.0 && m.is_finite())) {
         Some("it has particles without mass")
-    } else if free
-        .get(fields::VELOCITY)?
-        .iter()
-        .flatten()
-        .any(|u| !u.is_finite())
-    {
+    } else if speeds.any(|u| !u.is_finite()) {
         Some("it has velocities that are not finite")
     } else {
         None

@@ -115,18 +115,14 @@ impl Counters {
             return Some(format!("its `step_scale` is {scale}, not between 0 and 1"));
         }
         self.counts().or_else(|| self.numbers(time)).or_else(|| {
-            let rows = self.due_rows(scene, time);
+            let every = scene.output.series_interval(scene.run.end);
+            let rows = (time / every * (1.0 + ROUNDING)).floor() as u64 + 1;
             let saved = (time / scene.run.checkpoint_interval() * (1.0 + ROUNDING)).floor() as u64;
+            let told = |n, of: &str, most| format!("it counts {n} {of} by then, more than {most}");
             if self.rows > rows {
-                Some(format!(
-                    "it counts {} rows of the series by then, more than {rows}",
-                    self.rows
-                ))
+                Some(told(self.rows, "rows of the series", rows))
             } else if self.checkpoints > saved {
-                let count = self.checkpoints;
-                Some(format!(
-                    "it counts {count} checkpoints by then, more than {saved}"
-                ))
+                Some(told(self.checkpoints, "checkpoints", saved))
             } else {
                 None
             }
@@ -143,11 +139,8 @@ impl Counters {
         counts.extend(self.limited.values().map(|n| ("limited", *n)));
         counts.extend(self.left.iter().map(|[_, n]| ("left", *n)));
         for (name, counted) in &self.works {
-            counts.extend(
-                whole_numbers(counted)
-                    .into_iter()
-                    .map(|n| (name.as_str(), n)),
-            );
+            let numbers = whole_numbers(counted).into_iter();
+            counts.extend(numbers.map(|n| (name.as_str(), n)));
         }
         let largest = counts.into_iter().find(|(_, n)| *n > MOST);
         largest.map(|(name, n)| format!("its counter `{name}` is {n}, which no run reaches"))
@@ -155,20 +148,13 @@ impl Counters {
 
     /// Numbers that are none, and times that are not yet.
     fn numbers(&self, time: f64) -> Option<String> {
+        let counts = |x: f64| x >= 0.0 && x.is_finite();
         let sums = self.bounds.values().chain(self.stage_seconds.values());
-        if !sums
-            .chain([&self.wall_seconds])
-            .all(|x| *x >= 0.0 && x.is_finite())
-        {
+        if !sums.chain([&self.wall_seconds]).all(|x| counts(*x)) {
             return Some("it has clocks that run backwards or are not finite".into());
         }
-        let mass = |[mass, _]: &[u64; 2]| f64::from_bits(*mass);
-        if !self
-            .left
-            .iter()
-            .map(mass)
-            .all(|m| m >= 0.0 && m.is_finite())
-        {
+        let mut left = self.left.iter().map(|[mass, _]| f64::from_bits(*mass));
+        if !left.all(counts) {
             return Some("the mass that has left is negative or not finite".into());
         }
         let peaks = self.series_peaks.iter().flatten().copied();
@@ -177,24 +163,15 @@ impl Counters {
         if extrema.map(f64::from_bits).any(f64::is_nan) {
             return Some("extrema of its series are not numbers".into());
         }
-        let past = [("last_row", self.last_row), ("started_at", self.started_at)];
-        let passed = |t: f64| (0.0..=time).contains(&t);
-        let wrong = past
-            .into_iter()
-            .find(|(_, t)| t.is_some_and(|t| !passed(f64::from_bits(t))));
-        if let Some((name, _)) = wrong {
+        let mut past = [("last_row", self.last_row), ("started_at", self.started_at)].into_iter();
+        let ahead = |t: u64| !(0.0..=time).contains(&f64::from_bits(t));
+        if let Some((name, _)) = past.find(|(_, t)| t.is_some_and(ahead)) {
             return Some(format!("its `{name}` is not before its time"));
         }
         let next = self.next_output.map(f64::from_bits);
         let comes = |t: f64| t.is_finite() && t >= time * (1.0 - ROUNDING);
         let late = next.is_some_and(|t| !comes(t));
         late.then(|| "its `next_output` is not after its time".into())
-    }
-
-    /// Most rows of the series that are written by a time.
-    fn due_rows(&self, scene: &Scene, time: f64) -> u64 {
-        let every = scene.output.series_interval(scene.run.end);
-        (time / every * (1.0 + ROUNDING)).floor() as u64 + 1
     }
 
     /// Counts in intervals of the scene, for a scene whose intervals may be others than before.

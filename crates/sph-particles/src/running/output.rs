@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use sph_core::fields;
-use sph_io::{ColourMap, FieldData, Picture, View};
+use sph_io::{ColourMap, ColourRanges, FieldData, Picture, View};
+use sph_neighbours::World;
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_run::{Frames, Outlay};
-use sph_scene::Scene;
+use sph_scene::{PictureRange, Scene, given};
 use sph_solver::Flow;
 
 use crate::failure::error::RunError;
-use crate::running::colours::Colours;
 use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls, zone_particles};
 use crate::setup::Probes;
@@ -38,16 +38,12 @@ pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outla
     let drawn = curves().any(|c| c.drawn_column().is_some());
     let pictures = drawn || !scene.output.picture.is_empty();
     let curves = curves().next().is_some();
-    let folders = [(pictures, "pictures"), (curves, "curves")];
     Outlay {
         vtk: scene.output.vtk,
         pictures: scene.output.picture.clone(),
         digits: 4,
         animation: scene.output.pictures_per_second(),
-        folders: folders
-            .into_iter()
-            .filter_map(|(some, name)| some.then_some(name))
-            .collect(),
+        folders: given([("pictures", pictures), ("curves", curves)]),
     }
 }
 
@@ -97,15 +93,19 @@ impl Outputs {
                 _ => (None, None),
             };
             remarks.extend(range.1);
-            let path = frames.picture(name);
             let finest = finest(flow, zones, name)?;
             let (points, values, diameters) = match &finest {
                 Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
                 None => (&points[..], &drawn.1[..], &[][..]),
             };
-            let particles = (points, classes, diameters);
-            let drawn = (&drawn.0[..], values);
-            picture(flow, particles, drawn, range.0, (&self.title, &path))?;
+            let picture = Picture {
+                diameters,
+                walls: &drawn_walls(&flow.world),
+                classes,
+                range: range.0,
+                ..self.picture(&flow.world, points, (&drawn.0, values))
+            };
+            picture.save(frames.picture(name))?;
         }
         for (name, probe) in probes {
             let Some(curves) = probe.as_curves() else {
@@ -120,17 +120,42 @@ impl Outputs {
                 let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();
                 let (range, told) = self.colours.range(name, &values, &mut frames.colours);
                 remarks.extend(told);
-                map(
-                    flow,
-                    &rows,
-                    (&label, &values),
+                // A map over the first two columns, its cells as wide as the nearest ones are apart.
+                let places: Vec<_> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
+                let apart = |[a, b]: [[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
+                let pairs = places.windows(2).map(|pair| apart([pair[0], pair[1]]));
+                let diameter = pairs.fold(f64::INFINITY, f64::min);
+                let plain = self.picture(&flow.world, &places, (&label, &values));
+                let picture = Picture {
+                    diameter: Some(diameter)
+                        .filter(|d| d.is_finite())
+                        .unwrap_or(plain.diameter),
+                    view: View::Plane,
                     range,
-                    &self.title,
-                    &frames.picture(name),
-                )?;
+                    ..plain
+                };
+                picture.save(frames.picture(name))?;
             }
         }
         Ok(remarks)
+    }
+
+    /// A picture of values at points, particles of the spacing.
+    fn picture<'a, const D: usize>(
+        &'a self,
+        world: &World<D>,
+        points: &'a [[f64; 3]],
+        (label, values): (&'a str, &'a [f64]),
+    ) -> Picture<'a> {
+        Picture {
+            title: &self.title,
+            time: Some(world.time),
+            label,
+            diameter: world.spacing,
+            view: if D == 2 { View::Plane } else { View::Above },
+            colours: ColourMap::Viridis,
+            ..Picture::new(points, values)
+        }
     }
 
     /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
@@ -172,38 +197,6 @@ pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(
     Ok(())
 }
 
-/// Values of a probe's table as a map over its first two columns.
-fn map<const D: usize>(
-    flow: &Flow<D>,
-    rows: &[Vec<f64>],
-    (label, values): (&str, &[f64]),
-    range: Option<[f64; 2]>,
-    title: &str,
-    path: &Path,
-) -> Result<(), RunError> {
-    let world = &flow.world;
-    let points: Vec<[f64; 3]> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
-    // Cells are as wide as the nearest ones are apart.
-    let apart = |[a, b]: [&[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
-    let pairs = points.windows(2).map(|pair| apart([&pair[0], &pair[1]]));
-    let diameter = pairs.fold(f64::INFINITY, f64::min);
-    let picture = Picture {
-        title,
-        time: Some(world.time),
-        label,
-        diameter: if diameter.is_finite() {
-            diameter
-        } else {
-            world.spacing
-        },
-        view: View::Plane,
-        range,
-        colours: ColourMap::Viridis,
-        ..Picture::new(&points, values)
-    };
-    Ok(picture.save(path)?)
-}
-
 /// Places, values and diameters of particles in a picture.
 type Spots = (Vec<[f64; 3]>, Vec<f64>, Vec<f64>);
 
@@ -229,27 +222,49 @@ fn finest<const D: usize>(
     Ok(Some((places, values, diameters)))
 }
 
-fn picture<const D: usize>(
-    flow: &Flow<D>,
-    (points, classes, diameters): (&[[f64; 3]], &[String], &[f64]),
-    (label, values): (&str, &[f64]),
-    range: Option<[f64; 2]>,
-    (title, path): (&str, &Path),
-) -> Result<(), RunError> {
-    let world = &flow.world;
-    let walls = drawn_walls(world);
-    let picture = Picture {
-        title,
-        time: Some(world.time),
-        label,
-        diameter: world.spacing,
-        diameters,
-        walls: &walls,
-        classes,
-        view: if D == 2 { View::Plane } else { View::Above },
-        range,
-        colours: ColourMap::Viridis,
-        ..Picture::new(points, values)
-    };
-    Ok(picture.save(path)?)
+/// Ranges that a scene gives, and that follow from it.
+pub(crate) struct Colours {
+    given: Option<PictureRange>,
+    /// Pressure of the fluid at rest, Pa; 0 where there is none.
+    pressure: f64,
+    /// The largest `velocity_scale`, m/s; 0 where none is given.
+    speed: f64,
+}
+
+impl Colours {
+    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
+        let scales = scene.phase.values().filter_map(|p| p.velocity_scale);
+        Colours {
+            given: scene.output.picture_range.clone(),
+            pressure,
+            speed: scales.fold(0.0, f64::max),
+        }
+    }
+
+    /// The range for the next picture of a field, and a remark if it is wider than pictures have `seen`.
+    pub fn range(
+        &self,
+        field: &str,
+        values: &[f64],
+        seen: &mut ColourRanges,
+    ) -> (Option<[f64; 2]>, Option<String>) {
+        let given = self.given.as_ref().and_then(|all| all.ends(field));
+        let scale = match field {
+            _ if field == fields::PRESSURE.name => self.pressure,
+            _ if field == fields::VELOCITY.name => self.speed,
+            _ => 0.0,
+        };
+        let scaled = (scale > 0.0).then_some([0.0, scale]);
+        if let Some(range) = given.or(scaled) {
+            return (Some(range), None);
+        }
+        let Some((range, wider)) = seen.next(field, values) else {
+            return (None, None);
+        };
+        let [low, high] = range.map(sph_core::number::plain);
+        let told = wider.then(|| {
+            format!("note: colours of `{field}` go from {low} to {high} from here on; `output.picture_range` fixes them")
+        });
+        (Some(range), told)
+    }
 }

@@ -1,6 +1,6 @@
 //! Particles and walls as pieces of a frame.
 
-use sph_core::{Plain, Store, fields};
+use sph_core::{Plain, Store, Vect, fields};
 use sph_io::{Cells, FieldData, FieldValues, Location, Piece};
 use sph_neighbours::World;
 use sph_neighbours::decomposition::OWNER;
@@ -21,7 +21,7 @@ pub(crate) fn points<const D: usize>(flow: &Flow<D>) -> Result<Vec<[f64; 3]>, Ru
 fn vectors<const D: usize>(
     name: &'static str,
     unit: &'static str,
-    values: &[sph_core::Vect<D>],
+    values: &[Vect<D>],
 ) -> FieldData<'static> {
     FieldData {
         name: name.into(),
@@ -51,12 +51,8 @@ pub(crate) fn particles<'a, const D: usize>(
                 FieldData::tensor(name, unit, components, v.into_owned())
             }
             Plain::Real(v) => {
-                let vector = |c: &[f64]| sph_core::Vect::<D>::from_column_slice(c);
-                vectors(
-                    name,
-                    unit,
-                    &v.chunks_exact(D).map(vector).collect::<Vec<_>>(),
-                )
+                let all = v.chunks_exact(D).map(Vect::<D>::from_column_slice);
+                vectors(name, unit, &all.collect::<Vec<_>>())
             }
         });
     }
@@ -127,10 +123,8 @@ fn kept_field(field: FieldData<'_>, own: &[bool]) -> FieldData<'static> {
 /// The tuples of `each` numbers whose particle is kept.
 fn kept<T: Copy>(values: &[T], each: usize, own: &[bool]) -> Vec<T> {
     let tuples = values.chunks_exact(each).zip(own);
-    let tuples = tuples.filter(|(_, own)| **own);
-    tuples
-        .flat_map(|(tuple, _)| tuple.iter().copied())
-        .collect()
+    let tuples = tuples.filter(|(_, own)| **own).map(|(tuple, _)| tuple);
+    tuples.flatten().copied().collect()
 }
 
 /// Writes the share of a rank behind the first of output `index`.

@@ -12,9 +12,9 @@ use sph_scene::Scene;
 
 use crate::failure::error::RunError;
 use crate::results::summary::RankShare;
-use crate::running::beginning::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
+use crate::running::model::begin;
 use crate::running::output::shows_depths;
 use crate::setup::{Assembled, Memory, Share, assemble_share};
 
@@ -109,11 +109,9 @@ impl<const D: usize> Running<'_, D> {
         }
         whole.world.walls.follow(&flow.world.walls);
         whole.loads.clone_from(&flow.loads);
-        whole
-            .world
-            .free
-            .set_removed(flow.world.free.removed().to_vec());
-        whole.world.free.set_inserted(flow.world.free.inserted());
+        let (own, all) = (&flow.world.free, &mut whole.world.free);
+        all.set_removed(own.removed().to_vec());
+        all.set_inserted(own.inserted());
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {

@@ -5,20 +5,17 @@ use std::ops::AddAssign;
 use std::sync::Arc;
 use std::time::Instant;
 
-use sph_core::{StepError, StepLimit};
-use sph_neighbours::decomposition::Transport;
+use sph_core::StepError;
+use sph_neighbours::decomposition::{Thread, Transport};
 use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
-use crate::failure::error::RunError;
-use crate::results::summary::Summary;
-use crate::running::clock::standing_still;
-use crate::running::course::Running;
-use crate::running::next_step::{RECOVERY, next_step};
+use crate::running::course::{Running, ready};
+use crate::running::next_step::{RECOVERY, next_step, standing_still};
 use crate::running::output::outlay;
-use crate::running::ready::ready;
 use crate::setup::all_ready;
+use crate::{RunError, Summary};
 
 /// Runs a scene.
 ///
@@ -55,10 +52,9 @@ fn run_with(
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut Watch<'_>,
 ) -> Result<Option<Summary>, RunError> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads.unwrap_or(0))
-        .build()
-        .map_err(|e| RunError::at("--threads", e.to_string()))?;
+    let threads = options.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
     pool.install(|| match scene.dimension {
         3 => run_in::<3>(scene, options, ranks, observer),
         _ => run_in::<2>(scene, options, ranks, observer),
@@ -128,18 +124,8 @@ impl<const D: usize> Running<'_, D> {
             return Err(self.failed(cause));
         }
         self.tried = (dt, limiter);
-        self.parts.flow.world.dt = dt;
-        let flow = &mut self.parts.flow;
-        self.zones.begin_step(flow, dt)?;
-        let stepped = self.parts.integrator.step(flow, dt);
-        let stepped = stepped.and_then(|()| flow.let_out(dt));
-        if let Err(cause) = stepped.and_then(|()| flow.let_in(dt)) {
+        if let Err(cause) = self.zones.step(&mut self.parts, dt, target) {
             return Ok(Err(cause));
-        }
-        // A drift in parts may end one rounding short of its aim, and the sliver that is left
-        // be too short for its parts to move the clock: for ever.
-        if time + dt >= target * (1.0 - 1e-12) {
-            self.parts.flow.world.time = target;
         }
         self.counters.steps += 1;
         count(&mut self.counters.limited, limiter, 1);
@@ -175,22 +161,52 @@ impl<const D: usize> Running<'_, D> {
         let flow = &mut self.parts.flow;
         flow.step_limits_into(&mut limits)?;
         let chosen = flow.least_limits(&mut limits).map(|()| {
-            self.note_bounds(&limits);
-            self.choose_step(&limits, time, target)
+            for limit in limits.iter().filter(|l| l.dt > 0.0) {
+                count(&mut self.counters.bounds, limit.name, 1.0 / limit.dt);
+            }
+            let factor = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
+            next_step(&limits, factor, [time, target], self.scene.run.end)
         });
         self.limits = limits;
         Ok(chosen)
     }
+}
 
-    fn note_bounds(&mut self, limits: &[StepLimit]) {
-        for limit in limits.iter().filter(|l| l.dt > 0.0) {
-            count(&mut self.counters.bounds, limit.name, 1.0 / limit.dt);
+/// Runs a scene on several ranks that are threads of this process.
+///
+/// The results are those of one rank, to the bit. Its purpose is to see how a scene divides, without a cluster.
+///
+/// # Errors
+/// As [`run_part`].
+pub fn run_on_threads(
+    scene: &Scene,
+    options: &RunOptions,
+    ranks: usize,
+    observer: &mut Watch<'_>,
+) -> Result<Summary, RunError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = options.threads.or(Some((cores / ranks).max(1)));
+    let options = &options.clone().threads(threads);
+    std::thread::scope(|scope| {
+        let mut communicator = Thread::communicator(ranks).into_iter();
+        let first = communicator.next();
+        let part = |rank: Thread| move || run_part(scene, options, Arc::new(rank), &mut ());
+        let others: Vec<_> = communicator.map(|rank| scope.spawn(part(rank))).collect();
+        let first = match first {
+            Some(first) => run_part(scene, options, Arc::new(first), observer),
+            None => Err(RunError::at("--ranks", "there must be one at least")),
+        };
+        for other in others {
+            let ended = other.join().unwrap_or_else(|_| Err(panicked()));
+            // The first rank has reported it, if it could.
+            if first.is_ok() {
+                ended?;
+            }
         }
-    }
+        first?.ok_or_else(panicked)
+    })
+}
 
-    /// The least limit, cut so that output times and the end are hit exactly.
-    fn choose_step(&self, limits: &[StepLimit], time: f64, target: f64) -> (f64, &'static str) {
-        let factor = self.scene.run.safety * f64::from_bits(self.counters.step_scale);
-        next_step(limits, factor, [time, target], self.scene.run.end)
-    }
+fn panicked() -> RunError {
+    RunError::at("--ranks", "a rank ended without a result")
 }

@@ -54,10 +54,8 @@ fn examined_and_tried<const D: usize>(
     let (mut examined, assembled) = examine_in::<D>(scene)?;
     if scene.zone.is_empty() {
         let mut stepper = Stepper::over(scene, assembled)?;
-        return Ok((
-            examined,
-            timed(scene, &mut stepper, budget).map_err(Into::into),
-        ));
+        let tried = timed(scene, &mut stepper, budget);
+        return Ok((examined, tried.map_err(Into::into)));
     }
     let zones = attach(scene, &assembled)?;
     examined.zones = zones.sizes();
@@ -67,9 +65,8 @@ fn examined_and_tried<const D: usize>(
     let mut alone = Stepper::from_parts(scene, assembled, none);
     let coarse = timed(scene, &mut alone, budget / 2);
     let mut assembled = alone.parts;
-    start
-        .restore(&mut assembled.flow)
-        .map_err(SolverError::from)?;
+    let restored = start.restore(&mut assembled.flow);
+    restored.map_err(SolverError::from)?;
     let mut stepper = Stepper::from_parts(scene, assembled, zones);
     let both = coarse.and_then(|coarse| {
         let mut with_zones = timed(scene, &mut stepper, budget / 2)?;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_contribution::integrators::Integrator;
-use sph_contribution::{ForceLimit, MotionLimit, OwnColumn, Part, PluginInForce, Setting};
+use sph_contribution::{ForceLimit, MotionLimit, Part, PluginInForce, Setting};
 use sph_core::{Inserted, Role, Store, fields};
 use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::World;
@@ -19,20 +19,19 @@ use sph_solver::step::{
 use sph_solver::{Flow, SolverError};
 
 use crate::setup::domain::{extent, height, pressure_at_rest};
-use crate::setup::field_error;
+use crate::setup::estimate::refuse_the_absurd;
 use crate::setup::initial_world::InitialWorld;
 use crate::setup::leaks::Leak;
-use crate::setup::output_fields::check_output_fields;
 use crate::setup::placement::PlacedParticles;
-use crate::setup::probe_setup;
-use crate::setup::relaxation::Relaxation;
+use crate::setup::probe_setup::{self, check_output_fields};
+use crate::setup::relax::Relaxation;
 use crate::setup::shapes::Drawn;
 use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
 use crate::setup::wall_speeds::speeds;
-use crate::setup::{lattices, movers, open_faces, variable_gravity};
+use crate::setup::{field_error, lattices, movers, open_faces, variable_gravity};
 
 /// Way of the fastest point of a wall within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
@@ -74,7 +73,8 @@ pub(crate) fn assembled<const D: usize>(
     scene: &Scene,
     mut share: Share<D>,
 ) -> Result<Assembled<D>, SolverError> {
-    let mut drawn = drawn_of::<D>(scene)?;
+    let mut drawn = Drawn::<D>::from_scene(scene)?;
+    refuse_the_absurd(scene, &drawn)?;
     let mut choices = chosen::<D>(scene)?;
     let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::prepare(scene, &mut drawn, &mut choices, &laws)?;
@@ -87,17 +87,14 @@ pub(crate) fn assembled<const D: usize>(
     let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
     let mut ground = Ground::from_rheologies(&choices.rheologies);
-    let kinematic_viscosities = kinematic_viscosities(scene, &choices.rheologies);
-    let constant = constant_viscosities(scene, &choices.rheologies);
+    let (kinematic_viscosities, constant) = kinematic_viscosities(scene, &choices.rheologies);
     let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
     let shown = shown(scene, &choices.probes);
     let mut parts = choices.parts;
-    let entering = opened.as_ref().map(|o| o.entering()).unwrap_or_default();
-    parts.extend(opened.map(|opened| ("open-boundary", opened.boxed())));
-    open_faces::check_values(scene, &entering, &parts)?;
+    open_faces::join(scene, opened, &mut parts)?;
     let (free, outlets) = filled_columns(scene, &*formulation, &parts, &placed)?;
-    let mut world = World { free, ..room };
-    let about = PlanInput {
+    let world = World { free, ..room };
+    let planned = PlanInput {
         scene,
         formulation: &*formulation,
         integrator: &*choices.integrator,
@@ -106,19 +103,18 @@ pub(crate) fn assembled<const D: usize>(
         soils: &ground.soil,
         walls: walls.as_deref(),
         shown: &shown,
-    };
-    let planned = about.plan(&world, &mut parts)?;
+    }
+    .plan(&world, &mut parts)?;
     ground.saturated = planned.offer.saturated;
-    world.transported = planned.transported.clone();
+    let diffused = formulation.diffused();
     let given = FlowInputs {
         walls,
         laws,
         kinematic_viscosities,
         swing,
         outlets,
-        density: formulation.diffused().evolved,
+        density: diffused.evolved,
     };
-    let diffused = formulation.diffused();
     let mut flow = joined(world, planned, given);
     show(scene, &shown, &choices.probes, &mut flow)?;
     let columns = || parts.iter().flat_map(|(_, p)| p.columns());
@@ -134,7 +130,9 @@ pub(crate) fn assembled<const D: usize>(
     let relaxation = start(&beginning, &share, &mut flow)?;
     let (probes, integrator) = (&choices.probes, &*choices.integrator);
     accounts::open(scene, probes, integrator, &*formulation, &mut flow)?;
-    flow.nursery = new_particle_values(scene, formulation, columns().collect(), &flow);
+    let comes_in = !flow.gates.is_empty() || scene.window.is_some();
+    let columns = columns().collect();
+    flow.nursery = comes_in.then(|| NewParticleDefaults::new(scene, formulation, columns));
     Ok(Assembled {
         flow,
         integrator: choices.integrator,
@@ -149,13 +147,6 @@ pub(crate) fn assembled<const D: usize>(
         pressure: pressure_at_rest(scene, &drawn.regions),
         body_of: placed.body,
     })
-}
-
-/// Walls and bodies of a scene, if they fit into memory.
-fn drawn_of<const D: usize>(scene: &Scene) -> Result<Drawn<D>, SolverError> {
-    let drawn = Drawn::<D>::from_scene(scene)?;
-    crate::setup::estimate::refuse_the_absurd(scene, &drawn)?;
-    Ok(drawn)
 }
 
 /// The plugins of a scene, with all probes ready.
@@ -180,17 +171,6 @@ fn remarks<const D: usize>(
     Ok(all)
 }
 
-/// Initial values of newborn particles, where some may come in: by gates, or around a zone.
-fn new_particle_values<const D: usize>(
-    scene: &Scene,
-    formulation: Arc<dyn Formulation<D>>,
-    columns: Vec<OwnColumn<D>>,
-    flow: &Flow<D>,
-) -> Option<NewParticleDefaults<D>> {
-    let some = !flow.gates.is_empty() || scene.window.is_some();
-    some.then(|| NewParticleDefaults::new(scene, formulation, columns))
-}
-
 /// Refuses walls that are faster than sound in the slowest phase.
 fn wall_speeds<const D: usize>(
     scene: &Scene,
@@ -200,10 +180,7 @@ fn wall_speeds<const D: usize>(
     let sounds = laws.iter().map(|law| law.reference().sound_speed);
     let slowest = sounds.fold(f64::INFINITY, f64::min);
     let found = speeds(scene, &drawn.walls, slowest, extent(&drawn.regions));
-    match found.refused.is_empty() {
-        true => Ok(found.remarks),
-        false => Err(SolverError::Scene(found.refused)),
-    }
+    SolverError::of(found.refused).map(|()| found.remarks)
 }
 
 /// Input of a plan, before there is one.
@@ -354,11 +331,10 @@ fn bind_laws<const D: usize>(
     choices: &Choices<D>,
 ) -> Result<(Laws, Option<VariableGravity<D>>, Lift), SolverError> {
     let swing = variable_gravity::from_scene::<D>(scene)?;
-    let more = swing
-        .as_ref()
-        .map(|s| variable_gravity::head(s, scene, &drawn.regions));
+    let head_of = |swing| variable_gravity::head(swing, scene, &drawn.regions);
+    let more = swing.as_ref().map_or(0.0, head_of);
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
-    let speeds = sound_speeds(scene, (head + more.unwrap_or(0.0)).sqrt())?;
+    let speeds = sound_speeds(scene, (head + more).sqrt())?;
     let phases = scene.phase.values().zip(speeds);
     let reference = phases.map(|(phase, sound_speed)| Reference {
         density: phase.density,
@@ -373,18 +349,15 @@ fn bind_laws<const D: usize>(
     Ok((laws.collect(), swing, lift))
 }
 
-/// η/ρ₀ of every phase, m²/s.
-fn kinematic_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<f64> {
-    let phases = scene.phase.values().zip(laws);
-    phases
-        .map(|(phase, law)| law.largest_viscosity() / phase.density)
-        .collect()
-}
-
-/// η/ρ₀ of every phase whose law has one viscosity, m²/s.
-fn constant_viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> Vec<Option<f64>> {
-    let phases = scene.phase.values().zip(laws);
-    phases
-        .map(|(phase, law)| Some(law.uniform_viscosity()? / phase.density))
-        .collect()
+/// η/ρ₀ of every phase, m²/s: the largest, and that of laws with one viscosity.
+fn kinematic_viscosities(
+    scene: &Scene,
+    laws: &[Box<dyn Rheology>],
+) -> (Vec<f64>, Vec<Option<f64>>) {
+    let laws = scene.phase.values().map(|p| p.density).zip(laws);
+    let over = laws.map(|(density, law)| {
+        let uniform = law.uniform_viscosity().map(|eta| eta / density);
+        (law.largest_viscosity() / density, uniform)
+    });
+    over.unzip()
 }

@@ -26,10 +26,9 @@ pub fn assemble_share<const D: usize>(
 ) -> Result<Assembled<D>, SolverError> {
     const { assert!(D == 2 || D == 3, "flows have two or three dimensions") };
     let share: Box<dyn Any> = Box::new(share);
-    let made = if D == 2 {
-        plane(scene, share)
-    } else {
-        space(scene, share)
+    let made = match D {
+        2 => plane(scene, share),
+        _ => space(scene, share),
     };
     match made?.downcast() {
         Ok(made) => Ok(*made),
@@ -57,6 +56,7 @@ mod tests {
     use super::*;
     use sph_core::{Access, Declares, Field, Role, Scalar, Stage, StepError, System, fields};
     use sph_neighbours::World;
+    use sph_solver::step::Work;
     use sph_solver::{Flow, Snapshot};
 
     /// The flow of a scene in the plane: nothing of space is compiled for it.
@@ -105,12 +105,8 @@ mod tests {
         assert_eq!(sum, 3, "{left:?}");
         snapshot.restore(&mut flow).unwrap();
         assert!(state(&flow) == before, "the state before the step is back");
-        let one = 0.01;
-        assert!(
-            (flow.mass_left() - one).abs() < 1e-12,
-            "{}",
-            flow.mass_left()
-        );
+        let (left, one) = (flow.mass_left(), 0.01);
+        assert!((left - one).abs() < 1e-12, "{left}");
     }
 
     const PERIODIC: &str = "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics.spacing = 0.1\n\
@@ -144,8 +140,7 @@ mod tests {
     #[test]
     fn a_state_column_that_the_solver_does_not_know_is_rolled_back_and_not_advanced_twice() {
         let mut flow = in_plane(PERIODIC);
-        flow.stages
-            .push(sph_solver::step::Work::Stage(Box::new(Counting)));
+        flow.stages.push(Work::Stage(Box::new(Counting)));
         flow.ask_all();
         flow.reset_timings();
         flow.evaluate().unwrap();

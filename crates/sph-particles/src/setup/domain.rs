@@ -33,22 +33,28 @@ fn extent_along_gravity<'a, const D: usize>(
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for region in regions {
         let (lower, upper) = region.base.bounds();
-        for corner in 0..1 << D {
-            let along: f64 = (0..D)
-                .map(|k| {
-                    down[k]
-                        * if corner >> k & 1 == 0 {
-                            lower[k]
-                        } else {
-                            upper[k]
-                        }
-                })
-                .sum();
+        for n in 0..1 << D {
+            let corner = corner(&lower.into(), &upper.into(), n);
+            let along: f64 = (0..D).map(|k| down[k] * corner[k]).sum();
             low = low.min(along);
             high = high.max(along);
         }
     }
     (high - low).max(0.0)
+}
+
+/// Corner number `n` of the 2ᴰ corners of a box.
+pub(crate) fn corner<const D: usize>(low: &Vect<D>, high: &Vect<D>, n: usize) -> Vect<D> {
+    Vect::from_fn(|k, _| if n >> k & 1 == 0 { low[k] } else { high[k] })
+}
+
+/// Lower and upper corner of the box around places; without any an infinite one that is turned inside out.
+pub(crate) fn box_around<'a, const D: usize>(
+    places: impl IntoIterator<Item = &'a Vect<D>>,
+) -> [Vect<D>; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::repeat);
+    let places = places.into_iter();
+    places.fold(none, |[low, high], x| [low.inf(x), high.sup(x)])
 }
 
 /// Largest extent of a body along an axis, m.
@@ -66,25 +72,13 @@ const SAMPLES: usize = 1000;
 /// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
 fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &mut Domain<D>) {
     for wall in drawn.walls.iter().filter(|w| w.motion.moves()) {
-        let [low, high] = bounds(wall.drawing.points::<D>());
+        let [low, high] = bounds(wall.drawing.points::<D>()).map(Vect::from);
         for n in 0..=SAMPLES {
-            let map = wall
-                .motion
-                .pose(scene.run.end * n as f64 / SAMPLES as f64)
-                .map();
-            for corner in 0..1 << D {
-                let corner = std::array::from_fn(|k| {
-                    if corner >> k & 1 == 0 {
-                        low[k]
-                    } else {
-                        high[k]
-                    }
-                });
-                for (k, x) in map(corner)
-                    .into_iter()
-                    .enumerate()
-                    .filter(|(_, x)| x.is_finite())
-                {
+            let time = scene.run.end * n as f64 / SAMPLES as f64;
+            let map = wall.motion.pose(time).map();
+            for n in 0..1 << D {
+                let corner = map(corner(&low, &high, n).into()).into_iter().enumerate();
+                for (k, x) in corner.filter(|(_, x)| x.is_finite()) {
                     domain.lower[k] = domain.lower[k].min(x - margin);
                     domain.upper[k] = domain.upper[k].max(x + margin);
                 }
@@ -95,28 +89,11 @@ fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &
 
 /// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
 pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
-    let mut lower = Vect::<D>::repeat(f64::INFINITY);
-    let mut upper = Vect::<D>::repeat(f64::NEG_INFINITY);
-    let mut include = |x: &[f64]| {
-        for k in 0..D.min(x.len()) {
-            lower[k] = lower[k].min(x[k]);
-            upper[k] = upper[k].max(x[k]);
-        }
-    };
-    for region in &drawn.regions {
-        let (low, high) = region.base.bounds();
-        include(&low);
-        include(&high);
-    }
-    if let Some((low, high)) = &drawn.bounds {
-        include(low);
-        include(high);
-    }
+    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
+    let boxes = bodies.chain(drawn.bounds);
+    let [lower, upper] = bounds(boxes.flat_map(|(low, high)| [low, high])).map(Vect::from);
     // Splashes rise over an open tank; without walls the flow may go far.
-    let room = match scene.wall.is_empty() {
-        true => 10.0,
-        false => 2.0,
-    };
+    let room = if scene.wall.is_empty() { 10.0 } else { 2.0 };
     let extent = (upper - lower).max();
     let margin = Vect::repeat(room * extent);
     let mut domain = Domain::open(lower - margin, upper + margin);
@@ -139,15 +116,13 @@ pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
 pub fn check_periods<const D: usize>(domain: &Domain<D>, reach: f64) -> Result<(), SolverError> {
     for axis in (0..D).filter(|&a| domain.periodic[a]) {
         if domain.length(axis) < 2.0 * reach {
-            let name = ["x", "y", "z"][axis];
-            return Err(SolverError::at(
-                format!("numerics.periodic.{name}"),
-                format!(
-                    "the period of {} m is shorter than two supports with their skin: at least {:.6} m",
-                    domain.length(axis),
-                    2.0 * reach
-                ),
-            ));
+            let path = format!("numerics.periodic.{}", ["x", "y", "z"][axis]);
+            let why = format!(
+                "the period of {} m is shorter than two supports with their skin: at least {:.6} m",
+                domain.length(axis),
+                2.0 * reach
+            );
+            return Err(SolverError::at(path, why));
         }
     }
     Ok(())

@@ -3,15 +3,15 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use sph_core::{Declares, Role, StepLimit, System, fields};
+use sph_core::{AnyField, Declares, Role, StepLimit, System, fields};
 use sph_scene::Scene;
 use sph_solver::{Flow, PluginInForce, SolverError};
 
 use crate::setup::assemble::Assembled;
 use crate::setup::dimensions::assemble;
-use crate::setup::estimate::short_steps;
+use crate::setup::estimate::{bytes, short_steps};
+use crate::setup::probe_setup::rehearse;
 use crate::setup::reference_table::readable;
-use crate::setup::rehearsal::rehearse;
 use crate::setup::{Estimate, Memory, Relaxation};
 use crate::zones::ZoneSize;
 
@@ -45,6 +45,20 @@ pub struct StageUse {
     pub reads_at_neighbours: Vec<String>,
     /// Columns written.
     pub writes: Vec<String>,
+}
+
+impl StageUse {
+    fn of(stage: &impl Declares) -> Self {
+        let access = stage.access();
+        let names = |fields: &[AnyField]| fields.iter().map(|f| f.name.to_string()).collect();
+        StageUse {
+            name: stage.name(),
+            sweep: access.sweep,
+            reads_here: names(&access.here),
+            reads_at_neighbours: names(&access.neighbours),
+            writes: names(&access.writes),
+        }
+    }
 }
 
 /// Derived numbers, plan, limits and cost of a scene.
@@ -121,42 +135,24 @@ pub fn examine_in<const D: usize>(
     let memory = memory(scene, &mut assembled.flow, dt)?;
     let flow = &assembled.flow;
     let world = &flow.world;
-    let names = |f: &[sph_core::AnyField]| f.iter().map(|f| f.name.to_string()).collect::<Vec<_>>();
-    let stages: Vec<StageUse> = flow
-        .stages
-        .iter()
-        .map(|s| {
-            let access = s.access();
-            StageUse {
-                name: s.name(),
-                sweep: access.sweep,
-                reads_here: names(&access.here),
-                reads_at_neighbours: names(&access.neighbours),
-                writes: names(&access.writes),
-            }
-        })
-        .collect();
-    let users = |name: &str, uses: &dyn Fn(&StageUse) -> Vec<String>| -> Vec<String> {
-        let using = stages.iter().filter(|s| uses(s).iter().any(|f| f == name));
+    let stages: Vec<StageUse> = flow.stages.iter().map(StageUse::of).collect();
+    let users = |uses: &dyn Fn(&StageUse) -> bool| -> Vec<String> {
+        let using = stages.iter().filter(|stage| uses(stage));
         using.map(|s| s.name.clone()).collect()
     };
-    let fields = world
-        .free
-        .columns()
-        .map(|(name, unit, role, components, values)| FieldUse {
+    let columns = world.free.columns();
+    let fields = columns.map(|(name, unit, role, components, values)| {
+        let among = |columns: &[String]| columns.iter().any(|column| column == name);
+        FieldUse {
             name: name.into(),
             unit: unit.into(),
             state: role == Role::State,
-            bytes: match values {
-                sph_core::Plain::Real(_) => 8 * components,
-                sph_core::Plain::Index(_) => 4,
-            },
-            written_by: users(name, &|s| s.writes.clone()),
-            read_by: users(name, &|s| {
-                [s.reads_here.clone(), s.reads_at_neighbours.clone()].concat()
-            }),
-        })
-        .collect();
+            bytes: bytes(components, &values),
+            written_by: users(&|s| among(&s.writes)),
+            read_by: users(&|s| among(&s.reads_here) || among(&s.reads_at_neighbours)),
+        }
+    });
+    let fields = fields.collect();
     let particles = world.free.len();
     let neighbours = world.mean_neighbours()?;
     let estimate = Estimate::new(scene, particles as f64, dt, memory.total());
@@ -217,12 +213,9 @@ fn derived<const D: usize>(
             all.push((name, value, unit.to_string()));
         }
     };
-    say(
-        "smoothing length h".into(),
-        world.kernel.smoothing_length(),
-        "m",
-    );
-    say("kernel support".into(), world.kernel.support_radius(), "m");
+    let kernel = &world.kernel;
+    say("smoothing length h".into(), kernel.smoothing_length(), "m");
+    say("kernel support".into(), kernel.support_radius(), "m");
     let g = world.gravity.norm();
     let fall = (g * length).sqrt();
     if g > 0.0 {
@@ -232,9 +225,8 @@ fn derived<const D: usize>(
     let numbers = world.free.get(fields::PHASE).ok();
     let fastest = |k: usize| {
         let velocity = world.free.get(fields::VELOCITY).into_iter().flatten();
-        let own = velocity
-            .enumerate()
-            .filter(|(i, _)| numbers.is_none_or(|n| n[*i] as usize == k));
+        let is_own = |i: usize| numbers.is_none_or(|n| n[i] as usize == k);
+        let own = velocity.enumerate().filter(|(i, _)| is_own(*i));
         own.map(|(_, u)| u.norm()).fold(0.0, f64::max)
     };
     let viscosities = flow.kinematic_viscosities.iter();
@@ -248,11 +240,8 @@ fn derived<const D: usize>(
             say(format!("{name}: expected speed U"), speed, "m/s");
             say(format!("{name}: Mach number U/c₀"), speed / c0, "1");
             let scale = if length > 0.0 { length } else { flow.extent() };
-            say(
-                format!("{name}: Reynolds number UL/ν"),
-                speed * scale / nu,
-                "1",
-            );
+            let reynolds = speed * scale / nu;
+            say(format!("{name}: Reynolds number UL/ν"), reynolds, "1");
             if fall > 0.0 {
                 say(format!("{name}: Froude number U/√(gH)"), speed / fall, "1");
             }

@@ -72,14 +72,10 @@ impl<const D: usize> Probe<D> for ErrorProbe<D> {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let compared = Compared::with_solution(world, &self.field, &*self.solution);
-        let compared = compared.map_err(|reason| StepError::stage("references", reason))?;
+        let compared = compared.map_err(|why| StepError::stage("references", why))?;
         let volume = world.free.get(fields::VOLUME)?;
-        let Compared {
-            values,
-            exact,
-            components,
-        } = compared;
-        Ok(vec![norm::l2(&values, &exact, volume, components)])
+        let (values, exact) = (&compared.values, &compared.exact);
+        Ok(vec![norm::l2(values, exact, volume, compared.components)])
     }
 }
 

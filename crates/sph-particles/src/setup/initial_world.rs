@@ -1,9 +1,12 @@
 //! Box, kernel, walls and places of a scene: the world before it has columns.
 
-use sph_boundary::{Wall, WallEntry};
+use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup, WallSpec};
 use sph_contribution::Plugins;
 use sph_core::Store;
+use sph_core::fields::SCALE;
 use sph_core::plausible::Quantity;
+use sph_kernels::Kernel;
+use sph_multiphase::Formulation;
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
 use sph_solver::setup::Choices;
@@ -13,8 +16,7 @@ use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::leaks::{Leak, leaks};
 use crate::setup::placement::{PlacedParticles, place};
 use crate::setup::shapes::Drawn;
-use crate::setup::share::{ExistingWalls, Share};
-use crate::setup::walls::{build_walls, check_scaling, thin_walls, wall_problem};
+use crate::setup::share::Share;
 
 /// The room in which particles will move, and where they begin.
 pub(crate) struct InitialWorld<const D: usize> {
@@ -31,39 +33,38 @@ pub(crate) struct InitialWorld<const D: usize> {
 }
 
 impl<const D: usize> InitialWorld<D> {
-    /// That of a share of a flow: [`among`](Self::among) walls that stand already, else [`of`](Self::from_scene) the scene.
+    /// The room of a share of a flow: builds the walls and fills the bodies, and takes the wall plugin out of the choices.
+    /// Among walls that stand already there is no particle.
     ///
     /// # Errors
     /// The key of the scene that is wrong.
-    pub(crate) fn for_share(
+    pub fn for_share(
         scene: &Scene,
         drawn: &Drawn<D>,
         choices: &mut Choices<D>,
         share: &mut Share<D>,
     ) -> Result<Self, SolverError> {
-        match share {
-            Share::Columns(standing) => InitialWorld::among(scene, drawn, choices, standing.take()),
-            _ => InitialWorld::from_scene(scene, drawn, choices),
-        }
-    }
-
-    /// Builds the walls and fills the bodies; takes the wall plugin out of the choices.
-    ///
-    /// # Errors
-    /// The key of the scene that is wrong.
-    pub fn from_scene(
-        scene: &Scene,
-        drawn: &Drawn<D>,
-        choices: &mut Choices<D>,
-    ) -> Result<Self, SolverError> {
         let mut world = empty(scene, drawn, choices)?;
-        let h = world.kernel.smoothing_length();
+        if let Share::Columns(standing) = share {
+            choices.walls = None;
+            let walls = standing.take().map(|standing| {
+                let (walls, set) = *standing;
+                world.walls = set;
+                walls
+            });
+            return Ok(InitialWorld {
+                world,
+                walls,
+                placed: PlacedParticles::default(),
+                leaks: Vec::new(),
+                warnings: Vec::new(),
+            });
+        }
         let mut warnings = scene.remarks.clone();
         if let Some(walls) = &mut choices.walls {
             check_scaling(scene, &**walls, &*choices.formulation)?;
             let shape = &*choices.kernel;
-            let domain = &world.domain;
-            world.walls = build_walls(scene, &drawn.walls, &mut **walls, shape, domain, h)?;
+            world.walls = build_walls(scene, &drawn.walls, &mut **walls, shape, &world)?;
             warnings.extend(walls.warnings());
         }
         let placed = place(scene, &drawn.regions, choices.walls.as_deref());
@@ -75,7 +76,7 @@ impl<const D: usize> InitialWorld<D> {
             warnings.extend(thin_walls(scene, walls.thin_walls(&placed.positions))?);
         }
         let elements = match world.walls.elements.corners.is_empty() && !drawn.walls.is_empty() {
-            true => with_elements(scene, drawn, &world, choices, h),
+            true => with_elements(scene, drawn, &world, choices),
             false => None,
         };
         let skins = elements.as_ref().unwrap_or(&world.walls);
@@ -89,36 +90,6 @@ impl<const D: usize> InitialWorld<D> {
             warnings,
         })
     }
-
-    /// The same among walls that stand already, without a particle.
-    ///
-    /// # Errors
-    /// The key of the scene that is wrong.
-    pub(crate) fn among(
-        scene: &Scene,
-        drawn: &Drawn<D>,
-        choices: &mut Choices<D>,
-        standing: Option<Box<ExistingWalls<D>>>,
-    ) -> Result<Self, SolverError> {
-        let mut world = empty(scene, drawn, choices)?;
-        choices.walls = None;
-        let walls = standing.map(|standing| {
-            let (walls, set) = *standing;
-            world.walls = set;
-            walls
-        });
-        Ok(InitialWorld {
-            world,
-            walls,
-            placed: PlacedParticles {
-                positions: Vec::new(),
-                body: Vec::new(),
-                warnings: Vec::new(),
-            },
-            leaks: Vec::new(),
-            warnings: Vec::new(),
-        })
-    }
 }
 
 /// The walls as the default treatment cuts them into elements, for a treatment that has none; nothing where it refuses them.
@@ -127,12 +98,10 @@ fn with_elements<const D: usize>(
     drawn: &Drawn<D>,
     world: &World<D>,
     choices: &Choices<D>,
-    h: f64,
 ) -> Option<WallSet<D>> {
     let nothing_named = Plugins::new(Vec::new(), Vec::new());
     let mut walls = nothing_named.one::<D, WallEntry>()?;
-    let kernel = &*choices.kernel;
-    build_walls(scene, &drawn.walls, &mut *walls, kernel, &world.domain, h).ok()
+    build_walls(scene, &drawn.walls, &mut *walls, &*choices.kernel, world).ok()
 }
 
 /// A box with a kernel and nothing in it.
@@ -168,4 +137,86 @@ fn empty<const D: usize>(
         extent: None,
         communicator: None,
     })
+}
+
+/// Refuses plugins that do not follow walls that scale the kernel.
+fn check_scaling<const D: usize>(
+    scene: &Scene,
+    walls: &dyn Wall<D>,
+    formulation: &dyn Formulation<D>,
+) -> Result<(), SolverError> {
+    if !walls.columns().contains(&SCALE.any()) {
+        return Ok(());
+    }
+    let refused = match formulation.is_scaled() {
+        true => scene.choice("pressure"),
+        false => scene.choice("formulation"),
+    };
+    let Some(refused) = refused else {
+        return Ok(());
+    };
+    let treatment = scene.choice("walls").map_or(String::new(), |c| c.path);
+    let path = &refused.path;
+    let why = format!(
+        "`{path}` has sums that `{treatment}` does not scale: take {}",
+        defaults::KNOWN_WALLS
+    );
+    Err(SolverError::at(refused.path, why))
+}
+
+/// Hands every drawn wall to the plugin; refusals point at the wall.
+fn build_walls<const D: usize>(
+    scene: &Scene,
+    drawn: &[WallSpec<D>],
+    walls: &mut dyn Wall<D>,
+    kernel: &dyn Kernel,
+    world: &World<D>,
+) -> Result<WallSet<D>, SolverError> {
+    let setup = WallSetup {
+        walls: drawn,
+        spacing: scene.numerics.spacing,
+        smoothing_length: world.kernel.smoothing_length(),
+        kernel,
+        domain: &world.domain,
+    };
+    let built = walls.build(&setup);
+    built.map_err(|e| wall_problem(scene, &e))
+}
+
+/// A refused wall, pointed at if its message names one of the scene's in backquotes.
+fn wall_problem(scene: &Scene, error: &BoundaryError) -> SolverError {
+    let text = error.to_string();
+    let named = scene.wall.keys().find(|n| text.contains(&format!("`{n}`")));
+    let path = named.map_or("wall".to_string(), |n| format!("wall.{n}"));
+    SolverError::at(path, text)
+}
+
+/// Refuses walls that do not hide fluid on one side from fluid on the other; remarks on plates that have none there yet.
+fn thin_walls<const D: usize>(
+    scene: &Scene,
+    thin: Vec<ThinWall<D>>,
+) -> Result<Vec<String>, SolverError> {
+    let told = |thin: &ThinWall<D>, what: &str| {
+        let at: Vec<String> = thin.place.iter().map(|x| format!("{x:.4}")).collect();
+        // On the safe side of rounding.
+        let (least, spacing) = (1.01 * thin.least, 0.99 * thin.spacing);
+        format!(
+            "the wall is {:.2e} m thick near ({}), and {what} through it: make it {least:.2e} m thick or more, or \
+             `numerics.spacing` {spacing:.2e} m or less",
+            thin.thickness,
+            at.join(", ")
+        )
+    };
+    if let Some(thin) = thin.iter().find(|thin| thin.wet) {
+        let what = "the fluid on its two sides would feel each other";
+        let why = told(thin, what);
+        return Err(SolverError::at(format!("wall.{}", thin.wall), why));
+    }
+    let what = "fluid on its two sides would feel each other";
+    let remark = |thin: &ThinWall<D>| format!("wall `{}`: {}", thin.wall, told(thin, what));
+    let plate = |thin: &&ThinWall<D>| {
+        let wall = scene.wall.get(&thin.wall);
+        wall.is_some_and(|w| w.thickness.is_some())
+    };
+    Ok(thin.iter().filter(plate).map(remark).collect())
 }

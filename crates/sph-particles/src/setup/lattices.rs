@@ -37,9 +37,8 @@ impl Contact {
     /// Mean distance where it is far from the fitting one, all along.
     fn misfit(&self, fitting: f64) -> Option<f64> {
         let mean = self.sum / self.number as f64;
-        let scatter = (self.squares / self.number as f64 - mean * mean)
-            .max(0.0)
-            .sqrt();
+        let scatter = self.squares / self.number as f64 - mean * mean;
+        let scatter = scatter.max(0.0).sqrt();
         let told = self.number >= ROW && scatter < FLAT && (mean - fitting).abs() > MISFIT;
         told.then_some(mean)
     }
@@ -89,15 +88,10 @@ pub fn remarks<const D: usize>(
         for (other, apart) in nearest.into_iter().filter(|(_, d)| *d < CONTACT) {
             contacts.entry([body(k), other]).or_default().add(apart);
         }
-        let wall = walls.as_ref();
-        if let Some((distance, name)) =
-            wall.and_then(|w| w.clearance(x, (first + CONTACT - 1.0) * world.spacing))
-        {
-            let key = (body(k), name.to_string());
-            at_walls
-                .entry(key)
-                .or_default()
-                .add(distance / world.spacing);
+        let near = (first + CONTACT - 1.0) * world.spacing;
+        if let Some((distance, name)) = walls.and_then(|w| w.clearance(x, near)) {
+            let contact = at_walls.entry((body(k), name.to_string())).or_default();
+            contact.add(distance / world.spacing);
         }
     }
     let mut remarks = Vec::new();

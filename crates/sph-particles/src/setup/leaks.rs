@@ -97,11 +97,11 @@ impl<const D: usize> LeakInput<'_, D> {
         }
         let ends = self.ends(rim);
         let centre = 0.5 * (low + high);
-        let others = self.skins.all.iter().enumerate();
-        let around = others
-            .filter(|(k, skin)| skin.holds && !rim.skins.contains(k))
-            .find(|(_, skin)| in_box(skin, &centre));
-        if let Some((_, skin)) = around {
+        let mut others = self.skins.all.iter().enumerate();
+        let around = |k: usize, skin: &Skin<D>| {
+            skin.holds && !rim.skins.contains(&k) && in_box(skin, &centre)
+        };
+        if let Some((_, skin)) = others.find(|(k, skin)| around(*k, skin)) {
             let holds = self.name(skin.wall);
             return told(format!(
                 "it ends at {ends}, within wall `{holds}`, and no wall goes on there: fluid gets behind it; close it{}",
@@ -178,10 +178,8 @@ impl<const D: usize> LeakInput<'_, D> {
             _ => {
                 let [low, high] = rim.bounds(points);
                 let wide = number::plain((high - low).norm());
-                format!(
-                    "an opening {wide} m wide around {}",
-                    place(&rim.centre(points))
-                )
+                let centre = place(&rim.centre(points));
+                format!("an opening {wide} m wide around {centre}")
             }
         }
     }

@@ -50,9 +50,7 @@ pub(crate) fn prepare<const D: usize>(
         }
         settled.push((wall, Arc::from(mover)));
     }
-    if !problems.is_empty() {
-        return Err(SolverError::Scene(problems));
-    }
+    SolverError::of(problems)?;
     for spec in &mut drawn.walls {
         let of_it = |(name, _): &&(String, _)| name == spec.drawing.name();
         spec.mover = settled.iter().find(of_it).map(|(_, m)| m.clone());

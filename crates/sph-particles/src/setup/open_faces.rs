@@ -1,20 +1,24 @@
-//! Preparation of open faces with the scene and their walls.
+//! Preparation of open faces with the scene and their walls, and the background pressure of a full box whose faces brake
+//! the fluid: without it the fluid would have to carry tension.
+//!
+//! A face whose velocity into the fluid falls by Δu sends off a wave of −ρcΔu. Particles carry no tension: a full box
+//! without background pressure is torn apart, and torn parts move on their own.
 
 use std::sync::Arc;
 
 use sph_boundary::{Wall, WallCondition};
 use sph_contribution::Part;
 use sph_core::fields::RENORMALISATION;
-use sph_core::{SceneProblem, Shape};
+use sph_core::{SceneProblem, Shape, Vect};
+use sph_neighbours::{CellGrid, World};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
-use sph_rheology::state::Laws;
+use sph_rheology::state::{Laws, Lift};
 use sph_scene::Scene;
 use sph_solver::setup::Choices;
 use sph_solver::{SolverError, defaults};
 
+use crate::setup::box_around;
 use crate::setup::shapes::Drawn;
-use crate::setup::tension;
-use crate::setup::tension::FilledBox;
 
 /// Distance in front of a port within which the free volume of a particle is measured, over the spacing.
 const ROOM: f64 = 0.5;
@@ -33,14 +37,12 @@ pub(crate) fn prepare<const D: usize>(
     let Some((first, _)) = given.first() else {
         return Ok(None);
     };
-    let walls = choices.walls.take();
-    let Some(walls) =
-        walls.filter(|w| w.columns() == [RENORMALISATION.any()] && w.lattice_offset() > 0.0)
-    else {
+    let opens =
+        |w: &dyn Wall<D>| w.columns() == [RENORMALISATION.any()] && w.lattice_offset() > 0.0;
+    let Some(walls) = choices.walls.take().filter(|w| opens(&**w)) else {
         let write = defaults::OPEN_WALLS;
-        let other =
-            format!("open faces need semi-analytical walls without vertices: write {write}");
-        return Err(SolverError::at(path(scene, first, ""), other));
+        let why = format!("open faces need semi-analytical walls without vertices: write {write}");
+        return Err(SolverError::at(path(scene, first, ""), why));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
     let speeds = laws.iter().map(|law| law.reference().sound_speed);
@@ -53,33 +55,21 @@ pub(crate) fn prepare<const D: usize>(
     };
     let refused = given.iter().filter_map(|(wall, law)| {
         let refusal = law.prepare(&setting).err()?;
-        Some(SceneProblem::new(
-            path(scene, wall, &refusal.key),
-            refusal.why,
-        ))
+        let path = path(scene, wall, &refusal.key);
+        Some(SceneProblem::new(path, refusal.why))
     });
-    let problems: Vec<_> = refused.collect();
-    if !problems.is_empty() {
-        return Err(SolverError::Scene(problems));
-    }
+    SolverError::of(refused.collect())?;
     for spec in &mut drawn.walls {
         if given.iter().any(|(name, _)| name == spec.drawing.name()) {
             spec.open = true;
             spec.condition = WallCondition::FreeSlip;
         }
     }
-    let given: Vec<(String, Arc<dyn OpenBoundary<D>>)> = given
-        .into_iter()
-        .map(|(name, law)| (name, Arc::from(law)))
-        .collect();
+    let shared = |(name, law)| (name, Arc::from(law));
+    let given: Vec<(String, Arc<dyn OpenBoundary<D>>)> = given.into_iter().map(shared).collect();
+    let spacing = scene.numerics.spacing;
     let summed = choices.formulation.compressed().is_none();
-    let (walls, opened) = open(
-        walls,
-        given,
-        (laws, &phases),
-        scene.numerics.spacing,
-        summed,
-    );
+    let (walls, opened) = open(walls, given, (laws, &phases), spacing, summed);
     choices.walls = Some(walls);
     Ok(Some(opened))
 }
@@ -105,12 +95,9 @@ pub(crate) fn check<const D: usize>(
         return Ok(Vec::new());
     };
     let misfits = opened.misfits().into_iter();
-    let misfits: Vec<_> = misfits
-        .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why))
-        .collect();
-    if !misfits.is_empty() {
-        return Err(SolverError::Scene(misfits));
-    }
+    let misfits = misfits
+        .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why));
+    SolverError::of(misfits.collect())?;
     let mut blocked = Vec::<SceneProblem>::new();
     if let Some(walls) = walls {
         for (name, place) in opened.in_front(ROOM * scene.numerics.spacing) {
@@ -125,11 +112,9 @@ pub(crate) fn check<const D: usize>(
             }
         }
     }
-    if !blocked.is_empty() {
-        return Err(SolverError::Scene(blocked));
-    }
+    SolverError::of(blocked)?;
     let mut all = remarks(scene, opened);
-    all.extend(tension::lift(scene, opened, walls, filled));
+    all.extend(lift(scene, opened, walls, filled));
     Ok(all)
 }
 
@@ -144,20 +129,25 @@ fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<Str
     )]
 }
 
-/// Refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
+/// Joins open faces to the parts; refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
 ///
 /// # Errors
 /// The key of the value.
-pub(crate) fn check_values<const D: usize>(
+pub(crate) fn join<const D: usize>(
     scene: &Scene,
-    entering: &[(String, Entering)],
-    parts: &[Part<D>],
+    opened: Option<OpenBoundaries<D>>,
+    parts: &mut Vec<Part<D>>,
 ) -> Result<(), SolverError> {
+    let Some(opened) = opened else {
+        return Ok(());
+    };
+    let entering = opened.entering();
+    parts.push(("open-boundary", opened.boxed()));
     let columns = parts.iter().flat_map(|(_, part)| part.columns());
     let known = columns.filter(|c| c.field.shape == Shape::Scalar);
     let known: Vec<_> = known.map(|c| (c.field, c.within)).collect();
     let mut problems = Vec::new();
-    for (wall, Entering { values, .. }) in entering {
+    for (wall, Entering { values, .. }) in &entering {
         for (name, value) in values {
             let found = known.iter().find(|(field, _)| field.name == name);
             let why = match found {
@@ -180,14 +170,92 @@ pub(crate) fn check_values<const D: usize>(
                     )
                 }
             };
-            problems.push(SceneProblem::new(
-                path(scene, wall, &format!("values.{name}")),
-                why,
-            ));
+            let path = path(scene, wall, &format!("values.{name}"));
+            problems.push(SceneProblem::new(path, why));
         }
     }
-    match problems.is_empty() {
-        true => Ok(()),
-        false => Err(SolverError::Scene(problems)),
+    SolverError::of(problems)
+}
+
+/// Lift over ρcΔu: half as much again for reflections at faces and walls.
+const LIFT: f64 = 1.5;
+/// The largest lift over ρc²: that of a flow of Mach 0.1 that turns round.
+const MOST: f64 = 0.3;
+/// Distance over the spacing within which a particle fills a place.
+const NEAR: f64 = 0.8;
+
+/// A box, its particles, their laws and their lift.
+pub(crate) type FilledBox<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
+
+/// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
+/// remark on it, or on the background pressure that is missing.
+fn lift<const D: usize>(
+    scene: &Scene,
+    opened: &OpenBoundaries<D>,
+    walls: Option<&dyn Wall<D>>,
+    (room, positions, laws, lift): FilledBox<'_, D>,
+) -> Option<String> {
+    let walls = walls?;
+    let references = || laws.iter().map(|law| law.reference());
+    let speeds = references().map(|r| r.sound_speed);
+    let slowest = speeds.fold(f64::INFINITY, f64::min);
+    positions.first()?;
+    let [low, high] = box_around(positions);
+    // Sound goes there and back.
+    let time = 2.0 * (high - low).norm() / slowest;
+    let (face, fall) = opened.braking(time, scene.run.end)?;
+    let at_reference = laws.iter().map(|law| {
+        let mut pressure = [0.0];
+        law.pressure(&[law.reference().density], &mut pressure);
+        pressure[0]
+    });
+    let background = at_reference.fold(0.0, f64::max);
+    let tensions = references().map(|r| r.density * r.sound_speed * fall);
+    let tension = tensions.fold(0.0, f64::max);
+    if background >= tension || !is_full(room, walls, positions) {
+        return None;
     }
+    let stiffness = references().map(|r| r.density * r.sound_speed.powi(2));
+    let stiffness = stiffness.fold(f64::INFINITY, f64::min);
+    let pressure = LIFT * tension;
+    let why = format!(
+        "the open face `{face}` brakes the fluid of a full box by {fall:.3} m/s, which needs a tension of {tension:.3e} Pa; particles carry none"
+    );
+    // A light phase beside a heavy one would be stirred by a background pressure of the heavy one's size.
+    if background > 0.0 || laws.len() > 1 {
+        return Some(format!(
+            "{why}: let it change more slowly, or give a `background_pressure` of {pressure:.2e} Pa"
+        ));
+    }
+    if pressure > MOST * stiffness {
+        return Some(format!(
+            "{why}: raise `speed_of_sound` until ρc² is above {:.2e} Pa, or give a `background_pressure`",
+            pressure / MOST
+        ));
+    }
+    lift.set(pressure);
+    opened.lifted();
+    Some(format!(
+        "{why}: all pressures are {pressure:.3e} Pa higher; a `background_pressure` of the equation of state takes \
+         its place"
+    ))
+}
+
+/// True if every place a spacing beside a particle has another particle, or is behind a wall.
+fn is_full<const D: usize>(room: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
+    let reach = (1.0 + NEAR) * room.spacing;
+    let grid = CellGrid::new(positions, reach, &room.domain);
+    positions.iter().all(|x| {
+        let mut around = Vec::new();
+        let way = |j: &u32| room.domain.nearest_image(positions[*j as usize] - x);
+        grid.ranges(x, reach, |range| {
+            around.extend(grid.order()[range].iter().map(way));
+        });
+        (0..2 * D).all(|side| {
+            let mut way = Vect::<D>::zeros();
+            way[side / 2] = [room.spacing, -room.spacing][side % 2];
+            let near = |other: &Vect<D>| (other - way).norm() < NEAR * room.spacing;
+            around.iter().any(near) || !walls.contains(&(x + way))
+        })
+    })
 }

@@ -1,19 +1,16 @@
 //! Places of the particles at time zero.
 
-mod filled_share;
-
 use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::place_cells::PlaceCells;
 use sph_core::{SceneProblem, Vect};
 use sph_scene::{Body, BodyParticles, Offset, Region, Scene, disturb, fill};
 
-use filled_share::shares;
-
 /// A particle nearer to a wall than this share of a spacing is left out.
 const TOO_NEAR: f64 = 0.4;
 
 /// Positions with the number of their body, in the order of identities.
+#[derive(Default)]
 pub struct PlacedParticles<const D: usize> {
     /// Positions, m.
     pub positions: Vec<Vect<D>>,
@@ -44,16 +41,12 @@ pub fn place<const D: usize>(
     let periodic = scene.numerics.periodic.bounds::<D>();
     let filled = filled(scene, regions, offset);
     let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
-    let mut placed = PlacedParticles {
-        positions: Vec::new(),
-        body: Vec::new(),
-        warnings: Vec::new(),
-    };
+    let mut placed = PlacedParticles::default();
     let mut problems = Vec::new();
     let mut numbers = vec![0; regions.len()];
     for filled in &filled {
         let (name, body) = bodies[filled.body];
-        let clipped = body.clip || body.fill.is_some();
+        let clipped = body.needs_walls();
         let (mut kept, mut dropped, mut behind) = (Vec::new(), 0, Vec::new());
         let held = |position: &[f64; D]| {
             let x = Vect::from(*position);
@@ -89,10 +82,8 @@ pub fn place<const D: usize>(
             ));
         }
         if kept.is_empty() && problems.is_empty() && scene.window.is_none() {
-            problems.push(SceneProblem::new(
-                format!("body.{name}"),
-                nothing_left(body, spacing, before),
-            ));
+            let why = nothing_left(body, spacing, before);
+            problems.push(SceneProblem::new(format!("body.{name}"), why));
         }
         numbers[filled.body] = kept.len();
         placed.body.extend(kept.iter().map(|_| filled.body as u32));
@@ -130,7 +121,7 @@ fn filled<const D: usize>(
 }
 
 fn nothing_left(body: &Body, spacing: f64, before: usize) -> String {
-    match (&body.seed, body.clip || body.fill.is_some()) {
+    match (&body.seed, body.needs_walls()) {
         (Some(_), _) => format!(
             "no particle is within a spacing of the `seed`; {before} are on the fluid's side of the walls"
         ),
@@ -165,15 +156,13 @@ fn facing_away<const D: usize>(
         true => "`flip = true` turns it round",
         false => "its key `fluid` turns it round",
     };
-    Some(SceneProblem::new(
-        format!("body.{body}"),
-        format!(
-            "{kept} of {} particles are on the fluid's side of the walls, and {} are behind wall `{name}`: are the \
-             walls drawn with the fluid on the right side? {turn}",
-            kept + behind.len(),
-            backs.len()
-        ),
-    ))
+    let why = format!(
+        "{kept} of {} particles are on the fluid's side of the walls, and {} are behind wall `{name}`: are the \
+         walls drawn with the fluid on the right side? {turn}",
+        kept + behind.len(),
+        backs.len()
+    );
+    Some(SceneProblem::new(format!("body.{body}"), why))
 }
 
 /// The nearest wall, looked for ever farther out.
@@ -213,22 +202,65 @@ fn through_a_wall<const D: usize>(
     walls: &dyn Wall<D>,
     spacing: f64,
 ) -> SceneProblem {
-    let at = x
-        .iter()
-        .map(|c| format!("{c:.6}"))
-        .collect::<Vec<_>>()
-        .join(", ");
+    let at: Vec<String> = x.iter().map(|c| format!("{c:.6}")).collect();
     let named = nearest(x, walls, spacing);
     let wall = named.map_or(String::from("the walls"), |name| format!("wall `{name}`"));
     let side = match D {
         2 => "the fluid must be on the left of every wall's direction of travel",
         _ => "the normals of every wall must point into the fluid",
     };
-    SceneProblem::new(
-        format!("body.{body}"),
-        format!(
-            "the body reaches through {wall}: ({at}) is behind it; {side}. `clip = true` keeps \
-             only what is in front of the walls"
-        ),
-    )
+    let why = format!(
+        "the body reaches through {wall}: ({}) is behind it; {side}. `clip = true` keeps \
+         only what is in front of the walls",
+        at.join(", ")
+    );
+    SceneProblem::new(format!("body.{body}"), why)
+}
+
+/// A body that fills less or more than this off its space is remarked upon.
+const OFF: f64 = 0.015;
+/// Largest number of samples: finer lattices find the space to a smaller share of its surface.
+const SAMPLES: usize = 100_000;
+/// Samples per spacing, at most.
+const FINEST: usize = 16;
+
+/// Remarks on bodies whose particles do not fill their box, or the space between walls, in a scene without gravity:
+/// there is no surface then that could fall or rise, and the missing volume opens as a void or lowers the pressure by
+/// ρc² times its share. Walls with points of their own, which have volumes, get no remark.
+pub fn shares<const D: usize>(
+    scene: &Scene,
+    regions: &[Region<D>],
+    walls: &dyn Wall<D>,
+    periodic: &[Option<[f64; 2]>; D],
+    kept: &[usize],
+) -> Vec<String> {
+    let spacing = scene.numerics.spacing;
+    let most = kept.iter().copied().max().unwrap_or(0).max(1);
+    let finer = (SAMPLES / most) as f64;
+    let finer = (finer.powf(1.0 / D as f64) as usize).min(FINEST);
+    let fills = |body: &Body| body.needs_walls() || body.shape.bounds.is_some();
+    let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
+    if finer < 2 || !weightless || !scene.body.values().any(fills) {
+        return Vec::new();
+    }
+    let step = spacing / finer as f64;
+    let samples = fill(regions, step, Offset::Half, periodic);
+    let share = |filled: &BodyParticles<D>| {
+        let inside = filled.positions.iter().map(|x| Vect::from(*x));
+        let inside = inside.filter(|x| walls.contains(x)).count() as f64;
+        kept[filled.body] as f64 * (finer as f64).powi(D as i32) / inside
+    };
+    let bodies = scene.body.iter().zip(&samples);
+    let odd = bodies.filter(|((_, body), _)| fills(body) && body.seed.is_none());
+    odd.map(|((name, _), filled)| (name, share(filled)))
+        .filter(|(_, share)| share.is_finite() && (share - 1.0).abs() > OFF)
+        .map(|(name, share)| {
+            format!(
+                "the particles of body `{name}` fill {:.1} % of its space between the walls: where no surface can fall, the \
+                 rest opens as a void or changes the pressure by as much of \u{3c1}c\u{b2}; choose a spacing that divides the \
+                 distances between walls",
+                100.0 * share
+            )
+        })
+        .collect()
 }

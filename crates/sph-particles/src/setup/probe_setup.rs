@@ -1,10 +1,11 @@
-//! Preparation of probes by the scene.
+//! Preparation of probes by the scene, and check of the fields that outputs name.
 
-use sph_core::{SceneProblem, parse_unit, suggestion};
+use sph_core::{SceneProblem, StepError, fields, parse_unit, suggestion};
 use sph_probes::{Probe, ProbeScene};
 use sph_scene::Scene;
-use sph_solver::SolverError;
 use sph_solver::setup::own_accounts;
+use sph_solver::step::term_accelerations;
+use sph_solver::{Flow, SolverError};
 
 use crate::setup::reference_table::LONGEST;
 
@@ -25,10 +26,7 @@ pub fn prepare<const D: usize>(
     let mut problems = Vec::new();
     let mut columns = Vec::new();
     for (name, probe) in probes {
-        let kind = match scene.gauge.contains_key(name) {
-            true => "gauge",
-            false => "probe",
-        };
+        let kind = scene.table_of_probe(name);
         if let Err(why) = probe.prepare(&known) {
             problems.push(SceneProblem::new(format!("{kind}.{name}.phase"), why));
         }
@@ -41,16 +39,11 @@ pub fn prepare<const D: usize>(
     for (name, reference) in &scene.reference {
         if let Some(probe) = reference.probe.as_ref().filter(|p| !columns.contains(p)) {
             let near = suggestion(probe, columns.iter().map(String::as_str));
-            problems.push(SceneProblem::new(
-                format!("reference.{name}.probe"),
-                format!("no probe has a column `{probe}`{near}"),
-            ));
+            let why = format!("no probe has a column `{probe}`{near}");
+            problems.push(SceneProblem::new(format!("reference.{name}.probe"), why));
         }
     }
-    match problems.is_empty() {
-        true => Ok(()),
-        false => Err(SolverError::Scene(problems)),
-    }
+    SolverError::of(problems)
 }
 
 /// Reads the file that a probe compares with, and hands it over.
@@ -73,12 +66,83 @@ fn load_reference<const D: usize>(
     let factor = |unit: &str| parse_unit(unit).map_or(1.0, |(factor, _)| factor);
     let factors = [x, y].map(|column| factor(&column.unit));
     let rows = x.values.iter().zip(&y.values);
-    let rows = rows
-        .map(|(x, y)| [factors[0] * x, factors[1] * y])
-        .collect();
-    probe
-        .load_reference(rows)
-        .map_err(|why| format!("`{file}` {why}"))
+    let rows = rows.map(|(x, y)| [factors[0] * x, factors[1] * y]);
+    let loaded = probe.load_reference(rows.collect());
+    loaded.map_err(|why| format!("`{file}` {why}"))
+}
+
+/// Probes by name.
+pub type Probes<const D: usize> = [(String, Box<dyn Probe<D>>)];
+
+/// Measures once without writing, so that a wrong probe is found before anything exists.
+pub fn rehearse<const D: usize>(
+    scene: &Scene,
+    flow: &mut Flow<D>,
+    probes: &Probes<D>,
+) -> Result<(), SolverError> {
+    measure_walls(flow, probes)?;
+    for (name, probe) in probes {
+        let kind = scene.table_of_probe(name);
+        let problem = |e: StepError| match e {
+            StepError::Stage { reason, .. } => SolverError::at(format!("{kind}.{name}"), reason),
+            other => other.into(),
+        };
+        probe.measure(&flow.world).map_err(problem)?;
+    }
+    Ok(())
+}
+
+/// Measures the forces on walls that probes read.
+pub fn measure_walls<const D: usize>(
+    flow: &mut Flow<D>,
+    probes: &Probes<D>,
+) -> Result<(), StepError> {
+    let read = probes.iter().filter_map(|(_, p)| p.needs().force_on);
+    let read: Vec<&str> = read.collect();
+    match read.is_empty() {
+        true => Ok(()),
+        false => flow.measure_wall_forces(|name| read.contains(&name)),
+    }
+}
+
+/// Refuses names of fields that no plugin of the scene has.
+///
+/// # Errors
+/// Every unknown name, with the nearest one that is known.
+pub(crate) fn check_output_fields<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+) -> Result<(), SolverError> {
+    let free = &flow.world.free;
+    let lists = [
+        ("output.fields", &scene.output.fields),
+        ("output.picture", &scene.output.picture),
+    ];
+    // Fields on request are listed with the others.
+    let written = sph_probes::SURFACE_DISTANCE.name;
+    let more = sph_probes::derived_fields().chain([fields::STRAIN_RATE.name, written]);
+    let more = more.chain(term_accelerations::names());
+    let more = more.filter(|name| !free.has(name));
+    let names: Vec<&str> = free.fields().map(|f| f.name).chain(more).collect();
+    let unknown = |path: &str, name: &str| {
+        let near = suggestion(name, names.iter().copied());
+        let known = names.join(", ");
+        let message =
+            format!("no plugin of this scene has a field `{name}`{near} (there are: {known})");
+        SceneProblem::new(path, message)
+    };
+    let mut problems = Vec::new();
+    for (path, wanted) in lists {
+        let missing = wanted.iter().filter(|n| *n != written && !free.has(n));
+        problems.extend(missing.map(|name| unknown(path, name)));
+    }
+    if let Some(colours) = &scene.output.picture_range {
+        // Colours of a field that is not drawn now do no harm: pictures are changed with `--set`.
+        let known = |name: &str| names.contains(&name) || name == fields::DISPLACEMENT.name;
+        let missing = colours.fields().filter(|name| !known(name));
+        problems.extend(missing.map(|name| unknown(&format!("output.picture_range.{name}"), name)));
+    }
+    SolverError::of(problems)
 }
 
 #[cfg(test)]
@@ -103,15 +167,11 @@ mod tests {
 
     #[test]
     fn phases_and_columns_are_looked_up() {
-        assert_eq!(
-            messages("probe.e = { kind = \"extent\", phase = \"water\" }"),
-            ""
-        );
+        let right = messages("probe.e = { kind = \"extent\", phase = \"water\" }");
+        assert_eq!(right, "");
         let wrong = messages("gauge.e = { kind = \"extent\", phase = \"wter\" }");
-        assert_eq!(
-            wrong,
-            "gauge.e.phase: there is no phase called `wter`, did you mean `water`?"
-        );
+        let told = "gauge.e.phase: there is no phase called `wter`, did you mean `water`?";
+        assert_eq!(wrong, told);
         let wrong = messages("probe.e = { kind = \"line\", file = \"nosuch.csv\" }");
         assert!(wrong.starts_with("probe.e.file: cannot read"), "{wrong}");
         let wrong = messages("probe.e = { kind = \"front\", phase = \"air\" }");

@@ -65,16 +65,20 @@ fn columns_of(reference: &Reference, path: &Path) -> Result<Table, IoError> {
     if let (Norm::Band, Some(low), Some(high)) =
         (reference.norm(), &reference.lower, &reference.upper)
     {
-        let time = reference.columns.as_ref().map(|c| c[0].clone());
-        let time = match time {
-            Some(time) => time,
+        let time = match &reference.columns {
+            Some(columns) => columns[0].clone(),
             None => read_table(path)?.columns[0].name.clone(),
         };
         return read_columns(path, &[&time, low, high]);
     }
-    match &reference.columns {
-        Some(columns) => {
-            let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+    named_or_all(path, reference.columns.as_deref())
+}
+
+/// The columns of these names, or all of a table.
+pub(crate) fn named_or_all(path: &Path, names: Option<&[String]>) -> Result<Table, IoError> {
+    match names {
+        Some(names) => {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
             read_columns(path, &names)
         }
         None => read_table(path),

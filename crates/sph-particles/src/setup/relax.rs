@@ -1,12 +1,12 @@
 //! Relaxing the first particles, so that the density sum is even next to slanted and curved walls.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, Domain, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
 
-use crate::setup::relaxation::Relaxation;
 use crate::setup::shapes::Drawn;
 
 /// Share of h² ∇C by which a particle moves in one step; 1 does not converge.
@@ -101,22 +101,16 @@ fn relax_positions<const D: usize>(
         let held = world.free.get(fields::IDENTITY)?.iter();
         let held: Vec<bool> = held.map(|id| held_by_identity[*id as usize]).collect();
         let all = concentrations(world)?;
-        let free = || {
-            all.iter()
-                .enumerate()
-                .zip(&held)
-                .filter(|(_, held)| !**held)
-        };
+        let free = || all.iter().enumerate().filter(|(i, _)| !held[*i]);
         let contacts = &world.walls.contacts;
-        let inner = free().filter(|((i, _), _)| contacts.of_particle(*i).is_empty());
-        let inner: Vec<f64> = inner.map(|((_, c), _)| c.value).collect();
+        let inner = free().filter(|(i, _)| contacts.of_particle(*i).is_empty());
+        let inner: Vec<f64> = inner.map(|(_, c)| c.value).collect();
         let mean = match inner.len() {
             0 => 1.0,
             n => inner.iter().sum::<f64>() / n as f64,
         };
-        let errors: Vec<f64> = free()
-            .map(|((_, c), _)| (c.value / mean - 1.0).abs())
-            .collect();
+        let errors = free().map(|(_, c)| (c.value / mean - 1.0).abs());
+        let errors: Vec<f64> = errors.collect();
         let largest = errors.iter().copied().fold(0.0, f64::max);
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64).sqrt();
         let so_far = result.get_or_insert(Relaxation {
@@ -218,4 +212,25 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
     Ok(rows
         .map_init(|| (Scratch::default(), Vec::new()), of)
         .collect())
+}
+
+/// Results of a relaxation; errors are |Σ θ V w / γ − 1| with the volume V that a particle ends up with.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Relaxation {
+    /// Steps taken.
+    pub steps: usize,
+    /// Particles farther than a support from any free surface; the others stay where they are
+    /// and are not counted.
+    pub counted: usize,
+    /// Largest error before.
+    pub largest_before: f64,
+    /// Largest error after.
+    pub largest: f64,
+    /// Root mean square of the error before.
+    pub rms_before: f64,
+    /// Root mean square of the error after.
+    pub rms: f64,
+    /// Volume of a particle over that of a cell of the lattice: the fluid's volume per particle, from the mean of Σ V w
+    /// over the particles that see neither a wall nor a surface.
+    pub volume: f64,
 }

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 use sph_neighbours::{Domain, WallSet};
 
+use crate::setup::box_around;
+
 /// Elements that hang together.
 pub(crate) struct Skin<const D: usize> {
     /// Index of the wall of its first element.
@@ -44,8 +46,7 @@ impl<const D: usize> Skins<D> {
             2 => ends(points, &elements.corners, &of_point, domain),
             _ => holes(points, &elements.corners, &of_point, domain),
         };
-        let box_of = |_| [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
-        let mut boxes: Vec<[Vect<D>; 2]> = (0..count).map(box_of).collect();
+        let mut boxes: Vec<[Vect<D>; 2]> = vec![box_around([]); count];
         for (x, skin) in points.iter().zip(&of_point) {
             if let Some(skin) = skin {
                 let [low, high] = &mut boxes[*skin];
@@ -92,9 +93,7 @@ impl<const D: usize> Rim<D> {
 
     /// Corners of the box around it, m.
     pub fn bounds(&self, points: &[Vect<D>]) -> [Vect<D>; 2] {
-        let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
-        let all = self.nodes.iter().map(|n| &points[*n]);
-        all.fold(none, |[low, high], x| [low.inf(x), high.sup(x)])
+        box_around(self.nodes.iter().map(|n| &points[*n]))
     }
 }
 
@@ -122,10 +121,8 @@ fn joined<const D: usize>(
     let mut of_element = Vec::with_capacity(corners.len());
     let mut of_point = vec![None; points];
     for element in corners {
-        let next = number.len();
-        let skin = *number
-            .entry(find(&mut root, element[0] as usize))
-            .or_insert(next);
+        let (next, first) = (number.len(), find(&mut root, element[0] as usize));
+        let skin = *number.entry(first).or_insert(next);
         of_element.push(skin);
         for corner in element {
             of_point[*corner as usize] = Some(skin);
@@ -146,19 +143,15 @@ fn ends<const D: usize>(
         counts[element[0] as usize][0] += 1;
         counts[element[1] as usize][1] += 1;
     }
+    let counts = &counts;
     let free = |side: usize| {
-        let ends = counts.iter().enumerate();
-        ends.filter(move |(_, c)| c[side] > 0 && c[1 - side] == 0)
-            .map(|(k, _)| k)
+        (0..counts.len()).filter(move |&k| counts[k][side] > 0 && counts[k][1 - side] == 0)
     };
     let way = |last: usize, first: usize| domain.nearest(points[first] - points[last]);
-    let mut pairs: Vec<(usize, usize)> = free(1)
-        .flat_map(|last| free(0).map(move |first| (last, first)))
-        .collect();
-    pairs.sort_by(|a, b| {
-        let [a, b] = [a, b].map(|pair| way(pair.0, pair.1).norm_squared());
-        a.total_cmp(&b)
-    });
+    let pairs = free(1).flat_map(|last| free(0).map(move |first| (last, first)));
+    let mut pairs: Vec<(usize, usize)> = pairs.collect();
+    let far = |pair: &(usize, usize)| way(pair.0, pair.1).norm_squared();
+    pairs.sort_by(|a, b| far(a).total_cmp(&far(b)));
     let mut taken = vec![false; points.len()];
     let mut rims = Vec::new();
     for (last, first) in pairs {
@@ -196,14 +189,12 @@ fn holes<const D: usize>(
     }
     let free: Vec<[u32; 2]> = edges.values().filter(|e| e.0 == 1).map(|e| e.1).collect();
     let (rim_of, of_edge, count) = joined(points.len(), &free);
-    let mut rims: Vec<Rim<D>> = Vec::with_capacity(count);
-    for _ in 0..count {
-        rims.push(Rim {
-            skins: [0; 2],
-            nodes: Vec::new(),
-            lid: Vect::zeros(),
-        });
-    }
+    let none = |_| Rim {
+        skins: [0; 2],
+        nodes: Vec::new(),
+        lid: Vect::zeros(),
+    };
+    let mut rims: Vec<Rim<D>> = (0..count).map(none).collect();
     for (node, rim) in rim_of.iter().enumerate() {
         if let (Some(rim), Some(skin)) = (rim, of_point[node]) {
             rims[*rim].nodes.push(node);

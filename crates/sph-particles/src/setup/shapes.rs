@@ -10,7 +10,7 @@ use sph_boundary::{
 use sph_core::plausible::Quantity;
 use sph_core::{Vect, suggestion, unit_factor};
 use sph_neighbours::Coulomb;
-use sph_scene::{Facets, FrictionForm, Levels, Line, Region, Scene};
+use sph_scene::{Facets, FrictionForm, Levels, Line, Region, Scene, SlipCondition};
 use sph_solver::SolverError;
 
 /// Most corners of lines, or facets of surfaces, of all walls.
@@ -18,12 +18,10 @@ const PIECES: usize = 10_000_000;
 
 /// Refuses the wall with which there are too many corners or facets.
 fn few(pieces: usize, place: &str) -> Result<(), SolverError> {
+    let why = format!("with this wall there are {pieces} corners or facets, more than {PIECES}");
     match pieces > PIECES {
         false => Ok(()),
-        true => Err(SolverError::at(
-            place,
-            format!("with this wall there are {pieces} corners or facets, more than {PIECES}"),
-        )),
+        true => Err(SolverError::at(place, why)),
     }
 }
 
@@ -63,12 +61,12 @@ impl<const D: usize> Drawn<D> {
             let mut motion = motion_of::<D>(wall, &place, scene.run.end)?;
             motion.bed = bed_of(scene, name, wall, &mut beds);
             let condition = match wall.condition {
-                sph_scene::SlipCondition::NoSlip => WallCondition::NoSlip,
-                sph_scene::SlipCondition::FreeSlip => WallCondition::FreeSlip,
-                sph_scene::SlipCondition::PartialSlip => WallCondition::PartialSlip {
+                SlipCondition::NoSlip => WallCondition::NoSlip,
+                SlipCondition::FreeSlip => WallCondition::FreeSlip,
+                SlipCondition::PartialSlip => WallCondition::PartialSlip {
                     length: wall.slip_length.unwrap_or(0.0),
                 },
-                sph_scene::SlipCondition::Coulomb => WallCondition::Coulomb(Coulomb {
+                SlipCondition::Coulomb => WallCondition::Coulomb(Coulomb {
                     coefficient: wall.friction_coefficient.unwrap_or(0.0),
                     literal: wall.friction_form == Some(FrictionForm::Literal),
                 }),
@@ -94,8 +92,7 @@ impl<const D: usize> Drawn<D> {
                 });
             }
         }
-        let regions = scene.regions_within(drawn.bounds);
-        drawn.regions = regions.map_err(|problem| SolverError::Scene(vec![problem]))?;
+        drawn.regions = scene.regions_within(drawn.bounds)?;
         Ok(drawn)
     }
 
@@ -107,16 +104,14 @@ impl<const D: usize> Drawn<D> {
         place: &str,
     ) -> Result<Vec<Drawing>, SolverError> {
         let spacing = scene.numerics.spacing;
-        let scene_problem = |problem| SolverError::Scene(vec![problem]);
         if D == 3 {
-            let Facets { points, triangles } =
-                wall.facets(place, spacing).map_err(scene_problem)?;
+            let Facets { points, triangles } = wall.facets(place, spacing)?;
             points.iter().for_each(|p| self.include(p));
-            let corners = triangles.iter();
-            let corners = corners.map(|t| t.map(|c| Vect::from(points[c as usize])));
-            self.measure += corners
-                .map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm())
-                .sum::<f64>();
+            let area = |t: &[u32; 3]| {
+                let [a, b, c] = t.map(|c| Vect::from(points[c as usize]));
+                0.5 * (b - a).cross(&(c - a)).norm()
+            };
+            self.measure += triangles.iter().map(area).sum::<f64>();
             let name = name.to_string();
             return Ok(vec![Drawing::Surface(Surface {
                 name,
@@ -124,7 +119,7 @@ impl<const D: usize> Drawn<D> {
                 triangles,
             })]);
         }
-        let lines = wall.lines(place, spacing).map_err(scene_problem)?;
+        let lines = wall.lines(place, spacing)?;
         let line = |Line { points, closed }: Line| -> Result<Drawing, SolverError> {
             points.iter().for_each(|p| self.include(p));
             let line = match wall.thickness {
@@ -146,11 +141,8 @@ impl<const D: usize> Drawn<D> {
 
     /// Refuses the wall with which places are so far away that positions there are rounded.
     fn near(&self, spacing: f64, place: &str) -> Result<(), SolverError> {
-        let corners = self
-            .bounds
-            .iter()
-            .flat_map(|(low, high)| low.iter().chain(high));
-        let far = corners.fold(0.0, |far: f64, x| far.max(x.abs()));
+        let corners = self.bounds.iter().flat_map(|(low, high)| [low, high]);
+        let far = (corners.flatten()).fold(0.0, |far: f64, x| far.max(x.abs()));
         match Quantity::refused("distance over the spacing", far / spacing) {
             Some(why) => Err(SolverError::at(place, why)),
             None => Ok(()),
@@ -235,8 +227,7 @@ pub(crate) fn rigid_motion<const D: usize>(
     place: &str,
     end: f64,
 ) -> Result<RigidMotion<D>, SolverError> {
-    let courses = motion.courses(place);
-    let mut courses = courses.map_err(|problem| SolverError::Scene(vec![problem]))?;
+    let mut courses = motion.courses(place)?;
     let shifts = courses.translations.iter_mut().map(|t| &mut t.course);
     let turns = courses.rotation.iter_mut().map(|r| &mut r.course);
     for course in shifts.chain(turns) {
@@ -261,13 +252,8 @@ fn levels_of<const D: usize>(levels: &Levels, place: &str) -> Result<RigidMotion
     };
     let table = sph_io::read_table(path).map_err(|e| at("file", e.to_string()))?;
     let column = |key: &str, name: &str| {
-        let names = || table.columns.iter().map(|c| c.name.as_str());
-        let why = || {
-            format!(
-                "the table has no column `{name}`{}",
-                suggestion(name, names())
-            )
-        };
+        let near = || suggestion(name, table.columns.iter().map(|c| c.name.as_str()));
+        let why = || format!("the table has no column `{name}`{}", near());
         table.column(name).ok_or_else(|| at(key, why()))
     };
     let times = column("file", "time")?;
@@ -278,14 +264,9 @@ fn levels_of<const D: usize>(levels: &Levels, place: &str) -> Result<RigidMotion
     let mut lifts = Vec::with_capacity(levels.columns.len());
     for name in &levels.columns {
         let head = table.columns.iter().find(|c| c.name == *name);
-        let head = head
-            .map(|c| c.unit.as_str())
-            .filter(|unit| !unit.is_empty());
-        let factor = levels
-            .unit
-            .as_deref()
-            .or(head)
-            .map_or(Ok(1.0), |u| unit_factor(u, "m"));
+        let head = head.map(|c| &*c.unit).filter(|unit| !unit.is_empty());
+        let unit = levels.unit.as_deref().or(head);
+        let factor = unit.map_or(Ok(1.0), |u| unit_factor(u, "m"));
         let factor = factor.map_err(|why| at("columns", why))?;
         let rows = times.iter().zip(column("columns", name)?);
         let rows: Arc<[[f64; 2]]> = rows.map(|(t, z)| [t - levels.start, factor * *z]).collect();

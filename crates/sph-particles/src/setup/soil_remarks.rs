@@ -1,7 +1,7 @@
 //! Remarks on the soils of a scene before they move.
 
-use sph_core::fields;
 use sph_core::place_cells::PlaceCells;
+use sph_core::{Vect, fields};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_solver::{Flow, SolverError};
@@ -55,14 +55,15 @@ impl Ground {
             }
         }
         if flow.world.gravity.norm() > 0.0 {
-            for (number, name) in scene
-                .phase
-                .keys()
-                .enumerate()
-                .filter(|(k, _)| self.soil[*k])
-            {
-                remarks.extend(self.dry(name, number, flow)?);
-                remarks.extend(hanging(name, number, flow)?);
+            let free = &flow.world.free;
+            let (position, phase) = (free.get(fields::POSITION)?, free.get(fields::PHASE).ok());
+            let phase = (0..position.len()).map(|k| phase.map_or(0, |p| p[k] as usize));
+            let phase: Vec<usize> = phase.collect();
+            let particles = (position, &phase[..]);
+            let soils = scene.phase.keys().enumerate();
+            for (number, name) in soils.filter(|(k, _)| self.soil[*k]) {
+                remarks.extend(self.dry((number, name), particles, flow));
+                remarks.extend(hanging((number, name), particles, flow));
             }
         }
         Ok(remarks)
@@ -70,78 +71,40 @@ impl Ground {
 
     fn dry<const D: usize>(
         &self,
-        name: &str,
-        number: usize,
+        (number, name): (usize, &str),
+        (position, phase): Particles<'_, D>,
         flow: &Flow<D>,
-    ) -> Result<Option<String>, SolverError> {
-        if !self.saturated {
-            return Ok(None);
-        }
-        let world = &flow.world;
-        let up = -world.gravity.normalize();
-        let phase = Phases::new(flow)?;
-        let (mut above, mut all) = (0_usize, 0_usize);
-        let heights: Vec<f64> = world
-            .free
-            .get(fields::POSITION)?
-            .iter()
-            .map(|x| x.dot(&up))
-            .collect();
-        let fluid = heights
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| !self.soil[phase.number(*k)]);
-        let water = fluid
-            .map(|(_, height)| *height)
-            .fold(f64::NEG_INFINITY, f64::max);
-        for (_, height) in heights
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| phase.number(*k) == number)
-        {
-            all += 1;
-            above += usize::from(*height > water + DRY * world.spacing);
-        }
+    ) -> Option<String> {
+        let up = -flow.world.gravity.normalize();
+        let heights = || position.iter().map(|x| x.dot(&up)).zip(phase);
+        let fluid = heights().filter(|(_, phase)| !self.soil[**phase]);
+        let water = fluid.map(|(height, _)| height);
+        let water = water.fold(f64::NEG_INFINITY, f64::max);
+        let own = || heights().filter(|(_, phase)| **phase == number);
+        let dry = |height: f64| height > water + DRY * flow.world.spacing;
+        let (all, above) = (own().count(), own().filter(|(h, _)| dry(*h)).count());
         // A soil without any water beside it may stand for one under water that rests.
-        Ok((above > 0 && water.is_finite()).then(|| {
+        (self.saturated && above > 0 && water.is_finite()).then(|| {
             format!(
                 "{:.0} % of `{name}` stands above the highest water, at {water:.4} m, but \
                  `effective-pressure` takes its pores as full of water: there it presses with its weight under water",
                 100.0 * above as f64 / all as f64
             )
-        }))
+        })
     }
 }
 
-/// Numbers of the particles' phases.
-struct Phases<'a>(Option<&'a [u32]>);
-
-impl<'a> Phases<'a> {
-    fn new<const D: usize>(flow: &'a Flow<D>) -> Result<Self, SolverError> {
-        let free = &flow.world.free;
-        Ok(Phases(match free.has(fields::PHASE.name) {
-            true => Some(free.get(fields::PHASE)?),
-            false => None,
-        }))
-    }
-    fn number(&self, k: usize) -> usize {
-        self.0.map_or(0, |p| p[k] as usize)
-    }
-}
+/// Places of the particles, and the numbers of their phases.
+type Particles<'a, const D: usize> = (&'a [Vect<D>], &'a [usize]);
 
 /// A remark if the lowest particles of a bed have neither a wall nor a particle close beneath.
 fn hanging<const D: usize>(
-    name: &str,
-    number: usize,
+    (number, name): (usize, &str),
+    (position, phase): Particles<'_, D>,
     flow: &Flow<D>,
-) -> Result<Option<String>, SolverError> {
-    let Some(walls) = &flow.walls else {
-        return Ok(None);
-    };
-    let world = &flow.world;
+) -> Option<String> {
+    let (world, walls) = (&flow.world, flow.walls.as_ref()?);
     let up = -world.gravity.normalize();
-    let phase = Phases::new(flow)?;
-    let position = world.free.get(fields::POSITION)?;
     let reach = GAP * world.spacing;
     let places = position.iter().enumerate().map(|(k, x)| ((*x).into(), k));
     let cells = PlaceCells::new(reach, places);
@@ -153,15 +116,15 @@ fn hanging<const D: usize>(
             j != k && apart.norm() <= reach && -apart.dot(&up) > 0.5 * apart.norm()
         })
     };
-    let grains = (0..position.len()).filter(|k| phase.number(*k) == number);
+    let grains = (0..position.len()).filter(|k| phase[*k] == number);
     let hang = |k: &usize| walls.clearance(&position[*k], reach).is_none() && !beneath(*k);
     let hanging: Vec<usize> = grains.filter(hang).collect();
-    Ok(hanging.first().map(|k| {
+    hanging.first().map(|k| {
         let place: Vec<String> = position[*k].iter().map(|x| format!("{x:.4}")).collect();
         format!(
             "{} particles of `{name}` have neither a wall nor a fluid beneath them, one of them at ({}): the bed will fall",
             hanging.len(),
             place.join(", ")
         )
-    }))
+    })
 }

@@ -12,12 +12,9 @@ use sph_solver::SolverError;
 /// If no key gives it, or a phase gives a speed beside the common pressure.
 pub fn sound_speeds(scene: &Scene, fall: f64) -> Result<Vec<f64>, SolverError> {
     let phases = || scene.phase.iter();
+    let own = |(name, phase): (&String, &Phase)| own(name, phase, fall);
     let pressure = match scene.numerics.reference_pressure {
-        None => {
-            return phases()
-                .map(|(name, phase)| own(name, phase, fall))
-                .collect();
-        }
+        None => return phases().map(own).collect(),
         Some(ReferencePressure::Value(pressure)) => {
             refuse_own(scene, None)?;
             pressure
@@ -25,13 +22,12 @@ pub fn sound_speeds(scene: &Scene, fall: f64) -> Result<Vec<f64>, SolverError> {
         Some(ReferencePressure::Of(PressureOf::Equal)) => {
             let lightest = phases().min_by(|a, b| a.1.density.total_cmp(&b.1.density));
             refuse_own(scene, lightest.map(|(name, _)| name.as_str()))?;
-            let speed = lightest.map_or(Ok(0.0), |(name, phase)| own(name, phase, fall))?;
+            let speed = lightest.map_or(Ok(0.0), own)?;
             lightest.map_or(0.0, |(_, phase)| phase.density) * speed * speed
         }
     };
-    Ok(phases()
-        .map(|(_, p)| (pressure / p.density).sqrt())
-        .collect())
+    let speeds = phases().map(|(_, p)| (pressure / p.density).sqrt());
+    Ok(speeds.collect())
 }
 
 /// The speed of sound of a phase by itself.
@@ -54,19 +50,14 @@ fn refuse_own(scene: &Scene, giver: Option<&str>) -> Result<(), SolverError> {
         .phase
         .iter()
         .filter(|(_, p)| p.speed_of_sound.is_some());
-    match given.find(|(name, _)| giver != Some(name.as_str())) {
-        None => Ok(()),
-        Some((name, _)) => {
-            let from = giver.map_or(String::new(), |of| format!(", from that of `{of}`"));
-            Err(SolverError::at(
-                format!("phase.{name}.speed_of_sound"),
-                format!(
-                    "`numerics.reference_pressure` gives the phase its speed of sound{from}: \
-                     leave it out"
-                ),
-            ))
-        }
-    }
+    let Some((name, _)) = given.find(|(name, _)| giver != Some(name.as_str())) else {
+        return Ok(());
+    };
+    let from = giver.map_or(String::new(), |of| format!(", from that of `{of}`"));
+    let why = format!(
+        "`numerics.reference_pressure` gives the phase its speed of sound{from}: leave it out"
+    );
+    Err(SolverError::at(format!("phase.{name}.speed_of_sound"), why))
 }
 
 #[cfg(test)]
@@ -97,25 +88,17 @@ mod tests {
         let pressure = ", reference_pressure = \"400 kPa\"";
         near(speeds(pressure, "", ""), [200_f64.sqrt(), 20.0]);
         let equal = ", reference_pressure = \"equal\"";
-        near(
-            speeds(equal, ", speed_of_sound = 20", ""),
-            [200_f64.sqrt(), 20.0],
-        );
+        let given = speeds(equal, ", speed_of_sound = 20", "");
+        near(given, [200_f64.sqrt(), 20.0]);
         near(speeds(equal, "", ""), [450_f64.sqrt(), 30.0]);
     }
 
     #[test]
     fn a_speed_beside_the_pressure_is_refused() {
-        let told = speeds(", reference_pressure = 4e5", ", speed_of_sound = 20", "");
-        assert!(
-            told.unwrap_err()
-                .starts_with("phase.water.speed_of_sound: `numerics.reference")
-        );
-        let told = speeds(
-            ", reference_pressure = \"equal\"",
-            "",
-            ", speed_of_sound = 20",
-        );
-        assert!(told.unwrap_err().contains("from that of `water`"));
+        let speed = ", speed_of_sound = 20";
+        let told = speeds(", reference_pressure = 4e5", speed, "").unwrap_err();
+        assert!(told.starts_with("phase.water.speed_of_sound: `numerics.reference"));
+        let told = speeds(", reference_pressure = \"equal\"", "", speed).unwrap_err();
+        assert!(told.contains("from that of `water`"));
     }
 }

@@ -1,12 +1,12 @@
 //! Changes of gravity: given over time, and by the acceleration of the frame that the scene is drawn in.
 
 use sph_boundary::{Course, RigidMotion};
-use sph_core::{Vect, parse_quantity};
-use sph_io::{Table, read_columns, read_table};
+use sph_core::{Vect, bounds, parse_quantity};
 use sph_scene::{GravityOverTime, Region, Scene};
 use sph_solver::SolverError;
 use sph_solver::step::{AddedGravity, VariableGravity};
 
+use crate::setup::reference_table::named_or_all;
 use crate::setup::shapes::rigid_motion;
 
 const PLACE: &str = "numerics.gravity_over_time";
@@ -24,26 +24,26 @@ pub fn from_scene<const D: usize>(
         return Ok(None);
     }
     let numerics = &scene.numerics;
-    let frame = numerics.frame.as_ref();
     let swing = VariableGravity {
-        frame: frame.map_or(Ok(RigidMotion::default()), |m| {
-            rigid_motion(m, "numerics.frame", scene.run.end)
-        })?,
-        given: numerics
-            .gravity_over_time
-            .as_ref()
-            .map_or(Ok(AddedGravity::None), given_of)?,
+        frame: match &numerics.frame {
+            Some(motion) => rigid_motion(motion, "numerics.frame", scene.run.end)?,
+            None => RigidMotion::default(),
+        },
+        given: match &numerics.gravity_over_time {
+            Some(given) => given_of(given)?,
+            None => AddedGravity::None,
+        },
     };
     let largest = largest_of(&swing, scene.run.end);
     let periodic = numerics.periodic.bounds::<D>();
     if let Some(k) = (0..D).find(|&k| periodic[k].is_some() && largest[k] != 0.0) {
         let axis = ["x", "y", "z"][k];
         let why = format!("gravity along the periodic direction {axis} has no hydrostatic balance");
-        let frame = matches!(swing.given, AddedGravity::None);
-        return Err(SolverError::at(
-            if frame { "numerics.frame" } else { PLACE },
-            why,
-        ));
+        let path = match swing.given {
+            AddedGravity::None => "numerics.frame",
+            _ => PLACE,
+        };
+        return Err(SolverError::at(path, why));
     }
     Ok(Some(swing))
 }
@@ -68,24 +68,17 @@ pub(crate) fn head<const D: usize>(
     regions: &[Region<D>],
 ) -> f64 {
     let largest = largest_of(swing, scene.run.end);
-    let extent = |k: usize| {
-        let bounds = regions.iter().map(|region| region.base.bounds());
-        let ends = bounds.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (a, b)| {
-            [low.min(a[k]), high.max(b[k])]
-        });
-        (ends[1] - ends[0]).max(0.0)
-    };
+    let corners = regions.iter().map(|region| region.base.bounds());
+    let [low, high] = bounds(corners.flat_map(|(low, high)| [low, high]));
+    let extent = |k: usize| (high[k] - low[k]).max(0.0);
     (0..D).map(|k| largest[k] * extent(k)).sum()
 }
 
 fn given_of<const D: usize>(given: &GravityOverTime) -> Result<AddedGravity<D>, SolverError> {
     if let Some(sine) = &given.sine {
         let course = Course::sine(1.0, sine.period, sine.phase, sine.ramp);
-        let first = if sine.ramp > 0.0 {
-            0.0
-        } else {
-            sine.phase.sin()
-        };
+        let begin = sine.phase.sin();
+        let first = if sine.ramp > 0.0 { 0.0 } else { begin };
         return Ok(AddedGravity::Sine(vector(&sine.amplitude), course, first));
     }
     let rows = match &given.table {
@@ -102,28 +95,22 @@ fn vector<const D: usize>(entries: &[f64]) -> Vect<D> {
 /// The rows of the file.
 fn read<const D: usize>(given: &GravityOverTime) -> Result<Vec<(f64, Vect<D>)>, SolverError> {
     let refused = |why: String| SolverError::at(format!("{PLACE}.file"), why);
-    let path = given
-        .path
-        .as_ref()
-        .ok_or_else(|| refused("the file is missing".into()))?;
-    let table: Result<Table, _> = match &given.columns {
-        Some(names) => read_columns(path, &names.iter().map(String::as_str).collect::<Vec<_>>()),
-        None => read_table(path),
-    };
+    let path = given.path.as_ref();
+    let path = path.ok_or_else(|| refused("the file is missing".into()))?;
+    let table = named_or_all(path, given.columns.as_deref());
     let table = table.map_err(|e| refused(e.to_string()))?;
     if table.columns.len() <= D || table.rows() == 0 {
         let columns = table.columns.len();
-        return Err(refused(format!(
-            "expected rows of a time and {D} entries, found {columns} columns"
-        )));
+        let why = format!("expected rows of a time and {D} entries, found {columns} columns");
+        return Err(refused(why));
     }
     let mut factors = vec![1.0; D + 1];
     for (k, column) in table.columns[..=D].iter().enumerate() {
         let unit = if k == 0 { "s" } else { "m/s²" };
         if !column.unit.is_empty() {
             let factor = parse_quantity(&format!("1 {}", column.unit), unit);
-            factors[k] =
-                factor.map_err(|why| refused(format!("column `{}`: {why}", column.name)))?;
+            let told = |why| refused(format!("column `{}`: {why}", column.name));
+            factors[k] = factor.map_err(told)?;
         }
         if k > 0 {
             factors[k] *= given.scale;
@@ -135,17 +122,14 @@ fn read<const D: usize>(given: &GravityOverTime) -> Result<Vec<(f64, Vect<D>)>, 
         .collect();
     let bad = |(t, a): &(f64, Vect<D>)| !t.is_finite() || a.iter().any(|x| !x.is_finite());
     if let Some(row) = rows.iter().position(bad) {
-        return Err(refused(format!(
-            "row {} holds a number that is not finite",
-            row + 1
-        )));
+        let why = format!("row {} holds a number that is not finite", row + 1);
+        return Err(refused(why));
     }
-    match rows.windows(2).position(|pair| pair[0].0 >= pair[1].0) {
-        Some(row) => {
-            let (before, after) = (rows[row].0, rows[row + 1].0);
-            Err(refused(format!(
-                "times must rise, {after} s follows {before} s"
-            )))
+    match rows.windows(2).find(|pair| pair[0].0 >= pair[1].0) {
+        Some(pair) => {
+            let (before, after) = (pair[0].0, pair[1].0);
+            let why = format!("times must rise, {after} s follows {before} s");
+            Err(refused(why))
         }
         None => Ok(rows),
     }

@@ -61,10 +61,8 @@ pub fn speeds<const D: usize>(
         let against = fastest.iter_mut().zip(&all);
         against.for_each(|(most, m)| larger(most, known(m.speed - slowest)));
         larger(&mut pressed, least(&|k| all[k].change) / sound);
-        larger(
-            &mut changed,
-            least(&|k| (all[k].speed - begin[k]).abs()) / sound,
-        );
+        let since = least(&|k| (all[k].speed - begin[k]).abs());
+        larger(&mut changed, since / sound);
     }
     let fast = walls.iter().zip(fastest);
     for (wall, (v, time)) in fast.filter(|(_, (v, _))| *v >= FAST * sound) {
@@ -77,11 +75,8 @@ pub fn speeds<const D: usize>(
             );
             found.refused.push(SceneProblem::new(path, message));
         } else {
-            let (name, v, share) = (
-                wall.drawing.name(),
-                number::plain(v),
-                number::percent(v / sound),
-            );
+            let (name, share) = (wall.drawing.name(), number::percent(v / sound));
+            let v = number::plain(v);
             found.remarks.push(format!(
                 "wall `{name}` moves with {v} m/s at {at}, {share} of the speed of sound: what is before it is pressed \
                  together"
@@ -89,13 +84,8 @@ pub fn speeds<const D: usize>(
         }
     }
     if found.refused.is_empty() {
-        vessel(
-            scene,
-            walls,
-            (sound, length),
-            [pressed, changed],
-            &mut found,
-        );
+        let most = [pressed, changed];
+        vessel(scene, walls, (sound, length), most, &mut found);
     }
     found
 }
@@ -110,26 +100,13 @@ fn vessel<const D: usize>(
 ) {
     let acceleration = number::plain(pressed.0 * sound * sound / length);
     let share = number::percent(pressed.0);
-    let told = [
-        (
-            pressed,
-            PRESSED,
-            format!(
-                "is accelerated with {acceleration} m/s², which presses its fluid together by {share}"
-            ),
-        ),
-        (
-            changed,
-            SPEEDS,
-            format!(
-                "changes its speed by {} m/s",
-                number::plain(changed.0 * sound)
-            ),
-        ),
-    ];
-    let said = told
-        .into_iter()
-        .filter(|((x, _), [least, _], _)| x >= least);
+    let acceleration = format!(
+        "is accelerated with {acceleration} m/s², which presses its fluid together by {share}"
+    );
+    let change = number::plain(changed.0 * sound);
+    let change = format!("changes its speed by {change} m/s");
+    let told = [(pressed, PRESSED, acceleration), (changed, SPEEDS, change)].into_iter();
+    let said = told.filter(|((x, _), [least, _], _)| x >= least);
     let worst = said.max_by(|a, b| (a.0.0 / a.1[1]).total_cmp(&(b.0.0 / b.1[1])));
     let Some(((x, time), [_, most], what)) = worst else {
         return;
@@ -154,10 +131,8 @@ fn told_at<const D: usize>(scene: &Scene, walls: &[WallSpec<D>], time: f64) -> (
     let place = format!("wall.{name}.motion");
     let motion = scene.wall.get(name).and_then(|w| w.motion.as_ref());
     match motion.and_then(|m| m.told_at(&place, time)) {
-        Some((key, file)) => (
-            key,
-            file.map_or_else(String::new, |file| format!(" ({file})")),
-        ),
+        Some((key, Some(file))) => (key, format!(" ({file})")),
+        Some((key, None)) => (key, String::new()),
         None => (place, String::new()),
     }
 }

@@ -1,14 +1,16 @@
 //! The zones of a scene, each assembled as a scene of its own.
 
-use sph_scene::{Scene, Zone};
+use std::collections::BTreeMap;
+
+use sph_neighbours::World;
+use sph_scene::{Output, Scene, Zone};
 use sph_solver::SolverError;
 
 use super::coupling::{Coupling, Level, Stepper};
 use super::frame::Frame;
 use super::guard::Guard;
 use super::refusals::{refuse, refuse_places};
-use super::scene_of_zone::scene_of_zone;
-use crate::setup::{Assembled, assemble};
+use crate::setup::{Assembled, assemble, box_around};
 
 /// The zones of an assembled scene.
 ///
@@ -32,11 +34,8 @@ fn coupling<const D: usize>(
 ) -> Result<Coupling<D>, SolverError> {
     let zones = scene.zone.iter().filter(|(_, zone)| zone.ratio == 0.5);
     let levels = zones.map(|(name, zone)| level(scene, parts, (name, zone), depth));
-    Ok(Coupling::new(
-        parts.diffused,
-        guard,
-        levels.collect::<Result<_, _>>()?,
-    ))
+    let levels = levels.collect::<Result<_, _>>()?;
+    Ok(Coupling::new(parts.diffused, guard, levels))
 }
 
 /// A zone in an assembled scene, which is `depth` levels below the coarsest.
@@ -52,12 +51,79 @@ fn level<const D: usize>(
     let finer = scene_of_zone((scene, &around.flow.world), (name, zone), &frame);
     let mut parts = assemble::<D>(&finer)?;
     // Those of zones within it were assembled too, for their own scenes.
-    parts
-        .probes
-        .retain(|(probe, _)| zone.probes.contains(probe));
+    let own = |probe: &String| zone.probes.contains(probe);
+    parts.probes.retain(|(probe, _)| own(probe));
     refuse(name, &parts)?;
     let guard = Guard::new(frame.clone(), scene.numerics.spacing);
     let coupling = coupling(&finer, &parts, Some(guard), depth + 1)?;
     let stepper = Stepper::from_parts(&finer, parts, coupling);
     Ok(Level::new(name, frame, stepper, depth))
+}
+
+/// The scene of a zone whose box is `frame`, in a flow around it.
+pub(crate) fn scene_of_zone<const D: usize>(
+    (scene, around): (&Scene, &World<D>),
+    (name, zone): (&str, &Zone),
+    frame: &Frame<D>,
+) -> Scene {
+    let mut finer = scene.clone();
+    finer.numerics.spacing *= 0.5;
+    let far = walls_out_of_reach(scene, around, frame);
+    finer.wall.retain(|wall, _| !far.contains(wall));
+    let window = frame.corners(frame.band);
+    finer.window = Some(window.map(|corner| corner.iter().copied().collect()));
+    finer.zone = nested(scene, name);
+    // Particles relax by themselves in no box of their own.
+    finer.numerics.relax = None;
+    let inner = finer.zone.values().flat_map(|inner| &inner.probes);
+    let probes: Vec<String> = zone.probes.iter().chain(inner).cloned().collect();
+    let measured = |probe: &String| probes.contains(probe);
+    finer.probe.retain(|probe, _| measured(probe));
+    finer.gauge.retain(|probe, _| measured(probe));
+    finer.reference.clear();
+    finer.output = Output {
+        fields: scene.output.fields.clone(),
+        picture: scene.output.picture.clone(),
+        ..Output::default()
+    };
+    finer
+}
+
+/// Names of the walls that no particle of a zone can see. Where walls bound a body all stay.
+fn walls_out_of_reach<const D: usize>(
+    scene: &Scene,
+    around: &World<D>,
+    frame: &Frame<D>,
+) -> Vec<String> {
+    if scene.body.values().any(|body| body.fill.is_some()) {
+        return Vec::new();
+    }
+    let [low, high] = frame.corners(frame.band + around.kernel.support_radius());
+    let walls = &around.walls;
+    let far = |number: usize| {
+        let all = walls.points.position.iter().zip(&walls.points.wall);
+        let own = all.filter(|(_, wall)| **wall as usize == number);
+        let [from, to] = box_around(own.map(|(x, _)| x));
+        (0..D).any(|k| to[k] < low[k] || from[k] > high[k])
+    };
+    let names = walls.names.iter().enumerate();
+    let names = names.filter(|(number, name)| scene.wall.contains_key(*name) && far(*number));
+    names.map(|(_, name)| name.clone()).collect()
+}
+
+/// The zones within a zone, with ratios to its spacing.
+fn nested(scene: &Scene, name: &str) -> BTreeMap<String, Zone> {
+    let inside = |other: &Zone| other.ratio < scene.zone[name].ratio && within(scene, other, name);
+    let mut zones = scene.zone.clone();
+    zones.retain(|_, other| inside(other));
+    zones.values_mut().for_each(|other| other.ratio *= 2.0);
+    zones
+}
+
+/// True if a zone lies in the zone `name`, with any number of zones between.
+fn within(scene: &Scene, zone: &Zone, name: &str) -> bool {
+    match scene.around_zone(zone) {
+        Some(around) => around == name || within(scene, &scene.zone[around], name),
+        None => false,
+    }
 }

@@ -4,7 +4,7 @@ use sph_boundary::Wall;
 use sph_core::Vect;
 use sph_scene::{Scene, Zone};
 
-use super::fit::REACH;
+use super::sample::REACH;
 
 /// Width of the band over the support of the finer particles: those of the zone have all neighbours in its inner half, and
 /// these have all of theirs in the band.
@@ -25,16 +25,12 @@ impl<const D: usize> Frame<D> {
     /// The box of a zone whose particles have a support, m.
     pub fn new(scene: &Scene, zone: &Zone, support: f64) -> Self {
         let periods = scene.numerics.periodic.bounds::<D>();
-        let spans = |k: usize| {
-            periods[k].is_some_and(|[lo, hi]| zone.bounds[0][k] <= lo && hi <= zone.bounds[1][k])
+        let [low, high] = &zone.bounds;
+        let spans = |k: usize| periods[k].is_some_and(|[lo, hi]| low[k] <= lo && hi <= high[k]);
+        let end = |corner: &[f64], infinite: f64| {
+            Vect::from_fn(|k, _| if spans(k) { infinite } else { corner[k] })
         };
-        let end = |side: usize, infinite: f64| {
-            Vect::from_fn(|k, _| match spans(k) {
-                true => infinite,
-                false => zone.bounds[side][k],
-            })
-        };
-        let (low, high) = (end(0, f64::NEG_INFINITY), end(1, f64::INFINITY));
+        let (low, high) = (end(low, f64::NEG_INFINITY), end(high, f64::INFINITY));
         Frame {
             low,
             high,
@@ -74,19 +70,13 @@ impl<const D: usize> Frame<D> {
         }
         let outwards = if side == 0 { -1.0 } else { 1.0 };
         // Along a period that the box spans all places are alike for what stands in it.
+        let first = ends[side][axis] + 0.25 * outwards * spacing;
         let span = |k: usize| match (k == axis, self.low[k].is_finite()) {
-            (true, _) => (
-                ends[side][axis] + 0.25 * outwards * spacing,
-                outwards * spacing,
-                3,
-            ),
+            (true, _) => (first, outwards * spacing, 3),
             (false, true) => {
-                let count = ((self.high[k] - self.low[k]) / spacing).ceil();
-                (
-                    self.low[k],
-                    (self.high[k] - self.low[k]) / count,
-                    count as usize + 1,
-                )
+                let length = self.high[k] - self.low[k];
+                let count = (length / spacing).ceil();
+                (self.low[k], length / count, count as usize + 1)
             }
             (false, false) => (0.0, 0.0, 1),
         };

@@ -103,32 +103,19 @@ pub(crate) fn refuse<const D: usize>(name: &str, zone: &Assembled<D>) -> Result<
             "zones carry places, velocities, masses and densities, and this scene has the state `{other}` besides"
         ));
     }
-    if !flow.gates.is_empty() {
-        return refused(
-            "particles come in or leave by walls of this scene, which zones cannot follow".into(),
-        );
-    }
     let solves = |kind: &str| SOLVES.contains(&kind);
-    if !flow.hooks.kicking.is_empty() || zone.plugins.iter().any(|p| solves(&p.kind)) {
-        return refused(
-            "this scene solves for the end of a step over all particles, which zones cannot share"
-                .into(),
-        );
-    }
-    if !zone.integrator.kicks_once() {
-        return refused(
-            "zones want an integrator that evaluates once a step, as `symplectic-euler`".into(),
-        );
-    }
-    let walls = &flow.world.walls.names;
-    let moves = flow
-        .walls
-        .as_ref()
-        .is_some_and(|w| (0..walls.len()).any(|k| w.needs_forces(k)));
-    if moves {
-        return refused(
-            "a wall of this scene moves by the forces on it, which zones do not share yet".into(),
-        );
-    }
-    Ok(())
+    let walls = flow.world.walls.names.len();
+    let mut own = flow.walls.iter();
+    let why = if !flow.gates.is_empty() {
+        "particles come in or leave by walls of this scene, which zones cannot follow"
+    } else if !flow.hooks.kicking.is_empty() || zone.plugins.iter().any(|p| solves(&p.kind)) {
+        "this scene solves for the end of a step over all particles, which zones cannot share"
+    } else if !zone.integrator.kicks_once() {
+        "zones want an integrator that evaluates once a step, as `symplectic-euler`"
+    } else if own.any(|w| (0..walls).any(|k| w.needs_forces(k))) {
+        "a wall of this scene moves by the forces on it, which zones do not share yet"
+    } else {
+        return Ok(());
+    };
+    refused(why.into())
 }

@@ -20,10 +20,7 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
         let key = body.shape.given()[0];
         let path = format!("body.{name}.{key}");
         let (lo, hi) = region.base.bounds();
-        let far = lo
-            .iter()
-            .chain(&hi)
-            .fold(0.0, |far: f64, x| far.max(x.abs()));
+        let far = (lo.iter().chain(&hi)).fold(0.0, |far: f64, x| far.max(x.abs()));
         if let Some(why) = Quantity::refused("distance over the spacing", far / spacing) {
             found.add(&path, why);
             continue;
@@ -31,10 +28,9 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
         let (bottom, top) = (region.bounds().0[D - 1], region.bounds().1[D - 1]);
         for (given, key) in [(&body.above, "above"), (&body.below, "below")] {
             if given.is_some() && bottom >= top {
+                let (from, to) = (lo[D - 1], hi[D - 1]);
                 let message = format!(
-                    "nothing of the body, which reaches from {} m to {} m, is {key} it",
-                    lo[D - 1],
-                    hi[D - 1]
+                    "nothing of the body, which reaches from {from} m to {to} m, is {key} it"
                 );
                 found.add(format!("body.{name}.{key}"), message);
             }
@@ -45,10 +41,10 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
         let spanned = spans(&region.base, spacing, &periods);
         for (k, axis) in ["x", "y", "z"].iter().enumerate().take(D) {
             filled[k] |= spanned[k];
-            if hi[k] - lo[k] < spacing * (1.0 - ROUNDING) {
+            let wide = hi[k] - lo[k];
+            if wide < spacing * (1.0 - ROUNDING) {
                 let message = format!(
-                    "the body is {} m wide along {axis}, less than the spacing of {spacing} m",
-                    hi[k] - lo[k]
+                    "the body is {wide} m wide along {axis}, less than the spacing of {spacing} m"
                 );
                 found.add(&path, message);
             }
@@ -75,24 +71,18 @@ pub(crate) fn within_bounds<const D: usize>(scene: &Scene, found: &mut Problems)
 /// Refuses periods that bodies span and that are no multiple of the spacing.
 fn whole_periods<const D: usize>(scene: &Scene, filled: [bool; D], found: &mut Problems) {
     let spacing = scene.numerics.spacing;
-    for (k, (axis, bounds)) in scene
-        .numerics
-        .periodic
-        .axes()
-        .into_iter()
-        .enumerate()
-        .take(D)
-    {
+    let axes = scene.numerics.periodic.axes().into_iter();
+    for (k, (axis, bounds)) in axes.enumerate().take(D) {
         let Some([lo, hi]) = bounds.filter(|_| filled[k]) else {
             continue;
         };
-        let rows = (hi - lo) / spacing;
+        let period = hi - lo;
+        let rows = period / spacing;
         let whole = rows.round().max(1.0);
         if (rows - whole).abs() > ROUNDING * whole.max(1.0) {
+            let nearest = period / whole;
             let message = format!(
-                "the period of {} m along {axis} is no multiple of the spacing; the nearest spacing is {}",
-                hi - lo,
-                (hi - lo) / whole
+                "the period of {period} m along {axis} is no multiple of the spacing; the nearest spacing is {nearest}"
             );
             found.add("numerics.spacing", message);
         }

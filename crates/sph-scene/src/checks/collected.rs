@@ -4,10 +4,8 @@ use scene_text::Problems;
 use sph_core::{Place, SceneProblem, kinds};
 use toml::{Table, Value};
 
-use crate::checks::geometry;
-use crate::checks::names::{self, inside};
-use crate::checks::overlap;
-use crate::checks::time;
+use crate::checks::names::inside;
+use crate::checks::{geometry, names, time};
 use crate::reading::plugins::holders;
 use crate::{Scene, Source};
 
@@ -20,11 +18,8 @@ pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
         }
     }
     for (name, keys) in inside(scene.get("phase")) {
-        if keys
-            .get("rheology")
-            .and_then(Value::as_table)
-            .is_some_and(Table::is_empty)
-        {
+        let rheology = keys.get("rheology").and_then(Value::as_table);
+        if rheology.is_some_and(Table::is_empty) {
             let path = format!("phase.{name}.rheology");
             found.add(&path, format!("a phase needs a rheology: [{path}.PLUGIN]"));
         }
@@ -34,9 +29,7 @@ pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
 }
 
 fn single(plugins: &Value, path: &str, found: &mut Problems) {
-    let names: Vec<&str> = inside(Some(plugins))
-        .map(|(name, _)| name.as_str())
-        .collect();
+    let names: Vec<&String> = inside(Some(plugins)).map(|(name, _)| name).collect();
     if let [_, .., last] = names.as_slice() {
         let list: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
         let message = format!("only one plugin can stand here, found {}", list.join(", "));
@@ -50,11 +43,5 @@ pub(crate) fn scene(scene: &mut Scene, source: &Source) -> Vec<SceneProblem> {
     names::references(scene, source, &mut found);
     time::check(scene, &mut found);
     geometry::check(scene, &mut found);
-    if found.0.is_empty() {
-        match scene.dimension {
-            2 => overlap::check::<2>(scene, &mut found),
-            _ => overlap::check::<3>(scene, &mut found),
-        }
-    }
     found.0
 }

@@ -1,6 +1,10 @@
-//! Vectors and shapes against the number of dimensions.
+//! Vectors, chains of corners and shapes against the number of dimensions.
 
 use scene_text::Problems;
+
+use crate::Polygon;
+use crate::geometry::polygon::crossing;
+use crate::geometry::vector::{array, point};
 
 /// The number of dimensions of the scene, against which vectors are held.
 #[derive(Clone, Copy)]
@@ -9,17 +13,12 @@ pub(crate) struct Dimension(pub usize);
 impl Dimension {
     /// True if a vector has one entry per dimension; if not, a problem is added.
     pub fn vector(self, list: &[f64], path: &str, found: &mut Problems) -> bool {
-        let right = list.len() == self.0;
-        if !right {
-            let message = format!(
-                "expected {} numbers in {}D, found {}",
-                self.0,
-                self.0,
-                list.len()
-            );
+        let (wanted, given) = (self.0, list.len());
+        if given != wanted {
+            let message = format!("expected {wanted} numbers in {wanted}D, found {given}");
             found.add(path, message);
         }
-        right
+        given == wanted
     }
 
     /// Checks that a vector has the right length and is not zero.
@@ -62,15 +61,12 @@ impl Dimension {
 
     /// True if a shape of `dimension` can stand here.
     pub fn is(self, dimension: usize, what: &str, path: &str, found: &mut Problems) -> bool {
-        let right = dimension == self.0;
-        if !right {
-            let message = format!(
-                "{what} is a shape of {dimension}D, and this scene is {}D",
-                self.0
-            );
+        let own = self.0;
+        if dimension != own {
+            let message = format!("{what} is a shape of {dimension}D, and this scene is {own}D");
             found.add(path, message);
         }
-        right
+        dimension == own
     }
 
     pub fn optional(self, list: &Option<Vec<f64>>, path: &str, found: &mut Problems) {
@@ -93,5 +89,64 @@ impl Dimension {
                 found.add(path, message);
             }
         }
+    }
+}
+
+/// The corners, if each has two coordinates and differs from the one before.
+pub(crate) fn chain(
+    points: &[Vec<f64>],
+    closed: bool,
+    path: &str,
+    found: &mut Problems,
+) -> Option<Vec<[f64; 2]>> {
+    let before = found.0.len();
+    for (k, p) in points.iter().enumerate() {
+        let place = format!("{path}[{k}]");
+        if !Dimension(2).vector(p, &place, found) {
+            break;
+        }
+        let previous = match k {
+            0 if closed => points.last(),
+            0 => None,
+            k => points.get(k - 1),
+        };
+        if previous == Some(p) {
+            let message = format!("the corner {} stands there twice in a row", point(p));
+            found.add(place, message);
+            break;
+        }
+    }
+    (found.0.len() == before).then(|| points.iter().map(|p| array(p)).collect())
+}
+
+/// No edge meets another.
+pub(crate) fn crossed(
+    edges: &[([f64; 2], [f64; 2])],
+    closed: bool,
+    path: &str,
+    found: &mut Problems,
+) {
+    if let Some((first, second, place)) = crossing(edges, closed) {
+        let at = point(&place);
+        let message =
+            format!("the edges from corners {first} and {second}, counted from 0, meet at {at}");
+        found.add(path, message);
+    }
+}
+
+/// A polygon has an area and does not cross itself.
+pub(crate) fn polygon(points: &[Vec<f64>], path: &str, found: &mut Problems) {
+    let Some(corners) = chain(points, true, path, found) else {
+        return;
+    };
+    let [lo, hi] = sph_core::bounds(corners.iter().copied());
+    let polygon = Polygon::new(corners);
+    let size = (hi[0] - lo[0]).max(hi[1] - lo[1]);
+    let flat = (hi[0] - lo[0]).min(hi[1] - lo[1]) <= 1e-12 * size;
+    let edges: Vec<_> = polygon.edges().collect();
+    if !flat && crossing(&edges, true).is_some() {
+        crossed(&edges, true, path, found);
+    } else if flat || polygon.area().abs() <= 1e-12 * size * size {
+        found.add(path, "the polygon has no area");
     }
 }

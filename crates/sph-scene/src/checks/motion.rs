@@ -6,7 +6,6 @@ use sph_core::unit_factor;
 use crate::checks::dimension::Dimension;
 use crate::geometry::course::ImposedCourse;
 use crate::geometry::wall_geometry::has_ending;
-use crate::tables::motion::CourseRows;
 use crate::{Levels, Motion};
 
 /// Endings of files that are tables of numbers.
@@ -19,10 +18,8 @@ pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Prob
     let turns = motion.angular_velocity != 0.0;
     of.axis(&motion.axis, turns, path, found);
     if turns && motion.centre.is_none() {
-        found.add(
-            path,
-            "the key `centre` is missing: centre of the rotation at the start",
-        );
+        let message = "the key `centre` is missing: centre of the rotation at the start";
+        found.add(path, message);
     }
     if let Some(levels) = &motion.levels {
         check_levels(levels, motion, of, &format!("{path}.levels"), found);
@@ -83,21 +80,19 @@ fn course(given: &ImposedCourse<'_>, path: &str, found: &mut Problems) {
     if let Some(table) = &given.rows.table {
         rising(table, &format!("{path}.table"), found);
     }
-    let CourseRows {
-        file, unit, scale, ..
-    } = given.rows;
-    csv(file, path, found);
+    let rows = given.rows;
+    csv(&rows.file, path, found);
     let of_file = scene_text::given([
-        ("unit", unit.is_some()),
-        ("scale", scale.is_some()),
-        ("time_unit", given.rows.time_unit.is_some()),
-        ("columns", given.rows.columns.is_some()),
+        ("unit", rows.unit.is_some()),
+        ("scale", rows.scale.is_some()),
+        ("time_unit", rows.time_unit.is_some()),
+        ("columns", rows.columns.is_some()),
     ]);
-    if let Some(key) = of_file.first().filter(|_| file.is_none()) {
+    if let Some(key) = of_file.first().filter(|_| rows.file.is_none()) {
         let message = "this says how a `file` is read, and there is none";
         found.add(format!("{path}.{key}"), message);
     }
-    if unit.is_some() && scale.is_some() {
+    if rows.unit.is_some() && rows.scale.is_some() {
         let message = "the numbers have a `unit` or a `scale`, not both";
         found.add(format!("{path}.unit"), message);
     }

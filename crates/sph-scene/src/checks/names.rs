@@ -38,22 +38,15 @@ pub(crate) fn spelling(scene: &Table, found: &mut Problems) {
     }
     let probes: BTreeSet<&String> = inside(scene.get("probe")).map(|(name, _)| name).collect();
     for (name, _) in inside(scene.get("gauge")).filter(|(name, _)| probes.contains(name)) {
-        found.add(
-            format!("gauge.{name}"),
-            format!("there is a probe called `{name}` too"),
-        );
+        let message = format!("there is a probe called `{name}` too");
+        found.add(format!("gauge.{name}"), message);
     }
     for kind in ["probe", "gauge"] {
         for (name, keys) in inside(scene.get(kind)) {
-            if keys
-                .get("kind")
-                .and_then(Value::as_str)
-                .is_some_and(|k| k.trim().is_empty())
-            {
-                found.add(
-                    format!("{kind}.{name}.kind"),
-                    "the name of the plugin is empty",
-                );
+            let plugin = keys.get("kind").and_then(Value::as_str);
+            if plugin.is_some_and(|k| k.trim().is_empty()) {
+                let path = format!("{kind}.{name}.kind");
+                found.add(path, "the name of the plugin is empty");
             }
         }
     }
@@ -79,43 +72,36 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
             found.add(format!("body.{name}.phase"), message);
         }
     }
-    let probes: Vec<String> = scene
-        .probe
-        .keys()
-        .chain(scene.gauge.keys())
-        .cloned()
-        .collect();
+    let probes: Vec<&String> = scene.probe.keys().chain(scene.gauge.keys()).collect();
+    let known = |probe: &str, path: String, found: &mut Problems| {
+        if probes.iter().all(|known| *known != probe) {
+            let near = suggestion(probe, probes.iter().map(|known| known.as_str()));
+            let message = format!("there is no probe or gauge called `{probe}`{near}");
+            found.add(path, message);
+        }
+    };
     for (name, reference) in &mut scene.reference {
         let path = format!("reference.{name}");
         reference_keys(reference, &path, found);
         // A probe of several columns is named with the column's suffix, `extent.highest`.
-        let name = |p: &String| p.split('.').next().map(String::from);
-        let named = reference.probe.as_ref().and_then(name);
-        if let Some(probe) = named.filter(|p| !probes.contains(p)) {
-            let near = suggestion(&probe, probes.iter().map(String::as_str));
-            let message = format!("there is no probe or gauge called `{probe}`{near}");
-            found.add(format!("{path}.probe"), message);
+        if let Some(probe) = reference.probe.as_ref().and_then(|p| p.split('.').next()) {
+            known(probe, format!("{path}.probe"), found);
         }
         reference.path = located(&reference.file, &path, source, found);
     }
     for (name, zone) in &scene.zone {
         for (k, probe) in zone.probes.iter().enumerate() {
-            if !probes.contains(probe) {
-                let near = suggestion(probe, probes.iter().map(String::as_str));
-                let message = format!("there is no probe or gauge called `{probe}`{near}");
-                found.add(format!("zone.{name}.probes[{k}]"), message);
-            }
+            known(probe, format!("zone.{name}.probes[{k}]"), found);
         }
     }
-    let mut files = Vec::new();
     for (kind, tables) in [("probe", &scene.probe), ("gauge", &scene.gauge)] {
         for (name, table) in tables {
             let file = table.get("file").and_then(|f| f.as_str()).map(String::from);
             let path = located(&file, &format!("{kind}.{name}"), source, found);
-            files.extend(path.map(|path| (name.clone(), path)));
+            let path = path.map(|path| (name.clone(), path));
+            scene.probe_files.extend(path);
         }
     }
-    scene.probe_files.extend(files);
     for (name, wall) in &mut scene.wall {
         let path = format!("wall.{name}");
         wall.path = located(&wall.file, &path, source, found);
@@ -167,37 +153,20 @@ fn located(
 }
 
 fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
-    match (&reference.probe, &reference.field) {
-        (None, None) => found.add(
-            path,
-            "the key `probe` or `field` is missing: what is compared",
-        ),
-        (Some(_), Some(_)) => found.add(
-            format!("{path}.field"),
-            "a reference compares a probe or a field, not both",
-        ),
-        _ => {}
-    }
+    let one = [reference.probe.is_some(), reference.field.is_some()];
+    let neither = "the key `probe` or `field` is missing: what is compared";
+    let both = "a reference compares a probe or a field, not both";
+    found.either(one, path, neither, ("field", both));
     measured(reference, path, found);
-    match (&reference.file, &reference.solution) {
-        (None, None) if reference.stands_alone() => {}
-        (None, None) => {
-            found.add(
-                path,
-                "the key `file` or `solution` is missing: what it is compared with",
-            );
-        }
-        (Some(_), Some(_)) => found.add(
-            format!("{path}.solution"),
-            "a reference is a file or a solution, not both",
-        ),
-        _ => {}
+    let one = [reference.file.is_some(), reference.solution.is_some()];
+    let neither = "the key `file` or `solution` is missing: what it is compared with";
+    let both = "a reference is a file or a solution, not both";
+    if one != [false; 2] || !reference.stands_alone() {
+        found.either(one, path, neither, ("solution", both));
     }
     if reference.solution.is_none() && !reference.parameters.is_empty() {
-        found.add(
-            format!("{path}.parameters"),
-            "parameters belong to a `solution`",
-        );
+        let path = format!("{path}.parameters");
+        found.add(path, "parameters belong to a `solution`");
     }
     if reference.file.is_none() {
         for key in given([
@@ -210,35 +179,33 @@ fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
     }
     let limits = reference.lower.is_some() && reference.upper.is_some();
     if reference.norm() == Norm::Band && !limits {
-        found.add(
-            format!("{path}.norm"),
-            "the norm `band` needs the columns `lower` and `upper`",
-        );
+        let message = "the norm `band` needs the columns `lower` and `upper`";
+        found.add(format!("{path}.norm"), message);
     }
 }
 
 /// The norms that need a number, and the one that needs a field.
 fn measured(reference: &Reference, path: &str, found: &mut Problems) {
-    match (reference.norm(), reference.value, reference.period) {
-        (Norm::Mean, None | Some(0.0), _) => found.add(
-            format!("{path}.norm"),
-            "the norm `mean` needs a `value` other than 0",
-        ),
-        (Norm::Mean, ..) | (_, None, _) => {}
-        _ => found.add(
-            format!("{path}.value"),
-            "a value is compared by `norm = \"mean\"` only",
-        ),
-    }
     let norm = reference.norm();
+    let at_norm = format!("{path}.norm");
+    match (norm, reference.value) {
+        (Norm::Mean, None | Some(0.0)) => {
+            found.add(&at_norm, "the norm `mean` needs a `value` other than 0");
+        }
+        (Norm::Mean, _) | (_, None) => {}
+        _ => {
+            let message = "a value is compared by `norm = \"mean\"` only";
+            found.add(format!("{path}.value"), message);
+        }
+    }
     if matches!(norm, Norm::Period | Norm::Lag) && reference.period.is_none() {
         let name = norm.name();
         let message = format!("the norm `{name}` needs the `period` of the reference");
-        found.add(format!("{path}.norm"), message);
+        found.add(&at_norm, message);
     }
-    if reference.norm() == Norm::DecayRate && reference.solution.is_none() {
+    if norm == Norm::DecayRate && reference.solution.is_none() {
         let message = "the norm `decay-rate` needs a `solution` with a constant rate";
-        found.add(format!("{path}.norm"), message);
+        found.add(&at_norm, message);
     }
     for (key, scale) in [
         ("scale_value", reference.scale_value),
@@ -249,25 +216,19 @@ fn measured(reference: &Reference, path: &str, found: &mut Problems) {
             found.add(format!("{path}.{key}"), message);
         }
     }
-    let about = |norm: Norm, what: &str| format!("the norm `{}` is for {what}", norm.name());
-    match (reference.norm(), &reference.field, &reference.probe) {
-        (norm @ (Norm::L2Mean | Norm::Rms), None, Some(_)) => {
-            found.add(format!("{path}.norm"), about(norm, "fields"));
-        }
-        (norm, Some(_), None) if reference.stands_alone() => {
-            found.add(format!("{path}.norm"), about(norm, "probes"));
-        }
+    let about = |what: &str| format!("the norm `{}` is for {what}", norm.name());
+    match (norm, &reference.field, &reference.probe) {
+        (Norm::L2Mean | Norm::Rms, None, Some(_)) => found.add(&at_norm, about("fields")),
+        (_, Some(_), None) if reference.stands_alone() => found.add(&at_norm, about("probes")),
         _ => {}
     }
-    for (key, given) in [
-        ("file", reference.file.is_some()),
-        ("solution", reference.solution.is_some()),
-    ] {
-        if given && reference.stands_alone() {
-            let message = format!(
-                "the norm `{}` compares with no file or solution",
-                reference.norm().name()
-            );
+    if reference.stands_alone() {
+        for key in given([
+            ("file", reference.file.is_some()),
+            ("solution", reference.solution.is_some()),
+        ]) {
+            let name = norm.name();
+            let message = format!("the norm `{name}` compares with no file or solution");
             found.add(format!("{path}.{key}"), message);
         }
     }

@@ -4,7 +4,7 @@ use scene_text::Problems;
 
 use crate::geometry::periodic_place::PeriodicRegion;
 use crate::geometry::vector::point;
-use crate::{Region, Scene};
+use crate::{Region, Scene, Shape};
 
 /// Bodies may share this fraction of a spacing: curved outlines are drawn with short edges.
 const SHARED: f64 = 1e-3;
@@ -24,8 +24,8 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     let (names, regions): (Vec<&String>, Vec<Region<D>>) = whole
         .filter_map(|(name, body)| Some((name, Region::from_body(body)?)))
         .unzip();
-    let placed: Vec<_> = regions
-        .iter()
+    let placed = regions.iter();
+    let placed: Vec<_> = placed
         .map(|r| PeriodicRegion::new(r, spacing, &periods))
         .collect();
     let mut work = WORK;
@@ -34,10 +34,8 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
             let effort = (edges(&regions[i]) + edges(&regions[j])) * first.shifts().len() as f64;
             let both = common(first, second, spacing, effort, &mut work);
             if let (Some(place), [a, b]) = (both, [names[i], names[j]]) {
-                let message = format!(
-                    "the bodies `{a}` and `{b}` overlap, for instance at {}",
-                    point(&place)
-                );
+                let at = point(&place);
+                let message = format!("the bodies `{a}` and `{b}` overlap, for instance at {at}");
                 found.add(format!("body.{b}"), message);
                 break;
             }
@@ -49,10 +47,8 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
 }
 
 fn edges<const D: usize>(region: &Region<D>) -> f64 {
-    let of = |shape: &crate::Shape<D>| match shape {
-        crate::Shape::Polygon(polygon) | crate::Shape::Extrusion { polygon, .. } => {
-            polygon.points().len() as f64
-        }
+    let of = |shape: &Shape<D>| match shape {
+        Shape::Polygon(polygon) | Shape::Extrusion { polygon, .. } => polygon.points().len() as f64,
         _ => 1.0,
     };
     of(&region.base) + region.cuts.iter().map(of).sum::<f64>()

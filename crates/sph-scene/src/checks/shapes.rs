@@ -2,11 +2,10 @@
 
 use scene_text::Problems;
 
-use crate::checks::corners::polygon;
-use crate::checks::dimension::Dimension;
+use crate::checks::dimension::{Dimension, polygon};
 use crate::checks::wave;
 use crate::tables::body::BodyShape;
-use crate::{Body, LevelSurface, Pressure, Scene};
+use crate::{Body, Pressure, Scene};
 
 /// Checks the keys of a body in space.
 pub(crate) fn body_geometry(
@@ -32,13 +31,7 @@ pub(crate) fn body_geometry(
         found.add(format!("{path}.{key}"), message);
     }
     for (key, surface) in [("above", &body.above), ("below", &body.below)] {
-        if let Some(LevelSurface {
-            amplitude,
-            wavelength: None,
-            ..
-        }) = surface
-            && *amplitude != 0.0
-        {
+        if surface.is_some_and(|s| s.wavelength.is_none() && s.amplitude != 0.0) {
             let message = "the key `wavelength` is missing: a wave has a length";
             found.add(format!("{path}.{key}"), message);
         }
@@ -48,48 +41,39 @@ pub(crate) fn body_geometry(
     }
     of.optional(&body.velocity, &format!("{path}.velocity"), found);
     if body.velocity.is_some() && !body.initial.is_empty() {
-        found.add(
-            format!("{path}.velocity"),
-            "the velocity at the start is given here and by an `initial` plugin: choose one",
-        );
+        let message =
+            "the velocity at the start is given here and by an `initial` plugin: choose one";
+        found.add(format!("{path}.velocity"), message);
     }
     wave::keys(scene, body, path, found);
     let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
-    match body.pressure {
-        Pressure::Hydrostatic if weightless => {
-            found.add(
-                format!("{path}.pressure"),
-                "a hydrostatic pressure needs `numerics.gravity`",
-            );
-        }
-        Pressure::Zero if body.surface.is_some() => found.add(
-            format!("{path}.surface"),
-            "the level of the surface is used for `pressure = \"hydrostatic\"` only",
-        ),
-        _ => {}
+    if body.pressure == Pressure::Hydrostatic && weightless {
+        let message = "a hydrostatic pressure needs `numerics.gravity`";
+        found.add(format!("{path}.pressure"), message);
+    } else if body.pressure == Pressure::Zero && body.surface.is_some() {
+        let message = "the level of the surface is used for `pressure = \"hydrostatic\"` only";
+        found.add(format!("{path}.surface"), message);
     }
 }
 
 /// A body that fills the walls has no shape but a box that bounds it.
 fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
     for key in body.shape.given().into_iter().filter(|key| *key != "box") {
-        found.add(
-            format!("{path}.{key}"),
-            "what `fill = \"walls\"` fills can be bounded by a `box` only",
-        );
+        let message = "what `fill = \"walls\"` fills can be bounded by a `box` only";
+        found.add(format!("{path}.{key}"), message);
     }
     if let Some(corners) = &body.shape.bounds {
         of.corners(corners, &format!("{path}.box"), found);
     }
     let Some(seed) = &body.seed else { return };
     let place = format!("{path}.seed");
+    let within = |[lo, hi]: &[Vec<f64>; 2], k: usize| {
+        let ends = lo.get(k).zip(hi.get(k));
+        ends.is_some_and(|(l, h)| (l..=h).contains(&&seed[k]))
+    };
     if of.vector(seed, &place, found)
-        && let Some([lo, hi]) = &body.shape.bounds
-        && (0..of.0).any(|k| {
-            !lo.get(k)
-                .zip(hi.get(k))
-                .is_some_and(|(l, h)| (l..=h).contains(&&seed[k]))
-        })
+        && let Some(bounds) = &body.shape.bounds
+        && (0..of.0).any(|k| !within(bounds, k))
     {
         found.add(place, "the seed lies outside the `box`");
     }

@@ -17,17 +17,13 @@ pub(crate) fn keys(scene: &Scene, body: &Body, path: &str, found: &mut Problems)
         .split_last()
         .is_some_and(|(down, level)| *down < 0.0 && level.iter().all(|g| *g == 0.0));
     if !down {
-        found.add(
-            &path,
-            "a wave needs a `numerics.gravity` down along the last axis",
-        );
+        let message = "a wave needs a `numerics.gravity` down along the last axis";
+        found.add(&path, message);
     }
-    if wave.height > HIGHEST * wave.depth {
+    let (depth, height, most) = (wave.depth, wave.height, HIGHEST * wave.depth);
+    if height > most {
         let message = format!(
-            "a solitary wave on water {} m deep is at most {} m high, found {} m",
-            wave.depth,
-            HIGHEST * wave.depth,
-            wave.height
+            "a solitary wave on water {depth} m deep is at most {most} m high, found {height} m"
         );
         found.add(format!("{path}.height"), message);
     }
@@ -57,36 +53,28 @@ pub(crate) fn place<const D: usize>(
 ) {
     let near = ROUNDING * spacing;
     let (lo, hi) = region.base.bounds();
-    if wave.crest < lo[0] || wave.crest > hi[0] {
-        let message = format!(
-            "the crest is at {} m, out of the body from {} m to {} m",
-            wave.crest, lo[0], hi[0]
-        );
-        found.add(format!("{path}.wave.crest"), message);
+    let (from, to, crest) = (lo[0], hi[0], wave.crest);
+    let path = format!("{path}.wave");
+    if crest < from || crest > to {
+        let message = format!("the crest is at {crest} m, out of the body from {from} m to {to} m");
+        found.add(format!("{path}.crest"), message);
     }
-    let top = wave.still() + wave.height;
-    if top > hi[D - 1] + near {
+    let (low, high) = (lo[D - 1], hi[D - 1]);
+    let (bed, still, top) = (wave.bottom, wave.still(), wave.still() + wave.height);
+    if top > high + near {
         let message = format!(
-            "the crest is {top} m high, and the body ends at {} m: it would be cut off",
-            hi[D - 1]
+            "the crest is {top} m high, and the body ends at {high} m: it would be cut off"
         );
-        found.add(format!("{path}.wave"), message);
+        found.add(&path, message);
     }
     // Waves are drawn half a spacing up where rows stand at whole spacings.
-    if lo[D - 1] < wave.bottom - spacing {
-        let message = format!(
-            "the body reaches down to {} m, below the bed of the wave at {} m",
-            lo[D - 1],
-            wave.bottom
-        );
-        found.add(format!("{path}.wave"), message);
+    if low < bed - spacing {
+        let message =
+            format!("the body reaches down to {low} m, below the bed of the wave at {bed} m");
+        found.add(&path, message);
     }
-    if lo[D - 1] >= wave.still() {
-        let message = format!(
-            "the body starts at {} m, above the still water at {} m",
-            lo[D - 1],
-            wave.still()
-        );
-        found.add(format!("{path}.wave"), message);
+    if low >= still {
+        let message = format!("the body starts at {low} m, above the still water at {still} m");
+        found.add(&path, message);
     }
 }

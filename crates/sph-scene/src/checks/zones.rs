@@ -1,6 +1,6 @@
-//! Checks of zones: their boxes, ratios, and how they are nested.
+//! Checks of outlets, and of zones: their boxes, ratios, and how they are nested.
 
-use scene_text::Problems;
+use scene_text::{Problems, given};
 
 use crate::checks::dimension::Dimension;
 use crate::{Scene, Zone};
@@ -9,15 +9,15 @@ use crate::{Scene, Zone};
 const FINEST: f64 = 0.125;
 
 /// Checks every zone, and any two.
-pub(crate) fn check(scene: &Scene, of: Dimension, found: &mut Problems) {
+pub(crate) fn check_zones(scene: &Scene, of: Dimension, found: &mut Problems) {
     let before = found.0.len();
     for (name, zone) in &scene.zone {
         let path = format!("zone.{name}");
         of.corners(&zone.bounds, &format!("{path}.box"), found);
-        if !is_power(zone.ratio) {
+        let ratio = zone.ratio;
+        if !is_power(ratio) {
             let message = format!(
-                "the ratio is 0.5, 0.25 or 0.125, found {}: each zone halves the spacing around it",
-                zone.ratio
+                "the ratio is 0.5, 0.25 or 0.125, found {ratio}: each zone halves the spacing around it"
             );
             found.add(format!("{path}.ratio"), message);
         }
@@ -56,4 +56,30 @@ fn nested(scene: &Scene, name: &str, zone: &Zone, found: &mut Problems) {
 fn overlap(a: &Zone, b: &Zone) -> bool {
     let [a, b] = [&a.bounds, &b.bounds];
     (0..a[0].len()).all(|k| a[0][k] < b[1][k] && b[0][k] < a[1][k])
+}
+
+/// Checks the geometry of all outlets.
+pub(crate) fn outlets(scene: &Scene, of: Dimension, found: &mut Problems) {
+    for (name, outlet) in &scene.outlet {
+        let path = format!("outlet.{name}");
+        let one = [outlet.bounds.is_some(), outlet.beyond.is_some()];
+        let neither = "the key `box` or `beyond` is missing: where particles leave";
+        let both = "an outlet is a box or what is beyond a plane, not both";
+        found.either(one, &path, neither, ("beyond", both));
+        if let (Some(corners), None) = (&outlet.bounds, outlet.beyond) {
+            of.corners(corners, &format!("{path}.box"), found);
+        }
+        if outlet.bounds.is_some() {
+            for key in given([
+                ("axis", outlet.axis.is_some()),
+                ("direction", outlet.direction.is_some()),
+            ]) {
+                found.add(format!("{path}.{key}"), "it belongs to `beyond`");
+            }
+        }
+        if outlet.axis.is_some_and(|axis| axis as usize >= of.0) {
+            let message = format!("there is no such axis in {}D", of.0);
+            found.add(format!("{path}.axis"), message);
+        }
+    }
 }

@@ -52,17 +52,10 @@ pub(crate) fn lines(text: &str, name: &str, form: &Form) -> Result<Vec<Line>, St
     let line = |block: Vec<Row>| {
         let begins = block.first().map_or(0, |row| row.line);
         let points = block.iter().map(|row| row.values).collect();
-        let line = Line {
-            points,
-            closed: false,
-        };
-        let tidy = line.tidied(0.0);
-        match tidy.points.len() {
-            0 | 1 => Err(format!(
-                "`{name}`: the line that begins in line {begins} has one corner only"
-            )),
-            _ => Ok(tidy),
-        }
+        let closed = false;
+        let tidy = Line { points, closed }.tidied(0.0);
+        let why = || format!("`{name}`: the line that begins in line {begins} has one corner only");
+        (tidy.points.len() > 1).then_some(tidy).ok_or_else(why)
     };
     named(text, name, form)?.into_iter().map(line).collect()
 }
@@ -109,17 +102,17 @@ fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
             }
         };
         if chosen.only && columns != 2 {
-            return Err(at_line(format!(
-                "expected 2 numbers with a comma between them, found {columns} columns"
-            )));
+            let why =
+                format!("expected 2 numbers with a comma between them, found {columns} columns");
+            return Err(at_line(why));
         }
         let number = |column: usize| match numbers.get(chosen.at[column]) {
             Some(Some(x)) if x.is_finite() => Ok(x * chosen.factors[column]),
             Some(Some(x)) => Err(at_line(format!("expected a finite number, found {x}"))),
-            Some(None) => Err(at_line(format!(
-                "`{}` is not a number",
-                fields[chosen.at[column]]
-            ))),
+            Some(None) => {
+                let text = fields[chosen.at[column]];
+                Err(at_line(format!("`{text}` is not a number")))
+            }
             None => Err(at_line(format!("there are {columns} columns only"))),
         };
         let values = [number(0)?, number(1)?];
@@ -129,9 +122,8 @@ fn parse(text: &str, form: &Form) -> Result<Vec<Vec<Row>>, String> {
         }
         rows += 1;
         if rows > ROWS || blocks.len() > BLOCKS {
-            return Err(at_line(format!(
-                "more than {ROWS} rows, or more than {BLOCKS} blocks of them"
-            )));
+            let why = format!("more than {ROWS} rows, or more than {BLOCKS} blocks of them");
+            return Err(at_line(why));
         }
         if let Some(block) = blocks.last_mut() {
             block.push(Row { line, values });
@@ -186,36 +178,28 @@ mod tests {
         ] {
             assert_eq!(first(text, &columns), Ok([0.5, 0.02]), "{text}");
         }
-        let wrong = first("t [s], x [kg]\n1,2\n", &["t", "x"]).unwrap_err();
-        assert!(wrong.contains("`kg` is no unit of length"), "{wrong}");
-        assert!(
-            first("t,x\n1,2\n", &["t", "y"])
-                .unwrap_err()
-                .contains("no column `y`")
-        );
-        assert!(
-            first("1 2\n", &["1", "3"])
-                .unwrap_err()
-                .contains("2 columns only")
-        );
+        for (text, columns, told) in [
+            (
+                "t [s], x [kg]\n1,2\n",
+                ["t", "x"],
+                "`kg` is no unit of length",
+            ),
+            ("t,x\n1,2\n", ["t", "y"], "no column `y`"),
+            ("1 2\n", ["1", "3"], "2 columns only"),
+        ] {
+            let wrong = first(text, &columns).unwrap_err();
+            assert!(wrong.contains(told), "{wrong}");
+        }
     }
 
     #[test]
     fn blocks_are_separated_by_blank_lines_and_comments() {
         let text = "x, y\n0,0\n1 , 2e-1 # corner\n\n3;4\n# next\n5 6\n";
         let blocks = parse(text, &places()).unwrap();
-        let values: Vec<Vec<_>> = blocks
-            .iter()
-            .map(|b| b.iter().map(|r| r.values).collect())
-            .collect();
-        assert_eq!(
-            values,
-            [
-                vec![[0.0, 0.0], [1.0, 0.2]],
-                vec![[3.0, 4.0]],
-                vec![[5.0, 6.0]]
-            ]
-        );
+        let rows = blocks.iter().map(|b| b.iter().map(|r| r.values));
+        let rows: Vec<Vec<_>> = rows.map(Iterator::collect).collect();
+        let first = vec![[0.0, 0.0], [1.0, 0.2]];
+        assert_eq!(rows, [first, vec![[3.0, 4.0]], vec![[5.0, 6.0]]]);
         assert_eq!(blocks[1][0].line, 5);
     }
 

@@ -50,13 +50,10 @@ pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>,
     // Not by recursion: drawings may be nested to any depth.
     let mut waiting: Vec<(Node<'_, '_>, Affine)> = children(&root, upright);
     while let Some((node, outer)) = waiting.pop() {
+        let name = node.tag_name().name();
         let place = |why: String| {
             let at = document.text_pos_at(node.range().start);
-            told(format!(
-                "line {}: <{}>: {why}",
-                at.row,
-                node.tag_name().name()
-            ))
+            told(format!("line {}: <{name}>: {why}", at.row))
         };
         if hidden(&node) {
             continue;
@@ -65,17 +62,15 @@ pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>,
             Some(text) => outer * transform(text).map_err(place)?,
             None => outer,
         };
-        match node.tag_name().name() {
+        match name {
             "svg" | "use" | "text" => {
-                return Err(place(
-                    "it is not read; turn it into paths (unlink clones, convert text)".to_string(),
-                ));
+                let why = "it is not read; turn it into paths (unlink clones, convert text)";
+                return Err(place(why.to_string()));
             }
             "g" | "a" | "switch" => waiting.extend(children(&node, placed)),
             _ => {
-                if let Some(path) =
-                    drawn(&node, SHARES[0] * tolerance / scale(&placed)).map_err(place)?
-                {
+                let tolerance = SHARES[0] * tolerance / scale(&placed);
+                if let Some(path) = drawn(&node, tolerance).map_err(place)? {
                     lines.add(&(placed * path)).map_err(place)?;
                 }
             }
@@ -263,10 +258,9 @@ impl Lines {
             pen = element.end_point().unwrap_or(pen);
         }
         end(&mut line, false);
+        let why = format!("the drawing has more than {CORNERS} corners at this spacing");
         match self.corners > CORNERS {
-            true => Err(format!(
-                "the drawing has more than {CORNERS} corners at this spacing"
-            )),
+            true => Err(why),
             false => Ok(()),
         }
     }

@@ -89,13 +89,11 @@ impl Pen {
                 ..
             } => {
                 place(rx, ry)?;
-                let (to, radii) = (place(x, y)?, Vec2::new(rx, ry));
-                let x_rotation = x_axis_rotation.to_radians();
                 let arc = SvgArc {
                     from,
-                    to,
-                    radii,
-                    x_rotation,
+                    to: place(x, y)?,
+                    radii: Vec2::new(rx, ry),
+                    x_rotation: x_axis_rotation.to_radians(),
                     large_arc,
                     sweep,
                 };
@@ -144,11 +142,7 @@ impl Pen {
     fn arc(&mut self, given: &SvgArc, tolerance: f64) -> Point {
         // Between ends that are one place an arc has no centre.
         let apart = (given.to - given.from).hypot() > 1e-9 * tolerance;
-        let arc = match apart {
-            true => Arc::from_svg_arc(given),
-            false => None,
-        };
-        match arc {
+        match Some(given).filter(|_| apart).and_then(Arc::from_svg_arc) {
             Some(arc) => {
                 let path = &mut self.path;
                 arc.to_cubic_beziers(tolerance, |a, b, c| path.curve_to(a, b, c));

@@ -3,7 +3,6 @@
 use sph_core::place_cells::{PlaceCells, offsets};
 
 use crate::Region;
-use crate::filling::nodes::{Nodes, Offset};
 use crate::geometry::periodic_place::{PeriodicRegion, ROUNDING, wrapped};
 use crate::geometry::vector::distance;
 
@@ -32,15 +31,13 @@ pub fn fill<const D: usize>(
     offset: Offset,
     periodic: &[Option<[f64; 2]>; D],
 ) -> Vec<BodyParticles<D>> {
-    let placed: Vec<_> = bodies
-        .iter()
+    let placed = bodies.iter();
+    let placed: Vec<_> = placed
         .map(|b| PeriodicRegion::new(b, spacing, periodic))
         .collect();
+    let half = 0.5 * spacing * (1.0 - ROUNDING);
     let (firm, reach) = match offset {
-        Offset::None => (
-            0.5 * spacing * (1.0 - ROUNDING),
-            0.5 * spacing * (1.0 - ROUNDING),
-        ),
+        Offset::None => (half, half),
         Offset::Half => (ROUNDING * spacing, 1e-3 * spacing),
     };
     // Particles near surfaces.
@@ -83,9 +80,103 @@ pub fn fill<const D: usize>(
 /// Unit vectors to all neighbours of a cell.
 fn directions<const D: usize>() -> Vec<[f64; D]> {
     let all = offsets::<D>().filter(|o| o.iter().any(|c| *c != 0));
-    all.map(|o| {
+    let unit = |o: [i64; D]| {
         let length = o.iter().map(|c| (c * c) as f64).sum::<f64>().sqrt();
         o.map(|c| c as f64 / length)
-    })
-    .collect()
+    };
+    all.map(unit).collect()
+}
+
+/// Origin of the lattice of a body, counted from the lower corner of the box around it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offset {
+    /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if
+    /// it is at least half a spacing inside.
+    None,
+    /// Nodes at half spacings: a row stands half a spacing off the body's side. A node is kept
+    /// if it is inside.
+    Half,
+}
+
+impl Offset {
+    /// The offset as a fraction of the spacing.
+    pub fn shift(self) -> f64 {
+        match self {
+            Offset::None => 0.0,
+            Offset::Half => 0.5,
+        }
+    }
+}
+
+/// Nodes lo + (k + shift)·δr for k below the count, along every axis.
+pub(crate) struct Nodes<const D: usize> {
+    origin: [f64; D],
+    step: [f64; D],
+    counts: [usize; D],
+}
+
+impl<const D: usize> Nodes<D> {
+    pub fn new(placed: &PeriodicRegion<'_, D>, spacing: f64, offset: Offset) -> Self {
+        let (lo, hi) = placed.bounds();
+        let spans = placed.spans();
+        let shift = offset.shift();
+        let length = |k: usize| (hi[k] - lo[k]) / spacing;
+        let counts = |k: usize| match (spans[k], offset) {
+            (true, _) => length(k).round().max(1.0) as usize,
+            (false, Offset::None) => (length(k) + ROUNDING).floor() as usize + 1,
+            (false, Offset::Half) => (length(k) + 0.5).ceil() as usize,
+        };
+        let step = |k: usize| match spans[k] {
+            true => (hi[k] - lo[k]) / length(k).round().max(1.0),
+            false => spacing,
+        };
+        let step: [f64; D] = std::array::from_fn(step);
+        Nodes {
+            origin: std::array::from_fn(|k| lo[k] + shift * step[k]),
+            step,
+            counts: std::array::from_fn(counts),
+        }
+    }
+
+    /// Every node, the first axis running slowest.
+    pub fn iter(&self) -> impl Iterator<Item = [f64; D]> + '_ {
+        let mut index = [0usize; D];
+        let mut done = self.counts.contains(&0);
+        std::iter::from_fn(move || {
+            if done {
+                return None;
+            }
+            let node = std::array::from_fn(|k| self.origin[k] + index[k] as f64 * self.step[k]);
+            done = true;
+            for k in (0..D).rev() {
+                index[k] += 1;
+                if index[k] < self.counts[k] {
+                    done = false;
+                    break;
+                }
+                index[k] = 0;
+            }
+            Some(node)
+        })
+    }
+}
+
+/// About how many particles [`fill`](crate::fill) will place, from the boxes around the bodies.
+///
+/// No lattice node is visited, so that a scene of 10¹² particles can be refused at once.
+/// Regions that are cut out, and the corners beside a disc, count as if they were filled.
+///
+/// ```
+/// use sph_scene::{Region, Shape, estimate};
+///
+/// let body = Region::whole(Shape::Cuboid { lo: [0.0; 3], hi: [1.0; 3] });
+/// assert_eq!(estimate(&[body], 1e-4), 1e12);
+/// ```
+pub fn estimate<const D: usize>(bodies: &[Region<D>], spacing: f64) -> f64 {
+    let along = |lo: f64, hi: f64| ((hi - lo) / spacing).round().max(1.0);
+    let count = |region: &Region<D>| {
+        let (lo, hi) = region.base.bounds();
+        (0..D).map(|k| along(lo[k], hi[k])).product::<f64>()
+    };
+    bodies.iter().map(count).sum()
 }

@@ -8,7 +8,7 @@ use sph_core::{SceneProblem, unit_factor};
 
 use crate::drawings::heading::Form;
 use crate::drawings::rows::{self, Row};
-use crate::geometry::vector::{array, unit};
+use crate::geometry::vector::{array, unit, unit_axis};
 use crate::reading::limits::TIMES;
 use crate::tables::motion::{CourseRows, Motion, Rotation, Translate};
 
@@ -48,19 +48,16 @@ impl Motion {
         }
         let turning = |centre: Option<&[f64]>, axis: &Option<Vec<f64>>, course| course::Rotation {
             centre: array(centre.unwrap_or_default()),
-            axis: axis
-                .as_deref()
-                .and_then(unit)
-                .map_or([0.0, 0.0, 1.0], |a| array(&a)),
+            axis: unit_axis(axis),
             course,
         };
+        let speed = self.angular_velocity;
         let rotation = match &self.rotate {
             Some(given) => {
                 let course = given.given().course(&format!("{place}.rotate"))?;
                 Some(turning(Some(&given.centre), &given.axis, course))
             }
-            None if self.angular_velocity != 0.0 => {
-                let speed = self.angular_velocity;
+            None if speed != 0.0 => {
                 let course = Course::Steady { speed };
                 Some(turning(self.centre.as_deref(), &self.axis, course))
             }
@@ -132,13 +129,14 @@ impl ImposedCourse<'_> {
         if let Some([amplitude, period, phase, ramp]) = self.sine {
             return Ok(Course::sine(amplitude, period, phase, ramp));
         }
-        if let Some(table) = &self.rows.table {
-            let rows = table.as_slice().into();
-            return Ok(Course::Table { rows });
-        }
-        let rows = self.rows();
-        let rows = rows.map_err(|why| SceneProblem::new(format!("{place}.file"), why))?;
-        let rows = rows.iter().map(|r| r.values).collect();
+        let rows = match &self.rows.table {
+            Some(table) => table.as_slice().into(),
+            None => {
+                let told = |why| SceneProblem::new(format!("{place}.file"), why);
+                let rows = self.rows().map_err(told)?;
+                rows.iter().map(|r| r.values).collect()
+            }
+        };
         Ok(Course::Table { rows })
     }
 
@@ -211,9 +209,7 @@ impl Motion {
         let after = rows.partition_point(|r| before(r.values[0]));
         let line = rows[after.saturating_sub(1)].line;
         let file = given.rows.file.as_deref()?;
-        Some((
-            format!("{key}.file"),
-            Some(format!("`{file}`, line {line}")),
-        ))
+        let told = format!("`{file}`, line {line}");
+        Some((format!("{key}.file"), Some(told)))
     }
 }

@@ -62,10 +62,8 @@ mod tests {
                     .map(|s| (axes[0] * s.cos() - x[0]).hypot(axes[1] * s.sin() - x[1]))
                     .fold(f64::INFINITY, f64::min);
                 let found = depth(axes, x);
-                assert!(
-                    (found.abs() - sampled).abs() < 1e-7,
-                    "{axes:?} {x:?}: {found} {sampled}"
-                );
+                let error = (found.abs() - sampled).abs();
+                assert!(error < 1e-7, "{axes:?} {x:?}: {found} {sampled}");
                 assert_eq!(found >= 0.0, at[0].hypot(at[1]) <= 1.0);
             }
         }

@@ -69,8 +69,15 @@ pub(crate) fn nearest(height: impl Fn(f64) -> f64, reach: f64, x: f64, y: f64) -
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// Distance of the point (x, y) from the densely sampled line y = height(x), within 1 along x.
+    pub(crate) fn sampled(height: impl Fn(f64) -> f64, (x, y): (f64, f64)) -> f64 {
+        let all = (-100_000..100_000).map(|k| x + 1e-5 * f64::from(k));
+        let away = all.map(|s| (s - x).hypot(height(s) - y));
+        away.fold(f64::INFINITY, f64::min)
+    }
 
     fn wave() -> LevelSurface {
         LevelSurface {
@@ -94,22 +101,15 @@ mod tests {
     #[test]
     fn distances_to_a_wave_are_those_of_its_densely_sampled_line() {
         let wave = wave();
-        for (x, y) in [
-            (0.0, 0.9),
-            (0.3, 0.42),
-            (0.55, 0.3),
-            (0.1, 0.55),
+        let (near, far) = (
+            [(0.0, 0.9), (0.3, 0.42), (0.55, 0.3), (0.1, 0.55)],
             (7.0, -2.0),
-        ] {
-            let sampled = (-100_000..100_000)
-                .map(|k| x + 1e-5 * f64::from(k))
-                .map(|s| (s - x).hypot(wave.height(s) - y))
-                .fold(f64::INFINITY, f64::min);
+        );
+        for (x, y) in near.into_iter().chain([far]) {
+            let sampled = sampled(|x| wave.height(x), (x, y));
             let found = wave.above(&[x, y]);
-            assert!(
-                (found.abs() - sampled).abs() < 1e-8,
-                "{x} {y}: {found} {sampled}"
-            );
+            let error = (found.abs() - sampled).abs();
+            assert!(error < 1e-8, "{x} {y}: {found} {sampled}");
             assert_eq!(found > 0.0, y > wave.height(x));
             assert_eq!(found, wave.above(&[x, 55.0, y]), "the same in space");
         }

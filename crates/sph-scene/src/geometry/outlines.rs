@@ -88,10 +88,8 @@ pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, S
     if let Some(open) = lines.iter().position(|l| !l.closed) {
         return Err(SideError::Open(open));
     }
-    let polygons: Vec<Polygon> = lines
-        .iter()
-        .map(|l| Polygon::new(l.points.clone()))
-        .collect();
+    let polygons = lines.iter().map(|l| Polygon::new(l.points.clone()));
+    let polygons: Vec<Polygon> = polygons.collect();
     let of = |(k, polygon): (usize, &Polygon)| {
         let edges = polygon.edges().map(|(a, b)| (k, a, b));
         edges.collect::<Vec<_>>()
@@ -135,13 +133,8 @@ mod tests {
     fn open_sides_leave_lines_with_the_inside_on_the_left() {
         let tank = rectangle([0.0; 2], [2.0, 1.0], &[Face::YPlus]);
         let points = vec![[0.0, 1.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
-        assert_eq!(
-            tank,
-            [Line {
-                points,
-                closed: false
-            }]
-        );
+        let closed = false;
+        assert_eq!(tank, [Line { points, closed }]);
         let channel = rectangle([0.0; 2], [2.0, 1.0], &[Face::XPlus, Face::XMinus]);
         assert_eq!(channel.len(), 2);
         assert_eq!(channel[1].points, [[2.0, 1.0], [0.0, 1.0]]);
@@ -153,25 +146,19 @@ mod tests {
         let square = |r: f64| Line::closed(vec![[-r, -r], [r, -r], [r, r], [-r, r]]);
         let lines = vec![square(1.0), square(3.0), square(2.0).reversed()];
         let area = |l: &Line| Polygon::new(l.points.clone()).area();
-        let inside = oriented(lines.clone(), FluidSide::Inside).unwrap();
-        assert_eq!(
-            inside.iter().map(area).collect::<Vec<_>>(),
-            [4.0, 36.0, -16.0]
-        );
-        let outside = oriented(lines, FluidSide::Outside).unwrap();
-        assert_eq!(
-            outside.iter().map(area).collect::<Vec<_>>(),
-            [-4.0, -36.0, 16.0]
-        );
+        let areas = |side| -> Vec<f64> {
+            let oriented = oriented(lines.clone(), side).unwrap();
+            oriented.iter().map(area).collect()
+        };
+        assert_eq!(areas(FluidSide::Inside), [4.0, 36.0, -16.0]);
+        assert_eq!(areas(FluidSide::Outside), [-4.0, -36.0, 16.0]);
     }
 
     #[test]
     fn doubled_corners_go_and_a_line_that_returns_is_closed() {
-        let line = Line {
-            points: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]],
-            closed: false,
-        };
-        let tidy = line.tidied(1e-12);
+        let points = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
+        let closed = false;
+        let tidy = Line { points, closed }.tidied(1e-12);
         assert!(tidy.closed && tidy.points.len() == 3);
     }
 }

@@ -62,35 +62,29 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
     /// Distance from the surface, positive inside; surfaces across a filled period do not count.
     pub fn depth(&self, x: &[f64; D]) -> f64 {
         let x = wrapped(x, &self.periods);
-        let base = self.base.depth(&x, &self.shifts, &self.periods);
-        let cuts = self
-            .cuts
-            .iter()
-            .map(|c| -c.depth(&x, &self.shifts, &self.periods));
-        cuts.fold(base, f64::min)
+        let of = |part: &Periodic<D>| part.depth(&x, &self.shifts, &self.periods);
+        let cuts = self.cuts.iter().map(|c| -of(c));
+        cuts.fold(of(&self.base), f64::min)
     }
 }
 
 impl<const D: usize> Periodic<'_, D> {
     fn depth(&self, x: &[f64; D], shifts: &[[f64; D]], periods: &[Option<[f64; 2]>; D]) -> f64 {
         let moved = |s: &[f64; D]| -> [f64; D] { std::array::from_fn(|k| x[k] - s[k]) };
+        let deepest = |shape: &Shape<D>| {
+            let depths = shifts.iter().map(|s| shape.depth(&moved(s)));
+            depths.fold(f64::NEG_INFINITY, f64::max)
+        };
         match self.shape {
             Shape::Cuboid { lo, hi } => {
-                let far = |k: usize| {
-                    if self.spans[k] {
-                        4.0 * (hi[k] - lo[k])
-                    } else {
-                        0.0
-                    }
+                let far = |k: usize| match self.spans[k] {
+                    true => 4.0 * (hi[k] - lo[k]),
+                    false => 0.0,
                 };
-                let open = Shape::Cuboid {
+                deepest(&Shape::Cuboid {
                     lo: std::array::from_fn(|k| lo[k] - far(k)),
                     hi: std::array::from_fn(|k| hi[k] + far(k)),
-                };
-                shifts
-                    .iter()
-                    .map(|s| open.depth(&moved(s)))
-                    .fold(f64::NEG_INFINITY, f64::max)
+                })
             }
             Shape::Polygon(polygon) if self.spans.contains(&true) => {
                 self.across(polygon, [0, 1], x, shifts, periods)
@@ -116,20 +110,15 @@ impl<const D: usize> Periodic<'_, D> {
                 let far = |a: &[f64; D], b: &[f64; D]| {
                     std::array::from_fn(|k| a[k] + 4.0 * (a[k] - b[k]))
                 };
-                let open = Shape::Cylinder {
+                deepest(&Shape::Cylinder {
                     from: far(from, to),
                     to: far(to, from),
                     radius: *radius,
-                };
-                let depths = shifts.iter().map(|s| open.depth(&moved(s)));
-                depths.fold(f64::NEG_INFINITY, f64::max)
+                })
             }
             // It has no images: a wave that fits the period is its own.
             Shape::Side { .. } | Shape::OverWave(_) => self.shape.depth(x),
-            shape => shifts
-                .iter()
-                .map(|s| shape.depth(&moved(s)))
-                .fold(f64::NEG_INFINITY, f64::max),
+            shape => deepest(shape),
         }
     }
 

@@ -40,6 +40,12 @@ impl Polygon {
         self.edges().filter(|(a, b)| crosses_ray(x, *a, *b)).count() % 2 == 1
     }
 
+    /// Distance of a point from the nearest edge, m, positive inside.
+    pub(crate) fn depth(&self, x: [f64; 2]) -> f64 {
+        let away = self.distance(x, |_, _| true);
+        if self.contains(x) { away } else { -away }
+    }
+
     /// Distance of a point from the nearest edge for which `counts` holds, m.
     pub fn distance(&self, x: [f64; 2], counts: impl Fn([f64; 2], [f64; 2]) -> bool) -> f64 {
         let to = |(a, b): ([f64; 2], [f64; 2])| {
@@ -183,14 +189,11 @@ mod tests {
 
     #[test]
     fn a_corner_on_another_edge_and_a_fold_are_found() {
-        let touch = Polygon::new(vec![
-            [0.0, 0.0],
-            [4.0, 0.0],
-            [4.0, 4.0],
-            [2.0, 0.0],
-            [0.0, 4.0],
-        ]);
-        assert!(touch.crossing().is_some());
+        let inwards = [[2.0, 0.0], [0.0, 4.0]];
+        let touch = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]
+            .into_iter()
+            .chain(inwards);
+        assert!(Polygon::new(touch.collect()).crossing().is_some());
         let fold = Polygon::new(vec![[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [2.0, 2.0]]);
         assert!(fold.crossing().is_some());
     }
@@ -199,23 +202,10 @@ mod tests {
     fn a_segment_is_held_against_those_beside_it_only() {
         for tall in [1.0, 1000.0] {
             let n = 20_000;
-            let corner = |k: usize| ((k as f64) * 1.5, (k % 2) as f64 * tall);
-            let up = |k: usize| {
-                (
-                    [corner(k).0, corner(k).1],
-                    [corner(k + 1).0, corner(k + 1).1],
-                )
-            };
-            let across = |k: usize| {
-                (
-                    [corner(k).1, corner(k).0],
-                    [corner(k + 1).1, corner(k + 1).0],
-                )
-            };
-            for edges in [
-                (0..n).map(up).collect(),
-                (0..n).map(across).collect::<Vec<_>>(),
-            ] {
+            let up = |k: usize| [(k as f64) * 1.5, (k % 2) as f64 * tall];
+            let across = |k: usize| [up(k)[1], up(k)[0]];
+            for corner in [&up as &dyn Fn(usize) -> [f64; 2], &across] {
+                let edges: Vec<_> = (0..n).map(|k| (corner(k), corner(k + 1))).collect();
                 // The box of a segment touches that of the next, and of no other.
                 assert_eq!(searched(&edges, false), (None, n - 1));
             }

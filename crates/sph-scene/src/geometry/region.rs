@@ -83,12 +83,10 @@ fn cuts<const D: usize>(body: &Body) -> Vec<Shape<D>> {
     let cut = |surface: &Option<LevelSurface>, above: bool| {
         surface.map(|surface| Shape::Side { surface, above })
     };
+    let wave = body.wave.map(Shape::OverWave);
+    let ends = [cut(&body.above, false), cut(&body.below, true), wave];
     let given = body.subtract.iter().filter_map(BodyShape::shape);
-    given
-        .chain(cut(&body.above, false))
-        .chain(cut(&body.below, true))
-        .chain(body.wave.map(Shape::OverWave))
-        .collect()
+    given.chain(ends.into_iter().flatten()).collect()
 }
 
 #[cfg(test)]

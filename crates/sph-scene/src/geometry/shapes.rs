@@ -94,11 +94,7 @@ impl<const D: usize> Shape<D> {
                 false => -surface.above(x),
             },
             Shape::OverWave(wave) => wave.above(x),
-            Shape::Polygon(polygon) => {
-                let flat = [x[0], x[1]];
-                let away = polygon.distance(flat, |_, _| true);
-                if polygon.contains(flat) { away } else { -away }
-            }
+            Shape::Polygon(polygon) => polygon.depth([x[0], x[1]]),
             Shape::Cylinder { from, to, radius } => {
                 let (along, off, length) = axial_coordinates(from, to, x);
                 let (side, end) = (radius - off, along.min(length - along));
@@ -117,9 +113,7 @@ impl<const D: usize> Shape<D> {
                 axis,
                 ends,
             } => {
-                let flat = across(x, *axis);
-                let away = polygon.distance(flat, |_, _| true);
-                let side = if polygon.contains(flat) { away } else { -away };
+                let side = polygon.depth(across(x, *axis));
                 side.min(x[*axis] - ends[0]).min(ends[1] - x[*axis])
             }
         }
@@ -134,10 +128,8 @@ impl<const D: usize> Shape<D> {
             }
             Shape::Ellipse { centre, semi_axes } => {
                 let reach = |k: usize| semi_axes.get(k).copied().unwrap_or(0.0);
-                (
-                    std::array::from_fn(|k| centre[k] - reach(k)),
-                    std::array::from_fn(|k| centre[k] + reach(k)),
-                )
+                let corner = |sign: f64| std::array::from_fn(|k| centre[k] + sign * reach(k));
+                (corner(-1.0), corner(1.0))
             }
             Shape::Side { surface, above } => {
                 let (mut lo, mut hi) = ([f64::NEG_INFINITY; D], [f64::INFINITY; D]);
@@ -192,9 +184,8 @@ fn axial_coordinates<const D: usize>(
     x: &[f64; D],
 ) -> (f64, f64, f64) {
     let length = distance(from, to);
-    let along = (0..D)
-        .map(|k| (x[k] - from[k]) * (to[k] - from[k]) / length)
-        .sum();
+    let along = |k: usize| (x[k] - from[k]) * (to[k] - from[k]) / length;
+    let along = (0..D).map(along).sum();
     let foot = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]) / length);
     (along, distance(x, &foot), length)
 }

@@ -78,17 +78,10 @@ pub fn sense(facets: &Facets) -> f64 {
 /// The largest openings in words, in the unit of the file.
 pub(crate) fn openings(all: &[Opening]) -> String {
     let told = all.iter().take(TOLD).map(|o| {
-        let size = number::plain(o.size);
-        format!(
-            "{} edges, {size} across, around {}",
-            o.edges,
-            point(&o.centre)
-        )
+        let (edges, size, centre) = (o.edges, number::plain(o.size), point(&o.centre));
+        format!("{edges} edges, {size} across, around {centre}")
     });
     let told: Vec<String> = told.collect();
-    let more = match all.len() > TOLD {
-        true => "; …",
-        false => "",
-    };
+    let more = if all.len() > TOLD { "; …" } else { "" };
     format!("{} openings ({}{more})", all.len(), told.join("; "))
 }

@@ -3,7 +3,8 @@
 use scene_text::surface::{cross, dot};
 
 use crate::Wall;
-use crate::geometry::vector::{array, unit};
+use crate::geometry::solid::clean;
+use crate::geometry::vector::{array, unit_axis};
 
 /// x → turn·(factor·x − centre) + centre + shift.
 pub(crate) struct Placing {
@@ -21,16 +22,11 @@ struct RotationAxis {
 
 impl Placing {
     pub fn new(wall: &Wall, factor: f64) -> Self {
-        let turn = wall.rotate.as_ref().map(|rotate| {
-            let axis = rotate.axis.as_deref().and_then(unit);
-            // A quarter turn is exact.
-            let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
-            RotationAxis {
-                centre: array(rotate.centre.as_deref().unwrap_or(&[])),
-                axis: axis.map_or([0.0, 0.0, 1.0], |a| array(&a)),
-                cos: clean(rotate.angle.cos()),
-                sin: clean(rotate.angle.sin()),
-            }
+        let turn = wall.rotate.as_ref().map(|rotate| RotationAxis {
+            centre: array(rotate.centre.as_deref().unwrap_or(&[])),
+            axis: unit_axis(&rotate.axis),
+            cos: clean(rotate.angle.cos()),
+            sin: clean(rotate.angle.sin()),
         });
         Placing {
             factor,

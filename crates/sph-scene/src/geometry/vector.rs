@@ -13,11 +13,15 @@ pub(crate) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 
 /// `(0.1, 0.2)` for messages.
 pub(crate) fn point(x: &[f64]) -> String {
-    let text: Vec<String> = x
-        .iter()
-        .map(|c| format!("{}", (c * 1e9).round() / 1e9))
-        .collect();
+    let rounded = x.iter().map(|c| (c * 1e9).round() / 1e9);
+    let text: Vec<String> = rounded.map(|c| c.to_string()).collect();
     format!("({})", text.join(", "))
+}
+
+/// The unit vector of an axis; that of z where none is given.
+pub(crate) fn unit_axis(axis: &Option<Vec<f64>>) -> [f64; 3] {
+    let axis = axis.as_deref().and_then(unit);
+    axis.map_or([0.0, 0.0, 1.0], |a| array(&a))
 }
 
 /// The unit vector of a direction, if it has one.

@@ -13,7 +13,7 @@ use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
 use crate::reading::limits::{LINES, WALL_CORNERS};
 use crate::tables::wall_shapes::{Face, Wedge};
-use crate::{FluidSide, Wall};
+use crate::{FluidSide, SphereWall, Wall};
 
 /// Curves of drawings become lines within this many spacings.
 const TOLERANCE: f64 = 0.05;
@@ -132,15 +132,9 @@ impl Wall {
         let spacing = spacing / self.factor();
         let sides = |given, radius| sides_of(given, radius, spacing);
         let disc = self.disc.iter().map(|d| sides(d.sides, d.shape.radius));
-        let ball = self.sphere.iter().map(|b| {
-            let parts = b.subdivisions;
-            let parts = parts.unwrap_or_else(|| divide::subdivisions(b.shape.radius / spacing));
-            20 * parts * parts
-        });
-        let cylinder = self
-            .cylinder
-            .iter()
-            .map(|c| 4 * sides(c.sides, c.shape.radius));
+        let ball = self.sphere.iter().map(|b| 20 * b.parts(spacing).pow(2));
+        let cylinder = self.cylinder.iter();
+        let cylinder = cylinder.map(|c| 4 * sides(c.sides, c.shape.radius));
         let cone = self.cone.iter().map(|c| 2 * sides(c.sides, c.shape.radius));
         disc.chain(ball).chain(cylinder).chain(cone).sum()
     }
@@ -176,10 +170,8 @@ impl Wall {
         if let Some(wedge) = &self.wedge {
             return Ok(vec![Line::closed(wedge.plane(Face::YPlus))]);
         }
-        let path = self
-            .path
-            .as_ref()
-            .ok_or("a geometry in the plane is missing")?;
+        let path = self.path.as_ref();
+        let path = path.ok_or("a geometry in the plane is missing")?;
         if has_ending(&path.to_string_lossy(), "svg") {
             return svg::read(path, TOLERANCE * spacing);
         }
@@ -191,58 +183,40 @@ impl Wall {
 
     /// The surface of a shape, facing outwards.
     fn solid(&self, spacing: f64) -> Option<Facets> {
-        let sides = |given, radius| sides_of(given, radius, spacing);
+        let ring =
+            |given, radius: f64, turn| solid::ring(radius, sides_of(given, radius, spacing), turn);
         if let Some([lo, hi]) = &self.bounds {
             return Some(solid::cuboid(array(lo), array(hi), &self.open));
         }
         if let Some(ball) = &self.sphere {
-            let parts = ball
-                .subdivisions
-                .unwrap_or_else(|| divide::subdivisions(ball.shape.radius / spacing));
-            return Some(solid::sphere(
-                array(&ball.shape.centre),
-                ball.shape.radius,
-                parts,
-            ));
+            let (centre, parts) = (array(&ball.shape.centre), ball.parts(spacing));
+            return Some(solid::sphere(centre, ball.shape.radius, parts));
         }
         if let Some(c) = &self.cylinder {
-            let ring = solid::ring(c.shape.radius, sides(c.sides, c.shape.radius), c.turn);
-            return Some(solid::cylinder(
-                array(&c.shape.from),
-                array(&c.shape.to),
-                &ring,
-                c.open_ends,
-            ));
+            let ring = ring(c.sides, c.shape.radius, c.turn);
+            let (from, to) = (array(&c.shape.from), array(&c.shape.to));
+            return Some(solid::cylinder(from, to, &ring, c.open_ends));
         }
         if let Some(c) = &self.cone {
-            let ring = solid::ring(c.shape.radius, sides(c.sides, c.shape.radius), c.turn);
-            return Some(solid::cone(
-                array(&c.shape.base),
-                array(&c.shape.apex),
-                &ring,
-            ));
+            let ring = ring(c.sides, c.shape.radius, c.turn);
+            let (base, apex) = (array(&c.shape.base), array(&c.shape.apex));
+            return Some(solid::cone(base, apex, &ring));
         }
         if let Some(wedge) = &self.wedge {
             let up = wedge.up.unwrap_or(Face::ZPlus);
             let across = 3 - wedge.rise.axis() - up.axis();
             let axis = [Axis::X, Axis::Y, Axis::Z][across];
-            let ends = [wedge.lo[across], wedge.hi[across]];
-            return Some(solid::extrusion(
-                &wedge.plane(Face::ZPlus),
-                axis,
-                ends,
-                false,
-            ));
+            let (ends, plane) = (
+                [wedge.lo[across], wedge.hi[across]],
+                wedge.plane(Face::ZPlus),
+            );
+            return Some(solid::extrusion(&plane, axis, ends, false));
         }
         let whole = self.extrusion.as_ref()?;
         let e = &whole.shape;
         let polygon: Vec<[f64; 2]> = e.polygon.iter().map(|p| array(p)).collect();
-        Some(solid::extrusion(
-            &polygon,
-            e.axis,
-            [e.from, e.to],
-            whole.open_ends,
-        ))
+        let ends = [e.from, e.to];
+        Some(solid::extrusion(&polygon, e.axis, ends, whole.open_ends))
     }
 
     /// Refuses lengths that are absurdly large or small against the spacing.
@@ -260,25 +234,29 @@ impl Wall {
             (None, _) => plain,
         };
         if across < LEAST * spacing {
+            let other = "are the coordinates in another unit? give for instance `unit = \"km\"`";
+            let advice = advice("take a smaller spacing", other);
             return Err(format!(
-                "it is {across:.3e} m across, less than {LEAST} spacings of {spacing} m: {}",
-                advice(
-                    "take a smaller spacing",
-                    "are the coordinates in another unit? give for instance `unit = \"km\"`"
-                )
+                "it is {across:.3e} m across, less than {LEAST} spacings of {spacing} m: {advice}"
             ));
         }
         if across > ACROSS * spacing && elements > ELEMENTS || !elements.is_finite() {
+            let other = "are the coordinates in millimetres? give `unit = \"mm\"`";
+            let advice = advice("take a larger spacing", other);
             return Err(format!(
                 "it is {across:.3e} m across and would need {elements:.1e} wall elements at a \
-                 spacing of {spacing} m: {}",
-                advice(
-                    "take a larger spacing",
-                    "are the coordinates in millimetres? give `unit = \"mm\"`"
-                )
+                 spacing of {spacing} m: {advice}"
             ));
         }
         Ok(())
+    }
+}
+
+impl SphereWall {
+    /// Parts of every edge of the icosahedron, at a spacing in the unit of the geometry.
+    fn parts(&self, spacing: f64) -> usize {
+        let open = || divide::subdivisions(self.shape.radius / spacing);
+        self.subdivisions.unwrap_or_else(open)
     }
 }
 
@@ -304,8 +282,6 @@ fn length(line: &Line) -> f64 {
     let closing = if line.closed { line.points.len() } else { 0 };
     let pairs = line.points.windows(2).map(|p| (p[0], p[1]));
     let ends = (closing > 1).then(|| (line.points[closing - 1], line.points[0]));
-    pairs
-        .chain(ends)
-        .map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1]))
-        .sum()
+    let pairs = pairs.chain(ends);
+    pairs.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
 }

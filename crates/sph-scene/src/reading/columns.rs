@@ -31,10 +31,9 @@ fn courses(motion: &mut Value, place: &str, found: &mut Vec<SceneProblem>) {
         Some(Value::Array(several)) => {
             let single = several.len() == 1;
             for (k, one) in several.iter_mut().enumerate() {
-                let number = if single {
-                    String::new()
-                } else {
-                    format!("[{k}]")
+                let number = match single {
+                    true => String::new(),
+                    false => format!("[{k}]"),
                 };
                 course(one, "m", &format!("{place}.translate{number}"), found);
             }
@@ -50,11 +49,9 @@ fn courses(motion: &mut Value, place: &str, found: &mut Vec<SceneProblem>) {
 fn course(table: &mut Value, unit: &str, place: &str, found: &mut Vec<SceneProblem>) {
     let rows = table.get_mut("table").and_then(Value::as_array_mut);
     for (k, row) in rows.into_iter().flatten().enumerate() {
-        let cells = row.as_array_mut().into_iter().flatten();
-        for (n, (cell, unit)) in cells
-            .zip(std::iter::once("s").chain(std::iter::repeat(unit)))
-            .enumerate()
-        {
+        let units = std::iter::once("s").chain(std::iter::repeat(unit));
+        let cells = row.as_array_mut().into_iter().flatten().zip(units);
+        for (n, (cell, unit)) in cells.enumerate() {
             let Value::String(text) = &*cell else {
                 continue;
             };

@@ -13,10 +13,8 @@ pub(crate) fn added(problems: Vec<SceneProblem>, scene: &Table) -> Vec<SceneProb
     let mut told: Vec<SceneProblem> = Vec::new();
     let mut explained: Vec<String> = Vec::new();
     for mut problem in problems {
-        if explained
-            .iter()
-            .any(|table| is_within(&problem.path, table))
-        {
+        let mut tables = explained.iter();
+        if tables.any(|table| is_within(&problem.path, table)) {
             continue;
         }
         if let Some((table, message)) = explanation(&problem, scene) {
@@ -81,11 +79,8 @@ fn places(name: &str, value: &Value, parents: &[&str]) -> Option<String> {
     table?;
     let all = kinds().into_iter().filter(|kind| is_of(kind, name));
     let each = all.map(|kind| {
-        let place = place(kind, name, parents);
-        format!(
-            "the plugin `{name}` of the kind `{}` stands in {place}",
-            kind.name
-        )
+        let (place, kind) = (place(kind, name, parents), kind.name);
+        format!("the plugin `{name}` of the kind `{kind}` stands in {place}")
     });
     let each: Vec<String> = each.collect();
     (!each.is_empty()).then(|| each.join(", "))
@@ -108,10 +103,8 @@ fn place(kind: &PluginKind, plugin: &str, parents: &[&str]) -> String {
         Place::InWall => format!("`[wall.{}.{inner}.{plugin}]`", own("wall")),
         Place::Probe => format!("`[probe.{}]` with `kind = \"{plugin}\"`", own("probe")),
         Place::Solution if parents.first() == Some(&"reference") => {
-            format!(
-                "`[reference.{}]` with `solution = \"{plugin}\"`",
-                own("reference")
-            )
+            let name = own("reference");
+            format!("`[reference.{name}]` with `solution = \"{plugin}\"`")
         }
         Place::Solution => format!("`[body.{}.initial.{plugin}]`", own("body")),
     }
@@ -119,22 +112,14 @@ fn place(kind: &PluginKind, plugin: &str, parents: &[&str]) -> String {
 
 /// A plugin that a key names, `kernel = "wendland-c2"` or `kernel.kind = "wendland-c2"`, where its table has to.
 fn named_by_a_key(path: &str, scene: &Table) -> Option<(String, String)> {
-    let single = kinds()
-        .into_iter()
-        .filter(|kind| kind.place != Place::Probe);
+    let single = kinds().into_iter();
     let mut held = single.flat_map(|kind| {
         let tables = holders(kind, scene).into_iter();
         tables.map(move |(table, held)| (kind, table, held))
     });
     let (kind, table, held) = held.find(|(_, table, _)| is_within(path, table))?;
-    let within = held
-        .as_table()
-        .into_iter()
-        .flatten()
-        .map(|(_, value)| value);
-    let mut names = std::iter::once(held)
-        .chain(within)
-        .filter_map(Value::as_str);
+    let within = held.as_table().into_iter().flat_map(Table::values);
+    let mut names = [held].into_iter().chain(within).filter_map(Value::as_str);
     let plugin = names.find(|name| is_of(kind, name)).unwrap_or("PLUGIN");
     let message = format!("a table names the plugin, `[{table}.{plugin}]`");
     Some((table, message))
@@ -142,9 +127,8 @@ fn named_by_a_key(path: &str, scene: &Table) -> Option<(String, String)> {
 
 /// Keys of a wall, phase, … that stand in `[wall]`, `[phase]`, ….
 fn without_a_name(path: &[&str]) -> Option<(String, String)> {
-    let root = path
-        .first()
-        .filter(|root| NAMED.contains(root) && path.len() <= 2)?;
+    let root = path.first().filter(|root| NAMED.contains(root));
+    let root = root.filter(|_| path.len() <= 2)?;
     let message = format!("its name is one that you choose, `[{root}.NAME]`");
     Some((root.to_string(), message))
 }

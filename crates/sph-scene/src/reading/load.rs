@@ -2,24 +2,18 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use scene_text::{Diagnostic, Override, Source, read_text};
+use scene_text::{Diagnostic, Override, Source, named_files, read_text};
 use sph_core::{SceneProblem, conform, kinds};
 use thiserror::Error;
 use toml::{Table, Value};
 
-use crate::Scene;
 use crate::checks::collected;
-use crate::reading::columns;
-use crate::reading::hints;
-use crate::reading::kinematic;
-use crate::reading::limits;
 use crate::reading::plugins::Plugins;
-use crate::reading::remarks;
-use crate::reading::renamed;
-use crate::reading::schema;
 use crate::reading::suited::add_suited;
+use crate::reading::{columns, hints, kinematic, limits, remarks, renamed, schema};
+use crate::{PathProblem, Scene};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -187,5 +181,31 @@ fn add_new(problems: &mut Vec<SceneProblem>, more: Vec<SceneProblem>) {
         if problems.iter().all(|p| p.path != problem.path) {
             problems.push(problem);
         }
+    }
+}
+
+/// A file that a scene names: walls, motions, references, probes.
+#[derive(Clone, Debug)]
+pub struct DataFile {
+    /// Dotted path of the key.
+    pub key: String,
+    /// The file as the scene names it.
+    pub named: String,
+    /// Path of the file, if the scene may name it.
+    pub path: Result<PathBuf, PathProblem>,
+}
+
+impl Loaded {
+    /// Every file that the scene names, in the order of its keys.
+    pub fn files(&self) -> Vec<DataFile> {
+        let placed = |(key, named): (String, String)| DataFile {
+            path: self.source.resolve(&key, &named),
+            key,
+            named,
+        };
+        named_files(&self.resolved())
+            .into_iter()
+            .map(placed)
+            .collect()
     }
 }

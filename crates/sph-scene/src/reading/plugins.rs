@@ -51,10 +51,8 @@ pub(crate) fn holders<'t>(kind: &PluginKind, scene: &'t Table) -> Vec<(String, &
     };
     match kind.place {
         Place::One | Place::Any => {
-            let own = scene.get(kind.name);
-            own.map(|held| (kind.name.to_string(), held))
-                .into_iter()
-                .collect()
+            let own = scene.get(kind.name).into_iter();
+            own.map(|held| (kind.name.to_string(), held)).collect()
         }
         Place::InPhase => nested("phase", kind.name),
         Place::InWall => nested("wall", kind.name),
@@ -113,17 +111,27 @@ pub(crate) fn probes<'t, T: Into<Value> + Clone + 't>(
 /// The solutions of the references of a scene.
 pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
     let all = scene.get("reference").and_then(Value::as_table);
-    let choice = |(name, given): (&String, &Value)| {
+    let choice = |(reference, given): (&String, &Value)| {
         let parameters = given.get("parameters").and_then(Value::as_table);
-        Some(PluginChoice {
-            kind: "solution",
-            name: given.get("solution")?.as_str()?.to_string(),
-            table: parameters.cloned().unwrap_or_default(),
-            path: format!("reference.{name}.parameters"),
-            name_path: format!("reference.{name}.solution"),
-        })
+        let name = given.get("solution")?.as_str()?.to_string();
+        Some(solution(
+            reference,
+            name,
+            parameters.cloned().unwrap_or_default(),
+        ))
     };
     all.into_iter().flatten().filter_map(choice).collect()
+}
+
+/// The solution of a reference, by its name and parameters.
+pub(crate) fn solution(reference: &str, name: String, table: Table) -> PluginChoice {
+    PluginChoice {
+        kind: "solution",
+        name,
+        table,
+        path: format!("reference.{reference}.parameters"),
+        name_path: format!("reference.{reference}.solution"),
+    }
 }
 
 /// The only plugin of a kind in its table under a parent, as a choice.

@@ -36,35 +36,25 @@ pub(crate) fn replace(scene: &mut Table) -> Result<Vec<SceneProblem>, SceneProbl
             return Err(SceneProblem::new(place, why));
         }
         keys.insert(key.into(), value);
-        remarks.push(SceneProblem::new(
-            place,
-            format!("is called `{key}`: rename the key"),
-        ));
+        let why = format!("is called `{key}`: rename the key");
+        remarks.push(SceneProblem::new(place, why));
     }
     if let Some(output) = scene.get_mut("output").and_then(Value::as_table_mut) {
-        columns(
-            output,
-            &["fields", "picture", "picture_range"],
-            "output",
-            &mut remarks,
-        );
+        let keys = ["fields", "picture", "picture_range"];
+        columns(output, keys, "output", &mut remarks);
     }
     let probes = scene.get_mut("probe").and_then(Value::as_table_mut);
     for (name, probe) in probes.into_iter().flatten() {
         if let Some(probe) = probe.as_table_mut() {
-            columns(
-                probe,
-                &["field", "above", "below"],
-                &format!("probe.{name}"),
-                &mut remarks,
-            );
+            let (keys, place) = (["field", "above", "below"], format!("probe.{name}"));
+            columns(probe, keys, &place, &mut remarks);
         }
     }
     Ok(remarks)
 }
 
 /// Replaces the columns that some keys of a table name: in a text, in a list of texts, or as keys of a table.
-fn columns(table: &mut Table, keys: &[&str], place: &str, remarks: &mut Vec<SceneProblem>) {
+fn columns(table: &mut Table, keys: [&str; 3], place: &str, remarks: &mut Vec<SceneProblem>) {
     for key in keys {
         let place = format!("{place}.{key}");
         let mut name = |text: &mut String, place: &str| {
@@ -75,7 +65,7 @@ fn columns(table: &mut Table, keys: &[&str], place: &str, remarks: &mut Vec<Scen
                 *text = format!("{name}{component}");
             }
         };
-        match table.get_mut(*key) {
+        match table.get_mut(key) {
             Some(Value::String(text)) => name(text, &place),
             Some(Value::Array(items)) => {
                 for (k, item) in items.iter_mut().enumerate() {
@@ -85,13 +75,12 @@ fn columns(table: &mut Table, keys: &[&str], place: &str, remarks: &mut Vec<Scen
                 }
             }
             Some(Value::Table(bounds)) => {
-                let renamed = std::mem::take(bounds)
-                    .into_iter()
-                    .map(|(mut column, bound)| {
-                        let place = format!("{place}.{column}");
-                        name(&mut column, &place);
-                        (column, bound)
-                    });
+                let given = std::mem::take(bounds).into_iter();
+                let renamed = given.map(|(mut column, bound)| {
+                    let place = format!("{place}.{column}");
+                    name(&mut column, &place);
+                    (column, bound)
+                });
                 *bounds = renamed.collect();
             }
             _ => {}

@@ -103,14 +103,11 @@ fn solutions(root: &mut Json, kind: &PluginKind, shared: &mut Map<String, Json>)
     };
     let names: Vec<&str> = plugins.iter().map(|p| p.name).collect();
     place["properties"]["solution"]["enum"] = json!(names);
-    let rules: Vec<Json> = plugins
-        .iter()
-        .map(|p| {
-            json!({
-                "if": { "required": ["solution"], "properties": { "solution": { "const": p.name } } },
-                "then": { "properties": { "parameters": editors::plugin(kind.name, p, shared) } },
-            })
+    let rules = plugins.iter().map(|p| {
+        json!({
+            "if": { "required": ["solution"], "properties": { "solution": { "const": p.name } } },
+            "then": { "properties": { "parameters": editors::plugin(kind.name, p, shared) } },
         })
-        .collect();
-    place["allOf"] = Json::Array(rules);
+    });
+    place["allOf"] = rules.collect();
 }

@@ -127,15 +127,13 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     let spacing = scene.numerics.spacing;
     let periods = scene.numerics.periodic.bounds::<D>();
     let meets = |a: f64, b: f64| (a - b).abs() <= GAP * spacing;
-    let spans =
-        |k: usize| periods[k].is_some() || meets(low[k], lower[k]) && meets(high[k], upper[k]);
+    let both = |k: usize| meets(low[k], lower[k]) && meets(high[k], upper[k]);
+    let spans = |k: usize| periods[k].is_some() || both(k);
     let half = |x: f64, k: usize| {
         let rows = (x - lower[k]) / spacing;
+        let at_half = (rows - rows.floor() - 0.5).abs() < OFF_HALF;
         let free = !meets(x, lower[k]) && !meets(x, upper[k]);
-        lower[k].is_finite()
-            && periods[k].is_none()
-            && free
-            && (rows - rows.floor() - 0.5).abs() < OFF_HALF
+        lower[k].is_finite() && periods[k].is_none() && free && at_half
     };
     let drawn_to_half_rows = |body: &Body| {
         let flat = body.shape.bounds.is_some() || body.shape.polygon.is_some();
@@ -155,6 +153,7 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     let bounded = scene.body.values().any(|body| body.shape.bounds.is_some());
     let stirred = scene.choice("eddy-viscosity").is_some();
     let all_known = scene.wall.values().all(|wall| known(wall, spacing));
+    let laws = scene.phase.keys().map(|phase| law(scene, phase));
     FlowNature {
         confined: match filled {
             true => !bounded,
@@ -165,12 +164,7 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
         heavy: heavy(scene),
         half_rows: scene.body.values().any(drawn_to_half_rows),
         phases: scene.phase.len(),
-        law: scene
-            .phase
-            .keys()
-            .map(|phase| law(scene, phase))
-            .max()
-            .unwrap_or_default(),
+        law: laws.max().unwrap_or_default(),
     }
 }
 
@@ -193,17 +187,13 @@ fn corners_of_walls<const D: usize>(scene: &Scene) -> Vec<[f64; D]> {
     let spacing = scene.numerics.spacing;
     let all = scene.wall.values().filter(|wall| known(wall, spacing));
     let corners = |wall: &Wall| -> Vec<[f64; D]> {
-        match D {
-            2 => {
-                let lines = wall.lines("", spacing).unwrap_or_default();
-                let points = lines.iter().flat_map(|line| &line.points);
-                points.map(|x| array(x)).collect()
-            }
-            _ => {
-                let facets = wall.facets("", spacing).unwrap_or_default();
-                facets.points.iter().map(|x| array(x)).collect()
-            }
+        if D == 3 {
+            let facets = wall.facets("", spacing).unwrap_or_default();
+            return facets.points.iter().map(|x| array(x)).collect();
         }
+        let lines = wall.lines("", spacing).unwrap_or_default();
+        let points = lines.iter().flat_map(|line| &line.points);
+        points.map(|x| array(x)).collect()
     };
     all.flat_map(corners).collect()
 }

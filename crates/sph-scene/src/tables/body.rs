@@ -1,4 +1,4 @@
-//! The table `[body.NAME]`: where a phase is at the start.
+//! The tables `[body.NAME]`, where a phase is at the start, and `[phase.NAME]`, one material.
 
 use scene_text::given;
 use sph_core::parameters;
@@ -109,11 +109,9 @@ impl BodyShape {
     /// The shape in D dimensions, if one is given.
     pub fn shape<const D: usize>(&self) -> Option<Shape<D>> {
         let polygon = |points: &[Vec<f64>]| Polygon::new(points.iter().map(|p| array(p)).collect());
-        if let Some([lo, hi]) = &self.bounds {
-            return Some(Shape::Cuboid {
-                lo: array(lo),
-                hi: array(hi),
-            });
+        if let Some(corners) = &self.bounds {
+            let [lo, hi] = corners.each_ref().map(|c| array(c));
+            return Some(Shape::Cuboid { lo, hi });
         }
         if let Some(points) = &self.polygon {
             return Some(Shape::Polygon(polygon(points)));
@@ -125,18 +123,12 @@ impl BodyShape {
             });
         }
         if let Some(c) = &self.cylinder {
-            return Some(Shape::Cylinder {
-                from: array(&c.from),
-                to: array(&c.to),
-                radius: c.radius,
-            });
+            let (from, to, radius) = (array(&c.from), array(&c.to), c.radius);
+            return Some(Shape::Cylinder { from, to, radius });
         }
         if let Some(c) = &self.cone {
-            return Some(Shape::Cone {
-                base: array(&c.base),
-                apex: array(&c.apex),
-                radius: c.radius,
-            });
+            let (base, apex, radius) = (array(&c.base), array(&c.apex), c.radius);
+            return Some(Shape::Cone { base, apex, radius });
         }
         if let Some(e) = &self.extrusion {
             return Some(Shape::Extrusion {
@@ -158,4 +150,26 @@ impl Body {
     pub fn needs_walls(&self) -> bool {
         self.clip || self.fill.is_some()
     }
+}
+
+/// A material: its density, how it resists compression and how it flows.
+#[parameters]
+pub struct Phase {
+    /// Reference density, kg/m³.
+    #[parameter(unit: "kg/m³", above: 0.0)]
+    pub density: f64,
+    /// Equation of state, `[phase.NAME.equation-of-state.PLUGIN]`; chosen by the solver if left out.
+    #[serde(rename = "equation-of-state")]
+    #[parameter(default)]
+    #[schemars(with = "AnyPlugins", extend("maxProperties" = 1))]
+    pub equation_of_state: Plugins,
+    /// Rheology, `[phase.NAME.rheology.PLUGIN]`, exactly one.
+    #[schemars(with = "AnyPlugins", extend("minProperties" = 1), extend("maxProperties" = 1))]
+    pub rheology: Plugins,
+    /// Numerical speed of sound, m/s; ten times the largest of `velocity_scale` and √(gH) if left out.
+    #[parameter(unit: "m/s", above: 0.0, quantity: "speed of sound")]
+    pub speed_of_sound: Option<f64>,
+    /// Largest speed that is expected, m/s; used to choose the speed of sound.
+    #[parameter(unit: "m/s", above: 0.0)]
+    pub velocity_scale: Option<f64>,
 }

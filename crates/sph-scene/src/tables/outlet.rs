@@ -1,4 +1,4 @@
-//! The table `[outlet.NAME]`: where particles leave the flow.
+//! The tables `[outlet.NAME]`, where particles leave the flow, and `[zone.NAME]`, where it is computed with finer ones.
 
 use sph_core::{Axis, parameters};
 
@@ -31,11 +31,29 @@ impl Outlet {
             let within = |k: usize| lo.get(k) <= Some(&x[k]) && Some(&x[k]) <= hi.get(k);
             return (0..D).all(within);
         }
-        let axis = self.axis.map_or(0, |axis| axis as usize).min(D - 1);
-        self.beyond
-            .is_some_and(|plane| match self.direction.unwrap_or_default() {
-                Heading::Forward => x[axis] > plane,
-                Heading::Backward => x[axis] < plane,
-            })
+        let at = x[self.axis.map_or(0, |axis| axis as usize).min(D - 1)];
+        let direction = self.direction.unwrap_or_default();
+        self.beyond.is_some_and(|plane| match direction {
+            Heading::Forward => at > plane,
+            Heading::Backward => at < plane,
+        })
     }
+}
+
+/// A box in which the flow is computed with finer particles, too.
+///
+/// The scene's own particles stay everywhere; within the box they follow the finer ones, and finer ones in a band around
+/// the box follow the scene's.
+#[parameters]
+pub struct Zone {
+    /// Lower and upper corner of the box, m. It may reach beyond walls, and span a whole period.
+    #[serde(rename = "box")]
+    #[parameter(unit: "m")]
+    pub bounds: [Vec<f64>; 2],
+    /// Spacing in the zone over that of the scene: 1/2, or 1/4 and 1/8 within a zone of twice that.
+    #[parameter(default: 0.5, above: 0, below: 1)]
+    pub ratio: f64,
+    /// Probes and gauges that are measured with the particles of the zone.
+    #[parameter(default)]
+    pub probes: Vec<String>,
 }

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use sph_core::{SceneProblem, Vect, parameters};
+use sph_core::{PluginChoice, SceneProblem, Vect, parameters};
 
 use crate::geometry::vector::array;
-use crate::reading::plugins::{Plugins, Probe, in_table, probes, single};
+use crate::reading::plugins::{Plugins, Probe, in_table, probes, single, solution};
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall, Zone};
-use sph_core::PluginChoice;
 
 /// Displacement at the start, over the spacing, where particles are shifted and the scene has no key for it.
 ///
@@ -182,13 +181,8 @@ impl Scene {
     /// The reference solution of a comparison, if it has one.
     pub fn solution(&self, reference: &str) -> Option<PluginChoice> {
         let given = self.reference.get(reference)?;
-        Some(PluginChoice {
-            kind: "solution",
-            name: given.solution.clone()?,
-            table: given.parameters.clone(),
-            path: format!("reference.{reference}.parameters"),
-            name_path: format!("reference.{reference}.solution"),
-        })
+        let name = given.solution.clone()?;
+        Some(solution(reference, name, given.parameters.clone()))
     }
 
     /// The zone of twice the ratio whose box encloses that of a zone.
@@ -201,6 +195,14 @@ impl Scene {
         };
         let found = self.zone.iter().find(|(_, other)| encloses(other));
         found.map(|(name, _)| name)
+    }
+
+    /// The table of a probe or gauge of a name: `probe` or `gauge`.
+    pub fn table_of_probe(&self, name: &str) -> &'static str {
+        match self.gauge.contains_key(name) {
+            true => "gauge",
+            false => "probe",
+        }
     }
 
     /// Probes and gauges: the name of each and its plugin.

@@ -6,8 +6,8 @@ use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
 use crate::setup::planning::StagePlan;
-use crate::step::declared::Columns;
 use crate::step::flow::Flow;
+use crate::step::hooks::Columns;
 use crate::step::outlets::Outlets;
 use crate::step::snapshot::Snapshot;
 use crate::step::stages::WALL_STATE;
@@ -31,10 +31,11 @@ pub struct FlowInputs<const D: usize> {
 
 /// A flow from a plan, with all columns that it touches.
 pub fn joined<const D: usize>(
-    world: World<D>,
+    mut world: World<D>,
     planned: StagePlan<D>,
     given: FlowInputs<D>,
 ) -> Flow<D> {
+    world.transported = planned.transported;
     let mut evolved = vec![given.density];
     let offer = planned.offer;
     evolved.extend(offer.transported);
@@ -86,16 +87,13 @@ pub fn joined<const D: usize>(
 
 /// Allocates every column that a planned stage touches.
 fn allocate<const D: usize>(flow: &mut Flow<D>) {
-    let touched: Vec<AnyField> = flow
-        .columns
-        .stages
+    let stages = &flow.columns.stages;
+    let touched = stages
         .iter()
-        .flat_map(|access| access.writes.iter().copied().chain(access.reads()))
-        .filter(|f| f.name != WALL_STATE.name && f.name != fields::PHASE.name)
-        .collect();
-    let remembered = flow.columns.stages.iter().flat_map(|a| a.remembers.clone());
-    let remembered: Vec<AnyField> = remembered.collect();
-    for field in touched {
+        .flat_map(|a| a.writes.iter().copied().chain(a.reads()));
+    let apart = [WALL_STATE.name, fields::PHASE.name];
+    let remembered: Vec<AnyField> = stages.iter().flat_map(|a| a.remembers.clone()).collect();
+    for field in touched.filter(|f| !apart.contains(&f.name)) {
         let role = match remembered.contains(&field) {
             true => Role::State,
             false => Role::Derived,

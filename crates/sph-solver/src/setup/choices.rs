@@ -57,20 +57,17 @@ pub fn plugins(scene: &Scene) -> Plugins {
 pub fn own_accounts(scene: &Scene) -> Vec<&'static str> {
     let own = |kind: &&str| kind_of(kind).is_some_and(|kind| kind.work == Work::Own);
     let kinds = scene.kinds_named().filter(own);
-    kinds
-        .filter(|kind| sph_contribution::contributes(kind))
-        .collect()
+    let kinds = kinds.filter(|kind| sph_contribution::contributes(kind));
+    kinds.collect()
 }
 
 /// Choices of a scene for things with names of their own.
-fn named<T>(
-    names: impl IntoIterator<Item = impl ToString>,
+fn named<'n, T>(
+    names: impl Iterator<Item = &'n String>,
     choice: impl Fn(&str) -> Option<T>,
 ) -> Vec<(String, T)> {
-    let names = names.into_iter().map(|name| name.to_string());
-    names
-        .filter_map(|name| Some((name.clone(), choice(&name)?)))
-        .collect()
+    let chosen = |name: &String| Some((name.clone(), choice(name)?));
+    names.filter_map(chosen).collect()
 }
 
 impl<const D: usize> Choices<D> {

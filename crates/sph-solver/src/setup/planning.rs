@@ -4,13 +4,12 @@ use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_contribution::{Offer, Part, Refusal, Setting};
-use sph_core::{AnyField, Declares, fields, plan};
+use sph_core::{AnyField, Declares, Shape, fields, plan};
 use sph_multiphase::Diffused;
-use sph_neighbours::Interaction;
+use sph_neighbours::{Interaction, TRANSPORTED};
 use sph_scene::Scene;
 
 use crate::error::SolverError;
-use crate::setup::transported::transported_by;
 use crate::step::hooks::Hooks;
 use crate::step::stages::{InteractionSweep, Work};
 
@@ -143,12 +142,14 @@ impl<const D: usize> Planning<'_, D> {
 
     /// Columns that stages and terms read, probes measure and outputs show.
     fn read(&self, stages: &[Work<D>], by_terms: Vec<AnyField>) -> Vec<AnyField> {
-        let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
-        let shown = gradients
-            .into_iter()
-            .filter(|f| self.shown.iter().any(|name| name == f.name));
+        let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()].into_iter();
         let by_stages = stages.iter().flat_map(|s| s.access().reads());
+        let shown = gradients.filter(|f| self.shows(f));
         by_stages.chain(by_terms).chain(shown).collect()
+    }
+
+    fn shows(&self, field: &AnyField) -> bool {
+        self.shown.iter().any(|name| name == field.name)
     }
 
     /// Columns that have to be computed.
@@ -157,11 +158,8 @@ impl<const D: usize> Planning<'_, D> {
         goals.extend(later);
         goals.extend(&offer.goals);
         goals.extend(offer.transported.iter().map(|e| e.rate.any()));
-        for stage in stages {
-            let writes = stage.access().writes;
-            let shown = writes.into_iter();
-            goals.extend(shown.filter(|f| self.shown.iter().any(|name| name == f.name)));
-        }
+        let written = stages.iter().flat_map(|stage| stage.access().writes);
+        goals.extend(written.filter(|f| self.shows(f)));
         goals
     }
 
@@ -192,9 +190,8 @@ impl<const D: usize> Planning<'_, D> {
 
 /// The stages that are offered.
 fn offered<const D: usize>(offers: &mut Offers<D>) -> impl Iterator<Item = Work<D>> {
-    let stages = offers
-        .iter_mut()
-        .flat_map(|(_, offer)| offer.stages.drain(..));
+    let offers = offers.iter_mut();
+    let stages = offers.flat_map(|(_, offer)| offer.stages.drain(..));
     stages.map(Work::Stage)
 }
 
@@ -203,4 +200,29 @@ fn read_later<const D: usize>((_, offer): &(&'static str, Offer<D>)) -> Vec<AnyF
     let hooks = offer.hooks.iter().map(|h| h.access());
     let gates = offer.gates.iter().map(|g| g.access());
     hooks.chain(gates).flat_map(|a| a.reads()).collect()
+}
+
+/// The rates that terms write, each once.
+fn transported_by<const D: usize>(
+    terms: &[Box<dyn Interaction<D>>],
+) -> Result<Vec<AnyField>, SolverError> {
+    let mut all: Vec<AnyField> = Vec::new();
+    for field in terms.iter().flat_map(|t| t.access().writes) {
+        if field.shape != Shape::Scalar {
+            let name = field.name;
+            let why = format!("a pair term writes `{name}`, which is no scalar");
+            return Err(SolverError::at("", why));
+        }
+        if !all.contains(&field) {
+            all.push(field);
+        }
+    }
+    let count = all.len();
+    if count > TRANSPORTED {
+        let why = format!(
+            "the pair terms of this scene transport {count} scalars; a sweep sums {TRANSPORTED} at most"
+        );
+        return Err(SolverError::at("", why));
+    }
+    Ok(all)
 }

@@ -1,7 +1,6 @@
 //! Opens the energy budget where a probe reads it.
 
 use sph_contribution::integrators::Integrator;
-use sph_core::SceneProblem;
 use sph_multiphase::Formulation;
 use sph_probes::Probe;
 use sph_scene::Scene;
@@ -42,10 +41,6 @@ pub fn open<const D: usize>(
             return Ok(());
         }
     };
-    let kind = match scene.gauge.contains_key(name) {
-        true => "gauge",
-        false => "probe",
-    };
-    let problem = SceneProblem::new(format!("{kind}.{name}.kind"), why);
-    Err(SolverError::Scene(vec![problem]))
+    let kind = scene.table_of_probe(name);
+    Err(SolverError::at(format!("{kind}.{name}.kind"), why))
 }

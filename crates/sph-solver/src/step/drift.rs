@@ -7,9 +7,8 @@ use sph_contribution::StepPhase;
 use sph_core::{AnyField, StepError, fields};
 
 use crate::step::clocks::MOTION;
-use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
-use crate::step::observer::Boundary;
+use crate::step::hooks::{Boundary, writes_any};
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 2048;
@@ -100,10 +99,8 @@ impl<const D: usize> Flow<D> {
         }
         let mut displacement = free.take(fields::DISPLACEMENT)?;
         let velocity = free.get(fields::VELOCITY)?;
-        let all = displacement
-            .par_iter_mut()
-            .zip(velocity)
-            .with_min_len(BATCH);
+        let all = displacement.par_iter_mut().zip(velocity);
+        let all = all.with_min_len(BATCH);
         match free.get(fields::SHIFT_VELOCITY) {
             Err(_) => all.for_each(|(d, u)| *d += u * dt),
             Ok(shift) => all.zip(shift).for_each(|((d, u), s)| *d += (u + s) * dt),

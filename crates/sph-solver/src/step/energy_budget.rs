@@ -9,7 +9,7 @@ use sph_probes::{BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, 
 use sph_rheology::state::Laws;
 
 use crate::step::flow::Flow;
-use crate::step::observer::{Boundary, ObservedFlow, Observer};
+use crate::step::hooks::{Boundary, ObservedFlow, Observer};
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 1024;
@@ -274,11 +274,9 @@ impl<const D: usize> EnergyBudget<D> {
             add_work(world, of, &per_particle(n, |i| work(i, turn[i])))?;
         }
         let dilatation = self.dilatation_with(world, mean.clone())?;
-        let (volume, pressure) = (
-            world.free.get(fields::VOLUME)?,
-            world.free.get(fields::PRESSURE)?,
-        );
-        let acceleration = world.free.get(fields::ACCELERATION)?;
+        let free = &world.free;
+        let (volume, pressure) = (free.get(fields::VOLUME)?, free.get(fields::PRESSURE)?);
+        let acceleration = free.get(fields::ACCELERATION)?;
         let compressed = per_particle(n, |i| -volume[i] * pressure[i] * dilatation[i] * dt);
         let pushed = per_particle(n, |i| {
             let others = self.rates[i].iter().map(|rate| rate.acceleration);
@@ -301,9 +299,9 @@ impl<const D: usize> EnergyBudget<D> {
         let changes = std::mem::take(&mut self.changes);
         if world.free.has(self.diffused.evolved.rate.name) {
             for (class, of) in self.classes.clone().into_iter().enumerate() {
-                if self.rates.iter().any(|rates| rates[class].scalar != 0.0) {
-                    let change =
-                        per_particle(self.rates.len(), |i| self.rates[i][class].scalar * dt);
+                let rates = &self.rates;
+                if rates.iter().any(|rates| rates[class].scalar != 0.0) {
+                    let change = per_particle(rates.len(), |i| rates[i][class].scalar * dt);
                     self.condensed(world, of, &change)?;
                 }
             }

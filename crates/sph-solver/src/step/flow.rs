@@ -17,17 +17,13 @@ use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_rheology::state::Laws;
 
 use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
-use crate::step::declared::Columns;
-use crate::step::ghosts::run_and_update_ghosts;
 use crate::step::guard;
-use crate::step::hooks::{Hooked, Hooks};
-use crate::step::kept_rates::KeptRates;
-use crate::step::new_particles::NewParticleDefaults;
-use crate::step::observer::{Boundary, ObservedFlow, Observer};
+use crate::step::hooks::{Boundary, Columns, Hooked, Hooks, ObservedFlow, Observer};
+use crate::step::insertion::NewParticleDefaults;
+use crate::step::kept_rates::{KeptRates, SavedParticles};
 use crate::step::outlets::Outlets;
-use crate::step::saved_particles::SavedParticles;
 use crate::step::snapshot::Snapshot;
-use crate::step::stages::Work;
+use crate::step::stages::{Work, run_and_update_ghosts};
 use crate::step::variable_gravity::VariableGravity;
 
 /// The assembled system of one scene.
@@ -102,7 +98,7 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a limiter misses a column.
     pub fn step_limits(&self) -> Result<Vec<StepLimit>, StepError> {
-        let mut limits = Vec::with_capacity(self.limiters.len());
+        let mut limits = Vec::new();
         self.step_limits_into(&mut limits)?;
         Ok(limits)
     }
@@ -263,12 +259,11 @@ impl<const D: usize> Flow<D> {
         let Ok(position) = self.world.free.get(fields::POSITION) else {
             return 0.0;
         };
-        (0..D)
-            .map(|k| {
-                let all = || position.iter().map(|x| x[k]);
-                all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
-            })
-            .fold(0.0, f64::max)
+        let along = |k: usize| {
+            let all = || position.iter().map(|x| x[k]);
+            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+        };
+        (0..D).map(along).fold(0.0, f64::max)
     }
 
     /// The terms that push particles, those outside of the sweep included.
@@ -366,16 +361,11 @@ impl<const D: usize> Flow<D> {
     /// Starts all timings anew; after a change of the works.
     pub fn reset_timings(&mut self) {
         let services = [LISTS_NAME, MOTION_NAME].map(String::from);
-        let names = services
-            .into_iter()
-            .chain(self.stages.iter().map(|s| s.name()))
-            .chain(self.hooks.all.iter().map(|h| h.hook.name()));
-        self.timings = names
-            .map(|name| Timing {
-                name,
-                spent: Duration::ZERO,
-            })
-            .collect();
+        let stages = self.stages.iter().map(|s| s.name());
+        let hooks = self.hooks.all.iter().map(|h| h.hook.name());
+        let names = services.into_iter().chain(stages).chain(hooks);
+        let spent = Duration::ZERO;
+        self.timings = names.map(|name| Timing { name, spent }).collect();
     }
 
     /// Time spent per stage and service since the assembly.

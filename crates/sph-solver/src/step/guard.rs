@@ -16,22 +16,12 @@ fn first<T: Sync>(column: &[T], bad: impl Fn(usize, &T) -> bool + Sync) -> Optio
     let in_batch = |(b, batch): (usize, &[T])| {
         // A whole batch is tested without branches; only a bad one is searched.
         let base = b * BATCH;
-        let any = batch
-            .iter()
-            .enumerate()
-            .fold(false, |any, (k, x)| any | bad(base + k, x));
-        any.then(|| {
-            base + batch
-                .iter()
-                .enumerate()
-                .position(|(k, x)| bad(base + k, x))
-                .unwrap_or(0)
-        })
+        let mut all = batch.iter().enumerate();
+        let any = (all.clone()).fold(false, |any, (k, x)| any | bad(base + k, x));
+        any.then(|| base + all.position(|(k, x)| bad(base + k, x)).unwrap_or(0))
     };
-    column
-        .par_chunks(BATCH)
-        .enumerate()
-        .find_map_first(in_batch)
+    let batches = column.par_chunks(BATCH).enumerate();
+    batches.find_map_first(in_batch)
 }
 
 fn report<const D: usize>(
@@ -42,15 +32,12 @@ fn report<const D: usize>(
     reason: String,
 ) -> StepError {
     let position = world.free.get(fields::POSITION).map(|p| p[index]);
+    let position: Vect<D> = position.unwrap_or_else(|_| Vect::zeros());
     let identity = world.free.get(fields::IDENTITY).map(|i| i[index]);
     StepError::Bad {
         quantity,
         particle: identity.unwrap_or(index as u32),
-        position: position
-            .unwrap_or_else(|_| Vect::zeros())
-            .iter()
-            .copied()
-            .collect(),
+        position: position.iter().copied().collect(),
         value,
         reason,
     }
@@ -59,26 +46,20 @@ fn report<const D: usize>(
 /// Refuses positions that are not finite or outside the domain.
 pub fn positions<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
-    let bad = first(position, |_, x| {
-        !world.domain.contains(x) || !x.sum().is_finite()
-    });
-    match bad {
-        None => Ok(()),
-        Some(i) => {
-            let out = position[i];
-            let axis = (0..D).find(|&a| {
-                !out[a].is_finite()
-                    || out[a] < world.domain.lower[a]
-                    || out[a] > world.domain.upper[a]
-            });
-            let value = out[axis.unwrap_or(0)];
-            let reason = match value.is_finite() {
-                true => "outside the domain".to_string(),
-                false => "not finite".to_string(),
-            };
-            Err(report(world, "position", i, value, reason))
-        }
-    }
+    let domain = &world.domain;
+    let bad = |x: &Vect<D>| !domain.contains(x) || !x.sum().is_finite();
+    let Some(i) = first(position, |_, x| bad(x)) else {
+        return Ok(());
+    };
+    let out = position[i];
+    let within = |a: usize| domain.lower[a] <= out[a] && out[a] <= domain.upper[a];
+    let axis = (0..D).find(|&a| !out[a].is_finite() || !within(a));
+    let value = out[axis.unwrap_or(0)];
+    let reason = match value.is_finite() {
+        true => "outside the domain",
+        false => "not finite",
+    };
+    Err(report(world, "position", i, value, reason.into()))
 }
 
 /// Refuses densities outside their bounds and accelerations that are not finite.
@@ -94,15 +75,13 @@ pub fn rates<const D: usize>(
         None => first_of_all,
         Some(phase) => laws[phase[i] as usize].reference().density,
     };
+    let [least, most] = bounds;
     let inside = |i: usize, rho: f64| {
         let ratio = rho / reference(i);
-        ratio >= bounds[0] && ratio <= bounds[1]
+        ratio >= least && ratio <= most
     };
     if let Some(i) = first(density, |i, rho| !inside(i, *rho)) {
-        let reason = format!(
-            "outside {} to {} of the reference density",
-            bounds[0], bounds[1]
-        );
+        let reason = format!("outside {least} to {most} of the reference density");
         return Err(report(world, "density", i, density[i], reason));
     }
     let acceleration = world.free.get(fields::ACCELERATION)?;

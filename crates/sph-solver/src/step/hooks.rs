@@ -1,7 +1,9 @@
-//! Hooks of a flow, with the phases in which each runs.
+//! Hooks of a flow, with the phases in which each runs; observers of the boundaries within a step, which change nothing
+//! but columns of their own; declared columns of stages, gates and forces.
 
 use sph_contribution::{StepHook, StepPhase};
-use sph_core::Access;
+use sph_core::{Access, AnyField, StepError};
+use sph_neighbours::{Interaction, World};
 
 /// A hook at work.
 pub struct Hooked<const D: usize> {
@@ -41,4 +43,55 @@ impl<const D: usize> Hooks<D> {
     pub fn during(&self, phase: StepPhase) -> &[usize] {
         &self.by_phase[phase as usize]
     }
+}
+
+/// A boundary between two parts of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Boundary {
+    /// The stages have run.
+    Evaluated,
+    /// Velocities and scalars are advanced next.
+    Kicks,
+    /// Velocities and scalars have been advanced.
+    Kicked,
+    /// The hook of a number has run in a phase.
+    Hooked(StepPhase, usize),
+    /// All hooks after the kick have run.
+    KickEnds,
+    /// Walls have turned velocities.
+    Constrained,
+    /// Particles drift next.
+    Drifts,
+}
+
+/// The flow at a boundary.
+pub(crate) struct ObservedFlow<'a, const D: usize> {
+    pub world: &'a mut World<D>,
+    /// The terms of the sweep.
+    pub terms: &'a [Box<dyn Interaction<D>>],
+    /// Length of the kick or drift, s.
+    pub dt: f64,
+}
+
+/// An observer of a flow at the boundaries within its steps.
+pub(crate) trait Observer<const D: usize>: Send {
+    /// Looks.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    fn observe(&mut self, at: Boundary, seen: &mut ObservedFlow<'_, D>) -> Result<(), StepError>;
+}
+
+/// The columns of all parts of a flow, in its order: collected once, since each list takes memory.
+#[derive(Default)]
+pub(crate) struct Columns {
+    pub stages: Vec<Access>,
+    pub gates: Vec<Access>,
+    /// Terms of the sweep, and those outside of it.
+    pub forces: Vec<Access>,
+}
+
+/// True if one of these columns is written.
+pub(crate) fn writes_any(access: &Access, fields: &[AnyField]) -> bool {
+    fields.iter().any(|f| access.writes.contains(f))
 }

@@ -1,10 +1,13 @@
 //! Particles that come into the flow.
 
-use sph_contribution::{Birth, Initial, Newborn};
+use std::sync::Arc;
+
+use sph_contribution::{Birth, Initial, Newborn, OwnColumn};
 use sph_core::{FieldError, StepError, fields};
+use sph_multiphase::Formulation;
+use sph_scene::Scene;
 
 use crate::step::flow::Flow;
-use crate::step::new_particles::NewParticleDefaults;
 
 impl<const D: usize> Flow<D> {
     /// Lets in particles born at the end of a step of `dt` seconds.
@@ -38,10 +41,8 @@ impl<const D: usize> Flow<D> {
     /// As [`let_in`](Self::let_in); a flow that no particle may come into.
     pub fn insert(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
         let Some(nursery) = self.nursery.take() else {
-            return Err(StepError::stage(
-                "births",
-                "no particle may come into this flow",
-            ));
+            let why = "no particle may come into this flow";
+            return Err(StepError::stage("births", why));
         };
         let done = self.insert_all(&nursery, all);
         self.nursery = Some(nursery);
@@ -78,20 +79,18 @@ impl<const D: usize> Flow<D> {
             && newborn.velocity.iter().all(|u| u.is_finite())
             && self.world.domain.contains(&newborn.position)
             && (newborn.phase as usize) < self.laws.len();
-        match sound {
-            true => Ok(()),
-            false => Err(StepError::stage(
-                "births",
-                format!(
-                    "a particle from `{}` is born at {:?} with {} kg, {} kg/m³ and the phase {}: one of them is impossible",
-                    newborn.body,
-                    newborn.position.as_slice(),
-                    newborn.mass,
-                    newborn.density,
-                    newborn.phase
-                ),
-            )),
+        if sound {
+            return Ok(());
         }
+        let why = format!(
+            "a particle from `{}` is born at {:?} with {} kg, {} kg/m³ and the phase {}: one of them is impossible",
+            newborn.body,
+            newborn.position.as_slice(),
+            newborn.mass,
+            newborn.density,
+            newborn.phase
+        );
+        Err(StepError::stage("births", why))
     }
 
     /// Gives newborn particles their columns.
@@ -154,13 +153,10 @@ impl<const D: usize> Flow<D> {
         nursery: &NewParticleDefaults<D>,
         first: u32,
     ) -> Result<(), StepError> {
-        let before: Vec<_> = {
-            let free = &self.world.free;
-            let columns = self.integrated.iter();
-            columns
-                .map(|f| Ok((*f, free.get(*f)?.to_vec())))
-                .collect::<Result<_, FieldError>>()?
-        };
+        let free = &self.world.free;
+        let before = self.integrated.iter();
+        let before = before.map(|f| Ok((*f, free.get(*f)?.to_vec())));
+        let before = before.collect::<Result<Vec<_>, FieldError>>()?;
         nursery.formulation.rebase(&mut self.world)?;
         let identity = self.world.free.get(fields::IDENTITY)?.to_vec();
         for (field, values) in before {
@@ -178,5 +174,29 @@ impl<const D: usize> Flow<D> {
                 .update_ghosts(&mut self.world.free, |f| integrated.contains(f))?;
         }
         Ok(())
+    }
+}
+
+/// Initial values of newborn particles.
+pub struct NewParticleDefaults<const D: usize> {
+    pub(crate) formulation: Arc<dyn Formulation<D>>,
+    /// Columns that contributions bring along.
+    pub(crate) columns: Vec<OwnColumn<D>>,
+    /// Names of the phases.
+    pub(crate) phases: Vec<String>,
+}
+
+impl<const D: usize> NewParticleDefaults<D> {
+    /// That of a scene.
+    pub fn new(
+        scene: &Scene,
+        formulation: Arc<dyn Formulation<D>>,
+        columns: Vec<OwnColumn<D>>,
+    ) -> Self {
+        NewParticleDefaults {
+            formulation,
+            columns,
+            phases: scene.phase.keys().cloned().collect(),
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 use sph_core::{Evolved, FieldError, Store, Vect, fields};
+use sph_neighbours::World;
+use sph_neighbours::decomposition::{PartError, Parts};
 
 /// Rates of all particles, in the order of the kept state.
 #[derive(Default)]
@@ -40,6 +42,43 @@ impl<const D: usize> KeptRates<D> {
             rates.for_each(|(i, r)| *r = (*r + column[at(i)]) * 0.5);
         }
         Ok(())
+    }
+}
+
+/// All particles of a rank as they were when the state was kept; nothing where one process has all.
+#[derive(Default)]
+pub struct SavedParticles<const D: usize> {
+    free: Option<Store<D>>,
+    /// Lists built until then.
+    builds: u64,
+}
+
+impl<const D: usize> SavedParticles<D> {
+    /// Copies the particles of a rank.
+    pub(crate) fn keep(&mut self, parts: Option<&Parts<D>>, world: &World<D>) {
+        if parts.is_some() {
+            self.free = Some(world.free.copied());
+            self.builds = world.lists.builds;
+        }
+    }
+
+    /// The copies in the order of the particles that this rank has now, if some have gone and come since.
+    pub(crate) fn follow(
+        &mut self,
+        parts: Option<&Parts<D>>,
+        world: &World<D>,
+    ) -> Result<Option<&Store<D>>, PartError> {
+        let (Some(parts), Some(free)) = (parts, &mut self.free) else {
+            return Ok(None);
+        };
+        // All ranks build their lists together.
+        let builds = world.lists.builds;
+        if builds == self.builds {
+            return Ok(None);
+        }
+        parts.follow(free, &world.free)?;
+        self.builds = builds;
+        Ok(Some(free))
     }
 }
 

@@ -9,7 +9,7 @@ use sph_neighbours::{WallForce, facing_forces, reactions};
 
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
-use crate::step::observer::Boundary;
+use crate::step::hooks::Boundary;
 
 /// Particles that one thread takes at least.
 const BATCH: usize = 2048;
@@ -68,10 +68,8 @@ impl<const D: usize> Flow<D> {
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
         self.loads = reactions(&self.world, &terms, force_requests)?;
         let facing = facing_forces(&self.world, force_requests)?;
-        self.loads
-            .iter_mut()
-            .zip(&facing)
-            .for_each(|(f, more)| f.add(more));
+        let loads = self.loads.iter_mut().zip(&facing);
+        loads.for_each(|(f, more)| f.add(more));
         Ok(())
     }
 

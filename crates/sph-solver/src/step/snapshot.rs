@@ -1,8 +1,10 @@
 //! The state before a step, to fall back on when the step fails.
 
 use sph_boundary::{Wall, WallStates};
-use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
+use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, StepError, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
+
+use crate::Flow;
 
 /// The walls, and the loads of their movers.
 pub(crate) type MovedWalls<'a, const D: usize> = (
@@ -34,12 +36,9 @@ impl<const D: usize> Snapshot<D> {
         self.time = world.time;
         self.dt = world.dt;
         if let Some(walls) = walls {
+            self.walls = walls.states();
             // Lists are built anew where a step is taken back.
-            let listed = None;
-            self.walls = WallStates {
-                listed,
-                ..walls.states()
-            };
+            self.walls.listed = None;
             self.loads.clear();
             self.loads.extend_from_slice(loads);
         }
@@ -66,12 +65,9 @@ impl<const D: usize> Snapshot<D> {
             return Ok(None);
         }
         let slots = Slots::from_identities(then);
-        let place = |id: &u32| {
-            slots
-                .slot(*id)
-                .ok_or(FieldError::Missing(fields::IDENTITY.name))
-        };
-        now.iter().map(place).collect::<Result<_, _>>().map(Some)
+        let gone = FieldError::Missing(fields::IDENTITY.name);
+        let places = now.iter().map(|id| slots.slot(*id));
+        places.collect::<Option<_>>().ok_or(gone).map(Some)
     }
 
     /// Puts part of the state back, for any present order of the particles.
@@ -94,9 +90,8 @@ impl<const D: usize> Snapshot<D> {
                     Recall::State => name != fields::IDENTITY.name && !by_stages.contains(&name),
                 }
         };
-        world
-            .free
-            .put_state(&self.columns, places.as_deref(), wanted)?;
+        let free = &mut world.free;
+        free.put_state(&self.columns, places.as_deref(), wanted)?;
         if what == Recall::State {
             world.time = self.time;
             self.walls_back(world, walls);
@@ -123,5 +118,22 @@ impl<const D: usize> Snapshot<D> {
         world.dt = self.dt;
         self.walls_back(world, walls);
         Ok(())
+    }
+}
+
+impl<const D: usize> Snapshot<D> {
+    /// Copies the state; reuses its buffers.
+    pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
+        self.save(&flow.world, flow.walls.as_deref(), &flow.loads)
+    }
+
+    /// Puts the state back. If the particles were sorted meanwhile, they return to their
+    /// order; those that left since come back, those that came in are gone.
+    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
+        let walls = (flow.walls.as_deref_mut(), &mut flow.loads);
+        self.put_back(&mut flow.world, walls)?;
+        // The results of the evaluation of this state are among it.
+        flow.restored = true;
+        flow.rebuild_lists()
     }
 }

@@ -6,9 +6,8 @@ use std::any::Any;
 
 use sph_core::{AnyField, Recall, StepError, StepLimit, System, fields};
 
-use crate::step::declared::writes_any;
 use crate::step::flow::Flow;
-use crate::step::observer::Boundary;
+use crate::step::hooks::{Boundary, writes_any};
 
 /// The motions of [`System`].
 enum Motion {
@@ -122,8 +121,8 @@ impl<const D: usize> Flow<D> {
                 self.run_stages(|stage| !writes_any(stage, &state))
             }
             Motion::Keep => {
-                self.kept
-                    .save(&self.world, self.walls.as_deref(), &self.loads)?;
+                let walls = self.walls.as_deref();
+                self.kept.save(&self.world, walls, &self.loads)?;
                 self.kept_rates.keep(&self.world.free, &self.evolved)?;
                 self.kept_image.keep(self.parts.as_ref(), &self.world);
                 Ok(())
@@ -136,16 +135,13 @@ impl<const D: usize> Flow<D> {
                 self.kept_follows()?;
                 let named = (&self.integrated[..], &by_stages[..]);
                 let walls = (self.walls.as_deref_mut(), &mut self.loads);
-                self.kept.recall(&mut self.world, walls, what, named)?;
-                Ok(())
+                Ok(self.kept.recall(&mut self.world, walls, what, named)?)
             }
             Motion::AverageRates => {
                 self.kept_follows()?;
-                let places = self.kept.places(&self.world.free)?;
                 let free = &mut self.world.free;
-                self.kept_rates
-                    .average(free, &self.evolved, places.as_deref())?;
-                Ok(())
+                let (places, rates) = (self.kept.places(free)?, &self.kept_rates);
+                Ok(rates.average(free, &self.evolved, places.as_deref())?)
             }
             Motion::Kick(dt) => self.kick_over(dt),
             Motion::Drift(dt) => self.drift_over(dt),

@@ -4,34 +4,33 @@ use sph_core::{Field, Role, StepError, Vect, Vector, Work, kind_of};
 use sph_neighbours::{ClassRate, class_rates};
 
 use crate::step::flow::Flow;
-use crate::step::observer::{Boundary, ObservedFlow, Observer};
+use crate::step::hooks::{Boundary, ObservedFlow, Observer};
 
 /// Membership of a class of terms.
 type Holds = fn(Work) -> bool;
+
+const fn column(name: &'static str, meaning: &'static str) -> Field<Vector> {
+    Field::new(name, "m/s²", meaning)
+}
 
 /// Acceleration by the terms of a class of every particle at the last kick, m/s². That of the pressure has its part of
 /// the walls; that of friction the eddies' and the walls'.
 const COLUMNS: [(Field<Vector>, Holds); 4] = [
     (
-        Field::new("pressure_acceleration", "m/s²", "acceleration by pressure"),
+        column("pressure_acceleration", "acceleration by pressure"),
         |work| matches!(work, Work::Pressure),
     ),
     (
-        Field::new("viscous_acceleration", "m/s²", "acceleration by friction"),
+        column("viscous_acceleration", "acceleration by friction"),
         |work| matches!(work, Work::Friction),
     ),
     (
-        Field::new(
-            "shifting_acceleration",
-            "m/s²",
-            "acceleration by shifted momentum",
-        ),
+        column("shifting_acceleration", "acceleration by shifted momentum"),
         |work| matches!(work, Work::Shifting),
     ),
     (
-        Field::new(
+        column(
             "other_acceleration",
-            "m/s²",
             "acceleration by all other terms of the sweep",
         ),
         |work| !matches!(work, Work::Pressure | Work::Friction | Work::Shifting),
@@ -64,18 +63,14 @@ pub fn open<const D: usize>(shown: &[String], flow: &mut Flow<D>) {
     }
     let class = |kind: &str| {
         let work = kind_of(kind).map_or(Work::Others, |kind| kind.work);
-        COLUMNS
-            .iter()
-            .position(|(_, holds)| holds(work))
-            .unwrap_or(COLUMNS.len() - 1)
+        let class = COLUMNS.iter().position(|(_, holds)| holds(work));
+        class.unwrap_or(COLUMNS.len() - 1)
     };
-    let classes = flow
-        .kinds
-        .iter()
-        .map(|(name, kind)| (name.clone(), class(kind)));
+    let kinds = flow.kinds.iter();
+    let classes = kinds.map(|(name, kind)| (name.clone(), class(kind)));
     let classes = classes.collect();
-    flow.observers
-        .push(Box::new(TermAccelerations { columns, classes }));
+    let observer = TermAccelerations { columns, classes };
+    flow.observers.push(Box::new(observer));
 }
 
 impl<const D: usize> Observer<D> for TermAccelerations {

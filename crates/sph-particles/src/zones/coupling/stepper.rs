@@ -8,7 +8,6 @@ use sph_solver::{Flow, Snapshot};
 use super::Coupling;
 use crate::running::next_step::{RECOVERY, next_step};
 use crate::setup::Assembled;
-use crate::zones::spread::spread;
 
 /// A scene in memory, one step at a time.
 ///
@@ -113,29 +112,16 @@ impl<const D: usize> Stepper<D> {
 
     fn attempt(&mut self, target: f64) -> Result<(), StepError> {
         let time = self.time();
-        let flow = &mut self.parts.flow;
-        let limits = flow.step_limits()?;
+        let limits = self.parts.flow.step_limits()?;
         let factor = self.scene.run.safety * self.scale;
         let (dt, limiter) = next_step(&limits, factor, [time, target], target - time);
         if time + dt <= time {
-            return Err(StepError::stage(
-                limiter,
-                format!("a step of {dt:e} s does not move the clock at {time} s"),
-            ));
+            let why = format!("a step of {dt:e} s does not move the clock at {time} s");
+            return Err(StepError::stage(limiter, why));
         }
         self.limiter = limiter;
         self.evaluated = false;
-        flow.world.dt = dt;
-        self.coupling.begin_step(flow, dt)?;
-        self.parts.integrator.step(flow, dt)?;
-        flow.let_out(dt)?;
-        flow.let_in(dt)?;
-        if let Some(guard) = &self.coupling.guard {
-            spread(flow, &guard.frame)?;
-        }
-        if time + dt >= target * (1.0 - 1e-12) {
-            flow.world.time = target;
-        }
+        self.coupling.step(&mut self.parts, dt, target)?;
         self.evaluate()
     }
 
