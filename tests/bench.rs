@@ -1,9 +1,12 @@
 //! A folder with a scene in it, and the program that runs it.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
+use serde_json::Value as Json;
 use tempfile::TempDir;
+
+use crate::{FinalState, Says, Series};
 
 /// A temporary folder in which the program is called.
 pub struct Bench {
@@ -14,6 +17,8 @@ pub struct Bench {
 /// What a call of the program gave.
 #[derive(Debug)]
 pub struct Outcome {
+    /// The words of the call.
+    pub words: String,
     /// Exit code; none if a signal ended it.
     pub code: Option<i32>,
     /// Standard output.
@@ -49,8 +54,8 @@ impl Bench {
     }
 
     /// Writes a file into the folder.
-    pub fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path(name), text).expect("a file in a temporary folder");
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        std::fs::write(self.path(name), bytes).expect("a file in a temporary folder");
     }
 
     /// A file of the folder as text.
@@ -74,17 +79,110 @@ impl Bench {
     /// Calls the program and waits.
     pub fn call(&self, words: &str) -> Outcome {
         let output = self.command(words).output().expect("the program starts");
-        Outcome {
-            code: output.status.code(),
-            out: String::from_utf8_lossy(&output.stdout).into_owned(),
-            err: String::from_utf8_lossy(&output.stderr).into_owned(),
-        }
+        Outcome::new(words.to_owned(), &output)
     }
 
     /// Calls the program, which must succeed.
+    #[track_caller]
     pub fn done(&self, words: &str) -> Outcome {
-        let outcome = self.call(words);
-        assert_eq!(outcome.code, Some(0), "sph {words}\n{}", outcome.err);
-        outcome
+        self.call(words).ended(0)
     }
+
+    /// Calls the program, which must refuse what it is asked.
+    #[track_caller]
+    pub fn refused(&self, words: &str) -> Outcome {
+        self.call(words).ended(2)
+    }
+
+    /// Calls the program, which must end with a run that failed.
+    #[track_caller]
+    pub fn failed(&self, words: &str) -> Outcome {
+        self.call(words).ended(1)
+    }
+
+    /// A file of the folder as JSON.
+    #[track_caller]
+    pub fn json(&self, name: &str) -> Json {
+        parsed(&self.read(name))
+    }
+
+    /// `summary.json` of a folder of results.
+    #[track_caller]
+    pub fn summary(&self, results: &str) -> Json {
+        self.json(&format!("{results}/summary.json"))
+    }
+
+    /// `series.csv` of a folder of results.
+    #[track_caller]
+    pub fn series(&self, results: &str) -> Series {
+        Series::read(&self.path(results))
+    }
+
+    /// The state that a folder of results ends with.
+    pub fn state(&self, results: &str) -> FinalState {
+        FinalState::read(&self.path(results))
+    }
+
+    /// Runs the scene with one and with two threads, in `one` and `two`, and in two parts, in `parts`: all must end
+    /// with the same bits, which are returned.
+    #[track_caller]
+    pub fn same_bits(&self, set: &str, steps: u32) -> FinalState {
+        let run = |words: &str| format!("run scene.toml --quiet {set} --out {words}");
+        self.done(&run("one --threads 1"));
+        self.done(&run("two --threads 2"));
+        let one = self.state("one");
+        one.assert_same(&self.state("two"), "one and two threads");
+        let part = format!("parts --threads 1 --set run.max_steps={steps}");
+        let stopped = self.call(&run(&part));
+        assert!(stopped.code.is_some(), "{}", stopped.err);
+        self.done(&run("parts --threads 2 --resume --changed"));
+        one.assert_same(&self.state("parts"), "whole and in two parts");
+        one
+    }
+
+    /// What is in the folder, sorted by its names.
+    pub fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder()).expect("the folder");
+        let names = entries.map(|e| e.expect("an entry").file_name().into_string());
+        let mut names: Vec<_> = names.map(|name| name.expect("a plain name")).collect();
+        names.sort();
+        names
+    }
+}
+
+impl Outcome {
+    /// That of a call with these words.
+    pub fn new(words: String, output: &Output) -> Self {
+        let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
+        Outcome {
+            words,
+            code: output.status.code(),
+            out: text(&output.stdout),
+            err: text(&output.stderr),
+        }
+    }
+
+    /// It must have ended with this code.
+    #[track_caller]
+    pub fn ended(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "sph {}\n{}", self.words, self.err);
+        self
+    }
+
+    /// All of these words must be in standard error; ` | ` stands between two.
+    #[track_caller]
+    pub fn says(&self, words: &str) {
+        self.err.says(words);
+    }
+
+    /// Standard output as JSON.
+    #[track_caller]
+    pub fn json(&self) -> Json {
+        parsed(&self.out)
+    }
+}
+
+#[track_caller]
+fn parsed(text: &str) -> Json {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }

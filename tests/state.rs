@@ -59,6 +59,14 @@ impl FinalState {
         }
     }
 
+    /// A column of reals of the checkpoint.
+    #[track_caller]
+    pub fn reals(&self, name: &str) -> Vec<f64> {
+        let bits = self.columns.get(name);
+        let bits = bits.unwrap_or_else(|| panic!("no column `{name}`"));
+        bits.iter().map(|bits| f64::from_bits(*bits)).collect()
+    }
+
     /// Fails with the name of what differs.
     pub fn assert_same(&self, other: &Self, what: &str) {
         let names = |s: &Self| s.columns.keys().cloned().collect::<Vec<_>>();

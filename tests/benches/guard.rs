@@ -5,13 +5,11 @@
 mod running;
 
 use std::fmt::{self, Display};
-use std::path::Path;
 
 use divan::Bencher;
 use rayon::ThreadPoolBuilder;
-use sph_particles::setup::assemble;
-use sph_scene::Override;
 use sph_solver::Snapshot;
+use sph_tests::{assembled, shipped};
 
 use running::advance;
 
@@ -70,12 +68,10 @@ fn timed_in<const D: usize>(bencher: Bencher, case: Case, what: What) {
     let Case(scene, spacing, _, threads) = case;
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.expect("threads");
-    let file = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
-    let spacing = Override::parse(&format!("numerics.spacing={spacing}")).expect("a length");
-    let loaded = sph_scene::load(Path::new(&file), &[spacing]).expect("a shipped scene");
-    let bounds = loaded.scene.numerics.density_bounds;
+    let scene = shipped(scene, &[&format!("numerics.spacing={spacing}")]);
+    let bounds = scene.numerics.density_bounds;
     let mut parts = pool.install(|| {
-        let mut parts = assemble::<D>(&loaded.scene).expect("a shipped scene");
+        let mut parts = assembled::<D>(&scene);
         (0..10).for_each(|_| advance(&mut parts));
         parts
     });

@@ -4,11 +4,9 @@
 
 mod running;
 
-use divan::{Bencher, counter::ItemsCount};
-use rayon::ThreadPoolBuilder;
-use sph_particles::setup::{Assembled, assemble};
+use divan::Bencher;
 
-use running::advance;
+use running::measured;
 
 fn main() {
     divan::main();
@@ -57,7 +55,7 @@ fn channel(bencher: Bencher, case: &str) {
     let found = CHANNELS.into_iter().find(|(name, ..)| *name == case);
     let (_, numerics, ends) = found.expect("a case");
     let scene = CHANNEL.replace("ENDS", numerics) + &ends.concat();
-    measured(bencher, &scene);
+    measured(bencher, &scene, 100);
 }
 
 /// A box of 24 by 16 spacings in a tank, floating.
@@ -104,20 +102,5 @@ const BODIES: [(&str, &str); 3] = [
 fn tank(bencher: Bencher, case: &str) {
     let found = BODIES.into_iter().find(|(name, _)| *name == case);
     let (_, table) = found.expect("a case");
-    measured(bencher, &format!("{TANK}{table}"));
-}
-
-fn measured(bencher: Bencher, scene: &str) {
-    let pool = ThreadPoolBuilder::new().num_threads(1).build();
-    let pool = pool.expect("threads");
-    let mut parts = pool.install(|| {
-        let loaded = sph_scene::parse(scene, "bench", &[]).expect("a scene");
-        let mut parts: Assembled<2> = assemble::<2>(&loaded.scene).expect("a sound scene");
-        // The first steps find cold caches and buffers that still grow.
-        (0..100).for_each(|_| advance(&mut parts));
-        parts
-    });
-    bencher
-        .counter(ItemsCount::new(parts.flow.world.free.len()))
-        .bench_local(|| pool.install(|| advance(&mut parts)));
+    measured(bencher, &format!("{TANK}{table}"), 100);
 }

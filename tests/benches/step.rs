@@ -5,19 +5,13 @@
 mod running;
 
 use std::fmt::{self, Display};
-use std::path::Path;
 
 use divan::{Bencher, counter::ItemsCount};
 use rayon::ThreadPoolBuilder;
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::Override;
+use sph_particles::setup::Assembled;
+use sph_tests::{assembled, shipped};
 
 use running::advance;
-
-const SCENE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../scenes/dam-break-lobovsky.toml"
-);
 
 /// Spacings of about 20,000 and 80,000 particles, on 1 and 2 threads.
 const CASES: [Case; 4] = [
@@ -59,7 +53,6 @@ fn step(bencher: Bencher, Case(spacing, threads): Case) {
 }
 
 fn dam_break(spacing: &str) -> Assembled<2> {
-    let spacing = Override::parse(&format!("numerics.spacing={spacing}")).expect("a length");
-    let loaded = sph_scene::load(Path::new(SCENE), &[spacing]).expect("a shipped scene");
-    assemble::<2>(&loaded.scene).expect("a shipped scene")
+    let spacing = format!("numerics.spacing={spacing}");
+    assembled(&shipped("dam-break-lobovsky", &[&spacing]))
 }

@@ -3,13 +3,11 @@
 
 mod running;
 
-use divan::{Bencher, counter::ItemsCount};
-use rayon::ThreadPoolBuilder;
-use sph_particles::setup::{Assembled, assemble};
+use divan::Bencher;
 // For its plugins.
 use sph_turbulence as _;
 
-use running::advance;
+use running::measured;
 
 const SCENE: &str = include_str!("../../scenes/turb-channel-k-epsilon.toml");
 /// The tables of the scene that a case leaves out.
@@ -46,20 +44,6 @@ fn main() {
 
 #[divan::bench(args = CASES.map(|(name, _)| name), sample_count = 300)]
 fn step(bencher: Bencher, case: &str) {
-    let pool = ThreadPoolBuilder::new().num_threads(1).build();
-    let pool = pool.expect("threads");
-    let mut parts = pool.install(|| {
-        let mut parts = channel(case);
-        // The first steps find cold caches and buffers that still grow.
-        (0..50).for_each(|_| advance(&mut parts));
-        parts
-    });
-    bencher
-        .counter(ItemsCount::new(parts.flow.world.free.len()))
-        .bench_local(|| pool.install(|| advance(&mut parts)));
-}
-
-fn channel(case: &str) -> Assembled<2> {
     let (_, table) = CASES
         .into_iter()
         .find(|(name, _)| *name == case)
@@ -72,8 +56,7 @@ fn channel(case: &str) -> Assembled<2> {
         left_out.extend(WALL);
     }
     let text = format!("{}\n{table}\n", without(SCENE, &left_out));
-    let loaded = sph_scene::parse(&text, "channel", &[]).expect("a scene");
-    assemble::<2>(&loaded.scene).expect("a shipped scene")
+    measured(bencher, &text, 50);
 }
 
 /// The text without the tables of these headings.

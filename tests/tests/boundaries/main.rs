@@ -3,5 +3,4 @@
 mod bodies;
 mod motion;
 mod open_boundaries;
-mod open_boundaries_3d;
 mod walls;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::Value;
-use sph_tests::{Bench, DAM_BREAK, Outcome, PERIODIC};
+use sph_tests::{Bench, DAM_BREAK, Outcome, PERIODIC, Says, close, one_line};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -28,15 +28,7 @@ fn every_command_has_help_with_what_it_leaves_behind() {
         assert!(help.out.contains("Usage:"), "{}", help.out);
     }
     let run = bench.done("run --help").out;
-    for word in [
-        "series.csv",
-        "summary.json",
-        "checkpoint.sph",
-        "--resume",
-        "Exit codes",
-    ] {
-        assert!(run.contains(word), "{word} is not in the help of run");
-    }
+    run.says("series.csv | summary.json | checkpoint.sph | --resume | Exit codes");
 }
 
 #[test]
@@ -51,7 +43,7 @@ fn plugins_are_listed_by_kind_and_shown_with_their_parameters() {
             assert!(list.contains(name) && list.contains(text(&plugin["provider"])));
             let shown = bench.done(&format!("plugins {kind_name} {name}")).out;
             for parameter in plugin["parameters"].as_array().expect("parameters") {
-                assert!(shown.contains(text(&parameter["name"])), "{shown}");
+                shown.says(text(&parameter["name"]));
                 assert_ne!(
                     text(&parameter["meaning"]),
                     "",
@@ -61,17 +53,9 @@ fn plugins_are_listed_by_kind_and_shown_with_their_parameters() {
         }
     }
     let tait = bench.done("plugins equation-of-state tait").out;
-    assert!(
-        tait.contains("[phase.NAME.equation-of-state.tait]"),
-        "{tait}"
-    );
-    let unknown = bench.call("plugins kernel wendland-c3");
-    assert_eq!(unknown.code, Some(2));
-    assert!(
-        unknown.err.contains("did you mean `wendland-c2`"),
-        "{}",
-        unknown.err
-    );
+    tait.says("[phase.NAME.equation-of-state.tait]");
+    let refused = bench.refused("plugins kernel wendland-c3");
+    refused.says("did you mean `wendland-c2`");
     assert!(
         bench
             .call("plugins kernl")
@@ -87,22 +71,22 @@ fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
     for law in kind["plugins"].as_array().expect("plugins") {
         let name = text(&law["name"]);
         bench.done(&format!("plugins rheology {name} --picture {name}.svg"));
-        let drawn = std::fs::read_to_string(bench.path(&format!("{name}.svg"))).expect("a picture");
+        let drawn = bench.read(&format!("{name}.svg"));
         assert!(
             drawn.contains("shear stress [Pa]") && drawn.contains(name),
             "{name}"
         );
     }
     bench.done("plugins kernel wendland-c2 cubic-spline --picture kernels.svg");
-    let drawn = std::fs::read_to_string(bench.path("kernels.svg")).expect("a picture");
+    let drawn = bench.read("kernels.svg");
     assert!(drawn.contains("wendland-c2") && drawn.contains("w h²"));
     let two = "plugins rheology bingham casson --set casson.yield_stress=3 --picture two.png";
     bench.done(two);
     assert!(bench.path("two.png").exists());
     let vary = "plugins rheology bingham --vary yield_stress=[1,7] --picture vary.svg";
     bench.done(vary);
-    let drawn = std::fs::read_to_string(bench.path("vary.svg")).expect("a picture");
-    assert!(drawn.contains(">yield_stress = 7<"), "{drawn}");
+    let drawn = bench.read("vary.svg");
+    drawn.says(">yield_stress = 7<");
     for (arguments, word) in [
         ("rheology bingham --picture no.gif", ".svg or .png"),
         ("rheology binham --picture no.svg", "did you mean `bingham`"),
@@ -130,9 +114,7 @@ fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
         ("walls usaw --picture no.svg", "only laws and kernels"),
         ("kernel wendland-c2 --set a=1 --picture no.svg", "for laws"),
     ] {
-        let refused = bench.call(&format!("plugins {arguments}"));
-        assert_eq!(refused.code, Some(2), "{arguments}");
-        assert!(refused.err.contains(word), "{arguments}: {}", refused.err);
+        bench.refused(&format!("plugins {arguments}")).says(word);
         assert!(!bench.path("no.svg").exists() && !bench.path("no.gif").exists());
     }
 }
@@ -191,8 +173,7 @@ fn every_shipped_scene_passes_check_as_a_file_and_explains_itself_from_the_progr
         scope.spawn(|| good(&even));
         good(&odd);
     });
-    let entries = std::fs::read_dir(bench.folder()).expect("the folder");
-    assert_eq!(entries.count(), 0);
+    assert_eq!(bench.names().len(), 0);
 }
 
 #[test]
@@ -230,9 +211,7 @@ fn a_new_scene_is_good_and_never_overwrites() {
     bench.done("new pool");
     bench.done("check pool.toml");
     bench.done("run pool.toml --quiet --set run.end=0.05");
-    let again = bench.call("new pool.toml");
-    assert_eq!(again.code, Some(2));
-    assert!(again.err.contains("exists already"), "{}", again.err);
+    bench.refused("new pool.toml").says("exists already");
     // A copy brings the data that it is compared with.
     bench.done("new copy --from dam-break-koshizuka");
     bench.done("check copy.toml");
@@ -245,42 +224,17 @@ fn a_run_tells_a_program_what_the_summary_says() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let outcome = bench.done("run scene.toml --json --set run.end=0.02");
     let told = json(&outcome);
-    let keys = [
-        "schema_version",
-        "scene",
-        "status",
-        "plugins",
-        "dimension",
-        "particles",
-        "steps",
-        "simulated_seconds",
-        "wall_seconds",
-        "wall_seconds_by_stage",
-        "particle_steps_per_second",
-        "bytes_per_particle",
-        "dt_limiters",
-        "dt_limits",
-        "advice",
-        "drift",
-        "errors",
-        "warnings",
-    ];
-    for key in keys {
+    let keys = "schema_version scene status plugins dimension particles steps simulated_seconds wall_seconds \
+                wall_seconds_by_stage particle_steps_per_second bytes_per_particle dt_limiters dt_limits advice \
+                drift errors warnings";
+    for key in keys.split(' ') {
         assert!(!told[key].is_null(), "`{key}` is missing");
     }
     assert_eq!(told["status"], "done");
-    let shares: f64 = told["dt_limiters"]
-        .as_object()
-        .expect("a table")
-        .values()
-        .map(|v| v.as_f64().expect("a share"))
-        .sum();
-    assert!(
-        (shares - 1.0).abs() < 1e-12,
-        "the shares of the limiters sum to {shares}"
-    );
-    let written: Value =
-        serde_json::from_str(&bench.read("results/scene/summary.json")).expect("JSON");
+    let shares = told["dt_limiters"].as_object().expect("a table");
+    let shares = shares.values().map(|v| v.as_f64().expect("a share"));
+    close(shares.sum(), 1.0, 1e-12, "sum of the shares of limiters");
+    let written: Value = bench.summary("results/scene");
     assert_eq!(told, written);
 }
 
@@ -289,24 +243,10 @@ fn a_run_tells_a_person_what_came_out_and_where_it_is() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let set = "--set run.end=0.02 --set output.picture=pressure";
     let outcome = bench.done(&format!("run scene.toml {set}"));
-    for word in [
-        "done",
-        "Δt limited by",
-        "results/scene",
-        "series.csv",
-        "pictures/pressure_0000",
-    ] {
-        assert!(
-            outcome.out.contains(word),
-            "no `{word}` in\n{}",
-            outcome.out
-        );
-    }
-    assert!(
-        outcome.err.contains("100.0 %"),
-        "no last line of progress in\n{}",
-        outcome.err
-    );
+    outcome
+        .out
+        .says("done | Δt limited by | results/scene | series.csv | pictures/pressure_0000");
+    outcome.says("100.0 %");
     let quiet = bench.done("run scene.toml --quiet --set run.end=0.02");
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
 }
@@ -323,31 +263,17 @@ fn check_counts_and_estimates_without_writing() {
     let fast = bench
         .done("check scene.toml --set phase.water.speed_of_sound=10")
         .out;
-    assert!(fast.contains("Mach number of `water`"), "{fast}");
-    assert_eq!(
-        std::fs::read_dir(bench.folder())
-            .expect("the folder")
-            .count(),
-        1
-    );
+    fast.says("Mach number of `water`");
+    assert_eq!(bench.names().len(), 1);
 }
 
 #[test]
 fn explain_shows_that_nothing_unused_is_allocated() {
     let bench = Bench::with(PROGRAM, PERIODIC);
     let told = json(&bench.done("explain scene.toml --json"));
-    let columns: Vec<&str> = told["fields"]
-        .as_array()
-        .expect("columns")
-        .iter()
-        .map(|f| text(&f["name"]))
-        .collect();
-    for unused in [
-        "renormalisation",
-        "viscosity",
-        "phase",
-        "density_constant_rate",
-    ] {
+    let columns = told["fields"].as_array().expect("columns");
+    let columns: Vec<&str> = columns.iter().map(|f| text(&f["name"])).collect();
+    for unused in "renormalisation viscosity phase density_constant_rate".split(' ') {
         assert!(
             !columns.contains(&unused),
             "a column `{unused}` that nothing needs"
@@ -367,14 +293,7 @@ fn explain_shows_that_nothing_unused_is_allocated() {
             .all(|unused| !shown.contains(unused)),
         "{shown}"
     );
-    for word in [
-        "Morris viscosity",
-        "reads at neighbours",
-        "limits of the time step",
-        "hu-adams",
-    ] {
-        assert!(shown.contains(word), "no `{word}` in\n{shown}");
-    }
+    shown.says("Morris viscosity | reads at neighbours | limits of the time step | hu-adams");
 }
 
 /// A tank with two bodies of water side by side.
@@ -395,16 +314,16 @@ fn bodies_a_third_of_a_spacing_off_are_remarked_upon() {
     let bench = Bench::with(PROGRAM, TWO_BODIES);
     let told = |right: &str| {
         let outcome = bench.done(&format!("check scene.toml --set body.right.box={right}"));
-        outcome.out.split_whitespace().collect::<Vec<_>>().join(" ")
+        one_line(&outcome.out)
     };
     let fits = told("[[0.2,0.0],[0.4,0.3]]");
     assert!(!fits.contains("into place"), "{fits}");
     let apart = told("[[0.2066,0.0],[0.4,0.3]]");
     let gap = "the particles of `left` and `right` are 1.33 spacings apart";
-    assert!(apart.contains(gap), "{apart}");
+    apart.says(gap);
     let high = told("[[0.2,0.007],[0.4,0.3]]");
     let row = "the first row of `right` is 1.35 spacings from the wall `tank`";
-    assert!(high.contains(row), "{high}");
+    high.says(row);
 }
 
 #[test]
@@ -420,9 +339,8 @@ fn check_draws_a_scene_before_any_run_and_says_where() {
         ("scene.toml", "drawn.jpg", "it must end in .png"),
         ("grains-column-collapse", "drawn-2.png", "output.picture"),
     ] {
-        let refused = bench.call(&format!("check {scene} --picture {file}"));
-        assert_eq!(refused.code, Some(2));
-        assert!(refused.err.contains(word), "{}", refused.err);
+        let refused = bench.refused(&format!("check {scene} --picture {file}"));
+        refused.says(word);
         assert!(!bench.path(file).exists());
     }
 }

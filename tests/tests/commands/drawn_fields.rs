@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sph_io::curves::{Cloud, DrawError, Frames, Line, evenly, nearest, streamlines, tracks};
 use sph_io::{Cells, FieldData, Frame, Piece, PvdSeries};
+use sph_tests::Says;
 
 /// Spacing of the particles, m.
 const SPACING: f64 = 0.05;
@@ -196,10 +197,7 @@ fn missing_columns_are_named_with_the_written_ones() {
         .err()
         .expect("none")
         .to_string();
-    assert!(
-        told.contains("no field `vorticity` was written (there are: height, velocity, identity)"),
-        "{told}"
-    );
+    told.says("no field `vorticity` was written (there are: height, velocity, identity)");
     let told = snapshot.column("height.x").map(|c| c.values.len());
     assert_eq!(
         told.ok(),

@@ -1,7 +1,6 @@
 //! Scenes of grains through the program: results, bits, failures, bad input.
 
-use serde_json::Value as Json;
-use sph_tests::{Bench, files_with_extension};
+use sph_tests::{Bench, files_with_extension, refusals};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -41,10 +40,6 @@ fn bytes(bench: &Bench, folder: &str) -> [Vec<u8>; 2] {
     ]
 }
 
-fn summary(bench: &Bench, folder: &str) -> Json {
-    serde_json::from_str(&bench.read(&format!("{folder}/summary.json"))).expect("JSON")
-}
-
 #[test]
 fn threads_and_a_stop_change_no_bit_of_dry_and_wet_grains() {
     for (scene, end) in [(DRY.to_string(), "0.2"), (wet(), "0.05")] {
@@ -55,12 +50,12 @@ fn threads_and_a_stop_change_no_bit_of_dry_and_wet_grains() {
                 "run scene.toml {set} --threads {threads} --out r{threads}"
             ));
         }
-        let half = summary(&bench, "r1")["steps"].as_u64().expect("steps") / 2;
+        let half = bench.summary("r1")["steps"].as_u64().expect("steps") / 2;
         // The stop is a change of the scene, and nothing else is.
         bench.done(&format!(
             "run scene.toml {set} --out stopped --set run.max_steps={half}"
         ));
-        assert_eq!(summary(&bench, "stopped")["steps"], half);
+        assert_eq!(bench.summary("stopped")["steps"], half);
         bench.done(&format!(
             "run scene.toml {set} --out stopped --resume --changed --threads 2"
         ));
@@ -89,107 +84,29 @@ fn a_scene_of_grains_carries_no_particles_and_the_reverse() {
     }
 }
 
+/// A scene beside a file `spheres.txt` is refused, and nothing is written.
+fn refused(scene: &str, spheres: &str, told: &str) {
+    let bench = Bench::with(PROGRAM, scene);
+    bench.write("spheres.txt", spheres);
+    bench.refused("run scene.toml --quiet").says(told);
+    let written = bench.path("results").exists();
+    assert!(!written, "{told}: something was written");
+}
+
 #[test]
 fn mistakes_are_reported_with_their_line_and_nothing_is_written() {
-    let spheres = "0.05 0.05 0.05 0.01\n0.05 0.05 0.065 0.01\n";
-    let beyond = "0.05 0.05 -0.05 0.01\n";
-    let from_file = |scene: &str| {
-        let scene = scene.replace("count = 60\nradius = [\"9 mm\", \"11 mm\"]\n", "");
-        scene.replace("[start.cloud]", "[start]\nfile = \"spheres.txt\"")
-    };
-    let wet = wet();
-    let cases = [
-        (
-            DRY.replace("friction = 0.5", "fricton = 0.5"),
-            "",
-            "did you mean `friction`?",
-        ),
-        (
-            DRY.replace("linear-elastic", "linear-elastik"),
-            "",
-            "did you mean `linear-elastic`?",
-        ),
-        (DRY.replace("count = 60", "count = 0"), "", "count"),
-        (DRY.replace("count = 60\n", ""), "", "`count` is missing"),
-        (
-            DRY.replace("[0.1, 0.1, 0.15]", "[0.1, 0.1, 0.0]"),
-            "",
-            "above the lower corner",
-        ),
-        (from_file(DRY), spheres, "overlap"),
-        (
-            from_file(DRY),
-            spheres,
-            "grain 1 is line 2 of `spheres.txt`",
-        ),
-        (from_file(DRY), beyond, "wall 4 is `bottom`"),
-        (from_file(DRY), "", "holds no spheres"),
-        (
-            wet.replace("viscosity = \"5 Pa s\"", "viscosity = 0"),
-            "",
-            "viscosity",
-        ),
-        (
-            wet.replace("[wall.top]\npressure = 0\n", ""),
-            "",
-            "no wall has a `pressure`",
-        ),
-        (
-            format!("{DRY}[wall.lid]\nvelocity = [0, 0, 1]\n"),
-            "",
-            "`point` and `normal`",
-        ),
-        (
-            format!("{DRY}[probe.p]\nkind = \"stres\"\nwall = \"top\"\n"),
-            "",
-            "did you mean `stress`?",
-        ),
-    ];
-    let recorded = |load: &str| {
-        wet.replace(
-            "[wall.top]\npressure = 0\n",
-            &format!("[wall.top]\nrecorded = {{ file = \"spheres.txt\", {load} }}\n"),
-        )
-    };
-    let series = "time,left,right\n0,1,2\n1,1,2\n";
-    let of_series = [
-        (
-            recorded("places = [0, 0.1], columns = [\"left\", \"rigt\"]"),
-            series,
-            "did you mean `right`?",
-        ),
-        (
-            recorded("places = [0, 0.1], columns = [\"left\"]"),
-            series,
-            "1 columns for 2 places",
-        ),
-        (
-            recorded("places = [0.1, 0], columns = [\"left\", \"right\"]"),
-            series,
-            "places that do not ascend",
-        ),
-        (
-            recorded("places = [0], columns = [\"left\"], start = 2"),
-            series,
-            "no row after 2 s",
-        ),
-        (
-            recorded("places = [0], columns = [\"left\"]"),
-            "left\n1\n",
-            "no column `time`",
-        ),
-    ];
-    for (scene, spheres, told) in cases.into_iter().chain(of_series) {
-        let bench = Bench::with(PROGRAM, &scene);
-        bench.write("spheres.txt", spheres);
-        let outcome = bench.call("run scene.toml --quiet");
-        assert_eq!(outcome.code, Some(2), "{told}: {}", outcome.err);
-        assert!(outcome.err.contains(told), "{told}: {}", outcome.err);
-        assert!(
-            !bench.path("results").exists(),
-            "{told}: something was written"
-        );
+    // Rows of the file have semicolons between them.
+    for case in refusals(include_str!("grains.refused")) {
+        refused(&case.of(&wet()), &case.at.replace(';', "\n"), case.said[0]);
     }
+    let spheres = "0.05 0.05 0.05 0.01\n0.05 0.05 0.065 0.01\n";
+    let from_file = DRY
+        .replace("count = 60\nradius = [\"9 mm\", \"11 mm\"]\n", "")
+        .replace("[start.cloud]", "[start]\nfile = \"spheres.txt\"");
+    let line = "overlap | grain 1 is line 2 of `spheres.txt`";
+    refused(&from_file, spheres, line);
+    refused(&from_file, "0.05 0.05 -0.05 0.01\n", "wall 4 is `bottom`");
+    refused(&from_file, "", "holds no spheres");
 }
 
 #[test]
@@ -215,13 +132,11 @@ fn a_failed_run_names_the_grain_and_leaves_its_picture() {
     // Grains so soft that their own weight presses them through the floor.
     let soft = wet().replace("1 MPa", "20 Pa");
     let bench = Bench::with(PROGRAM, &soft);
-    let outcome = bench.call("run scene.toml --quiet --out r");
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    assert!(outcome.err.contains("grain"), "{}", outcome.err);
+    bench.failed("run scene.toml --quiet --out r").says("grain");
     for file in ["bad_state.vtu", "bad_state.png", "summary.json"] {
         assert!(bench.path("r").join(file).is_file(), "{file} is missing");
     }
-    assert_eq!(summary(&bench, "r")["status"], "failed");
+    assert_eq!(bench.summary("r")["status"], "failed");
 }
 
 /// `immersed-deposition` of the method's page: weight within 1 %.
@@ -229,7 +144,7 @@ fn a_failed_run_names_the_grain_and_leaves_its_picture() {
 fn settled_grains_rest_on_the_floor_with_their_buoyant_weight() {
     let bench = Bench::new(PROGRAM);
     bench.done("run grains-immersed-deposition --quiet --out r");
-    let summary = summary(&bench, "r");
+    let summary = bench.summary("r");
     for (reference, name) in [("floor-at-last", "floor"), ("fluid-at-last", "fluid")] {
         let error = summary["errors"][reference]["value"].as_f64();
         let error = error.expect("an error");
@@ -245,28 +160,12 @@ fn colours_of_a_field_that_is_not_there_are_told_with_the_nearest_name() {
             "check scene.toml --set output.picture_range={range}"
         ))
     };
-    let refused = checked("{sped=[0,1]}");
-    assert_eq!(refused.code, Some(2), "{}", refused.out);
-    assert!(
-        refused.err.contains("output.picture_range.sped"),
-        "{}",
-        refused.err
-    );
-    assert!(
-        refused.err.contains("did you mean `speed`?"),
-        "{}",
-        refused.err
-    );
-    for (range, key) in [
-        ("{speed=[1,0]}", "picture_range.speed"),
-        ("[1,1]", "picture_range"),
-    ] {
-        let falling = checked(range);
-        assert_eq!(falling.code, Some(2), "{range}: {}", falling.out);
-        let told = &falling.err;
-        assert!(told.contains(&format!("── output.{key}\n")), "{told}");
-        assert!(told.contains("less than the second"), "{told}");
-    }
+    let refused = |range: &str, told: &str| checked(range).ended(2).says(told);
+    let near = "output.picture_range.sped | did you mean `speed`?";
+    refused("{sped=[0,1]}", near);
+    let falls = "── output.picture_range.speed\n | less than the second";
+    refused("{speed=[1,0]}", falls);
+    refused("[1,1]", "── output.picture_range\n | less than the second");
     assert_eq!(checked("{speed=[0,1]}").code, Some(0));
     assert_eq!(checked("[0,1]").code, Some(0));
 }

@@ -1,5 +1,7 @@
 //! Courses and tables that are read from files.
 
+use sph_tests::{Says, close, near};
+
 use crate::Field;
 
 /// A coarse tank for a short time.
@@ -8,41 +10,29 @@ const SHORT: &str = "--set numerics.spacing=0.025 --set run.end=0.2 \
 
 /// The scene of a tank whose course is in a file, with further keys of the course.
 fn course(field: &Field, name: &str, file: &str, keys: &str) {
-    let scene = field.0.read("shake.toml");
+    let scene = field.read("shake.toml");
     let scene = scene.replace("file = \"shake.dat\"", &format!("file = \"{file}\"{keys}"));
-    field.0.write(&format!("{name}.toml"), &scene);
+    field.write(&format!("{name}.toml"), &scene);
 }
 
 #[test]
 fn a_course_in_a_wrong_unit_is_refused_at_its_line() {
     let field = Field::new();
     for ending in ["dat", "csv", "txt"] {
-        field
-            .0
-            .write(&format!("s.{ending}"), &field.0.read("shake.dat"));
+        field.write(&format!("s.{ending}"), &field.read("shake.dat"));
         course(&field, "s", &format!("s.{ending}"), "");
-        let told = field.check("s", "");
-        assert_eq!(told.code, Some(2), "{}", told.err);
-        let line = format!("`s.{ending}`, line ");
-        let words = [
-            "wall.tank.motion.translate.file",
-            line.as_str(),
-            "the speed of sound is 14",
-            "unit = \"mm\"",
-        ];
-        for word in words {
-            assert!(told.err.contains(word), "no `{word}` in\n{}", told.err);
-        }
+        let place = format!("wall.tank.motion.translate.file | `s.{ending}`, line ");
+        field.refuses("s", "", &place);
+        field.refuses("s", "", "the speed of sound is 14 | unit = \"mm\"");
     }
     // A vessel may go as fast as it likes, as long as it gets there slowly enough: 30 m/s in 100 s.
     let slow: String = (0..=100)
         .map(|t| format!("{t} {}\n", 0.15 * f64::from(t * t)))
         .collect();
-    field.0.write("slow.csv", &slow);
+    field.write("slow.csv", &slow);
     course(&field, "slow", "slow.csv", "");
-    let told = field.check("slow", "--set run.end=100");
-    assert_eq!(told.code, Some(0), "{}", told.err);
-    assert!(told.out.contains("changes its speed by"), "{}", told.out);
+    let told = field.check("slow", "--set run.end=100").ended(0);
+    told.out.says("changes its speed by");
 }
 
 #[test]
@@ -52,24 +42,23 @@ fn angles_in_degrees_without_a_word_press_the_fluid_together() {
         .map(|k| f64::from(k) * 0.01)
         .map(|t| format!("{t},{}\n", 20.0 * (std::f64::consts::PI * t).sin()))
         .collect();
-    field.0.write("tilt.csv", &rows);
+    field.write("tilt.csv", &rows);
     let tilt = |keys: &str| {
-        let scene = field.0.read("shake.toml");
+        let scene = field.read("shake.toml");
         let from = "translate = { along = [1.0, 0.0], file = \"shake.dat\" }";
         let to = format!("rotate = {{ centre = [0.3, 0.0], file = \"tilt.csv\"{keys} }}");
-        field.0.write("tilt.toml", &scene.replace(from, &to));
+        field.write("tilt.toml", &scene.replace(from, &to));
         field.check("tilt", "--set run.end=2")
     };
     assert!(tilt("").err.contains("wall.tank.motion.rotate.file"));
-    let degrees = tilt(", unit = \"deg\"");
-    assert_eq!(degrees.code, Some(0), "{}", degrees.err);
+    let degrees = tilt(", unit = \"deg\"").ended(0);
     assert!(!degrees.out.contains("the vessel"), "{}", degrees.out);
 }
 
 #[test]
 fn a_course_says_its_unit_its_columns_or_has_them_in_its_head() {
     let field = Field::new();
-    let rows = field.0.read("shake.dat");
+    let rows = field.read("shake.dat");
     let pairs = || {
         rows.lines()
             .filter_map(|l| l.split_once(' '))
@@ -78,7 +67,7 @@ fn a_course_says_its_unit_its_columns_or_has_them_in_its_head() {
     let milliseconds = |t: &str| 1000.0 * t.parse::<f64>().expect("a time");
     let write = |name: &str, head: &str, row: &dyn Fn(&str, &str) -> String| {
         let rows: Vec<String> = pairs().map(|(t, x)| row(t, x)).collect();
-        field.0.write(name, &format!("{head}{}\n", rows.join("\n")));
+        field.write(name, &format!("{head}{}\n", rows.join("\n")));
     };
     write("head.csv", "n; time [ms]; shift (mm)\n", &|t, x| {
         format!("1; {}; {x}", milliseconds(t))
@@ -101,10 +90,7 @@ fn a_course_says_its_unit_its_columns_or_has_them_in_its_head() {
         ("bare.dat", ", columns = [\"3\", \"1\"], unit = \"mm\""),
     ] {
         course(&field, "c", file, keys);
-        let outcome = field.run("c", SHORT);
-        assert_eq!(outcome.code, Some(0), "{file} {keys}: {}", outcome.err);
-        let series = field.series();
-        found.push(series.column("tank.x").expect("a force").to_vec());
+        found.push(field.ran("c", SHORT).column("tank.x").to_vec());
     }
     for (k, force) in found.iter().enumerate() {
         let apart = force.iter().zip(&found[0]).map(|(a, b)| (a - b).abs());
@@ -126,47 +112,30 @@ fn keys_of_a_course_are_held_against_it() {
         (", columns = [\"1\", \"3\"]", "2 columns only"),
     ] {
         course(&field, "k", "shake.dat", keys);
-        let told = field.check("k", "").err;
-        assert!(
-            told.contains("wall.tank.motion.translate") && told.contains(word),
-            "{told}"
-        );
+        field.refuses("k", "", &format!("wall.tank.motion.translate | {word}"));
     }
-    field.0.write("kg.csv", "t [s], x [kg]\n0,0\n1,0.1\n");
+    field.write("kg.csv", "t [s], x [kg]\n0,0\n1,0.1\n");
     course(&field, "k", "kg.csv", "");
-    let told = field.check("k", "").err;
-    assert!(
-        told.contains("line 1") && told.contains("`kg` is no unit of length"),
-        "{told}"
-    );
+    field.refuses("k", "", "line 1 | `kg` is no unit of length");
 }
 
 #[test]
 fn the_default_domain_goes_along_with_a_tank_on_a_recorded_course() {
     let field = Field::new();
     let coarse = "--set numerics.spacing=0.02 --threads 1";
-    let outcome = field.run("shake2", coarse);
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-    let series = field.series();
+    let series = field.ran("shake2", coarse);
     let mean = |name: &str| {
-        let column = series.column(name).expect("a gauge");
+        let column = series.column(name);
         let last = &column[column.len() - 20..];
         last.iter().sum::<f64>() / last.len() as f64
     };
     // The level leans by a/g under 1 m/s² of acceleration; the gauges are 0.5 m apart.
     let lean = mean("left") - mean("right");
-    assert!(
-        (lean - 0.5 / 9.81).abs() < 0.02 / 4.0,
-        "{lean} m for {}",
-        0.5 / 9.81
-    );
+    close(lean, 0.5 / 9.81, 0.02 / 4.0, "lean in m");
     // It is not stopped in the last interval of its table.
-    let force = series.column("tank.x").expect("a force");
+    let force = series.column("tank.x");
     let mass = 900.0 * 0.6 * 0.2;
-    assert!(
-        (force[force.len() - 1] / -mass - 1.0).abs() < 0.1,
-        "{force:?}"
-    );
+    near(force[force.len() - 1], -mass, 0.1, "force in N/m");
 }
 
 #[test]
@@ -179,9 +148,8 @@ fn the_default_domain_goes_along_with_a_tank_that_is_carried_round() {
                  viscous-operator.morris = {}\nsmoother.brezzi-pitkaranta.strength = 0.1\n\
                  output.every = 1.0\nbody.oil.phase = \"oil\"\nbody.oil.fill = \"walls\"\n\
                  body.oil.initial.rigid-rotation = { angular_velocity = 1.0, centre = [-2.0, 0.0] }\n";
-    field.0.write("round.toml", scene);
-    let outcome = field.run("round", "--threads 1");
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    field.write("round.toml", scene);
+    field.ran("round", "--threads 1");
     let summary = field.summary();
     assert_eq!(summary["status"], "done", "{summary}");
 }

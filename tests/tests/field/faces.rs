@@ -1,55 +1,20 @@
 //! Open faces and outlets.
 
-use sph_tests::Outcome;
+use sph_tests::{close, near};
 
 use crate::Field;
 
 /// Density of the water of all inputs, kg/m³.
 const WATER: f64 = 1000.0;
 
-/// Takes a run that has ended well.
-fn done(outcome: &Outcome) {
-    assert_eq!(outcome.code, Some(0), "{}\n{}", outcome.out, outcome.err);
-}
-
 impl Field {
     /// A copy of an input with another law for its face `pump`.
     fn with_law(&self, input: &str, law: &str) {
-        let text = self.0.read(&format!("{input}.toml"));
+        let text = self.read(&format!("{input}.toml"));
         let (before, rest) = text.split_once("[wall.pump.open-boundary").expect("a pump");
         let (_, after) = rest.split_once("[phase").expect("a phase");
         let law = format!("[wall.pump.open-boundary.{law}\n[phase");
-        self.0
-            .write("other.toml", &(before.to_owned() + &law + after));
-    }
-
-    /// Times and the values of a column of the series of the last run.
-    fn course(&self, column: &str) -> Vec<(f64, f64)> {
-        let series = self.series();
-        let of = |name: &str| {
-            series
-                .column(name)
-                .unwrap_or_else(|| panic!("no `{name}`"))
-                .to_vec()
-        };
-        of("time").into_iter().zip(of(column)).collect()
-    }
-
-    /// The value of a column at the row before a time.
-    pub(crate) fn at(&self, column: &str, time: f64) -> (f64, f64) {
-        let course = self.course(column);
-        *course
-            .iter()
-            .rfind(|(t, _)| *t <= time + 1e-9)
-            .expect("a row")
-    }
-
-    /// The largest value of a column.
-    fn largest(&self, column: &str) -> f64 {
-        self.course(column)
-            .iter()
-            .map(|(_, x)| *x)
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.write("other.toml", &(before.to_owned() + &law + after));
     }
 
     /// Remarks of the last run that name a face.
@@ -68,38 +33,27 @@ impl Field {
 fn drained(input: &str, section: f64, spacing: f64, rate: f64, end: f64, more: &str) {
     let field = Field::new();
     let down = -rate / section;
-    let along = if input.ends_with("3d") {
-        "0.0,0.0"
-    } else {
-        "0.0"
-    };
-    done(&field.run(
+    let along = ["0.0", "0.0,0.0"][usize::from(input.ends_with("3d"))];
+    let series = field.ran(
         input,
         &format!(
             "--set wall.pump.open-boundary.flow-rate.rate=-{rate} --set body.water.velocity=[{along},{down}] \
              --set run.end={end} --set numerics.spacing={spacing} {more}"
         ),
-    ));
+    );
     let asked = WATER * rate * end;
-    let (_, left) = field.at("pump.left", end);
-    let (_, gone) = field.at("open.pump.water", end);
-    let level = field.course("level");
-    let sunk = (level[0].1 - field.at("level", end).1) * section * WATER;
+    let (_, left) = series.at("pump.left", end);
+    let (_, gone) = series.at("open.pump.water", end);
+    let sunk = (series.column("level")[0] - series.at("level", end).1) * section * WATER;
     println!(
         "{input} {rate} {spacing} {more}: {left} and {gone} kg for {asked}, by the level {sunk}"
     );
     assert!((left / asked - 1.0).abs() < 0.005, "{left} kg for {asked}");
     let row = WATER * section * spacing;
     assert!((gone - asked).abs() < 0.8 * row, "{gone} kg for {asked}");
-    assert!(
-        (sunk - asked).abs() < 0.5 * row,
-        "{sunk} kg by the level for {asked}"
-    );
-    assert!(
-        field.remarks("pump").is_empty(),
-        "{:?}",
-        field.remarks("pump")
-    );
+    close(sunk, asked, 0.5 * row, "kg by the level");
+    let said = field.remarks("pump");
+    assert!(said.is_empty(), "{said:?}");
 }
 
 #[test]
@@ -111,14 +65,8 @@ fn a_pump_takes_out_what_it_is_asked_for() {
 #[test]
 fn a_pump_takes_out_what_it_is_asked_for_at_any_speed_of_sound() {
     drained("drain-duct", 0.1, 0.02, 0.02, 1.2, "");
-    drained(
-        "drain-duct",
-        0.1,
-        0.02,
-        0.05,
-        0.5,
-        "--set phase.water.speed_of_sound=60",
-    );
+    let fast = "--set phase.water.speed_of_sound=60";
+    drained("drain-duct", 0.1, 0.02, 0.05, 0.5, fast);
 }
 
 #[test]
@@ -131,19 +79,16 @@ fn a_pump_takes_out_what_it_is_asked_for_in_space() {
 #[test]
 fn a_flow_rate_comes_into_a_flume_below_its_surface() {
     let field = Field::new();
-    done(&field.run("channel2", "--set run.end=2.5"));
-    let [(_, came), (_, went)] = ["in.entered", "out.left"].map(|column| field.at(column, 2.5));
+    let series = field.ran("channel2", "--set run.end=2.5");
+    let [(_, came), (_, went)] = ["in.entered", "out.left"].map(|column| series.at(column, 2.5));
     println!(
         "{came} kg came in and {went} went out; at most {} m/s",
-        field.largest("largest_speed")
+        series.largest("largest_speed")
     );
     assert!((came / 75.0 - 1.0).abs() < 0.005, "{came} kg for 75");
-    assert!(
-        (came - went).abs() < 5.0,
-        "{came} kg came in and {went} went out"
-    );
+    close(came, went, 5.0, "kg that came in and went out");
     for gauge in ["up", "down"] {
-        let level = field.largest(gauge);
+        let level = series.largest(gauge);
         assert!(level < 0.1 + 0.005, "`{gauge}`: {level} m");
     }
 }
@@ -154,15 +99,15 @@ fn a_flow_rate_comes_into_a_flume_below_its_surface() {
 #[test]
 fn a_pump_that_draws_air_idles() {
     let field = Field::new();
-    done(&field.run("drain-pipe", ""));
-    let (time, left) = field.at("pump.left", 1.4);
+    let series = field.ran("drain-pipe", "");
+    let (time, left) = series.at("pump.left", 1.4);
     // A row of 1 kg waits behind the face for a fifth of its passage.
     let missing = 50.0 * time - left;
     assert!(
         missing.abs() < 0.005 * 50.0 * time + 0.2,
         "{left} kg in {time} s"
     );
-    let fastest = field.largest("largest_speed");
+    let fastest = series.largest("largest_speed");
     let fall = (2.0 * 9.81 * 0.5_f64).sqrt();
     assert!(fastest < fall, "{fastest} m/s");
     let said = field.remarks("pump");
@@ -186,17 +131,12 @@ fn a_pump_that_draws_air_idles() {
 #[test]
 fn a_pump_with_a_dry_pipe_fills_it() {
     let field = Field::new();
-    done(&field.run(
-        "drain-pipe",
-        "--set body.water.box=[[0.0,0.0],[0.3,0.3]] --set run.end=1.1",
-    ));
-    let [(from, before), (to, after)] = [0.5, 1.1].map(|time| field.at("pump.left", time));
+    let half = "--set body.water.box=[[0.0,0.0],[0.3,0.3]] --set run.end=1.1";
+    let series = field.ran("drain-pipe", half);
+    let [(from, before), (to, after)] = [0.5, 1.1].map(|time| series.at("pump.left", time));
     let (passed, asked) = (after - before, 50.0 * (to - from));
     println!("{passed} kg for {asked} once the pipe is full");
-    assert!(
-        (passed / asked - 1.0).abs() < 0.01,
-        "{passed} kg for {asked}"
-    );
+    near(passed, asked, 0.01, "kg");
     assert!(field.remarks("pump")[0].contains("no fluid was before it, first at 0.000 s"));
 }
 
@@ -210,7 +150,7 @@ fn faces_of_any_law_run_dry() {
         "level]\nlevel = 0.0",
     ] {
         field.with_law("drain-duct", law);
-        done(&field.run("other", "--set run.end=1.0 --set numerics.spacing=0.02"));
+        let series = field.ran("other", "--set run.end=1.0 --set numerics.spacing=0.02");
         let summary = field.summary();
         assert_eq!(
             (&summary["status"], &summary["particles"]),
@@ -224,7 +164,7 @@ fn faces_of_any_law_run_dry() {
         );
         // A column of 0.4 m falls with its first velocity on: nobody is faster than that.
         let fall = (0.5_f64.powi(2) + 2.0 * 9.81 * 0.4).sqrt() + 0.2;
-        assert!(field.largest("largest_speed") < fall, "{law}");
+        assert!(series.largest("largest_speed") < fall, "{law}");
     }
 }
 
@@ -232,14 +172,11 @@ fn faces_of_any_law_run_dry() {
 #[test]
 fn a_wave_that_comes_back_finds_the_pump() {
     let field = Field::new();
-    done(&field.run("dam-pump", ""));
-    let courses = field.course("pump.left");
-    assert!(
-        courses.windows(2).all(|w| w[1].1 > w[0].1 - 0.5),
-        "mass came back"
-    );
-    let (_, left) = field.at("pump.left", 2.0);
-    let fastest = field.largest("largest_speed");
+    let series = field.ran("dam-pump", "");
+    let mut pairs = series.column("pump.left").windows(2);
+    assert!(pairs.all(|w| w[1] > w[0] - 0.5), "mass came back");
+    let (_, left) = series.at("pump.left", 2.0);
+    let fastest = series.largest("largest_speed");
     println!("{left} kg, {fastest} m/s");
     assert!(left > 5.0 && left < 20.2, "{left} kg");
     assert!(

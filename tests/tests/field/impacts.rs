@@ -1,22 +1,17 @@
 //! Walls and bodies that are fast, heavy or on their way out.
 
 use crate::Field;
-use sph_io::Table;
-
-fn column<'a>(series: &'a Table, name: &str) -> &'a [f64] {
-    series.column(name).expect("a column")
-}
+use sph_tests::{Says, Series};
 
 /// Velocity over the last two intervals of the series, m/s.
-fn speed(series: &Table, name: &str) -> f64 {
-    let (time, way) = (column(series, "time"), column(series, name));
+fn speed(series: &Series, name: &str) -> f64 {
+    let (time, way) = (series.column("time"), series.column(name));
     let end = time.len() - 1;
     (way[end] - way[end - 2]) / (time[end] - time[end - 2])
 }
 
 fn done(field: &Field, input: &str, more: &str) {
-    let outcome = field.run(input, &format!("--threads 1 {more}"));
-    assert_eq!(outcome.code, Some(0), "{input} {more}: {}", outcome.err);
+    field.ran(input, &format!("--threads 1 {more}"));
 }
 
 fn assert_refused(field: &Field, more: &str, line: &str) {
@@ -50,7 +45,7 @@ fn a_prescribed_body_faster_than_sound_is_refused() {
     let fast = format!("--set {key}=[{{from=0,to=0.01,course=[[0,0,0,0],[0.01,30,0,0]]}}]");
     let outcome = field.check("bullet-wall", &fast);
     assert_ne!(outcome.code, Some(0));
-    assert!(outcome.err.contains("faster than sound"), "{}", outcome.err);
+    outcome.says("faster than sound");
 }
 
 /// The plate stands still: −e v, whatever the speed; five times that of sound here.
@@ -128,7 +123,7 @@ fn heavy_bodies_stand_on_light_ones() {
         );
         done(&field, "heavy-on-light", &set);
         let series = field.series();
-        let [a, b] = ["A.y", "B.y"].map(|name| column(&series, name));
+        let [a, b] = series.columns(["A.y", "B.y"]);
         for (a, b) in a.iter().zip(b) {
             let missing = [-a, a - b];
             assert!(
@@ -154,7 +149,7 @@ fn a_heavy_body_that_falls_on_a_light_one_bounces_as_restitution_says() {
         );
         done(&field, "heavy-on-light", &set);
         let series = field.series();
-        let [time, a, b] = ["time", "A.y", "B.y"].map(|name| column(&series, name));
+        let [time, a, b] = series.columns(["time", "A.y", "B.y"]);
         // √(2 h/g) is 0.311 s, and it is up again before 0.7 s.
         let landed = time.iter().position(|t| *t > 0.34).expect("it lands");
         let top = b[landed..]
@@ -179,11 +174,10 @@ fn a_body_that_leaves_the_domain_has_no_result() {
         let outcome = field.run("bullet-body", &(domain(1.5) + ranks));
         assert_ne!(outcome.code, Some(0));
         let told = "the body `a` has left the domain";
-        assert!(outcome.err.contains(told), "{}", outcome.err);
+        outcome.says(told);
         assert_eq!(field.summary()["status"], "failed");
     }
-    let outcome = field.run("bullet-body", &domain(2.1));
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    field.ran("bullet-body", &domain(2.1));
     let said = |key: &str| field.summary()[key].to_string();
     assert!(
         said("warnings").contains("`a` reaches out of the domain"),
@@ -203,17 +197,13 @@ fn a_body_that_goes_too_far_in_a_step_is_told_of() {
     let field = Field::new();
     let more = "--set numerics.gravity=[0,-2e5] --set run.end=0.002 \
                 --set output.series_every=0.001 --set output.every=0.002 --set output.picture=[]";
-    let outcome = field.run("two-boxes", more);
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    field.ran("two-boxes", more);
     let summary = field.summary();
     assert_eq!(summary["steps_rolled_back"], 1);
     let said = |key: &str| summary[key].to_string();
     let warned = said("warnings");
-    assert!(
-        warned.contains("half a spacing") && warned.contains("`left`"),
-        "{warned}"
-    );
+    warned.says("half a spacing | `left`");
     assert!(said("advice").contains("run.safety"), "{}", said("advice"));
-    let fallen = *column(&field.series(), "left.y").last().expect("a row");
+    let fallen = *field.series().column("left.y").last().expect("a row");
     assert!((fallen / -0.4 - 1.0).abs() < 1e-9, "{fallen} m for -0.4 m");
 }

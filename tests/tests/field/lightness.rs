@@ -1,18 +1,14 @@
 //! Bodies much lighter than the water.
 
-use sph_io::Table;
+use sph_tests::{Series, close};
 
 use crate::Field;
 
 const G: f64 = 9.81;
 
-fn column<'a>(series: &'a Table, name: &str) -> &'a [f64] {
-    series.column(name).unwrap_or_else(|| panic!("no {name}"))
-}
-
 /// Acceleration upwards: that of the parabola that fits the way.
-fn acceleration(series: &Table) -> f64 {
-    let rows = column(series, "time").iter().zip(column(series, "A.y"));
+fn acceleration(series: &Series) -> f64 {
+    let rows = series.column("time").iter().zip(series.column("A.y"));
     let rows: Vec<_> = rows.collect();
     let middle = rows.iter().map(|(t, _)| **t).sum::<f64>() / rows.len() as f64;
     let sum = |power: i32, of_way: bool| -> f64 {
@@ -27,11 +23,8 @@ fn acceleration(series: &Table) -> f64 {
     2.0 * (n * (s2 * y2 - y1 * s3) - y0 * s2 * s2) / all
 }
 
-fn run(input: &str, more: &str) -> Table {
-    let field = Field::new();
-    let done = field.run(input, more);
-    assert_eq!(done.code, Some(0), "{more}: {}", done.err);
-    field.series()
+fn run(input: &str, more: &str) -> Series {
+    Field::new().ran(input, more)
 }
 
 /// Cylinders of a radius of 4 spacings in the middle of a tank of 8 radii: a = (ρ_w − ρ_b) V g/(ρ_b V + m_a), m_a =
@@ -65,22 +58,19 @@ fn a_light_box_floats_and_does_not_fly() {
     for density in [20.0, 50.0, 100.0] {
         let set = format!("--threads 1 --set wall.a.mover.rigid-body.density={density}");
         let series = run("light-5", &set);
-        let y = column(&series, "A.y");
+        let y = series.column("A.y");
         let most = y.iter().fold(0.0, |m: f64, y| m.max(*y));
         // It comes out with no more than its net buoyancy gives it, 27 N over 14 mm: 16 mm at 20 kg/m³, and a
         // spacing is not seen.
         assert!(most < 0.0105 + 0.016 + 0.05, "{density} kg/m³: {most} m up");
-        let late: Vec<f64> = (column(&series, "time").iter().zip(y))
+        let late: Vec<f64> = (series.column("time").iter().zip(y))
             .filter(|(t, _)| **t > 1.0)
             .map(|(_, y)| *y)
             .collect();
         let found = late.iter().sum::<f64>() / late.len() as f64;
         // The level falls by a quarter of what the box comes out.
         let exact = (0.02 - 0.3e-3 * density) * (1.0 - 0.25);
-        assert!(
-            (found - exact).abs() < 0.025,
-            "{density} kg/m³: {found}, not {exact} m"
-        );
+        close(found, exact, 0.025, &format!("{density} kg/m³, m"));
     }
 }
 
@@ -89,7 +79,7 @@ fn a_light_box_floats_and_does_not_fly() {
 fn light_boxes_rise_alike_with_implicit_pressure() {
     let end = |more: &str| {
         let series = run("light-box", &format!("--threads 1 {more}"));
-        column(&series, "A.y").last().copied().unwrap_or(f64::NAN)
+        series.column("A.y").last().copied().unwrap_or(f64::NAN)
     };
     for density in [20.0, 50.0] {
         let body = format!("--set wall.a.mover.rigid-body.density={density}");
@@ -113,15 +103,11 @@ fn light_boxes_rise_alike_with_implicit_pressure() {
 #[test]
 fn bodies_below_a_fiftieth_of_the_fluid_are_refused_at_their_line() {
     let field = Field::new();
-    let refused = field.check("light-5", "");
-    assert_eq!(refused.code, Some(2), "{}", refused.err);
-    let said = &refused.err;
-    assert!(
-        said.contains("density = 5.0") && said.contains("a fiftieth"),
-        "{said}"
-    );
-    let good = field.check("light-5", "--set wall.a.mover.rigid-body.density=20");
-    assert_eq!(good.code, Some(0), "{}", good.err);
+    let refused = field.check("light-5", "").ended(2);
+    &refused.says("density = 5.0 | a fiftieth");
+    field
+        .check("light-5", "--set wall.a.mover.rigid-body.density=20")
+        .ended(0);
 }
 
 /// Syrup of 100 Pa s at a no-slip box of 20 kg/m³: as with explicit friction of a step so short that it is no matter.
@@ -131,7 +117,7 @@ fn light_boxes_rise_alike_with_implicit_viscosity() {
         let body = "--threads 1 --set wall.a.mover.rigid-body.density=20 --set run.end=0.15";
         let more = format!("{body} --set phase.w.rheology.newtonian.viscosity=100.0 {more}");
         let series = run("light-box", &more);
-        column(&series, "A.y").last().copied().unwrap_or(f64::NAN)
+        series.column("A.y").last().copied().unwrap_or(f64::NAN)
     };
     let explicit = end("--set run.safety=0.25");
     let implicit = end("--set implicit-viscosity.backward-euler={}");

@@ -16,12 +16,20 @@ mod seams;
 mod smoothers;
 mod words;
 
+use std::ops::Deref;
+
 use serde_json::Value as Json;
-use sph_io::{Table, read_table};
-use sph_tests::{Bench, Outcome};
+use sph_tests::{Bench, Outcome, Series};
 
 /// A folder with all inputs, in which the program is called.
 struct Field(Bench);
+
+impl Deref for Field {
+    type Target = Bench;
+    fn deref(&self) -> &Bench {
+        &self.0
+    }
+}
 
 impl Field {
     /// A folder of its own.
@@ -41,22 +49,41 @@ impl Field {
 
     /// `sph run INPUT.toml` with more words; results lie in `r`.
     fn run(&self, input: &str, more: &str) -> Outcome {
-        self.0
-            .call(&format!("run {input}.toml --quiet --out r {more}"))
+        self.call(&format!("run {input}.toml --quiet --out r {more}"))
+    }
+
+    /// `series.csv` of the last run.
+    fn series(&self) -> Series {
+        self.0.series("r")
+    }
+
+    /// A run to a good end.
+    #[track_caller]
+    fn ran(&self, input: &str, more: &str) -> Series {
+        self.run(input, more).ended(0);
+        self.series()
     }
 
     /// `sph check INPUT.toml` with more words.
     fn check(&self, input: &str, more: &str) -> Outcome {
-        self.0.call(&format!("check {input}.toml {more}"))
+        self.call(&format!("check {input}.toml {more}"))
+    }
+
+    /// What `sph check` says of a good scene, as JSON.
+    #[track_caller]
+    fn examined(&self, input: &str, more: &str) -> Json {
+        let outcome = self.check(input, &format!("--json {more}"));
+        outcome.ended(0).json()
+    }
+
+    /// `sph check` refuses a scene and says all of these words; ` | ` stands between two.
+    #[track_caller]
+    fn refuses(&self, input: &str, more: &str, words: &str) {
+        self.check(input, more).ended(2).says(words);
     }
 
     /// `summary.json` of the last run.
     fn summary(&self) -> Json {
-        serde_json::from_str(&self.0.read("r/summary.json")).expect("a summary")
-    }
-
-    /// `series.csv` of the last run.
-    fn series(&self) -> Table {
-        read_table(self.0.path("r/series.csv")).expect("a series")
+        self.0.summary("r")
     }
 }

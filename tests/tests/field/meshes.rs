@@ -1,29 +1,9 @@
 //! Walls from CAD files and what fills them.
 
 use serde_json::Value as Json;
-use sph_tests::Bench;
+use sph_tests::{Bench, Says, near};
 
 use crate::Field;
-
-/// What `sph check` says of a scene, as JSON.
-fn examined(field: &Field, input: &str, more: &str) -> Json {
-    let outcome = field.check(input, &format!("{more} --json"));
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-    serde_json::from_str(&outcome.out).expect("an examination")
-}
-
-/// The scene is refused; what is said has all the words.
-fn refused(field: &Field, input: &str, more: &str, words: &[&str]) {
-    let outcome = field.check(input, more);
-    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    for word in words {
-        assert!(
-            outcome.err.contains(word),
-            "no `{word}` in\n{}",
-            outcome.err
-        );
-    }
-}
 
 /// Facets of a text STL file, as the lines of each.
 fn facets(text: &str) -> Vec<Vec<String>> {
@@ -46,26 +26,19 @@ fn turned(text: &str, which: &[usize]) -> String {
 #[test]
 fn an_open_tank_that_faces_away_is_refused_with_the_count_and_filled_when_it_is_turned() {
     let field = Field::new();
-    let words = [
-        "0 of 1000 particles",
-        "1000 are behind wall `tank`",
-        "flip = true",
-    ];
-    refused(&field, "open-tank", "", &words);
+    let words = "0 of 1000 particles | 1000 are behind wall `tank` | flip = true";
+    field.refuses("open-tank", "", words);
     // A clipped box as well.
     let clipped = "--set body.water={phase='water',clip=true,box=[[0.0,0.0,0.0],[0.8,0.4,0.2]]}";
-    refused(&field, "open-tank", clipped, &words);
+    field.refuses("open-tank", clipped, words);
     for key in ["wall.tank.flip=true", "wall.tank.fluid=inside"] {
-        let found = examined(&field, "open-tank", &format!("--set {key}"));
+        let found = field.examined("open-tank", &format!("--set {key}"));
         assert_eq!(found["particles"], 1000, "{key}");
     }
     // The weight of the water, 1000 kg/m³ · 9.81 m/s² · 0.064 m³, is on the floor.
-    field.run(
-        "open-tank",
-        "--set wall.tank.flip=true --set run.end=0.01 --threads 1",
-    );
-    let weight = field.series().column("tank.pressure.z").expect("a force")[0];
-    assert!((weight / -627.84 - 1.0).abs() < 0.01, "{weight} N");
+    let short = "--set wall.tank.flip=true --set run.end=0.01 --threads 1";
+    let weight = field.ran("open-tank", short).column("tank.pressure.z")[0];
+    near(weight, -627.84, 0.01, "N");
 }
 
 #[test]
@@ -74,18 +47,9 @@ fn water_is_told_from_far_away_in_a_deep_open_tank_that_lies_on_its_side() {
     let field = Field::new();
     let more = "--set wall.tank.rotate={axis=[0.0,1.0,0.0],angle='90deg'} --set numerics.spacing=0.025 \
                 --set body.water={phase='water',fill='walls',box=[[0.0,0.0,-0.8],[0.3,0.4,0.0]]}";
-    let found = examined(
-        &field,
-        "open-tank",
-        &format!("{more} --set wall.tank.flip=true"),
-    );
+    let found = field.examined("open-tank", &format!("{more} --set wall.tank.flip=true"));
     assert_eq!(found["particles"], 12 * 16 * 32);
-    refused(
-        &field,
-        "open-tank",
-        more,
-        &["0 of 6144 particles", "flip = true"],
-    );
+    field.refuses("open-tank", more, "0 of 6144 particles | flip = true");
 }
 
 #[test]
@@ -95,35 +59,28 @@ fn an_open_polyline_that_faces_away_is_refused_with_the_count() {
                  numerics.gravity = [0, -9.81]\nwalls.usaw.vertices = false\nwall.tank.file = \"u.csv\"\n\
                  phase.water = { density = 1000, rheology.newtonian = { viscosity = 1e-3 } }\n\
                  body.water = { phase = \"water\", fill = \"walls\", box = [[0, 0], [0.6, 0.2]] }\n";
-    field.0.write("u.toml", scene);
-    field
-        .0
-        .write("u.csv", "x [mm]; y [mm]\n600; 400\n600; 0\n0; 0\n0; 400\n");
-    refused(
-        &field,
+    field.write("u.toml", scene);
+    field.write("u.csv", "x [mm]; y [mm]\n600; 400\n600; 0\n0; 0\n0; 400\n");
+    field.refuses(
         "u",
         "",
-        &["0 of 300 particles", "behind wall `tank`", "flip = true"],
+        "0 of 300 particles | behind wall `tank` | flip = true",
     );
-    let found = examined(&field, "u", "--set wall.tank.flip=true");
+    let found = field.examined("u", "--set wall.tank.flip=true");
     assert_eq!(found["particles"], 300);
 }
 
 #[test]
 fn flipped_facets_are_told_and_turned_on_request() {
     let field = Field::new();
-    let text = field.0.read("open_tank.stl");
-    field.0.write("open_tank.stl", &turned(&text, &[2, 7]));
-    let words = [
-        "2 of 10 facets face the other way",
-        "facet 3 at",
-        "align = true",
-    ];
-    refused(&field, "open-tank", "--set wall.tank.fluid=inside", &words);
+    let text = field.read("open_tank.stl");
+    field.write("open_tank.stl", &turned(&text, &[2, 7]));
+    let words = "2 of 10 facets face the other way | facet 3 at | align = true";
+    field.refuses("open-tank", "--set wall.tank.fluid=inside", words);
     let more = "--set wall.tank.fluid=inside --set wall.tank.align=true";
-    assert_eq!(examined(&field, "open-tank", more)["particles"], 1000);
-    let told = field.0.call("check open_tank.stl --json");
-    let told: Json = serde_json::from_str(&told.out).expect("a surface");
+    assert_eq!(field.examined("open-tank", more)["particles"], 1000);
+    let told = field.call("check open_tank.stl --json");
+    let told = told.json();
     assert_eq!(
         (&told["flipped"], &told["facing"]),
         (&serde_json::json!([3, 8]), &"outwards".into())
@@ -133,18 +90,14 @@ fn flipped_facets_are_told_and_turned_on_request() {
 #[test]
 fn a_hole_below_water_is_told_with_its_place_and_size() {
     let field = Field::new();
-    let words = [
-        "wall `tank` is open: 3 edge(s)",
-        "an opening of 0.5657 m around (0.4, 0.2, 0.2)",
-    ];
-    refused(&field, "stl-hole", "", &words);
+    let words = "wall `tank` is open: 3 edge(s) | an opening of 0.5657 m around (0.4, 0.2, 0.2)";
+    field.refuses("stl-hole", "", words);
 }
 
 /// What `sph check FILE.stl` says as JSON.
 fn surface(field: &Field, file: &str) -> Json {
-    let outcome = field.0.call(&format!("check {file} --json"));
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-    serde_json::from_str(&outcome.out).expect("a surface")
+    let outcome = field.done(&format!("check {file} --json"));
+    outcome.json()
 }
 
 #[test]
@@ -168,21 +121,13 @@ fn a_file_of_facets_is_checked_without_a_scene() {
         (&3.into(), &400.0.into())
     );
     assert!((hole["size"].as_f64().expect("a size") - 400.0 * 2f64.sqrt()).abs() < 1e-9);
-    let text = field.0.read("open_tank.stl");
-    field
-        .0
-        .write("in.stl", &turned(&text, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]));
+    let text = field.read("open_tank.stl");
+    field.write("in.stl", &turned(&text, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]));
     assert_eq!(surface(&field, "in.stl")["facing"], "inwards");
-    let plain = field.0.call("check open_tank.stl").out;
-    for word in [
-        "0.8 × 0.4 × 0.4",
-        "4 edges, 0.8944 across",
-        "consistent, outwards",
-    ] {
-        assert!(plain.contains(word), "{plain}");
-    }
+    let plain = field.call("check open_tank.stl").out;
+    plain.says("0.8 × 0.4 × 0.4 | 4 edges, 0.8944 across | consistent, outwards");
     // Corners that differ in the last figures are one.
-    field.0.write(
+    field.write(
         "loose.stl",
         &text.replacen("4.000000e-01", "4.0000002e-01", 7),
     );
@@ -197,25 +142,22 @@ fn a_file_of_facets_is_checked_without_a_scene() {
 #[test]
 fn invalid_surfaces_are_refused_with_their_defect() {
     let field = Field::new();
-    let text = field.0.read("open_tank.stl");
-    field.0.write("empty.stl", "");
-    field.0.write(
+    let text = field.read("open_tank.stl");
+    field.write("empty.stl", "");
+    field.write(
         "page.stl",
         "<html><body>not found, not found, not found, not found, not found, no</body></html>",
     );
-    field
-        .0
-        .write("nan.stl", &text.replacen("8.000000e-01", "nan", 1));
+    field.write("nan.stl", &text.replacen("8.000000e-01", "nan", 1));
     for (file, word) in [
         ("gone.stl", "cannot read `gone.stl`"),
         ("empty.stl", "is empty"),
         ("page.stl", "is no STL file"),
         ("nan.stl", "facet 1: expected finite"),
     ] {
-        let outcome = field.0.call(&format!("check {file} --json"));
-        assert_eq!(outcome.code, Some(2), "{file}: {}", outcome.err);
-        assert!(outcome.err.contains(word), "{file}: {}", outcome.err);
-        let told: Json = serde_json::from_str(&outcome.out).expect("JSON");
+        let outcome = field.refused(&format!("check {file} --json"));
+        outcome.says(word);
+        let told = outcome.json();
         assert!(
             told[0]["message"]
                 .as_str()
@@ -229,7 +171,7 @@ fn invalid_surfaces_are_refused_with_their_defect() {
 fn passed(field: &Field) -> [f64; 3] {
     let series = field.series();
     ["in.entered", "out.left", "u.x"].map(|name| {
-        let column = series.column(name).unwrap_or_else(|| panic!("no `{name}`"));
+        let column = series.column(name);
         column[column.len() - 1]
     })
 }
@@ -242,7 +184,7 @@ const BORE: &str =
 fn a_pipe_with_a_thickness_is_its_bore() {
     let field = Field::new();
     let count = |more: &str| {
-        let found = examined(&field, "pipe-thick", more);
+        let found = field.examined("pipe-thick", more);
         (found["particles"].clone(), found["wall_elements"].clone())
     };
     let (thick, bore) = (count(""), count(BORE));
@@ -279,7 +221,7 @@ fn a_pipe_with_a_thickness_is_its_bore() {
 fn a_disc_that_covers_the_end_of_a_pipe_closes_it_as_well() {
     // The inlet reaches to the outer edge of the pipe and lies on its end.
     let field = Field::new();
-    let text = field.0.read("inlet.stl");
+    let text = field.read("inlet.stl");
     let scaled = text
         .lines()
         .map(|line| match line.trim().strip_prefix("vertex") {
@@ -299,9 +241,9 @@ fn a_disc_that_covers_the_end_of_a_pipe_closes_it_as_well() {
             }
         });
     let scaled: Vec<String> = scaled.collect();
-    let thick = examined(&field, "pipe-thick", "")["particles"].clone();
-    field.0.write("inlet.stl", &scaled.join("\n"));
-    assert_eq!(examined(&field, "pipe-thick", "")["particles"], thick);
+    let thick = field.examined("pipe-thick", "")["particles"].clone();
+    field.write("inlet.stl", &scaled.join("\n"));
+    assert_eq!(field.examined("pipe-thick", "")["particles"], thick);
 }
 
 #[test]
@@ -321,12 +263,10 @@ fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
     let thin = "wall.floor.polyline = [[0.0, 0.0], [0.2, 0.0]]\nwall.roof.polyline = [[0.2, 0.1], [0.0, 0.1]]\n";
     let field = Field::new();
     let mass = |walls: &str| {
-        field.0.write("duct.toml", &format!("{scene}{walls}"));
-        let outcome = field.run("duct", "--threads 1");
-        assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-        let series = field.series();
+        field.write("duct.toml", &format!("{scene}{walls}"));
+        let series = field.ran("duct", "--threads 1");
         ["in.entered", "out.left"].map(|name| {
-            let column = series.column(name).expect("a probe");
+            let column = series.column(name);
             column[column.len() - 1]
         })
     };
@@ -340,18 +280,16 @@ fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
 fn a_disc_that_faces_out_of_a_pipe_is_named() {
     let field = Field::new();
     let other = "--set wall.outlet.flip=true";
-    refused(
-        &field,
+    field.refuses(
         "pipe-thick",
         other,
-        &["wall `outlet` meets it there", "faces the other way"],
+        "wall `outlet` meets it there | faces the other way",
     );
     let flipped = "--set wall.inlet.flip=true";
-    refused(
-        &field,
+    field.refuses(
         "pipe-thick",
         flipped,
-        &["wall `inlet` meets it there", "faces the other way"],
+        "wall `inlet` meets it there | faces the other way",
     );
 }
 
@@ -373,10 +311,9 @@ fn rests(keys: &str) -> f64 {
     );
     bench.write("plate.stl", PLATE);
     bench.write("ball.txt", "50 50 27 5\n");
-    let outcome = bench.call("run scene.toml --quiet --out r");
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-    let series = sph_io::read_table(bench.path("r/series.csv")).expect("a series");
-    let top = series.column("top").expect("the top");
+    bench.done("run scene.toml --quiet --out r");
+    let series = bench.series("r");
+    let top = series.column("top");
     top[top.len() - 1]
 }
 
@@ -390,9 +327,6 @@ fn walls_of_grains_from_files_take_unit_scale_and_shift() {
         env!("CARGO_BIN_EXE_sph-under-test"),
         &format!("{BALL}unit = \"kg\"\nscale = 2\n"),
     );
-    let told = bench.call("check scene.toml").err;
-    assert!(
-        told.contains("`kg` is no unit of length") && told.contains("not both"),
-        "{told}"
-    );
+    let told = bench.call("check scene.toml");
+    told.says("`kg` is no unit of length | not both");
 }

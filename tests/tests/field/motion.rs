@@ -1,19 +1,8 @@
 //! Bodies, frames and tanks that move.
 
+use sph_tests::{close, near};
+
 use crate::Field;
-use sph_io::Table;
-use sph_tests::Outcome;
-
-fn done(outcome: Outcome) {
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-}
-
-fn last(series: &Table, name: &str) -> f64 {
-    *series
-        .column(name)
-        .and_then(<[f64]>::last)
-        .expect("a number")
-}
 
 /// Courses of gravity that end with 1 m/s² along x.
 const SIDEWAYS: [&str; 3] = [
@@ -28,17 +17,13 @@ const SIDEWAYS: [&str; 3] = [
 fn the_ends_of_a_shaken_tank_differ_by_its_acceleration() {
     let field = Field::new();
     for course in SIDEWAYS {
-        done(field.run("shaken", course));
-        let series = field.series();
-        let between = last(&series, "right") - last(&series, "left");
+        let series = field.ran("shaken", course);
+        let between = series.last("right") - series.last("left");
         // ρ a L over 30 spacings.
         let exact = 900.0 * 1.0 * 0.6;
-        assert!(
-            (between / exact - 1.0).abs() < 0.01,
-            "{course}: {between} Pa for {exact} Pa"
-        );
+        near(between, exact, 0.01, &format!("{course}, Pa"));
         // Gravity that changes has no potential: it drives, and the books know of it.
-        let unlisted = last(&series, "books.unlisted");
+        let unlisted = series.last("books.unlisted");
         assert!(
             unlisted.abs() < 1e-9,
             "{course}: {unlisted} J nobody booked"
@@ -49,31 +34,23 @@ fn the_ends_of_a_shaken_tank_differ_by_its_acceleration() {
 #[test]
 fn a_tank_in_free_fall_has_one_pressure() {
     let field = Field::new();
-    done(field.run(
-        "shaken",
-        "--set numerics.frame.translate.along=[0,-1] --set numerics.frame.translate.ramp.speed=14.715 \
-         --set numerics.frame.translate.ramp.over=1.5 --set run.end=1.4",
-    ));
-    let series = field.series();
-    let between = last(&series, "low") - last(&series, "high");
+    let falls = "--set numerics.frame.translate.along=[0,-1] --set run.end=1.4 \
+                 --set numerics.frame.translate.ramp.speed=14.715 --set numerics.frame.translate.ramp.over=1.5";
+    let series = field.ran("shaken", falls);
+    let between = series.last("low") - series.last("high");
     // Of ρ g H = 2649 Pa before.
     assert!(between.abs() < 0.01 * 2649.0, "{between} Pa");
-    assert!(last(&series, "largest_speed") < 1e-3);
+    assert!(series.last("largest_speed") < 1e-3);
 }
 
 #[test]
 fn the_surface_tilts_by_the_acceleration_over_gravity() {
     let field = Field::new();
     for course in [SIDEWAYS[0], SIDEWAYS[2]] {
-        done(field.run("sloshed", &format!("{course} --set run.end=1.8")));
-        let series = field.series();
-        let tilt = last(&series, "left") - last(&series, "right");
-        let exact = 0.5 * 1.0 / 9.81;
+        let series = field.ran("sloshed", &format!("{course} --set run.end=1.8"));
+        let tilt = series.last("left") - series.last("right");
         // Half a spacing at each end.
-        assert!(
-            (tilt + exact).abs() < 0.01,
-            "{course}: {tilt} m for {exact} m"
-        );
+        close(tilt, -0.5 * 1.0 / 9.81, 0.01, course);
     }
 }
 
@@ -88,17 +65,10 @@ fn mistakes_of_gravity_over_time_are_told_with_their_line() {
         ("scale=2", "a course is missing"),
     ] {
         let set = format!("--set numerics.gravity_over_time.{set}");
-        let outcome = field.check("shaken", &set);
-        assert_ne!(outcome.code, Some(0), "{set}");
-        assert!(outcome.err.contains(told), "{set}: {}", outcome.err);
+        field.refuses("shaken", &set, told);
     }
     let turned = "--set numerics.frame.angular_velocity=1 --set numerics.frame.centre=[0,0]";
-    let outcome = field.check("shaken", turned);
-    assert!(outcome.err.contains("only translates"), "{}", outcome.err);
-}
-
-fn column<'a>(series: &'a Table, name: &str) -> &'a [f64] {
-    series.column(name).expect("a column")
+    field.check("shaken", turned).says("only translates");
 }
 
 #[test]
@@ -106,20 +76,13 @@ fn a_body_alone_coasts_and_falls() {
     let field = Field::new();
     for (gravity, g) in [("[0,0,0]", 0.0), ("[0,0,-9.81]", 9.81)] {
         let end = "--set run.end=0.5 --set output.series_every=0.05 --set output.every=0.25";
-        done(field.run(
-            "free-flight",
-            &format!("{end} --set numerics.gravity={gravity}"),
-        ));
-        let series = field.series();
-        let [time, x, z] = ["time", "cube.x", "cube.z"].map(|name| column(&series, name));
+        let set = format!("{end} --set numerics.gravity={gravity}");
+        let series = field.ran("free-flight", &set);
+        let [time, x, z] = series.columns(["time", "cube.x", "cube.z"]);
         for k in 0..time.len() {
             let t = time[k];
-            assert!((x[k] - t).abs() < 1e-12, "{} m at {t} s", x[k]);
-            assert!(
-                (z[k] + 0.5 * g * t * t).abs() < 1e-12,
-                "{} m down at {t} s",
-                z[k]
-            );
+            close(x[k], t, 1e-12, "m along");
+            close(z[k], -0.5 * g * t * t, 1e-12, "m down");
         }
     }
 }
@@ -127,14 +90,13 @@ fn a_body_alone_coasts_and_falls() {
 #[test]
 fn bodies_that_meet_without_fluid_keep_their_momentum_and_energy() {
     let field = Field::new();
-    done(field.run("two-boxes", ""));
-    let series = field.series();
-    let [time, left, right] = ["time", "left.x", "right.x"].map(|name| column(&series, name));
+    let series = field.ran("two-boxes", "");
+    let [time, left, right] = series.columns(["time", "left.x", "right.x"]);
     let (end, masses) = (time.len() - 1, [20.0, 40.0]);
     let speeds = [left, right].map(|x| (x[end] - x[end - 2]) / (time[end] - time[end - 2]));
     // An elastic blow: each leaves with 2 V − v, V that of the common centre, which is at rest here.
     for (speed, exact) in speeds.into_iter().zip([-1.0, 0.5]) {
-        assert!((speed - exact).abs() < 0.02, "{speed} m/s for {exact} m/s");
+        close(speed, exact, 0.02, "m/s");
     }
     let momentum = masses[0] * speeds[0] + masses[1] * speeds[1];
     assert!(momentum.abs() < 1e-9, "{momentum} kg m/s of 20");
@@ -143,20 +105,15 @@ fn bodies_that_meet_without_fluid_keep_their_momentum_and_energy() {
 #[test]
 fn a_scene_without_bodies_of_fluid_and_movers_is_refused() {
     let field = Field::new();
-    let outcome = field.check("shaken", "--set body={}");
-    assert!(
-        outcome.err.contains("a scene needs a body"),
-        "{}",
-        outcome.err
-    );
+    let refused = field.check("shaken", "--set body={}");
+    refused.says("a scene needs a body");
 }
 
 /// Angle of a circular segment of the height and width of the drop, from the last third of the run.
 fn angle_of_drop(field: &Field, more: &str) -> f64 {
-    done(field.run("drop", more));
-    let series = field.series();
+    let series = field.ran("drop", more);
     let mean = |name: &str| {
-        let all = column(&series, name);
+        let all = series.column(name);
         let late = &all[2 * all.len() / 3..];
         late.iter().sum::<f64>() / late.len() as f64
     };
@@ -180,7 +137,7 @@ fn a_drop_on_a_plate_takes_the_contact_angle() {
     let key = "--set interface.surface-tension.contact_angle";
     let wets = format!("{key}.phase=water {key}.angle=1.0472");
     let found = angle_of_drop(&Field::new(), &wets);
-    assert!((found - 60.0).abs() < SHARPNESS, "{found} deg for 60 deg");
+    close(found, 60.0, SHARPNESS, "deg");
 }
 
 #[test]
@@ -189,29 +146,21 @@ fn a_wall_of_its_own_shuns_the_drop() {
     // 60° through the oil are 120° through the water.
     let shuns = format!("{key}.phase=oil {key}.angle=2.5 {key}.walls.box=1.0472");
     let found = angle_of_drop(&Field::new(), &shuns);
-    assert!((found - 120.0).abs() < SHARPNESS, "{found} deg for 120 deg");
+    close(found, 120.0, SHARPNESS, "deg");
 }
 
 #[test]
 fn a_contact_angle_of_nothing_is_refused() {
     let field = Field::new();
-    let key = "--set interface.surface-tension.contact_angle";
+    let vertices = "phase=oil KEY.angle=1 --set walls.usaw.vertices=true";
     for (more, told) in [
-        (
-            format!("{key}.phase=watr {key}.angle=1"),
-            "did you mean `water`",
-        ),
-        (
-            format!("{key}.phase=oil {key}.angle=1 {key}.walls.bx=1"),
-            "did you mean `box`",
-        ),
-        (format!("{key}.phase=oil {key}.angle=4"), "at most"),
-        (
-            format!("{key}.phase=oil {key}.angle=1 --set walls.usaw.vertices=true"),
-            "vertices = false",
-        ),
+        ("phase=watr KEY.angle=1", "did you mean `water`"),
+        ("phase=oil KEY.angle=1 KEY.walls.bx=1", "did you mean `box`"),
+        ("phase=oil KEY.angle=4", "at most"),
+        (vertices, "vertices = false"),
     ] {
-        let outcome = field.check("drop", &more);
-        assert!(outcome.err.contains(told), "{more}: {}", outcome.err);
+        let key = "--set interface.surface-tension.contact_angle";
+        let set = format!("KEY.{more}").replace("KEY", key);
+        field.check("drop", &set).says(told);
     }
 }

@@ -1,5 +1,7 @@
 //! Thin plates, free ends of walls, and bodies under water.
 
+use sph_tests::{Says, one_line};
+
 use crate::Field;
 
 /// The number behind a name in `summary.json`.
@@ -12,8 +14,7 @@ fn number(field: &Field, path: &str) -> f64 {
 
 /// A run that got to its end without a step back, with all mass in the books.
 fn done(field: &Field, input: &str, more: &str) {
-    let outcome = field.run(input, more);
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    field.ran(input, more);
     assert_eq!(field.summary()["status"], "done");
     assert_eq!(number(field, "steps_rolled_back"), 0.0);
     let missing = number(field, "drift/mass");
@@ -25,14 +26,7 @@ fn checked(field: &Field, input: &str, more: &str, code: i32) -> String {
     let outcome = field.check(input, more);
     let text = [outcome.out, outcome.err].concat();
     assert_eq!(outcome.code, Some(code), "{text}");
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// All values of a column.
-fn column(field: &Field, name: &str) -> Vec<f64> {
-    let series = field.series();
-    let column = series.column(name);
-    column.unwrap_or_else(|| panic!("no {name}")).to_vec()
+    one_line(&text)
 }
 
 /// A wave behind a lifted gate throws water over the end of the tank.
@@ -53,8 +47,7 @@ fn a_sheet_that_leaves_a_plate_falls_freely() {
     done(&field, "plate-end", "");
     let front = 1.5 + 2.0 * (9.81f64 * 0.1).sqrt();
     let most = (front * front + 2.0 * 9.81 * 1.3).sqrt();
-    let fastest = column(&field, "largest_speed");
-    let fastest = fastest.into_iter().fold(0.0, f64::max);
+    let fastest = field.series().largest("largest_speed");
     assert!(fastest < most, "{fastest} m/s of {most}");
     // The plate gives no energy.
     let rise = number(&field, "drift/energy_rise");
@@ -89,25 +82,13 @@ fn plates_that_hide_nothing_are_refused_with_the_spacing_that_would_do() {
     for (input, wall) in [("thin-cup", "wall.cup"), ("thin-baffle-3d", "wall.baffle")] {
         let field = Field::new();
         let text = checked(&field, input, "", 2);
-        assert!(
-            text.contains(wall) && text.contains("would feel each other"),
-            "{text}"
-        );
+        text.says(&format!("{wall} | would feel each other"));
         let told = text.split("numerics.spacing` ").nth(1).expect("a spacing");
         let spacing: f64 = told.split(' ').next().unwrap().parse().expect("a number");
-        let coarser = 1.2 * spacing;
-        checked(
-            &field,
-            input,
-            &format!("--set numerics.spacing={coarser}"),
-            2,
-        );
-        checked(
-            &field,
-            input,
-            &format!("--set numerics.spacing={spacing}"),
-            0,
-        );
+        for (spacing, code) in [(1.2 * spacing, 2), (spacing, 0)] {
+            let set = format!("--set numerics.spacing={spacing}");
+            checked(&field, input, &set, code);
+        }
     }
 }
 
@@ -117,7 +98,7 @@ fn a_thin_plate_with_water_on_one_side_is_not_refused() {
     let field = Field::new();
     let dry = "--set body.outside.box=[[0.0,0.0],[0.4,0.03]]";
     let text = checked(&field, "thin-cup", dry, 0);
-    assert!(text.contains("would feel each other"), "{text}");
+    text.says("would feel each other");
 }
 
 /// The mesh of a box is its own mirror image, and so is the flow around it: what is left is rounding.
@@ -126,13 +107,11 @@ fn a_symmetric_scene_with_a_floating_box_stays_symmetric() {
     let field = Field::new();
     done(&field, "moored-four", "--set run.end=0.6");
     for name in ["box.x", "box.y", "box.rx", "box.ry", "box.rz"] {
-        let off = column(&field, name)
-            .into_iter()
-            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let off = field.series().largest_size(name);
         assert!(off < 1e-6, "{name} is {off:e}");
     }
-    let moved = column(&field, "box.z");
-    assert!(moved.iter().any(|z| z.abs() > 1e-3), "the box heaves");
+    let moved = field.series().largest_size("box.z");
+    assert!(moved > 1e-3, "the box heaves");
 }
 
 /// Water of a finite speed of sound is denser at depth z by gz/c², and a body there feels as much more buoyancy.
@@ -142,12 +121,9 @@ fn buoyancy_grows_with_the_density_of_the_water_around() {
         let field = Field::new();
         let held = "--set wall.disc.mover.rigid-body.start=9 --set damping.rayleigh.rate=20 --set run.end=0.8 \
                     --set damping.rayleigh.until=0.8";
-        done(
-            &field,
-            "neutral-disc",
-            &format!("{held} --set phase.water.speed_of_sound={c}"),
-        );
-        *column(&field, "force.y").last().expect("a row")
+        let set = format!("{held} --set phase.water.speed_of_sound={c}");
+        done(&field, "neutral-disc", &set);
+        field.series().last("force.y")
     };
     let (slow, fast) = (30.0, 60.0);
     let weight = 1000.0 * 9.81 * 18.0 * 0.15 * 0.15 * (std::f64::consts::TAU / 36.0).sin();

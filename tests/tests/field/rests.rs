@@ -8,16 +8,11 @@ fn the_acoustic_damper_takes_energy_at_any_ratio_of_densities() {
     for ratio in [1.0, 10.0, 100.0, 1000.0] {
         for strength in [0.5, 2.0] {
             let field = Field::new();
-            let done = field.run(
-                "damper-ratio",
-                &format!(
+            let series = field.ran("damper-ratio", &format!(
                     "--threads 1 --set phase.w.density={ratio} --set phase.w.rheology.newtonian.viscosity={ratio} \
                      --set damping.acoustic.strength={strength} --set run.end=0.1"
-                ),
-            );
-            assert_eq!(done.code, Some(0), "{ratio}: {}", done.err);
-            let series = field.series();
-            let of = |name: &str| series.column(name).expect("a column");
+                ));
+            let of = |name: &str| series.column(name);
             let damper = of("b.damper");
             for k in 1..series.rows() {
                 assert!(
@@ -43,7 +38,7 @@ const LATTICE: &str = "--threads 1 --set numerics.relax.steps=0";
 /// Largest speed of a run, m/s.
 fn fastest(field: &Field) -> f64 {
     let series = field.series();
-    let speeds = series.column("largest_speed").expect("speeds");
+    let speeds = series.column("largest_speed");
     speeds.iter().fold(0.0, |m: f64, u| m.max(*u))
 }
 
@@ -52,8 +47,7 @@ fn fastest(field: &Field) -> f64 {
 fn narrow_water_at_rest_stays_at_rest() {
     for (name, most) in [("narrow-tank-100", 0.1), ("utube-at-rest", 0.2)] {
         let field = Field::new();
-        let done = field.run(name, "--threads 1");
-        assert_eq!(done.code, Some(0), "{}", done.err);
+        field.ran(name, "--threads 1");
         let speed = fastest(&field);
         println!("{name}: {speed} m/s");
         assert!(speed < most, "{name}: {speed} m/s");
@@ -64,11 +58,12 @@ fn narrow_water_at_rest_stays_at_rest() {
 #[test]
 fn a_narrow_tank_that_explodes_from_a_lattice_has_no_result() {
     let field = Field::new();
-    let done = field.run("narrow-tank-100", &format!("{LATTICE} --set run.end=0.3"));
-    assert_eq!(done.code, Some(1), "{}", done.err);
+    let done = field
+        .run("narrow-tank-100", &format!("{LATTICE} --set run.end=0.3"))
+        .ended(1);
     let summary = field.summary();
     assert_eq!(summary["status"], "failed");
-    assert!(done.err.contains("without a drive"), "{}", done.err);
+    done.says("without a drive");
 }
 
 /// Water at rest in a U-tube of 8 rows, from a lattice, moves with 1 m/s: walls make 2 % of what would move, and the run tells. The
@@ -76,8 +71,7 @@ fn a_narrow_tank_that_explodes_from_a_lattice_has_no_result() {
 #[test]
 fn a_tube_at_rest_that_moves_warns_and_the_advice_helps() {
     let field = Field::new();
-    let done = field.run("utube-at-rest", LATTICE);
-    assert_eq!(done.code, Some(0), "{}", done.err);
+    field.ran("utube-at-rest", LATTICE);
     let summary = field.summary();
     let warned =
         |summary: &serde_json::Value| summary["warnings"].to_string().contains("without a drive");
@@ -85,8 +79,7 @@ fn a_tube_at_rest_that_moves_warns_and_the_advice_helps() {
     assert!(summary["advice"].to_string().contains("[damping.acoustic]"));
     let field = Field::new();
     let damped = format!("{LATTICE} --set damping.acoustic={{}}");
-    let done = field.run("utube-at-rest", &damped);
-    assert_eq!(done.code, Some(0), "{}", done.err);
+    field.ran("utube-at-rest", &damped);
     let most = fastest(&field);
     assert!(!warned(&field.summary()) && most < 3.1 / 7.0, "{most} m/s");
 }

@@ -1,14 +1,14 @@
 //! Borders: of periodic boxes, and between ranks.
 
 use crate::Field;
-use sph_tests::FinalState;
+use sph_tests::near;
 
 /// Where the body is in a series, with all that the probe tells.
 fn courses(field: &Field, input: &str, more: &str) -> [Vec<f64>; 3] {
-    let outcome = field.run(input, &format!("--threads 1 {more}"));
-    assert_eq!(outcome.code, Some(0), "{input} {more}: {}", outcome.err);
-    let series = field.series();
-    ["A.x", "A.y", "A.angle"].map(|name| series.column(name).expect("a column").to_vec())
+    let series = field.ran(input, &format!("--threads 1 {more}"));
+    series
+        .columns(["A.x", "A.y", "A.angle"])
+        .map(<[f64]>::to_vec)
 }
 
 /// A box drawn at a place, with its probe.
@@ -69,11 +69,8 @@ fn a_cube_does_not_feel_periodic_borders() {
         let more = format!(
             "--threads 1 --set wall.a.box=[[{low},{low},{low}],[{high},{high},{high}]] --set probe.A.at=[{x},{x},{x}]"
         );
-        let outcome = field.run("seam-cube", &more);
-        assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-        let series = field.series();
-        ["A.x", "A.y", "A.z", "A.rx", "A.ry", "A.rz"]
-            .map(|name| *series.column(name).and_then(<[f64]>::last).expect("a row"))
+        let series = field.ran("seam-cube", &more);
+        ["A.x", "A.y", "A.z", "A.rx", "A.ry", "A.rz"].map(|name| series.last(name))
     };
     let (there, here) = (run(1.0), run(0.0));
     assert!(there[3] > 0.02, "it turns: {there:?}");
@@ -135,10 +132,7 @@ fn a_wall_goes_through_a_periodic_border() {
         let there = stirred(1.0, walls);
         for x in [0.0, 0.7] {
             let here = stirred(x, walls);
-            assert!(
-                (here / there - 1.0).abs() < 1e-6,
-                "{walls}: {here} J for {there} J at {x} m"
-            );
+            near(here, there, 1e-6, &format!("{walls}: J at {x} m"));
         }
     }
 }
@@ -148,20 +142,12 @@ fn a_wall_goes_through_a_periodic_border() {
 fn bodies_take_the_same_course_on_any_number_of_ranks() {
     let field = Field::new();
     let ran = |ranks: u32| {
-        let outcome = field.run(
-            "ranks-bodies",
-            &format!("--threads 1 --ranks {ranks} --set run.end=0.3"),
-        );
-        assert_eq!(outcome.code, Some(0), "{ranks} ranks: {}", outcome.err);
-        (
-            FinalState::read(&field.0.path("r")),
-            field.0.read("r/series.csv"),
-        )
+        let set = format!("--threads 1 --ranks {ranks} --set run.end=0.3");
+        field.ran("ranks-bodies", &set);
+        field.state("r")
     };
-    let (one, rows) = ran(1);
+    let one = ran(1);
     for ranks in [2, 3, 4, 9] {
-        let (state, more) = ran(ranks);
-        one.assert_same(&state, &format!("1 and {ranks} ranks"));
-        assert_eq!(rows, more, "series of 1 and {ranks} ranks");
+        one.assert_same(&ran(ranks), &format!("1 and {ranks} ranks"));
     }
 }

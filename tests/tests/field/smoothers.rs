@@ -1,13 +1,13 @@
 //! Outlets, smoothers under other accelerations than gravity, and energy that rises.
 
-use sph_io::Table;
+use sph_tests::{Series, near};
 
 use crate::Field;
 
 /// The mean of a column after a time, s.
-fn mean(series: &Table, name: &str, after: f64) -> f64 {
-    let values = series.column(name).unwrap_or_else(|| panic!("no {name}"));
-    let times = series.column("time").expect("times").iter();
+fn mean(series: &Series, name: &str, after: f64) -> f64 {
+    let values = series.column(name);
+    let times = series.column("time").iter();
     let late: Vec<f64> = times
         .zip(values)
         .filter(|(t, _)| **t > after)
@@ -17,8 +17,8 @@ fn mean(series: &Table, name: &str, after: f64) -> f64 {
 }
 
 /// Sum of the energies in every row, J.
-fn energies(series: &Table) -> Vec<f64> {
-    let of = |name: &str| series.column(name).expect("an energy");
+fn energies(series: &Series) -> Vec<f64> {
+    let of = |name: &str| series.column(name);
     let parts = ["kinetic", "potential", "internal"].map(|k| of(&format!("{k}_energy")));
     (0..series.rows())
         .map(|k| parts.iter().map(|p| p[k]).sum())
@@ -41,10 +41,9 @@ fn a_block_falls_through_an_outlet_as_if_nobody_had_left() {
         (along_x, 1.0),
     ] {
         let field = Field::new();
-        let done = field.run("outlet-fall", more);
-        assert_eq!(done.code, Some(0), "{more}: {}", done.err);
+        field.ran("outlet-fall", more);
         let (series, summary) = (field.series(), field.summary());
-        let speeds = series.column("largest_speed").expect("speeds");
+        let speeds = series.column("largest_speed");
         let most = speeds.iter().fold(0.0, |m: f64, u| m.max(*u));
         assert!(
             most < 1.005 * fastest,
@@ -90,14 +89,9 @@ fn a_tank_that_is_accelerated_has_the_whole_pressure_between_its_ends() {
     let rhie = "--set smoother={} --set smoother.rhie-chow={}";
     for (more, asked) in [("", 540.0), (back, -540.0), (rhie, 540.0)] {
         let field = Field::new();
-        let done = field.run("shake-probe", &format!("{coarse} {more}"));
-        assert_eq!(done.code, Some(0), "{more}: {}", done.err);
-        let series = field.series();
+        let series = field.ran("shake-probe", &format!("{coarse} {more}"));
         let found = mean(&series, "pl", 2.0) - mean(&series, "pr", 2.0);
-        assert!(
-            (found / asked - 1.0).abs() < 0.02,
-            "{more}: {found} Pa of {asked} Pa"
-        );
+        near(found, asked, 0.02, &format!("{more}, Pa"));
     }
 }
 
@@ -105,9 +99,7 @@ fn a_tank_that_is_accelerated_has_the_whole_pressure_between_its_ends() {
 #[test]
 fn a_tank_that_falls_freely_has_no_pressure() {
     let field = Field::new();
-    let done = field.run("fall-tank", "");
-    assert_eq!(done.code, Some(0), "{}", done.err);
-    let series = field.series();
+    let series = field.ran("fall-tank", "");
     let found = mean(&series, "bottom", 0.3) - mean(&series, "top", 0.3);
     let at_rest = 900.0 * 9.81 * 0.34;
     assert!(found.abs() < 0.005 * at_rest, "{found} Pa of {at_rest} Pa");
@@ -117,9 +109,7 @@ fn a_tank_that_falls_freely_has_no_pressure() {
 #[test]
 fn fluid_in_a_rotating_box_has_the_pressure_of_the_rotation() {
     let field = Field::new();
-    let done = field.run("spun-box", "");
-    assert_eq!(done.code, Some(0), "{}", done.err);
-    let series = field.series();
+    let series = field.ran("spun-box", "");
     let side: f64 = ["left", "right", "up"]
         .map(|p| mean(&series, p, 0.6))
         .iter()
@@ -128,10 +118,7 @@ fn fluid_in_a_rotating_box_has_the_pressure_of_the_rotation() {
     // Of the square, ρL⁴/6.
     let omega = mean(&series, "spin", 0.6) / (1000.0 * 0.2f64.powi(4) / 6.0);
     let asked = 0.5 * 1000.0 * (omega * 0.08).powi(2);
-    assert!(
-        (found / asked - 1.0).abs() < 0.05,
-        "{found} Pa of {asked} Pa"
-    );
+    near(found, asked, 0.05, "Pa");
 }
 
 #[test]
@@ -143,8 +130,7 @@ fn layers_that_change_places_in_a_closed_box_gain_no_energy() {
         "--set smoother={} --set smoother.brezzi-pitkaranta={}",
     ] {
         let field = Field::new();
-        let done = field.run("lock-exchange", &format!("{coarse} {more}"));
-        assert_eq!(done.code, Some(0), "{more}: {}", done.err);
+        field.ran("lock-exchange", &format!("{coarse} {more}"));
         let (series, summary) = (field.series(), field.summary());
         let all = energies(&series);
         let most = all.iter().fold(all[0], |m, e| m.max(*e));
@@ -154,7 +140,7 @@ fn layers_that_change_places_in_a_closed_box_gain_no_energy() {
             all[0]
         );
         // What moves has come down: 5 % of the weight of half the box over half its height at most.
-        let moves = series.column("kinetic_energy").expect("an energy");
+        let moves = series.column("kinetic_energy");
         let most = moves.iter().fold(0.0, |m: f64, e| m.max(*e));
         let released = 50.0 * 9.81 * 0.12 * 0.05;
         assert!(most < released, "{more}: {most} J of {released} J");
@@ -170,10 +156,7 @@ fn layers_that_change_places_in_a_closed_box_gain_no_energy() {
 fn a_closed_box_that_makes_energy_says_so_and_has_no_result() {
     let field = Field::new();
     let none = "--set smoother.rhie-chow.strength=0 --set phase.salt.density=1000 --set numerics.spacing=0.02";
-    let failed = field
-        .0
-        .call(&format!("run lock-exchange.toml --out r {none}"));
-    assert_eq!(failed.code, Some(1), "{}", failed.err);
+    let failed = field.failed(&format!("run lock-exchange.toml --out r {none}"));
     assert!(
         (failed.out + &failed.err).contains("warning: at t = "),
         "while it runs"

@@ -3,12 +3,10 @@
 //!
 //! `DHAT_OUT=FILE DHAT_SCENE=NAME cargo test -p sph-tests --test memory steps` leaves a profile for dhat's viewer.
 
-use std::path::Path;
-
 use dhat::{HeapStats, Profiler};
 use sph_particles::run;
 use sph_run::{Command, Identity, Observer, Progress, RunOptions};
-use sph_scene::{Override, load};
+use sph_tests::shipped;
 use sph_turbulence as _;
 
 /// Steps after which all buffers have grown.
@@ -57,17 +55,13 @@ impl Observer for Watch {
 
 /// Blocks and bytes that steps ask for: those of the median step and of the worst one.
 fn steps(name: &str, overrides: &[&str]) -> (usize, [u64; 2], [u64; 2]) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
     let most = format!("run.max_steps={}", WARM + COUNTED);
     let always = ["output.every=1000", "output.series_every=1000", &most];
-    let overrides = overrides.iter().chain(&always);
-    let overrides = overrides.map(|text| Override::parse(text).expect("an override"));
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
+    let scene = shipped(name, &[overrides, &always].concat());
     let folder = tempfile::tempdir().expect("a temporary folder");
     let options = RunOptions::new(folder.path(), Identity::of_text(name)).threads(1);
     let mut watch = Watch::default();
-    run(&loaded.scene, &options, &mut watch).unwrap_or_else(|e| panic!("{name}: {e}"));
+    run(&scene, &options, &mut watch).unwrap_or_else(|e| panic!("{name}: {e}"));
     drop(watch.profiler.take());
     watch.steps.sort_by_key(|[_, bytes]| *bytes);
     let all = &watch.steps;
@@ -91,9 +85,8 @@ const SCENES: [Bounds; 7] = [
     (
         "air-water-dambreak-lobovsky",
         &[
-            "numerics.spacing=0.01",
-            "body.water.box=[[0.0,0.0],[0.605,0.305]]",
-            "body.air.subtract=[{box=[[0.0,0.0],[0.605,0.305]]}]",
+            "numerics.spacing=0.01 body.water.box=[[0.0,0.0],[0.605,0.305]] \
+             body.air.subtract=[{box=[[0.0,0.0],[0.605,0.305]]}]",
         ],
         0,
     ),

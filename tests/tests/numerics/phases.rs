@@ -3,12 +3,9 @@
 //! A periodic box of 20 × 20 particles in motion; what is not refused must stay finite and keep
 //! its mass and momentum.
 
-use std::io::Write;
-
 use sph_core::{StepLimit, System, Vect, fields};
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::{Override, load};
-use sph_solver::SolverError;
+use sph_particles::setup::Assembled;
+use sph_tests::{Says, assembled, refusal, scene};
 
 const STEPS: usize = 60;
 const FORMULATIONS: [&str; 4] = ["hu-adams", "colagrossi-landrini", "grenier", "krimi"];
@@ -55,17 +52,6 @@ kinematic_viscosity = 0.0
 density = 0.0001
 "#;
 
-fn assembled(scene: &str, overrides: &[String]) -> Result<Assembled<2>, SolverError> {
-    let mut file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
-    file.write_all(scene.as_bytes()).unwrap();
-    let overrides: Vec<_> = overrides
-        .iter()
-        .map(|o| Override::parse(o).unwrap())
-        .collect();
-    let loaded = load(file.path(), &overrides).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<2>(&loaded.scene)
-}
-
 /// Σ m u and Σ m|u|.
 fn momentum(parts: &Assembled<2>) -> (Vect<2>, f64) {
     let free = &parts.flow.world.free;
@@ -110,9 +96,8 @@ fn survives(mut parts: Assembled<2>, what: &str) {
 
 fn each(what: &str, overrides: &[&str], change: impl Fn(&mut Assembled<2>)) {
     for formulation in FORMULATIONS {
-        let mut all: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
-        all.push(format!("formulation.{formulation}={{}}"));
-        let mut parts = assembled(BOX, &all).unwrap_or_else(|e| panic!("{e}"));
+        let formulation = format!("formulation.{formulation}={{}}");
+        let mut parts = assembled(&scene(BOX, &[overrides, &[&formulation]].concat()));
         change(&mut parts);
         survives(parts, &format!("{what}, {formulation}"));
     }
@@ -174,10 +159,9 @@ fn a_phase_of_one_particle_runs() {
 
 #[test]
 fn a_phase_without_a_body_runs_as_if_it_were_not_there() {
-    let scene = BOX.split("[body.upper]").next().unwrap();
-    let scene = scene.replace("[1.0, 0.5]", "[1.0, 1.0]");
-    let parts = assembled(&scene, &[]).unwrap_or_else(|e| panic!("{e}"));
-    survives(parts, "no body");
+    let lower = BOX.split("[body.upper]").next().unwrap();
+    let text = lower.replace("[1.0, 0.5]", "[1.0, 1.0]");
+    survives(assembled(&scene(&text, &[])), "no body");
 }
 
 #[test]
@@ -186,7 +170,6 @@ fn an_interface_of_one_phase_is_refused_with_the_reason() {
     let (before, rest) = scene.split_once("[phase.upper]").unwrap();
     let after = rest.split_once("[body.lower]").unwrap().1;
     let scene = format!("{before}[interface.micro-mixing]\n[body.lower]{after}");
-    let refused = assembled(&scene, &[]).err().expect("refused").to_string();
-    assert!(refused.contains("interface.micro-mixing"), "{refused}");
-    assert!(refused.contains("one phase"), "{refused}");
+    let refused = refusal::<2>(&scene);
+    refused.says("interface.micro-mixing | one phase");
 }

@@ -1,49 +1,26 @@
 //! A scene that is divided between ranks gives the bits of one process.
 
-use std::path::Path;
-
-use sph_io::{Checkpoint, ColumnData};
 use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
-fn series(folder: &Path) -> String {
-    std::fs::read_to_string(folder.join("series.csv")).expect("a series")
+/// A run's last state, after a run with these arguments.
+fn ran(bench: &Bench, out: &str, arguments: &str) -> FinalState {
+    let run = format!("run scene.toml --quiet --out {out} --threads 1");
+    bench.done(&format!("{run} {arguments}"));
+    bench.state(out)
 }
 
-/// A run's last state and its series, after a run with these arguments.
-fn ran(bench: &Bench, out: &str, arguments: &str) -> (FinalState, String) {
-    bench.done(&format!(
-        "run scene.toml --quiet --out {out} --threads 1 {arguments}"
-    ));
-    let folder = bench.path(out);
-    (FinalState::read(&folder), series(&folder))
-}
-
-/// The series that all ranks agree on.
-fn same_on_all_ranks(scene: &str, set: &str) -> String {
+/// A folder with the results that all ranks agree on, those of one in `r1`.
+fn same_on_all_ranks(scene: &str, set: &str) -> Bench {
     let bench = Bench::with(PROGRAM, scene);
-    let (one, row) = ran(&bench, "r1", set);
+    let one = ran(&bench, "r1", set);
     for ranks in [2, 3, 4] {
-        let (state, rows) = ran(
-            &bench,
-            &format!("r{ranks}"),
-            &format!("--ranks {ranks} {set}"),
-        );
+        let arguments = format!("--ranks {ranks} {set}");
+        let state = ran(&bench, &format!("r{ranks}"), &arguments);
         one.assert_same(&state, &format!("1 and {ranks} ranks"));
-        assert_eq!(row, rows, "series of 1 and {ranks} ranks");
     }
-    row
-}
-
-/// The last value in a series of the first column whose name begins so.
-fn last(series: &str, name: &str) -> f64 {
-    let mut rows = series.lines().map(|row| row.split(','));
-    let head = rows.next().expect("a head");
-    let place = head.into_iter().position(|c| c.starts_with(name));
-    let place = place.unwrap_or_else(|| panic!("no column {name}"));
-    let value = rows.next_back().and_then(|mut row| row.nth(place));
-    value.and_then(|v| v.parse().ok()).expect("a number")
+    bench
 }
 
 /// A scene without the tables that compare it, which ask for its files and its end.
@@ -68,8 +45,8 @@ fn a_dam_break_gives_the_same_bits() {
 #[test]
 fn pressures_on_walls_in_space_give_the_same_bits() {
     let scene = without_references(include_str!("../../../scenes/dam-break-spheric2.toml"));
-    let rows = same_on_all_ranks(&scene, "--set numerics.spacing=0.06 --set run.end=0.5");
-    assert!(last(&rows, "box.pressure.x").abs() > 0.1);
+    let bench = same_on_all_ranks(&scene, "--set numerics.spacing=0.06 --set run.end=0.5");
+    assert!(bench.series("r1").last("box.pressure.x").abs() > 0.1);
 }
 
 #[test]
@@ -109,8 +86,11 @@ fn sums_over_all_ranks_do_not_depend_on_their_number() {
 #[test]
 fn outlets_give_the_same_bits() {
     let scene = format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.3\n");
-    let series = same_on_all_ranks(&scene, "--set run.end=0.3");
-    assert!(last(&series, "outlet.end") > 0.0, "somebody left");
+    let bench = same_on_all_ranks(&scene, "--set run.end=0.3");
+    assert!(
+        bench.series("r1").last("outlet.end.water") > 0.0,
+        "somebody left"
+    );
 }
 
 /// Particles are born at faces and leave through others, on whatever rank.
@@ -150,12 +130,7 @@ fn solves_agree_to_their_tolerance() {
         let out = format!("r{ranks}");
         let call = format!("run scene.toml --quiet --out {out} --threads 1 --ranks {ranks} {set}");
         assert_eq!(bench.call(&call).code, Some(1), "it stops before its end");
-        let checkpoint = Checkpoint::load(bench.path(&out).join("checkpoint.sph"));
-        let checkpoint = checkpoint.expect("a checkpoint");
-        match &checkpoint.column("velocity").expect("velocities").data {
-            ColumnData::F64(v) => v.clone(),
-            _ => panic!("velocities are reals"),
-        }
+        bench.state(&out).reals("velocity")
     };
     let one = velocities(1);
     let largest = one.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
@@ -165,18 +140,11 @@ fn solves_agree_to_their_tolerance() {
     let condition = 1.0 + 4.0 * viscosity / 1000.0 * dt / (spacing * spacing);
     let bound = steps * condition * 1e-8;
     for ranks in [2, 4] {
-        let apart = one
-            .iter()
-            .zip(velocities(ranks))
-            .map(|(a, b)| (a - b).abs());
-        let apart = apart.fold(0.0, f64::max) / largest;
-        println!(
-            "{ranks} ranks: velocities differ by {apart:.1e} of the largest, bound {bound:.1e}"
-        );
-        assert!(
-            apart < bound,
-            "{ranks} ranks: {apart:.1e}, bound {bound:.1e}"
-        );
+        let both = one.iter().zip(velocities(ranks));
+        let apart = both.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest;
+        let told = format!("{ranks} ranks: {apart:.1e} of the largest, bound {bound:.1e}");
+        println!("{told}");
+        assert!(apart < bound, "{told}");
     }
 }
 
@@ -186,15 +154,11 @@ fn ranks_fail_together() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let set = "--set numerics.density_bounds=[0.99,1.005] --set run.retries=2";
     let told = |ranks: u32| {
-        let failed = bench.call(&format!(
+        let failed = bench.failed(&format!(
             "run scene.toml --quiet --out f{ranks} --threads 1 --ranks {ranks} {set}"
         ));
-        assert_eq!(failed.code, Some(1), "{}", failed.err);
-        assert!(
-            bench.path(&format!("f{ranks}/checkpoint.sph")).is_file(),
-            "{}",
-            failed.err
-        );
+        let checkpoint = bench.path(&format!("f{ranks}/checkpoint.sph"));
+        assert!(checkpoint.is_file(), "{}", failed.err);
         let line = failed.err.lines().find(|l| l.contains("the run failed at"));
         line.unwrap_or_else(|| panic!("{}", failed.err)).to_string()
     };
@@ -209,14 +173,11 @@ fn ranks_fail_together() {
 #[test]
 fn a_run_goes_on_with_another_number_of_ranks() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
-    let (whole, row) = ran(&bench, "whole", "");
+    let whole = ran(&bench, "whole", "");
     let out = "run scene.toml --quiet --out parts --threads 1";
-    let stopped = bench.call(&format!("{out} --ranks 4 --set run.max_steps=40"));
-    assert_eq!(stopped.code, Some(1), "{stopped:?}");
+    bench.failed(&format!("{out} --ranks 4 --set run.max_steps=40"));
     bench.done(&format!("{out} --ranks 2 --resume --changed"));
-    let folder = bench.path("parts");
-    whole.assert_same(&FinalState::read(&folder), "4 ranks, then 2");
-    assert_eq!(row, series(&folder));
+    whole.assert_same(&bench.state("parts"), "4 ranks, then 2");
 }
 
 #[test]
@@ -224,24 +185,15 @@ fn indivisible_flows_are_refused_before_any_output() {
     let bed = without_references(include_str!("../../../scenes/saturated-bed-at-rest.toml"));
     let laplace = "[effective-pressure.laplace]";
     let sweeps = bed.replace(laplace, &format!("{laplace}\nsolver = \"jacobi\""));
+    let whole = "`effective pressure` cannot run on several ranks";
+    let coarse = "256 --set numerics.spacing=0.1";
     for (scene, ranks, why) in [
-        (
-            sweeps.as_str(),
-            2,
-            "`effective pressure` cannot run on several ranks",
-        ),
-        (DAM_BREAK, 256, "some would own nothing"),
+        (sweeps.as_str(), "2", whole),
+        (DAM_BREAK, coarse, "some would own nothing"),
     ] {
         let bench = Bench::with(PROGRAM, scene);
-        let more = if ranks > 2 {
-            "--set numerics.spacing=0.1"
-        } else {
-            ""
-        };
-        let refused = bench.call(&format!("run scene.toml --out r --ranks {ranks} {more}"));
-        let told = &refused.err;
-        assert_eq!(refused.code, Some(2), "{told}");
-        assert!(told.contains(why), "{told}");
+        let refused = bench.refused(&format!("run scene.toml --out r --ranks {ranks}"));
+        refused.says(why);
         assert!(!bench.path("r").exists(), "{why}");
     }
 }
@@ -257,20 +209,12 @@ fn mpirun_is_left_out() {
 #[test]
 fn mpirun_gives_the_same_bits() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
-    let (one, row) = ran(&bench, "r1", "");
+    let one = ran(&bench, "r1", "");
     for ranks in [1, 2, 4] {
         let out = format!("m{ranks}");
         let done = mpirun(&bench, ranks, &out).output().expect("mpirun");
         assert!(done.status.success(), "{done:?}");
-        one.assert_same(
-            &FinalState::read(&bench.path(&out)),
-            &format!("{ranks} processes"),
-        );
-        assert_eq!(
-            row,
-            series(&bench.path(&out)),
-            "series of {ranks} processes"
-        );
+        one.assert_same(&bench.state(&out), &format!("{ranks} processes"));
     }
 }
 
@@ -280,7 +224,7 @@ fn mpirun_gives_the_same_bits() {
 fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
     use std::time::{Duration, Instant};
     let bench = Bench::with(PROGRAM, DAM_BREAK);
-    let (whole, row) = ran(&bench, "whole", "");
+    let whole = ran(&bench, "whole", "");
     let mut job = mpirun(&bench, 4, "killed").spawn().expect("mpirun");
     let checkpoint = bench.path("killed").join("checkpoint.sph");
     let start = Instant::now();
@@ -297,11 +241,7 @@ fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
     );
     assert!(!ended.success(), "the run was over before it was killed");
     bench.done("run scene.toml --quiet --out killed --threads 1 --ranks 2 --resume");
-    whole.assert_same(
-        &FinalState::read(&bench.path("killed")),
-        "killed and resumed",
-    );
-    assert_eq!(row, series(&bench.path("killed")));
+    whole.assert_same(&bench.state("killed"), "killed and resumed");
 }
 
 /// Kills the youngest process that mpirun has started.
@@ -323,22 +263,10 @@ fn kill_a_child(parent: u32) {
 fn mpirun(bench: &Bench, ranks: usize, out: &str) -> std::process::Command {
     let mut job = std::process::Command::new("mpirun");
     // More ranks than cores, and in containers everybody is root.
-    job.args([
-        "--oversubscribe",
-        "--allow-run-as-root",
-        "-n",
-        &ranks.to_string(),
-        PROGRAM,
-    ]);
-    job.args([
-        "run",
-        "scene.toml",
-        "--quiet",
-        "--threads",
-        "1",
-        "--out",
-        out,
-    ]);
+    let call = format!(
+        "--oversubscribe --allow-run-as-root -n {ranks} {PROGRAM} run scene.toml --quiet --threads 1 --out {out}"
+    );
+    job.args(call.split_whitespace());
     job.current_dir(bench.folder());
     job
 }

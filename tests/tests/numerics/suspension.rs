@@ -1,9 +1,8 @@
 //! Grains in suspension: shocks of settling, balance of settling and mixing, the balance of the grains, the same bits, refusals.
 
-use sph_io::{Checkpoint, ColumnData};
-use sph_tests::{Bench, FinalState};
+use sph_tests::{Bench, close};
 
-use crate::sediment::{CHANNEL, column, in_space, refused_of};
+use crate::sediment::{CHANNEL, column, in_space, refuses};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -80,18 +79,8 @@ fn a_suspension_settles_in_two_shocks() {
         let lower = growth * time[k];
         // A deposit has a level from a row on.
         if lower > 0.005 && upper > lower + 0.02 {
-            assert!(
-                (clear[k] - upper).abs() < 0.0025,
-                "{}: {} {upper}",
-                time[k],
-                clear[k]
-            );
-            assert!(
-                (deposit[k] - lower).abs() < 0.0025,
-                "{}: {} {lower}",
-                time[k],
-                deposit[k]
-            );
+            close(clear[k], upper, 0.0025, "m of grains");
+            close(deposit[k], lower, 0.0025, "m of the deposit");
             compared += 1;
         }
     }
@@ -103,15 +92,6 @@ fn a_suspension_settles_in_two_shocks() {
     assert!(sum.iter().all(|s| (s / sum[0] - 1.0).abs() < 1e-13));
     assert!(least.iter().all(|c| *c >= 0.0) && most.iter().all(|c| *c <= 0.6));
     assert!(*most.last().expect("rows") > 0.59);
-}
-
-fn numbers(bench: &Bench, name: &str) -> Vec<f64> {
-    let state = Checkpoint::load(bench.path("out/checkpoint.sph")).expect("a checkpoint");
-    let found = state.columns.iter().find(|column| column.name == name);
-    match &found.expect("a column").data {
-        ColumnData::F64(values) => values.clone(),
-        _ => panic!("{name} has no reals"),
-    }
 }
 
 /// Settling against mixing ends at C ∝ exp(−wz/D), at every particle. A small gravity leaves the water at rest: its motion
@@ -132,15 +112,11 @@ fn settling_and_mixing_end_in_an_exponential() {
         .replace("concentration = 0.1 }", "concentration = 1e-3 }");
     let bench = Bench::with(PROGRAM, &scene);
     bench.done("run scene.toml --quiet --out out");
-    let (places, grains) = (
-        numbers(&bench, "position"),
-        numbers(&bench, "concentration"),
-    );
+    let state = bench.state("out");
+    let [places, grains] = ["position", "concentration"].map(|name| state.reals(name));
     let rate = 0.05 / 4e-3;
-    let scaled = places
-        .chunks(2)
-        .zip(&grains)
-        .map(|(x, c)| c * (rate * x[1]).exp());
+    let all = places.chunks(2).zip(&grains);
+    let scaled = all.map(|(x, c)| c * (rate * x[1]).exp());
     let (least, most) = scaled.fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
     assert!(most / least - 1.0 < 1e-5, "{least:e} {most:e}");
 }
@@ -148,8 +124,8 @@ fn settling_and_mixing_end_in_an_exponential() {
 /// The grains of the bed, without pores, and those in the water are one number.
 #[test]
 fn what_leaves_the_bed_is_in_the_water() {
-    for (name, scene) in [("plane", CHANNEL.to_string()), ("space", in_space())] {
-        let bench = Bench::with(PROGRAM, &lifting(&scene));
+    for (name, scene) in [("plane", CHANNEL), ("space", &in_space())] {
+        let bench = Bench::with(PROGRAM, &lifting(scene));
         bench.done("run scene.toml --quiet --out out");
         let series = |name: &str| column(&bench, "out", name);
         let (volume, lifted) = (series("bed.volume"), series("bed.lifted"));
@@ -158,16 +134,8 @@ fn what_leaves_the_bed_is_in_the_water() {
         assert!(last > 1e-10, "{name}: {last:e} were lifted");
         for k in 0..volume.len() {
             let water = suspended[k] / 1000.0;
-            assert!(
-                (water - lifted[k]).abs() < 1e-12 * last,
-                "{name}: {water:e} {}",
-                lifted[k]
-            );
-            assert!(
-                (0.6 * volume[k] + lifted[k]).abs() < 1e-15,
-                "{name}: {:e}",
-                volume[k]
-            );
+            close(water, lifted[k], 1e-12 * last, name);
+            close(0.6 * volume[k], -lifted[k], 1e-15, name);
         }
         assert!(series("grains.max").iter().all(|c| *c <= 0.6));
     }
@@ -188,19 +156,12 @@ fn no_grain_leaves_a_bed_up_to_the_threshold() {
 
 #[test]
 fn suspensions_have_the_same_bits_on_threads_on_ranks_and_after_an_interruption() {
-    for (name, scene) in [("plane", CHANNEL.to_string()), ("space", in_space())] {
-        let bench = Bench::with(PROGRAM, &lifting(&scene));
-        bench.done("run scene.toml --quiet --out one --threads 1");
-        bench.done("run scene.toml --quiet --out two --threads 2");
-        let one = FinalState::read(&bench.path("one"));
+    for (name, scene) in [("plane", CHANNEL), ("space", &in_space())] {
+        let bench = Bench::with(PROGRAM, &lifting(scene));
+        let one = bench.same_bits("", 7);
         assert!(one.columns["concentration"].iter().any(|c| *c > 0));
-        one.assert_same(&FinalState::read(&bench.path("two")), name);
         bench.done("run scene.toml --quiet --out ranks --ranks 2");
-        one.assert_same(&FinalState::read(&bench.path("ranks")), name);
-        let parts = "run scene.toml --quiet --out parts";
-        bench.call(&format!("{parts} --set run.max_steps=7"));
-        bench.done(&format!("{parts} --resume --changed"));
-        one.assert_same(&FinalState::read(&bench.path("parts")), name);
+        one.assert_same(&bench.state("ranks"), name);
     }
 }
 
@@ -275,56 +236,7 @@ fn grains_come_in_and_go_out_by_open_faces() {
 
 #[test]
 fn suspensions_that_are_none_are_refused() {
-    let refused = |from: &str, to: &str, words: &str| refused_of(COLUMN, from, to, words);
-    refused(
-        "concentration = 0.1 }",
-        "concentration = 0.7 }",
-        "start[0].concentration: 0.7 is above the packing of the grains: expected at most 0.6",
-    );
-    for wrong in ["0.7", "-0.1"] {
-        let (from, to) = (
-            "concentration = 0.01 }",
-            format!("concentration = {wrong} }}"),
-        );
-        refused_of(OPEN, from, &to, "is from 0 to 0.6, and ");
-    }
-    refused(
-        "body = \"water\"",
-        "body = \"watre\"",
-        "no body is called `watre`, did you mean `water`?",
-    );
-    refused("\"1 mm\"", "\"0 mm\"", "must be more than 0 m, found 0");
-    refused(
-        "grain_diameter = \"1 mm\"\n",
-        "",
-        "expected a `grain_diameter`",
-    );
-    refused(
-        "1001.0",
-        "900.0",
-        "grains of 900 kg/m³ float in a fluid of 1000 kg/m³",
-    );
-    refused(
-        "gravity = [0.0, -9.81]",
-        "",
-        "grains without weight do not settle",
-    );
-    refused(
-        "[suspension.settling]",
-        "[suspension.van-rijn]",
-        "grains are lifted off a bed, and this scene has none",
-    );
-    let lifting = lifting(CHANNEL);
-    refused_of(
-        &lifting,
-        "[eddy-viscosity.mixing-length]\ndepth = 0.1\nwalls = [\"bed\"]\n",
-        "",
-        "eddies carry grains off a bed, and this scene has none",
-    );
-    refused_of(
-        &lifting,
-        "[suspension.van-rijn]",
-        "[suspension.van-rijn]\ngrain_diameter = \"2 mm\"",
-        "the grains are those of `[bed-load]`",
-    );
+    refuses(COLUMN, include_str!("suspension.refused"));
+    refuses(OPEN, include_str!("suspension_open.refused"));
+    refuses(&lifting(CHANNEL), include_str!("suspension_lifted.refused"));
 }

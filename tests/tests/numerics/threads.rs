@@ -1,8 +1,6 @@
 //! The number of threads changes the speed and not one bit of the result.
 
-use sph_tests::{
-    Bench, DAM_BREAK, END_OF_THE_STEP, FinalState, PADDLE, SOIL, SUB_STEPS, soil_with,
-};
+use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, SOIL, SUB_STEPS, soil_with};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -12,7 +10,7 @@ fn same_for_all_threads(scene: &str, set: &str) {
         bench.done(&format!(
             "run scene.toml --quiet --out r{threads} --threads {threads} {set}"
         ));
-        FinalState::read(&bench.path(&format!("r{threads}")))
+        bench.state(&format!("r{threads}"))
     };
     let one = state(1);
     for threads in [2, 4] {

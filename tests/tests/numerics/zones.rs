@@ -1,7 +1,7 @@
 //! Zones of finer particles: a flow passes them unchanged, mass follows mass, the same bits, refusals.
 
 use sph_io::Checkpoint;
-use sph_tests::{Bench, DAM_BREAK, FinalState};
+use sph_tests::{Bench, DAM_BREAK, Says, near, one_line, refusals};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -94,8 +94,8 @@ fn a_nested_zone_measures_its_own_probes() {
             .chunks_exact(2)
             .fold(0.0, |most: f64, x| most.max(x[0]))
     };
-    let series = sph_io::read_table(bench.path("out/series.csv")).expect("a series");
-    let front = *series.column("front").expect("a front").last().unwrap();
+    let series = bench.series("out");
+    let front = *series.column("front").last().unwrap();
     // A front is half a spacing before the first particle.
     let own = largest("out/checkpoint-wall-corner.sph") + 0.5 * 0.005;
     assert!((front - own).abs() < 1e-12, "{front} for {own} m");
@@ -126,23 +126,13 @@ fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
         .iter()
         .sum();
     assert!(around > 0.1 * start, "{around} kg came in");
-    assert!(
-        (zone / around - 1.0).abs() < 1e-12,
-        "{zone} for {around} kg"
-    );
+    near(zone, around, 1e-12, "kg");
 }
 
 #[test]
 fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
     let bench = Bench::with(PROGRAM, &dam());
-    bench.done("run scene.toml --quiet --out one --threads 1");
-    bench.done("run scene.toml --quiet --out two --threads 2");
-    let one = FinalState::read(&bench.path("one"));
-    one.assert_same(&FinalState::read(&bench.path("two")), "threads");
-    let parts = "run scene.toml --quiet --out parts";
-    bench.call(&format!("{parts} --set run.max_steps=400"));
-    bench.done(&format!("{parts} --resume --changed"));
-    one.assert_same(&FinalState::read(&bench.path("parts")), "parts");
+    bench.same_bits("", 400);
     for zone in ["checkpoint-wall.sph", "checkpoint-wall-corner.sph"] {
         let [a, b] = ["one", "parts"]
             .map(|folder| column(&bench, &format!("{folder}/{zone}"), "density_constant"));
@@ -155,67 +145,19 @@ fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
 fn a_run_with_zones_does_not_begin_from_another() {
     let bench = Bench::with(PROGRAM, &dam());
     bench.done("run scene.toml --quiet --out other --set run.end=1e-9");
-    let told = bench.call("run scene.toml --quiet --out out --from other");
-    assert_eq!(told.code, Some(2), "{}", told.err);
-    assert!(told.err.contains("take `--from` out"), "{}", told.err);
-    assert!(!bench.path("out/series.csv").exists(), "nothing is written");
-}
-
-/// A run refuses the scene, changed at one place, with these words.
-fn refused(from: &str, to: &str, call: &str, words: &str) {
-    let dam = dam();
-    assert!(dam.contains(from), "{from}");
-    let bench = Bench::with(PROGRAM, &dam.replacen(from, to, 1));
-    let told = bench.call(&format!("run scene.toml --quiet --out out {call}"));
-    assert_eq!(told.code, Some(2), "{}", told.err);
-    let said = told.err.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains(words), "{words}\n{said}");
+    let refused = bench.refused("run scene.toml --quiet --out out --from other");
+    refused.says("take `--from` out");
     assert!(!bench.path("out/series.csv").exists(), "nothing is written");
 }
 
 #[test]
 fn zones_that_do_not_fit_are_refused() {
-    let ratio = "ratio = 0.25";
-    refused(ratio, "ratio = 0.3", "", "the ratio is 0.5, 0.25 or 0.125");
-    refused(
-        ratio,
-        "ratio = 0.125",
-        "",
-        "lies in a zone with the ratio 0.25",
-    );
-    refused(
-        ratio,
-        "",
-        "",
-        "overlaps the zone `corner` of the same ratio",
-    );
-    refused(
-        "[0.65, 0.4]",
-        "[0.2, 0.4]",
-        "",
-        "the lower corner must be below the upper",
-    );
-    refused(
-        "[0.65, 0.2]",
-        "[0.65, 0.39]",
-        "",
-        "reaches out of the zone `wall`",
-    );
-    refused(
-        "probes = [\"front\"]",
-        "probes = [\"frond\"]",
-        "",
-        "no probe or gauge called `frond`",
-    );
-    refused(ratio, ratio, "--ranks 2", "zones run in one process");
-    let two = "[phase.air]\ndensity = 1.0\nspeed_of_sound = 20.0\nrheology.newtonian = { viscosity = 1e-3 }\n\
-               [body.air]\nphase = \"air\"\nbox = [[0.3, 0.45], [0.4, 0.55]]\n[body.column]";
-    refused("[body.column]", two, "", "zones are for one phase");
-    let solved = "[implicit-viscosity.backward-euler]\n[body.column]";
-    refused("[body.column]", solved, "", "solves for the end of a step");
-    // Its scheme evaluates twice a step.
-    let other = "[integrator.leap-frog]\n[body.column]";
-    refused("[body.column]", other, "", "evaluates once a step");
+    for case in refusals(include_str!("zones.refused")) {
+        let bench = Bench::with(PROGRAM, &case.of(&dam()));
+        let refused = bench.refused(&format!("run scene.toml --quiet --out out {}", case.at));
+        one_line(&refused.err).says(case.said[0]);
+        assert!(!bench.path("out/series.csv").exists(), "nothing is written");
+    }
 }
 
 /// A tube of 160 rows with a piston that makes a pulse of sound of 40 rows; the end answers after the run.

@@ -6,10 +6,7 @@ use sph_contribution::{
 };
 use sph_core::{Access, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
-use sph_particles::{Summary, run};
-use sph_run::{RunOptions, Start};
-use sph_scene::parse;
-use sph_tests::FinalState;
+use sph_tests::{Ran, ran, same_bits, scene};
 
 contribution_kind!(
     /// What lets particles in.
@@ -139,76 +136,47 @@ vtk = false
 fields = ["warmth"]
 "#;
 
-fn into(folder: &std::path::Path, text: &str, threads: usize, start: Start) -> Summary {
-    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions::new(folder, sph_run::Identity::of_text(SCENE))
-        .start(start)
-        .threads(threads);
-    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn identities(folder: &std::path::Path) -> Vec<u32> {
-    let checkpoint = sph_io::Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
-    match &checkpoint.column("identity").expect("identities").data {
-        sph_io::ColumnData::U32(v) => v.clone(),
-        other => panic!("{other:?}"),
-    }
+fn finished(text: &str) -> Ran {
+    ran(&scene(text, &[]), 1).unwrap_or_else(|e| panic!("{e}"))
 }
 
 #[test]
 fn drops_come_and_go_with_their_mass_their_columns_and_names_of_their_own() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let summary = into(folder.path(), SCENE, 1, Start::Afresh);
+    let run = finished(SCENE);
+    let (summary, state) = (&run.summary, run.state());
     let born = (1.2_f64 / 0.151).floor() as u64;
     let left = &summary.left["outlet.floor.water"];
     // A drop falls 1.2 m in 0.41 s.
     let fallen = ((1.2_f64 - 0.41) / 0.151) as u64;
-    assert!(
-        left.particles.abs_diff(fallen) <= 1,
-        "{left:?} of {born}, {fallen} fallen"
-    );
+    let off = left.particles.abs_diff(fallen);
+    assert!(off <= 1, "{left:?} of {born}, {fallen} fallen");
     assert_eq!(left.mass, 2.5 * left.particles as f64);
     let there = summary.particles as u64;
     assert_eq!(there, FIRST + born - left.particles);
     assert!(summary.drift.mass.abs() < 1e-14, "{:e}", summary.drift.mass);
-    let mut all = identities(folder.path());
+    let mut all = state.columns["identity"].clone();
     all.sort_unstable();
-    let expected: Vec<u32> = (0..FIRST as u32)
-        .chain((FIRST + left.particles) as u32..(FIRST + born) as u32)
-        .collect();
+    let drops = FIRST + left.particles..FIRST + born;
+    let expected: Vec<u64> = (0..FIRST).chain(drops).collect();
     assert_eq!(all, expected, "first in, first out, and no name twice");
-    let state = FinalState::read(folder.path());
-    let warmth = state.columns["warmth"].iter().map(|b| f64::from_bits(*b));
+    let warmth = state.reals("warmth").into_iter();
     let warm = warmth.filter(|w| *w == 61.0).count() as u64;
     assert_eq!(warm, born - left.particles);
 }
 
 #[test]
 fn births_and_deaths_are_the_same_bits_on_two_threads_resumed_and_after_a_step_was_taken_back() {
-    let folders: Vec<_> = (0..4)
-        .map(|_| tempfile::tempdir().expect("a folder"))
-        .collect();
-    let path = |k: usize| folders[k].path();
-    into(path(0), SCENE, 1, Start::Afresh);
-    let whole = FinalState::read(path(0));
-    into(path(1), SCENE, 2, Start::Afresh);
-    FinalState::read(path(1)).assert_same(&whole, "two threads");
     // In the middle of drops that fall and drops that have left.
-    let part = SCENE.replace("end = 1.2", "end = 1.2\nmax_steps = 500");
-    into(path(2), &part, 1, Start::Afresh);
-    let halfway = identities(path(2));
-    assert!(
-        halfway.iter().any(|id| u64::from(*id) >= FIRST),
-        "{halfway:?}"
-    );
-    into(path(2), SCENE, 2, Start::Resumed);
-    FinalState::read(path(2)).assert_same(&whole, "resumed");
+    same_bits(SCENE, 500, &[2], |halfway| {
+        let identities = &halfway.columns["identity"];
+        assert!(identities.iter().any(|id| *id >= FIRST), "{identities:?}");
+    });
     // A step that fails is done again in shorter ones, and nobody is born twice.
-    let failing = SCENE.replace("mass = 2.5", "mass = 2.5\nfails_at = 0.3");
-    let summary = into(path(3), &failing, 1, Start::Afresh);
+    let run = finished(&SCENE.replace("mass = 2.5", "mass = 2.5\nfails_at = 0.3"));
+    let summary = &run.summary;
     assert_eq!(summary.steps_rolled_back, 1);
     assert!(summary.drift.mass.abs() < 1e-14, "{:e}", summary.drift.mass);
-    let born = (1.2_f64 / 0.151).floor() as u32;
-    let most = identities(path(3)).into_iter().max();
-    assert_eq!(most, Some(FIRST as u32 - 1 + born));
+    let born = (1.2_f64 / 0.151).floor() as u64;
+    let most = run.state().columns["identity"].iter().copied().max();
+    assert_eq!(most, Some(FIRST - 1 + born));
 }

@@ -4,10 +4,7 @@ use artificial_viscosity::ArtificialViscosity;
 use sph_core::{Access, StepError, plugin};
 use sph_kernels::lanes::{Width, force_width};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, TermEntry, WithTerm, World};
-use sph_particles::run;
-use sph_run::RunOptions;
-use sph_scene::{Override, parse};
-use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER};
+use sph_tests::{DAM_BREAK, FinalState, PERIODIC, SOAK, STIRRER, ran, scene};
 
 /// The same term for one particle at a time.
 #[plugin(TermEntry [2, 3], "artificial-viscosity-one-by-one", "the same for one particle at a time",
@@ -40,30 +37,22 @@ impl<const D: usize> Interaction<D> for OneByOne {
 fn the_parameters_of_wrapped_terms_are_listed() {
     let kind = sph_core::kind_of("term");
     let all = (kind.expect("terms").plugins)();
-    let wrapped = all
-        .iter()
-        .filter(|p| p.name.starts_with("artificial-viscosity"));
-    for plugin in wrapped {
+    let wrapped = |name: &str| name.starts_with("artificial-viscosity");
+    for plugin in all.iter().filter(|p| wrapped(p.name)) {
         let schema = (plugin.schema)();
         let listed = sph_core::parameters(&schema);
         assert_eq!(listed.len(), 1, "{}: {schema}", plugin.name);
-        assert_eq!(
-            (listed[0].name.as_str(), listed[0].unit.as_str()),
-            ("speed", "m/s")
-        );
+        assert_eq!([&listed[0].name, &listed[0].unit], ["speed", "m/s"]);
         let told = schema["description"].as_str().unwrap_or_default();
         assert!(!told.contains("Interaction"), "{told}");
     }
 }
 
 /// The end of a run of some steps.
-fn end_of(scene: &str, steps: usize) -> FinalState {
-    let most = Override::parse(&format!("run.max_steps={steps}")).expect("a number");
-    let loaded = parse(scene, "scene.toml", &[most]).unwrap_or_else(|e| panic!("{e}"));
-    let folder = tempfile::tempdir().expect("a folder");
-    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(scene)).threads(2);
-    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
-    FinalState::read(folder.path())
+fn end_of(text: &str, steps: usize) -> FinalState {
+    let most = format!("run.max_steps={steps}");
+    let ran = ran(&scene(text, &[&most]), 2).unwrap_or_else(|e| panic!("{e}"));
+    ran.state()
 }
 
 const TERM: &str = "[term.artificial-viscosity]\nspeed = 0.3\n";

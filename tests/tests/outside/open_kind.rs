@@ -1,10 +1,8 @@
 //! The kind of plugin of `examples/tracer`: heat and salt that diffuse through a fluid, `[tracer.heat-and-salt]`.
 
 use sph_particles::setup::{Examination, examine};
-use sph_particles::{RunError, Summary, run};
-use sph_run::{RunOptions, Start};
-use sph_scene::{Override, parse};
-use sph_tests::FinalState;
+use sph_scene::parse;
+use sph_tests::{Ran, Says, assembled, ran, same_bits, scene};
 use tracer as _;
 
 const SCENE: &str = r#"
@@ -40,37 +38,17 @@ heat = 0.04
 salt = 0.02
 "#;
 
-fn into(
-    folder: &std::path::Path,
-    changes: &[&str],
-    threads: usize,
-    start: Start,
-) -> Result<Summary, RunError> {
-    let changes: Vec<_> = changes
-        .iter()
-        .map(|c| Override::parse(c).unwrap())
-        .collect();
-    let loaded = parse(SCENE, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions::new(folder, sph_run::Identity::of_text(SCENE))
-        .start(start)
-        .threads(threads);
-    run(&loaded.scene, &options, &mut ())
+fn finished(changes: &[&str]) -> Ran {
+    ran(&scene(SCENE, changes), 1).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn examined(changes: &[&str]) -> Examination {
-    let changes: Vec<_> = changes
-        .iter()
-        .map(|c| Override::parse(c).unwrap())
-        .collect();
-    let loaded = parse(SCENE, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
+    examine(&scene(SCENE, changes)).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Rate at which a wave of length 1 dies on the lattice, over κ: 2 Σ_b V F_ab (1 − cos k x_b), the operator's own.
 fn decay_on_the_lattice() -> f64 {
-    let loaded = parse(SCENE, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let parts =
-        sph_particles::setup::assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let parts = assembled::<2>(&scene(SCENE, &[]));
     let (world, d) = (&parts.flow.world, 0.0625);
     let reach = (world.kernel.support_radius() / d).ceil() as i32;
     let mut sum = 0.0;
@@ -86,26 +64,15 @@ fn decay_on_the_lattice() -> f64 {
     sum
 }
 
-/// What is left of both waves at the end, over what they were.
-fn left(folder: &std::path::Path) -> [f64; 2] {
-    let series = std::fs::read_to_string(folder.join("series.csv")).expect("a series");
-    let series = sph_io::Table::parse(&series, "series.csv").expect("a table");
-    ["heat.max", "salt.max"].map(|name| {
-        let heights = series.column(name).expect("a column");
-        heights.last().expect("a row") / heights[0]
-    })
-}
-
 /// Relative errors of both waves against exp(−λt), and λΔt of each.
 fn errors(changes: &[&str]) -> [(f64, f64); 2] {
-    let folder = tempfile::tempdir().expect("a folder");
-    let summary = into(folder.path(), changes, 1, Start::Afresh).unwrap_or_else(|e| panic!("{e}"));
-    let (t, dt) = (
-        summary.simulated_seconds,
-        summary.simulated_seconds / summary.steps as f64,
-    );
+    let run = finished(changes);
+    let (t, steps) = (run.summary.simulated_seconds, run.summary.steps as f64);
+    let dt = t / steps;
+    // What is left of both waves at the end, over what they were.
+    let left = ["heat.max", "salt.max"].map(|name| run.last(name) / run.column(name)[0]);
     let per_diffusivity = decay_on_the_lattice();
-    let both = left(folder.path()).into_iter().zip([0.04, 0.02]);
+    let both = left.into_iter().zip([0.04, 0.02]);
     let errors = both.map(|(left, diffusivity)| {
         let rate = diffusivity * per_diffusivity;
         ((left * (rate * t).exp() - 1.0).abs(), rate * dt)
@@ -135,80 +102,42 @@ fn two_scalars_of_a_kind_of_ones_own_decay_as_the_scheme_says() {
 #[test]
 fn one_sweep_sums_both_and_a_scene_without_them_has_nothing_of_them() {
     let with = examined(&[]);
-    let sweeps: Vec<_> = with
-        .stages
-        .iter()
-        .filter(|s| {
-            s.writes
-                .iter()
-                .any(|w| w.ends_with("_rate") || w == "acceleration")
-        })
-        .collect();
+    let rate = |written: &String| written.ends_with("_rate") || written == "acceleration";
+    let sweeps = with.stages.iter().filter(|s| s.writes.iter().any(rate));
+    let sweeps: Vec<_> = sweeps.collect();
     let [sweep] = &sweeps[..] else {
         panic!("one sweep: {sweeps:?}")
     };
-    assert!(
-        sweep
-            .name
-            .contains("diffusion of temperature; diffusion of salinity"),
-        "{}",
-        sweep.name
-    );
-    assert!(
-        with.step_limits.contains_key("tracer"),
-        "{:?}",
-        with.step_limits
-    );
+    sweep
+        .name
+        .says("diffusion of temperature; diffusion of salinity");
+    assert!(with.step_limits.contains_key("tracer"));
     let state = |name: &str| with.fields.iter().any(|f| f.name == name && f.state);
     assert!(state("temperature") && state("salinity"));
-    let without = examined(&[
-        "tracer={}",
-        "probe.heat.field=pressure",
-        "probe.salt.field=pressure",
-    ]);
-    assert!(
-        without
-            .fields
-            .iter()
-            .all(|f| !f.name.starts_with("temperature"))
-    );
+    let pressures = ["probe.heat.field=pressure", "probe.salt.field=pressure"];
+    let without = examined(&["tracer={}", pressures[0], pressures[1]]);
+    let mut fields = without.fields.iter();
+    assert!(fields.all(|f| !f.name.starts_with("temperature")));
     assert!(!without.step_limits.contains_key("tracer"));
 }
 
 #[test]
 fn its_step_limit_binds_and_its_advice_is_given() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let changes = ["tracer.heat-and-salt.limit=0.01"];
-    let summary = into(folder.path(), &changes, 1, Start::Afresh).expect("a run");
+    let summary = finished(&["tracer.heat-and-salt.limit=0.01"]).summary;
     // 0.01 (0.125 m)²/(0.04 m²/s) = 3.9 ms.
     assert_eq!(summary.steps, 128);
-    assert!(
-        summary.dt_limiters["tracer"] > 0.99,
-        "{:?}",
-        summary.dt_limiters
-    );
+    let limiters = summary.dt_limiters;
+    assert!(limiters["tracer"] > 0.99, "{limiters:?}");
     assert!(summary.advice.contains(&"stir it".to_string()));
-    let plugin = summary
-        .plugins
-        .iter()
-        .find(|p| p.kind == "tracer")
-        .expect("in force");
-    assert_eq!(
-        (plugin.name.as_str(), plugin.parameters["salt"].as_f64()),
-        ("heat-and-salt", Some(0.02))
-    );
+    let plugin = summary.plugins.iter().find(|p| p.kind == "tracer");
+    let plugin = plugin.expect("in force");
+    assert_eq!(plugin.name, "heat-and-salt");
+    assert_eq!(plugin.parameters["salt"].as_f64(), Some(0.02));
 }
 
 #[test]
 fn one_and_two_threads_and_a_resumed_run_have_the_same_bits() {
-    let [one, two, resumed] = [(); 3].map(|()| tempfile::tempdir().expect("a folder"));
-    into(one.path(), &[], 1, Start::Afresh).expect("a run");
-    into(two.path(), &[], 2, Start::Afresh).expect("a run");
-    into(resumed.path(), &["run.max_steps=5"], 1, Start::Afresh).expect("a beginning");
-    into(resumed.path(), &[], 2, Start::Resumed).expect("the rest");
-    let whole = FinalState::read(one.path());
-    whole.assert_same(&FinalState::read(two.path()), "one thread and two");
-    whole.assert_same(&FinalState::read(resumed.path()), "whole and resumed");
+    same_bits(SCENE, 5, &[2], |_| ());
 }
 
 #[test]
@@ -218,9 +147,9 @@ fn scenes_are_told_what_is_wrong_with_it() {
         Ok(loaded) => examine(&loaded.scene).expect_err("a refusal").to_string(),
     };
     let unknown = told(&SCENE.replace("tracer.heat-and-salt", "tracer.heat-and-sald"));
-    assert!(unknown.contains("heat-and-salt"), "{unknown}");
+    unknown.says("heat-and-salt");
     let kind = told(&SCENE.replace("[tracer.", "[tracers."));
-    assert!(kind.contains("tracer"), "{kind}");
+    kind.says("tracer");
     let unit = told(&SCENE.replace("salt = 0.02", "salt = \"2 m\""));
     assert!(
         unit.contains("tracer.heat-and-salt.salt") || unit.contains("m²/s"),

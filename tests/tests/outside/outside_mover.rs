@@ -1,9 +1,7 @@
 //! The mover of `examples/winch`.
 
 use sph_boundary::RigidState;
-use sph_particles::run;
-use sph_run::RunOptions;
-use sph_scene::{Override, parse};
+use sph_tests::{ran, scene};
 use winch as _;
 
 /// A block under water, away from the walls.
@@ -44,20 +42,9 @@ vtk = false
 
 /// Velocity of the block at the end, m/s.
 fn velocity(changes: &[&str]) -> f64 {
-    let changes = changes.iter().map(|c| Override::parse(c).unwrap());
-    let changes: Vec<_> = changes.collect();
-    let loaded = parse(SCENE, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    let folder = tempfile::tempdir().expect("a folder");
-    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(SCENE)).threads(1);
-    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"));
-    let checkpoint = sph_io::Checkpoint::load(folder.path().join("checkpoint.sph"));
-    let checkpoint = checkpoint.expect("a checkpoint");
-    match &checkpoint.column("wall_states").expect("the state").data {
-        sph_io::ColumnData::F64(n) => {
-            RigidState::<2>::from_numbers(n).expect("a state").velocity[1]
-        }
-        other => panic!("{other:?}"),
-    }
+    let ran = ran(&scene(SCENE, changes), 1).unwrap_or_else(|e| panic!("{e}"));
+    let state = RigidState::<2>::from_numbers(&ran.state().reals("wall_states"));
+    state.expect("a state").velocity[1]
 }
 
 /// Of a block of 0.04 m² water bears ρ g A = 392.4 N/m. Sound goes round in the tank ten times in 0.3 s, and a mean over as many swings

@@ -2,220 +2,63 @@
 
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, Outcome};
+use sph_tests::{Bench, DAM_BREAK, Says, exchanged, line_of, one_line, refusals};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
-/// Replaces a part of the dam break; the part must be there.
-fn with(from: &str, to: &str) -> String {
-    assert!(DAM_BREAK.contains(from), "the scene lost `{from}`");
-    DAM_BREAK.replacen(from, to, 1)
-}
-
-fn says(outcome: &Outcome, words: &[&str]) {
-    for word in words {
-        assert!(
-            outcome.err.contains(word),
-            "no `{word}` in\n{}",
-            outcome.err
-        );
-    }
-}
-
-/// The scene is refused with code 2, at the line that contains `line`, and leaves no file.
-fn refused(scene: &str, line: &str, words: &[&str]) {
+/// The scene is refused with code 2, at the line that contains `line`, with these words, and leaves no file.
+fn refused(scene: &str, line: &str, words: &str) {
     let bench = Bench::with(PROGRAM, scene);
-    let number = 1 + scene
-        .lines()
-        .position(|l| l.contains(line))
-        .expect("the line is there");
+    let number = line_of(scene, line);
     for command in ["run", "check"] {
-        let outcome = bench.call(&format!("{command} scene.toml"));
-        assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-        says(&outcome, words);
-        says(&outcome, &[&format!("scene.toml:{number}:")]);
+        let refused = bench.refused(&format!("{command} scene.toml"));
+        refused.says(&format!("scene.toml:{number}: | {words}"));
         nothing_written(&bench);
     }
     // The same for a program.
-    let outcome = bench.call("check scene.toml --json");
-    let told: serde_json::Value = serde_json::from_str(&outcome.out).expect("JSON");
+    let told = bench.call("check scene.toml --json").json();
     let at = |d: &serde_json::Value| d["line"] == number && d["file"] == "scene.toml";
-    assert!(
-        told.as_array().expect("an array").iter().any(at),
-        "{told:#}"
-    );
+    let mut all = told.as_array().expect("an array").iter();
+    assert!(all.any(at), "{told:#}");
 }
 
 fn nothing_written(bench: &Bench) {
-    let entries = std::fs::read_dir(bench.folder()).expect("the folder");
-    let names: Vec<_> = entries.map(|e| e.expect("an entry").file_name()).collect();
-    assert_eq!(names, ["scene.toml"], "something was written");
+    assert_eq!(bench.names(), ["scene.toml"], "something was written");
 }
 
+/// Each within five seconds, as many particles as it asks for.
 #[test]
-fn an_unknown_plugin() {
-    let scene = with(
-        "[smoother.brezzi-pitkaranta]",
-        "[smoother.brezi-pitkaranta]",
-    );
-    let words = [
-        "no smoother called `brezi-pitkaranta`",
-        "did you mean `brezzi-pitkaranta`",
-    ];
-    refused(&scene, "[smoother.", &words);
-}
-
-#[test]
-fn a_renormalised_surface_without_density_sums() {
-    let tables = "[surface.renormalised]\n[formulation.colagrossi-landrini]\n";
-    let scene = format!("{DAM_BREAK}\n{tables}").replace("[formulation.hu-adams]\n", "");
-    refused(&scene, "[surface.renormalised]", &["densities are no sums"]);
-}
-
-#[test]
-fn a_misspelt_key() {
-    let scene = with("spacing = 0.02", "spcing = 0.02");
-    refused(
-        &scene,
-        "spcing",
-        &["numerics.spcing", "did you mean `spacing`"],
-    );
-}
-
-#[test]
-fn a_misspelt_parameter_of_a_plugin() {
-    let scene = with("strength = 0.04", "strenght = 0.04");
-    refused(&scene, "strenght", &["did you mean `strength`"]);
-}
-
-#[test]
-fn a_negative_spacing() {
-    refused(
-        &with("spacing = 0.02", "spacing = -0.02"),
-        "spacing",
-        &["more than 0 m", "-0.02"],
-    );
-}
-
-#[test]
-fn not_a_number_in_a_parameter() {
-    let scene = with("strength = 0.04", "strength = nan");
-    refused(
-        &scene,
-        "strength",
-        &["smoother.brezzi-pitkaranta.strength", "finite", "NaN"],
-    );
-}
-
-#[test]
-fn a_unit_that_measures_something_else() {
-    refused(&with("1 mPa s", "1 m/s"), "viscosity = ", &["Pa s"]);
-}
-
-#[test]
-fn overlapping_bodies() {
-    let second = "[body.drop]\nphase = \"water\"\nbox = [[0.1, 0.1], [0.3, 0.2]]\n\n[probe.front]";
-    let scene = with("[probe.front]", second);
-    refused(&scene, "[body.drop]", &["column", "drop", "overlap"]);
-}
-
-#[test]
-fn a_body_through_a_wall() {
-    let scene = with(
-        "box = [[0.0, 0.0], [0.2, 0.4]]",
-        "box = [[-0.1, 0.0], [0.2, 0.4]]",
-    );
-    refused(
-        &scene,
-        "[body.column]",
-        &["body.column", "through wall `tank`"],
-    );
-}
-
-#[test]
-fn a_free_end_of_a_wall_within_reach() {
-    let open = "polyline = [[0.0, 0.3], [0.0, 0.0], [0.6, 0.0], [0.6, 0.6]]\n";
-    let from = "polyline = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]\nclosed = true\n";
-    // Another wall comes first, so that the right one must be pointed at.
-    let plate = "[wall.plate]\npolyline = [[0.4, 0.2], [0.5, 0.2]]\nthickness = 0.04\n[wall.tank]";
-    let words = [
-        "first end of wall `tank` at (0, 0.3) is free",
-        "close the wall or extend it",
-    ];
-    let scene = with(from, open).replace("[wall.tank]", plate);
-    refused(&scene, "[wall.tank]", &words);
-}
-
-#[test]
-fn more_particles_than_memory_are_refused_fast() {
-    let start = Instant::now();
-    let scene = with("spacing = 0.02", "spacing = 2.8e-7");
-    refused(
-        &scene,
-        "spacing",
-        &["1.0e12 particles", "GB", "larger spacing"],
-    );
-    assert!(
-        start.elapsed() < Duration::from_secs(5),
-        "it took {:?}",
-        start.elapsed()
-    );
-}
-
-#[test]
-fn an_unknown_output_field() {
-    let scene = with("\"velocity\", \"pressure\"", "\"velocity\", \"presure\"");
-    refused(
-        &scene,
-        "fields = ",
-        &["`presure`", "did you mean `pressure`"],
-    );
-}
-
-#[test]
-fn a_missing_reference_file() {
-    let reference = "[reference.front]\nprobe = \"front\"\nfile = \"gone.csv\"\n\n[output]";
-    refused(
-        &with("[output]", reference),
-        "file = ",
-        &["reference.front.file", "gone.csv"],
-    );
+fn mistakes_of_a_scene_are_refused_at_their_line_fast() {
+    for case in refusals(include_str!("bad_input.refused")) {
+        let start = Instant::now();
+        refused(&case.of(DAM_BREAK), case.at, &case.said.join(" | "));
+        let took = start.elapsed();
+        assert!(took < Duration::from_secs(5), "{}: {took:?}", case.at);
+    }
 }
 
 #[test]
 fn several_mistakes_are_told_at_once() {
-    let scene =
-        with("spacing = 0.02", "spacing = -1").replace("density = 1000.0", "density = true");
+    let negative = exchanged(DAM_BREAK, "spacing = 0.02", "spacing = -1");
+    let scene = negative.replace("density = 1000.0", "density = true");
     refused(
         &scene,
         "spacing",
-        &["numerics.spacing", "phase.water.density", "2 problems"],
-    );
-}
-
-#[test]
-fn broken_toml_is_shown_where_it_breaks() {
-    refused(
-        &with("end = 0.4", "end = = 0.4"),
-        "end = =",
-        &["scene.toml"],
+        "numerics.spacing | phase.water.density | 2 problems",
     );
 }
 
 #[test]
 fn an_unknown_path_of_an_override() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let no_value = "--set numerics.spacing | found no `=`";
     for (set, words) in [
-        ("numerics.spcing=1", ["did you mean `spacing`", "--set:1:"]),
-        (
-            "numerics.spacing",
-            ["--set numerics.spacing", "found no `=`"],
-        ),
-        ("phase.water.density=-1", ["more than 0", "--set:1:"]),
+        ("numerics.spcing=1", "did you mean `spacing` | --set:1:"),
+        ("numerics.spacing", no_value),
+        ("phase.water.density=-1", "more than 0 | --set:1:"),
     ] {
-        let outcome = bench.call(&format!("run scene.toml --set {set}"));
-        assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-        says(&outcome, &words);
+        let refused = bench.refused(&format!("run scene.toml --set {set}"));
+        refused.says(words);
         nothing_written(&bench);
     }
 }
@@ -223,16 +66,12 @@ fn an_unknown_path_of_an_override() {
 #[test]
 fn an_unknown_scene_file() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let near = "did you mean | `dam-break-koshizuka`";
     for (name, words) in [
-        ("nosuch.toml", ["`nosuch.toml`", "sph scenes"]),
-        (
-            "dam-break-koshizuca",
-            ["did you mean", "`dam-break-koshizuka`"],
-        ),
+        ("nosuch.toml", "`nosuch.toml` | sph scenes"),
+        ("dam-break-koshizuca", near),
     ] {
-        let outcome = bench.call(&format!("run {name}"));
-        assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-        says(&outcome, &words);
+        bench.refused(&format!("run {name}")).says(words);
         nothing_written(&bench);
     }
 }
@@ -240,15 +79,9 @@ fn an_unknown_scene_file() {
 #[test]
 fn bad_usage_is_code_2() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
-    for words in [
-        "",
-        "run",
-        "fly",
-        "run scene.toml --threads 0",
-        "run scene.toml --resume",
-    ] {
-        let outcome = bench.call(words);
-        assert_eq!(outcome.code, Some(2), "sph {words}: {}", outcome.err);
+    let of_run = ["--threads 0", "--resume"].map(|words| format!("run scene.toml {words}"));
+    for words in ["", "run", "fly", &of_run[0], &of_run[1]] {
+        bench.refused(words);
         nothing_written(&bench);
     }
 }
@@ -271,10 +104,7 @@ fn a_spacing_that_does_not_divide_the_distance_of_walls_is_remarked_upon() {
         let outcome = Bench::with(PROGRAM, &channel(height)).done("check scene.toml");
         outcome.out + &outcome.err
     };
-    let odd = said(1.05).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        odd.contains("body `water` fill 95.2 % of its space"),
-        "{odd}"
-    );
+    let odd = one_line(&said(1.05));
+    odd.says("body `water` fill 95.2 % of its space");
     assert!(!said(1.0).contains("of its space"), "{}", said(1.0));
 }

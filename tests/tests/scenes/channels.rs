@@ -56,33 +56,17 @@ fn accelerations_by_class_of_terms_balance_the_driving() {
         )
     };
     let (friction, pressure) = (probe("viscous"), probe("pressure"));
-    let series = finished(
-        "poiseuille-2d",
-        &["numerics.spacing=0.0625", &friction, &pressure],
-    )
-    .series();
-    let last = |name: &str| {
-        series
-            .column(name)
-            .and_then(<[f64]>::last)
-            .copied()
-            .expect("a row")
-    };
-    let lost = last("viscous") / -8.0 - 1.0;
-    println!(
-        "{lost:e} of the driving is left, {:e} m/s² by pressure",
-        last("pressure")
-    );
+    let set = ["numerics.spacing=0.0625", &friction, &pressure];
+    let run = finished("poiseuille-2d", &set);
+    let (lost, pressed) = (run.last("viscous") / -8.0 - 1.0, run.last("pressure"));
+    println!("{lost:e} of the driving is left, {pressed:e} m/s² by pressure");
     assert!(lost.abs() < 0.9e-4, "{lost:e}");
-    assert!(last("pressure").abs() < 8e-6, "{:e}", last("pressure"));
+    assert!(pressed.abs() < 8e-6, "{pressed:e}");
 }
 
 /// Finer particles in the upper part make the error of the whole smaller: 0.00047 without them.
 #[test]
 fn a_parabola_passes_a_zone_of_finer_particles() {
-    let sets = [
-        "numerics.spacing=0.03125",
-        "zone.upper.box=[[0.0,0.6],[0.625,1.2]]",
-    ];
+    let sets = ["numerics.spacing=0.03125 zone.upper.box=[[0.0,0.6],[0.625,1.2]]"];
     finished("poiseuille-2d", &sets).error("profile", 0.00047, 0.00038);
 }

@@ -1,13 +1,13 @@
 //! Dam breaks: where the front is, when it strikes.
 
+use sph_tests::near;
+
 use crate::shipped::finished;
 
 #[test]
 fn the_front_of_koshizuka_and_oka_is_met_to_2_3_per_cent() {
-    let run = finished(
-        "dam-break-koshizuka",
-        &["numerics.spacing=0.006", "run.end=0.3"],
-    );
+    let set = ["numerics.spacing=0.006", "run.end=0.3"];
+    let run = finished("dam-break-koshizuka", &set);
     // A front is known to a spacing here and to one in the reference; the range is 0.438 m.
     run.error("front-mps", 2.0 * 0.006 / 0.438, 0.0228);
     // What a person looks at first: the front beside each of its three references.
@@ -23,18 +23,12 @@ fn the_front_of_koshizuka_and_oka_is_met_to_2_3_per_cent() {
 
 #[test]
 fn the_wave_of_lobovsky_strikes_at_2_45_as_was_seen() {
-    let run = finished(
-        "dam-break-lobovsky",
-        &["numerics.spacing=0.015", "run.end=0.5"],
-    );
-    let series = run.series();
-    let times = series.column("time").expect("times");
-    let pressure = series.column("P2").expect("the sensor at 15 mm");
+    let set = ["numerics.spacing=0.015", "run.end=0.5"];
+    let series = finished("dam-break-lobovsky", &set).series();
+    let [times, pressure] = series.columns(["time", "P2"]);
+    let rows = || times.iter().zip(pressure);
     // The pressure unit is ρ g H, the time unit √(H/g).
-    let struck = times
-        .iter()
-        .zip(pressure)
-        .find(|(_, p)| **p > 0.1 * 2934.17);
+    let struck = rows().find(|(_, p)| **p > 0.1 * 2934.17);
     let at = struck.expect("it strikes").0 / 0.174874;
     // Two spacings of 15 mm with 2 √(gH), the fastest front there is, and what fine particles without gate and friction are early.
     let (spacings, early) = (0.03 / (2.0 * 0.3), 2.454 - 2.37);
@@ -43,10 +37,7 @@ fn the_wave_of_lobovsky_strikes_at_2_45_as_was_seen() {
         "t* = {at}, measured 2.454"
     );
     // No water in the air: the wall was dry before.
-    let before = times
-        .iter()
-        .zip(pressure)
-        .filter(|(t, _)| **t < 0.9 * 0.4284);
+    let before = rows().filter(|(t, _)| **t < 0.9 * 0.4284);
     let before = before.fold(0.0f64, |m, (_, p)| m.max(p.abs()));
     assert!(before < 1.0, "{before} Pa before the wave came");
 }
@@ -58,20 +49,11 @@ fn a_stream_strikes_a_wall_through_a_zone_as_hard_as_without() {
     let mean = |zone: &str| {
         let sets = ["numerics.spacing=0.01", "run.end=0.8", zone];
         let series = finished("dam-break-lobovsky", &sets).series();
-        let times = series.column("time").expect("times");
-        let pressure = series.column("P1").expect("the lowest sensor");
-        let struck = times.iter().zip(pressure).filter(|(t, _)| **t >= 0.5);
-        let all: Vec<f64> = struck.map(|(_, p)| *p).collect();
-        all.iter().sum::<f64>() / all.len() as f64
+        series.mean("P1", 0.5)
     };
-    let (without, with) = (
-        mean("zone={}"),
-        mean("zone.wall.box=[[1.0,-0.1],[1.7,0.3]]"),
-    );
-    assert!(
-        (with / without - 1.0).abs() < 0.05,
-        "{with} for {without} Pa"
-    );
+    let zones = ["zone={}", "zone.wall.box=[[1.0,-0.1],[1.7,0.3]]"];
+    let [without, with] = zones.map(mean);
+    near(with, without, 0.05, "Pa");
 }
 
 /// Spray flies apart: where the density follows the divergence it would thin out to 2 % and throw the fluid about at 0.23 s.
@@ -92,9 +74,8 @@ fn spray_of_an_integrated_density_thins_out_to_particles_alone() {
         );
         // w(0) δr² of Wendland C2 with h = 2 δr.
         let alone = 7.0 / (16.0 * std::f64::consts::PI);
-        let series = run.series();
-        let least = series.column("least_density_ratio").expect("densities");
-        let least = least.iter().fold(f64::INFINITY, |m, v| m.min(*v));
+        let least = run.column("least_density_ratio");
+        let least = least.into_iter().fold(f64::INFINITY, f64::min);
         assert!(
             least > 0.999 * alone && least < 1.2 * alone,
             "{formulation}: {least}, alone {alone}"
@@ -105,9 +86,7 @@ fn spray_of_an_integrated_density_thins_out_to_particles_alone() {
 /// Water under air, ten spacings high: the front is known to a spacing here and to one in the reference, of a range of 1.01 m.
 #[test]
 fn a_dam_breaks_under_air_as_in_the_computation() {
-    let run = finished(
-        "air-water-dambreak-lobovsky",
-        &["numerics.spacing=0.03", "run.end=0.4"],
-    );
+    let set = ["numerics.spacing=0.03", "run.end=0.4"];
+    let run = finished("air-water-dambreak-lobovsky", &set);
     run.error("front-mps", 2.0 * 0.03 / 1.01, 0.0234);
 }

@@ -1,8 +1,6 @@
 //! Scenes that name no numerics: their errors over those of the scenes as shipped.
 
-use std::path::Path;
-
-use sph_scene::load;
+use sph_tests::shipped;
 
 use crate::shipped::{by_default, finished};
 
@@ -21,11 +19,8 @@ fn no_worse(name: &str, overrides: &[&str], references: &[&str]) {
 #[test]
 fn a_cavity_that_names_no_numerics_is_no_worse() {
     let sets = [
-        "numerics.spacing=0.04",
-        "run.end=10",
-        "reference.u.window=[8, 10]",
-        "reference.v.window=[8, 10]",
-        "reference.ghia.window=[8, 10]",
+        "numerics.spacing=0.04 run.end=10 reference.u.window=[8, 10] reference.v.window=[8, 10] \
+         reference.ghia.window=[8, 10]",
     ];
     no_worse("cavity", &sets, &["u", "v", "ghia"]);
 }
@@ -56,8 +51,7 @@ fn tanks_and_a_dam_break_that_name_no_numerics_are_no_worse() {
 #[test]
 fn fluids_that_leave_space_between_walls_are_relaxed() {
     let relaxed = |name: &str| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
-        let scene = load(&path, &[]).expect("a shipped scene").scene;
+        let scene = shipped(name, &[]);
         scene.suited.iter().any(|(key, _)| *key == "numerics.relax")
     };
     assert!(relaxed("periodic-hill"));

@@ -25,16 +25,10 @@ fn a_viscosity_jump_of_a_million_passes_the_stress_on_to_0_007_per_cent() {
 
 #[test]
 fn explicit_and_implicit_errors_of_the_layered_channel_agree_within_a_tenth_of_a_per_cent() {
-    let size = [
-        "numerics.spacing=0.04",
-        "numerics.periodic.x=[0,0.48]",
-        "wall.bottom.polyline=[[0,-0.5],[0.48,-0.5]]",
-        "wall.top.polyline=[[0.48,0.5],[0,0.5]]",
-        "body.heavy.box=[[0,-0.5],[0.48,0.5]]",
-        "body.light.box=[[0,-0.5],[0.48,0.5]]",
-        "run.end=1",
-        "reference.profile.window=[0.5,1]",
-    ];
+    let size = ["numerics.spacing=0.04 numerics.periodic.x=[0,0.48] \
+         wall.bottom.polyline=[[0,-0.5],[0.48,-0.5]] wall.top.polyline=[[0.48,0.5],[0,0.5]] \
+         body.heavy.box=[[0,-0.5],[0.48,0.5]] body.light.box=[[0,-0.5],[0.48,0.5]] run.end=1 \
+         reference.profile.window=[0.5,1]"];
     let name = "bifluid-poiseuille-re0p125-implicit";
     let implicit = finished(name, &size);
     let explicitly = ["implicit-viscosity={}", "linear-solver={}"];

@@ -1,13 +1,9 @@
 //! Soils whose pores drain, against closed forms.
 
-use crate::shipped::{Finished, finished};
+use crate::shipped::finished;
 
 /// The fluid that is left out weighs nothing, so that the mass of the run stays.
 const LEFT_OUT: &str = "pore-pressure.darcy.fluid_density=0";
-
-fn column(run: &Finished, name: &str) -> Vec<f64> {
-    run.series().column(name).expect("a column").to_vec()
-}
 
 #[test]
 fn a_loaded_column_consolidates_as_terzaghi_says() {
@@ -22,7 +18,7 @@ fn sealed_soils_pull_and_push_at_their_water() {
     for (porosity, exact) in [(0.40, -320.0), (0.44, 320.0)] {
         let porosity = format!("pore-pressure.darcy.porosity={porosity}");
         let run = finished("undrained-shear", &[&porosity]);
-        let found = *column(&run, "excess").last().expect("rows");
+        let found = run.last("excess");
         assert!(
             (found / exact - 1.0_f64).abs() < 0.03,
             "{found} for {exact}, 319.7 was measured"
@@ -35,7 +31,7 @@ fn sealed_soils_pull_and_push_at_their_water() {
 fn a_bed_floats_at_its_critical_gradient() {
     let run = finished("critical-gradient", &[LEFT_OUT]);
     run.error("weight", 0.01, 0.0049);
-    let (time, weight) = (column(&run, "time"), column(&run, "grains.mean"));
+    let (time, weight) = (run.column("time"), run.column("grains.mean"));
     let at = |t: f64| time.iter().position(|x| *x >= t).expect("a row");
     let (a, b) = (at(0.2), at(0.8));
     let fall = (weight[a] - weight[b]) / (time[b] - time[a]);
@@ -52,14 +48,11 @@ fn a_wave_liquefies_a_loose_bed_and_a_dense_one_stands() {
     let share = |changes: &[&str]| {
         let coarse = ["numerics.spacing=0.1", "run.end=4", "reference={}"];
         let run = finished("wave-over-sand", &[&coarse[..], changes].concat());
-        let weight = column(&run, "grains");
+        let weight = run.column("grains");
         weight.last().expect("rows") / weight[0]
     };
     let loose = share(&[]);
     assert!(loose < 0.05, "{loose} of its weight, 0.029 was measured");
-    let dense = share(&[
-        "pore-pressure.darcy.porosity=0.40",
-        "phase.sand.density=1240",
-    ]);
+    let dense = share(&["pore-pressure.darcy.porosity=0.40 phase.sand.density=1240"]);
     assert!(dense > 1.0, "{dense} of its weight, 1.5 was measured");
 }

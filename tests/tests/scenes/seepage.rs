@@ -6,9 +6,7 @@ use crate::shipped::finished;
 #[test]
 fn levels_close_at_the_rate_of_darcys_law() {
     let run = finished("permeameter", &["numerics.spacing=0.01"]);
-    let series = run.series();
-    let column = |name: &str| series.column(name).expect("a column").to_vec();
-    let (time, left, right) = (column("time"), column("left"), column("right"));
+    let [time, left, right] = ["time", "left", "right"].map(|name| run.column(name));
     // The slope of the logarithm of the difference, from where the water has come to rest on.
     let levels = left.iter().zip(&right);
     let points = time.iter().zip(levels.map(|(l, r)| (l - r).ln()));

@@ -1,19 +1,23 @@
 //! Runs of shipped scenes in temporary folders.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::ops::Deref;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use sph_io::{Table, read_table};
-use sph_particles::{Summary, run};
-use sph_run::{RunOptions, Status};
-use sph_scene::{Override, Scene, load, parse};
-use tempfile::TempDir;
+use sph_particles::Summary;
+use sph_run::Status;
+use sph_scene::{Scene, parse};
+use sph_tests::{Ran, changes, ran, shipped, shipped_file};
 
 /// A finished run.
-pub struct Finished {
-    pub summary: Summary,
-    folder: TempDir,
+pub struct Finished(Ran);
+
+impl Deref for Finished {
+    type Target = Ran;
+    fn deref(&self) -> &Ran {
+        &self.0
+    }
 }
 
 /// What is left of a run without its folder.
@@ -29,7 +33,7 @@ pub fn whole(name: &'static str) -> Arc<Whole> {
         runs.entry(name).or_default().clone()
     };
     let run = || {
-        let summary = finished(name, &[]).summary;
+        let summary = finished(name, &[]).0.summary;
         Arc::new(Whole { summary })
     };
     cell.get_or_init(run).clone()
@@ -58,29 +62,20 @@ fn error(summary: &Summary, reference: &str, bound: f64, measured: f64) -> f64 {
 
 /// Runs a scene of the `scenes` folder to its end.
 pub fn finished(name: &str, overrides: &[&str]) -> Finished {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
-    let another_spacing = overrides.iter().any(|o| o.starts_with("numerics.spacing"));
-    let overrides: Vec<_> = overrides
-        .iter()
-        .map(|text| Override::parse(text).unwrap_or_else(|e| panic!("{text}: {e}")))
-        .collect();
-    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let finished = to_the_end(name, &loaded.scene);
+    let another_spacing = overrides.iter().any(|o| o.contains("numerics.spacing="));
+    let finished = to_the_end(&shipped(name, overrides));
     finished.is_sound(another_spacing);
     finished
 }
 
 /// Runs a scene to its end.
-fn to_the_end(name: &str, scene: &Scene) -> Finished {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(name)).threads(1);
-    let summary = run(scene, &options, &mut ()).unwrap_or_else(|e| panic!("{name}: {e}"));
-    Finished { summary, folder }
+fn to_the_end(scene: &Scene) -> Finished {
+    Finished(ran(scene, 1).unwrap_or_else(|e| panic!("{e}")))
 }
 
 /// Runs a shipped scene with its smoother, shifting, surfaces, walls, smoothing length, step and relaxation left out.
 pub fn by_default(name: &str, overrides: &[&str]) -> Finished {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
+    let path = shipped_file(name);
     let text = std::fs::read_to_string(&path).expect("a shipped scene");
     let mut table: toml::Table = text.parse().expect("a scene");
     for kind in [
@@ -99,10 +94,9 @@ pub fn by_default(name: &str, overrides: &[&str]) -> Finished {
             numerics.remove(key);
         }
     }
-    let overrides = overrides.iter().map(|text| Override::parse(text));
-    let overrides: Vec<_> = overrides.map(|o| o.expect("an override")).collect();
-    let stripped = parse(&table.to_string(), &path.display().to_string(), &overrides);
-    to_the_end(name, &stripped.unwrap_or_else(|e| panic!("{e}")).scene)
+    let file = path.display().to_string();
+    let stripped = parse(&table.to_string(), &file, &changes(overrides));
+    to_the_end(&stripped.unwrap_or_else(|e| panic!("{e}")).scene)
 }
 
 impl Finished {
@@ -131,18 +125,13 @@ impl Finished {
     }
 
     /// Where a file of the run is.
-    pub fn path(&self, name: &str) -> std::path::PathBuf {
-        self.folder.path().join(name)
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder().join(name)
     }
 
     /// A file of the run.
     pub fn bytes(&self, name: &str) -> Vec<u8> {
-        std::fs::read(self.folder.path().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
-    }
-
-    /// The time series.
-    pub fn series(&self) -> Table {
-        read_table(self.folder.path().join("series.csv")).expect("a series")
+        std::fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
 }
 

@@ -5,16 +5,12 @@ use crate::shipped::{Finished, finished};
 /// Rows of the series with their times: those within a window.
 fn within(run: &Finished, names: &[&str], from: f64, to: f64) -> Vec<Vec<f64>> {
     let series = run.series();
-    let column = |name: &str| {
-        let column = series.column(name);
-        column.unwrap_or_else(|| panic!("no {name}")).to_vec()
-    };
-    let time = column("time");
+    let time = series.column("time");
     let inside: Vec<usize> = (0..time.len())
         .filter(|k| (from..=to).contains(&time[*k]))
         .collect();
     let of = |name: &&str| {
-        let all = column(name);
+        let all = series.column(name);
         inside.iter().map(|k| all[*k]).collect()
     };
     names.iter().map(of).collect()
@@ -27,14 +23,9 @@ fn the_wave_before_a_scour_has_its_celerity_and_height_and_the_sand_waits() {
     let spacing = 0.035;
     let run = finished(
         "tsunami-scour-nakamura-3d",
-        &[
-            "numerics.spacing=0.035",
-            "body.water.wave.bottom=0.0175",
-            "phase.sand.rheology.drucker-prager.young_modulus=\"2.6 MPa\"",
-            "run.end=0.45",
-            "output.times=[0.45]",
-            "output.picture=[]",
-        ],
+        &["numerics.spacing=0.035 body.water.wave.bottom=0.0175 \
+             phase.sand.rheology.drucker-prager.young_modulus=2.6e6 run.end=0.45 \
+             output.times=[0.45] output.picture=[]"],
     );
     let rows = within(&run, &["time", "offshore"], 0.0, 0.45);
     let (time, level) = (&rows[0], &rows[1]);

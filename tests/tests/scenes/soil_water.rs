@@ -1,19 +1,6 @@
 //! Water over soil, at test sizes.
 
-use crate::shipped::{Finished, finished};
-
-/// Values of a column of the series.
-fn column(run: &Finished, name: &str) -> Vec<f64> {
-    let series = run.series();
-    let column = series
-        .column(name)
-        .unwrap_or_else(|| panic!("no column {name}"));
-    column.to_vec()
-}
-
-fn last(run: &Finished, name: &str) -> f64 {
-    *column(run, name).last().expect("a row")
-}
+use crate::shipped::finished;
 
 /// Density of the bed of `movable-bed-dambreak-sand`, kg/m³.
 const BULK: f64 = 1892.0;
@@ -25,22 +12,19 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
     let run = finished(
         "movable-bed-dambreak-sand",
         &[
-            "numerics.spacing=0.025",
-            "run.end=0.5",
-            "body.bed.box=[[-2.4,0],[0,0.1]]",
-            "body.beyond.box=[[0,0],[3,0.1125]]",
-            "body.reservoir.box=[[-2.4,0.1],[0,0.45]]",
-            "probe.erosion.level=0.1125",
+            "numerics.spacing=0.025 run.end=0.5 body.bed.box=[[-2.4,0],[0,0.1]] \
+             body.beyond.box=[[0,0],[3,0.1125]] body.reservoir.box=[[-2.4,0.1],[0,0.45]] \
+             probe.erosion.level=0.1125",
         ],
     );
-    let front = last(&run, "front");
+    let front = run.last("front");
     // 16 and 8 mm have 0.91 and 1.00 m: of first order, 0.81 m with 25 mm and 1.09 m at last; the foremost particle tells
     // the front to a spacing.
     assert!(
         (0.81 - 0.025..1.09).contains(&front),
         "the water is at {front} m, 0.80 was measured"
     );
-    let risen = last(&run, "erosion.risen");
+    let risen = run.last("erosion.risen");
     // The water takes the row that it runs over, to the half row that a spacing resolves. A row is the density of the bed
     // times a spacing times the length under water.
     let row = BULK * 0.025 * front;
@@ -48,7 +32,7 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
         (0.5 * row..1.5 * row).contains(&risen),
         "{risen} kg/m have left the bed, a row has {row}; 31 were measured"
     );
-    assert_eq!(last(&run, "erosion.out"), 0.0);
+    assert_eq!(run.last("erosion.out"), 0.0);
     let curves = sph_io::read_table(run.path("curves/bed_0002.csv")).expect("curves");
     let of = |name: &str| curves.column(name).expect("a curve").to_vec();
     let (x, surface, interface, limit) = (of("x"), of("surface"), of("interface"), of("limit"));
@@ -79,7 +63,7 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
         &["numerics.spacing=0.045", "run.end=0.4", "output.every=0.4"],
     );
     for phase in ["slide", "water"] {
-        let volume = column(&run, &format!("{phase}-volume"));
+        let volume = run.column(&format!("{phase}-volume"));
         let change = volume[volume.len() - 1] / volume[0] - 1.0;
         assert!(
             change.abs() < 0.01,
@@ -87,7 +71,7 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
         );
     }
     let rise = |gauge: &str| {
-        let level = column(&run, gauge);
+        let level = run.column(gauge);
         level[level.len() - 1] - level[0]
     };
     let (above, ahead) = (rise("above"), rise("ahead"));
@@ -96,7 +80,7 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
         ahead > 0.003,
         "ahead of the slide the water rose by {ahead} m"
     );
-    let toe = column(&run, "toe");
+    let toe = run.column("toe");
     assert!(
         toe[toe.len() - 1] > toe[0] + 0.04,
         "the toe went to {} m",
@@ -111,16 +95,11 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
 fn the_crest_before_a_slide_from_the_air_runs_between_two_speeds_of_theory_at_1_05_m_s() {
     let run = finished(
         "subaerial-landslide",
-        &[
-            "numerics.spacing=0.012",
-            "run.end=1.2",
-            "output.times=[1.2]",
-            "output.picture=[]",
-        ],
+        &["numerics.spacing=0.012 run.end=1.2 output.times=[1.2] output.picture=[]"],
     );
-    let times = column(&run, "time");
+    let times = run.column("time");
     let crest = |gauge: &str| {
-        let levels = column(&run, gauge);
+        let levels = run.column(gauge);
         let highest = (0..levels.len()).max_by(|a, b| levels[*a].total_cmp(&levels[*b]));
         let highest = highest.expect("a level");
         (times[highest], levels[highest] - levels[0])

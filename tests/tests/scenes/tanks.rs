@@ -1,18 +1,15 @@
 //! Water at rest: in a tank, over a wedge, between dummy particles.
 
-use sph_io::Table;
 use sph_multiphase as _;
+use sph_tests::Series;
 
 use crate::shipped::{finished, whole};
 
 /// Largest kinetic energy in a window of time, J.
-fn liveliest(series: &Table, from: f64, to: f64) -> f64 {
-    let energy = series.column("kinetic_energy").expect("an energy");
-    let times = series.column("time").expect("times");
-    let inside = times
-        .iter()
-        .zip(energy)
-        .filter(|(t, _)| **t >= from && **t <= to);
+fn liveliest(series: &Series, from: f64, to: f64) -> f64 {
+    let [times, energy] = series.columns(["time", "kinetic_energy"]);
+    let inside = times.iter().zip(energy);
+    let inside = inside.filter(|(t, _)| **t >= from && **t <= to);
     inside.fold(0.0, |most, (_, e)| most.max(*e))
 }
 
@@ -32,11 +29,8 @@ fn a_tank_ten_times_as_stiff_takes_a_twentieth_of_the_steps_of_sound_where_press
     let run = finished(
         "hydrostatic-tank",
         &[
-            "pressure.implicit={}",
-            "surface.cone-test={}",
-            "phase.water.speed_of_sound=313",
-            "numerics.spacing=0.08",
-            "run.end=2",
+            "pressure.implicit={} surface.cone-test={} phase.water.speed_of_sound=313 \
+             numerics.spacing=0.08 run.end=2",
         ],
     );
     let of_sound = 2.0 / (0.4 * 0.16 / 313.0);
@@ -67,17 +61,10 @@ fn a_tank_that_starts_with_a_bang_comes_to_rest() {
 
 #[test]
 fn between_dummy_particles_the_tank_is_hydrostatic_to_1_9_per_cent() {
-    let run = finished(
-        "hydrostatic-tank",
-        &["walls.dummy-particles={}", "run.end=2"],
-    );
-    assert!(
-        run.summary
-            .plugins
-            .iter()
-            .any(|p| p.name == "dummy-particles")
-    );
-    assert!(!run.summary.plugins.iter().any(|p| p.name == "usaw"));
+    let set = ["walls.dummy-particles={}", "run.end=2"];
+    let run = finished("hydrostatic-tank", &set);
+    let has = |name: &str| run.summary.plugins.iter().any(|p| p.name == name);
+    assert!(has("dummy-particles") && !has("usaw"));
     // A row of 25: the wall stands between two of them.
     run.error("pressure", 1.0 / 25.0, 0.0192);
     run.error("rest", 1e-3, 3.1e-4);
@@ -118,9 +105,7 @@ fn a_settled_tank_does_not_ring_with_any_smoother_and_is_hydrostatic_to_1_per_ce
         let chosen = format!("smoother.{smoother}={{}}");
         let run = finished("hydrostatic-tank", &["smoother={}", &chosen, "run.end=1"]);
         run.error("pressure-l2", 0.01, measured);
-        let series = run.series();
-        let momentum = series.column("momentum.y").expect("a momentum");
-        let largest = momentum.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+        let largest = run.series().largest_size("momentum.y");
         assert!(
             largest < 4.2,
             "{smoother}: {largest} kg m/s, 2.3 to 2.9 were measured"
@@ -135,17 +120,11 @@ fn damped_water_settles_to_the_depth_of_its_equation_of_state() {
     // As stiff as twenty times the depth's speed and a quarter as wide, which settles as fast in fewer steps.
     let run = finished(
         "settling-channel",
-        &[
-            "run.end=1.5",
-            "numerics.periodic.x=[0.0, 0.1]",
-            "wall.bed.polyline=[[0.0, 0.0], [0.1, 0.0]]",
-            "body.water.box=[[0.0, 0.0], [0.1, 0.4]]",
-            "phase.water.speed_of_sound=20.0",
-            "damping.rayleigh.rate=1000.0",
-            "reference.depth.value=0.398088",
-            "reference.depth.window=[1.2, 1.5]",
-            "reference.pressure.parameters.surface=0.398088",
-        ],
+        &["run.end=1.5 numerics.periodic.x=[0.0, 0.1] \
+             wall.bed.polyline=[[0.0, 0.0], [0.1, 0.0]] body.water.box=[[0.0, 0.0], [0.1, 0.4]] \
+             phase.water.speed_of_sound=20.0 damping.rayleigh.rate=1000.0 \
+             reference.depth.value=0.398088 reference.depth.window=[1.2, 1.5] \
+             reference.pressure.parameters.surface=0.398088"],
     );
     run.error("depth", 2e-4, 3.6e-5);
     // 2 % of ρgH, √3 times the root mean square of a linear pressure.

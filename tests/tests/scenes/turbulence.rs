@@ -10,14 +10,9 @@ use crate::shipped::finished;
 #[test]
 fn a_channel_of_re_tau_180_finds_its_friction_and_its_k() {
     let size = [
-        "run.end=9",
-        "output.every=3",
-        "probe.u.after=6",
-        "probe.k.after=6",
-        "reference.u.window=[8.9,9]",
-        "reference.k.window=[8.9,9]",
-        "reference.friction-velocity.window=[6,9]",
-        "reference.shear.window=[6,9]",
+        "run.end=9 output.every=3 probe.u.after=6 probe.k.after=6 reference.u.window=[8.9,9] \
+         reference.k.window=[8.9,9] reference.friction-velocity.window=[6,9] \
+         reference.shear.window=[6,9]",
     ];
     let run = finished("channel-retau-180", &size);
     run.error("friction-velocity", 0.05, 0.038);
@@ -36,8 +31,7 @@ fn large_eddies_in_a_dam_break_in_space_arrive_at_1p77() {
         "surface.cone-test.time=1e6",
     ];
     let run = finished("les-dambreak-3d", &size);
-    let series = run.series();
-    let column = |name: &str| series.column(name).expect("a column").to_vec();
+    let column = |name| run.column(name);
     let [time, front] = ["time", "front"].map(column);
     let arrived = time.iter().zip(&front).find(|(_, x)| **x > 0.9 - 0.0375);
     let arrival = arrived.expect("it arrives").0 * (9.81f64 / 0.3).sqrt();

@@ -21,16 +21,12 @@ fn passage(time: &[f64], level: &[f64]) -> [f64; 2] {
 fn amplitudes(overrides: &[&str]) -> Vec<f64> {
     const HALF: f64 = 3.5515 / 2.0;
     let coarse = [
-        "numerics.spacing=0.05",
-        "body.water.box=[[-1.0,0.0],[1.0,1.025]]",
-        "numerics.smoothing_ratio=2.0",
-        "smoother.delta-sph.strength=0.1",
-        "run.end=10.7",
-        "reference.swing.window=[8.9,10.7]",
+        "numerics.spacing=0.05 body.water.box=[[-1.0,0.0],[1.0,1.025]] \
+         numerics.smoothing_ratio=2.0 smoother.delta-sph.strength=0.1 run.end=10.7 \
+         reference.swing.window=[8.9,10.7]",
     ];
     let run = finished("standing-wave-inviscid", &[&coarse, overrides].concat());
-    let series = run.series();
-    let column = |name: &str| series.column(name).expect("a column").to_vec();
+    let column = |name| run.column(name);
     let (time, energy) = (column("time"), column("energy"));
     let swing = |k: usize| {
         let within = |t: f64| (t / HALF) as usize == k;
@@ -57,16 +53,10 @@ fn a_standing_wave_keeps_its_amplitude_with_a_renormalised_surface() {
 /// With 10.5 rows over the depth instead of 20.5.
 #[test]
 fn a_solitary_wave_keeps_its_celerity_and_height_over_ten_depths() {
-    let coarse = [
-        "numerics.spacing=0.009523809523809525",
-        "body.water.wave.bottom=0.0047619047619047624",
-    ];
+    let coarse =
+        ["numerics.spacing=0.009523809523809525 body.water.wave.bottom=0.0047619047619047624"];
     let run = finished("solitary-wave", &coarse);
-    let series = run.series();
-    let column = |name: &str| {
-        let column = series.column(name);
-        column.unwrap_or_else(|| panic!("no {name}")).to_vec()
-    };
+    let column = |name| run.column(name);
     let time = column("time");
     let [[early, first], [late, last]] =
         ["before", "end"].map(|name| passage(&time, &column(name)));
@@ -90,13 +80,8 @@ fn a_piston_takes_back_what_a_wall_sends_to_it() {
     let height = |length: f64| {
         let flume = format!("wall.flume.polyline=[[-0.5,0.0],[{length},0.0],[{length},0.8]]");
         let water = format!("body.water.box=[[0.0,0.0],[{length},0.5]]");
-        let run = finished(
-            "wave-flume-absorbing",
-            &["numerics.spacing=0.05", &flume, &water],
-        );
-        let series = run.series();
-        let heights = series.column("waves.incident").expect("waves");
-        heights[heights.len() - 1] / 2.0_f64.sqrt()
+        let set = ["numerics.spacing=0.05", &flume, &water];
+        finished("wave-flume-absorbing", &set).last("waves.incident") / 2.0_f64.sqrt()
     };
     let [short, long] = [4.6, 5.1].map(height);
     let back = ((long - short) / (long + short)).abs();
@@ -128,12 +113,8 @@ fn phase(time: &[f64], level: &[f64], from: f64, period: f64) -> f64 {
 #[test]
 fn waves_on_and_against_a_current_have_its_length_and_leave() {
     let coarse = [
-        "numerics.spacing=0.05",
-        "run.end=14.4",
-        "probe.waves.from=12",
-        "probe.waves.to=14.4",
-        "reference.height.window=[14.39,14.41]",
-        "reference.reflection.window=[14.39,14.41]",
+        "numerics.spacing=0.05 run.end=14.4 probe.waves.from=12 probe.waves.to=14.4 \
+         reference.height.window=[14.39,14.41] reference.reflection.window=[14.39,14.41]",
     ];
     let still = 2.048;
     for (scene, theory) in [
@@ -141,17 +122,11 @@ fn waves_on_and_against_a_current_have_its_length_and_leave() {
         ("waves-against-current", 1.638),
     ] {
         let run = finished(scene, &coarse);
-        let series = run.series();
-        let column = |name: &str| {
-            let column = series.column(name);
-            column.unwrap_or_else(|| panic!("no {name}")).to_vec()
-        };
-        let time = column("time");
-        let [near, far] = ["near", "far"].map(|name| phase(&time, &column(name), 12.0, 1.2));
+        let time = run.column("time");
+        let [near, far] = ["near", "far"].map(|name| phase(&time, &run.column(name), 12.0, 1.2));
         let lag = (far - near).rem_euclid(std::f64::consts::TAU);
         let length = std::f64::consts::TAU * 1.5 / lag;
-        let back = column("waves.coefficient");
-        let back = back[back.len() - 1];
+        let back = run.last("waves.coefficient");
         println!("{scene}: {length} m long for {theory} m, {back} comes back");
         let off = (length - theory).abs();
         assert!(

@@ -1,137 +1,63 @@
 //! Crates are rooms with one-way doors.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 use sph_core::kinds;
 
+use crate::{root, sources};
+
 /// What a crate of the workspace may depend on within it; the tests may everything.
-const ALLOWED: [(&str, &[&str]); 22] = [
-    ("sparse", &[]),
+const ALLOWED: [(&str, &str); 22] = [
+    ("sparse", ""),
     (
         "sph-soil",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-rheology",
-            "sph-contribution",
-            "sph-multiphase",
-        ],
+        "sph-core sph-neighbours sph-rheology sph-contribution sph-multiphase",
     ),
-    (
-        "dem-pfv",
-        &["sparse", "scene-text", "sph-core", "sph-io", "sph-run"],
-    ),
-    ("scene-text", &[]),
-    ("sph-kernels", &[]),
-    ("sph-derive", &[]),
-    ("sph-core", &["scene-text", "sph-derive"]),
-    ("sph-neighbours", &["sph-core", "sph-derive", "sph-kernels"]),
-    (
-        "sph-boundary",
-        &["sph-core", "sph-kernels", "sph-neighbours"],
-    ),
+    ("dem-pfv", "sparse scene-text sph-core sph-io sph-run"),
+    ("scene-text", ""),
+    ("sph-kernels", ""),
+    ("sph-derive", ""),
+    ("sph-core", "scene-text sph-derive"),
+    ("sph-neighbours", "sph-core sph-derive sph-kernels"),
+    ("sph-boundary", "sph-core sph-kernels sph-neighbours"),
     (
         "sph-open",
-        &[
-            "sph-core",
-            "sph-kernels",
-            "sph-neighbours",
-            "sph-boundary",
-            "sph-rheology",
-            "sph-contribution",
-            "sph-probes",
-        ],
+        "sph-core sph-kernels sph-neighbours sph-boundary sph-rheology sph-contribution sph-probes",
     ),
-    ("sph-rheology", &["sph-core", "sph-derive"]),
+    ("sph-rheology", "sph-core sph-derive"),
     (
         "sph-contribution",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-rheology",
-            "sph-multiphase",
-        ],
+        "sph-core sph-neighbours sph-rheology sph-multiphase",
     ),
     (
         "sph-multiphase",
-        &[
-            "sph-core",
-            "sph-neighbours",
-            "sph-rheology",
-            "sph-contribution",
-            "sph-kernels",
-            "sparse",
-        ],
+        "sph-core sph-neighbours sph-rheology sph-contribution sph-kernels sparse",
     ),
-    ("sph-probes", &["sph-core", "sph-kernels", "sph-neighbours"]),
-    ("sph-io", &["sph-core"]),
+    ("sph-probes", "sph-core sph-kernels sph-neighbours"),
+    ("sph-io", "sph-core"),
     (
         "sph-turbulence",
-        &[
-            "sph-core",
-            "sph-kernels",
-            "sph-neighbours",
-            "sph-contribution",
-            "sph-multiphase",
-            "sph-soil",
-            "sph-probes",
-        ],
+        "sph-core sph-kernels sph-neighbours sph-contribution sph-multiphase sph-soil sph-probes",
     ),
-    ("sph-scene", &["scene-text", "sph-core"]),
+    ("sph-scene", "scene-text sph-core"),
     (
         "sph-particles",
-        &[
-            "sph-boundary",
-            "sph-contribution",
-            "sph-core",
-            "sph-neighbours",
-            "sph-io",
-            "sph-probes",
-            "sph-run",
-            "sph-scene",
-            "sph-solver",
-            "sph-multiphase",
-            "sph-kernels",
-            "sph-open",
-            "sph-rheology",
-        ],
+        "sph-boundary sph-contribution sph-core sph-neighbours sph-io sph-probes sph-run sph-scene \
+         sph-solver sph-multiphase sph-kernels sph-open sph-rheology",
     ),
-    ("sph-run", &["scene-text", "sph-io"]),
-    ("sph-study", &["sph-core", "sph-io", "sph-run", "sph-scene"]),
+    ("sph-run", "scene-text sph-io"),
+    ("sph-study", "sph-core sph-io sph-run sph-scene"),
     (
         "sph-cli",
-        &[
-            "dem-pfv",
-            "sph-core",
-            "sph-multiphase",
-            "sph-neighbours",
-            "sph-io",
-            "sph-particles",
-            "sph-probes",
-            "sph-run",
-            "sph-scene",
-            "sph-solver",
-            "sph-study",
-            "sph-turbulence",
-            "sph-open",
-        ],
+        "dem-pfv sph-core sph-multiphase sph-neighbours sph-io sph-particles sph-probes sph-run \
+         sph-scene sph-solver sph-study sph-turbulence sph-open",
     ),
     (
         "sph-python",
-        &[
-            "sph-cli",
-            "sph-contribution",
-            "sph-core",
-            "sph-io",
-            "sph-neighbours",
-            "sph-particles",
-            "sph-probes",
-            "sph-run",
-            "sph-solver",
-        ],
+        "sph-cli sph-contribution sph-core sph-io sph-neighbours sph-particles sph-probes sph-run \
+         sph-solver",
     ),
 ];
 
@@ -157,24 +83,19 @@ struct Room {
     tests_use: BTreeSet<String>,
 }
 
+/// What `cargo` says.
+fn cargo(words: &str) -> String {
+    let mut command = Command::new(env!("CARGO"));
+    command.args(words.split(' ')).current_dir(root());
+    let output = command.output().expect("cargo");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{words}: {error}");
+    String::from_utf8(output.stdout).expect("a text")
+}
+
 fn rooms() -> BTreeMap<String, Room> {
-    let output = Command::new(env!("CARGO"))
-        .args([
-            "metadata",
-            "--no-deps",
-            "--offline",
-            "--format-version",
-            "1",
-        ])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("cargo metadata");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let metadata: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let told = cargo("metadata --no-deps --offline --format-version 1");
+    let metadata: Value = serde_json::from_str(&told).expect("JSON");
     let packages = metadata["packages"].as_array().expect("packages");
     let text = |v: &Value| v.as_str().unwrap_or_default().to_string();
     let mut rooms: BTreeMap<String, Room> = BTreeMap::new();
@@ -208,7 +129,7 @@ fn every_dependency_within_the_workspace_is_an_arrow_of_the_design() {
                 ("embedding" | "embedding-bare", _) => true,
                 ("sph-solver", _) => !["sph-particles", "sph-study", "sph-cli", "sph-tests"]
                     .contains(&target.as_str()),
-                (_, Some(allowed)) => allowed.contains(&target.as_str()),
+                (_, Some(allowed)) => allowed.split(' ').any(|a| a == target),
                 (_, None) => target == "sph-core",
             };
             assert!(fine, "{name} must not depend on {target}");
@@ -221,15 +142,8 @@ fn nothing_but_studies_the_command_line_python_tests_examples_and_benches_knows_
     for (name, room) in rooms() {
         let all = || room.uses.union(&room.tests_use);
         let knows = all().find(|d| SOLVERS.contains(&d.as_str()));
-        let may = [
-            "sph-particles",
-            "sph-study",
-            "sph-cli",
-            "sph-python",
-            "sph-tests",
-            "embedding",
-        ];
-        let may = may.contains(&name.as_str());
+        let may = "sph-particles sph-study sph-cli sph-python sph-tests embedding";
+        let may = may.split(' ').any(|m| m == name);
         assert!(
             knows.is_none() || may,
             "{name} depends on {knows:?}, if only for its tests"
@@ -253,13 +167,7 @@ fn grains_know_no_particles() {
 
 #[test]
 fn crates_that_can_be_used_alone_are_tested_alone() {
-    for name in [
-        "sph-kernels",
-        "sph-core",
-        "sph-rheology",
-        "sph-io",
-        "dem-pfv",
-    ] {
+    for name in "sph-kernels sph-core sph-rheology sph-io dem-pfv".split(' ') {
         let room = &rooms()[name];
         let others = room.tests_use.iter().filter(|d| d.starts_with("sph-"));
         let others: Vec<_> = others.filter(|d| *d != "sph-core").collect();
@@ -277,28 +185,15 @@ const EMBEDDED: [(&str, usize); 3] = [
 #[test]
 fn a_crate_without_its_plugins_brings_few_others_along() {
     for (name, most) in EMBEDDED {
-        let output = Command::new(env!("CARGO"))
-            .args(["tree", "--offline", "--package", name])
-            .args([
-                "--no-default-features",
-                "--edges",
-                "normal",
-                "--prefix",
-                "none",
-            ])
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .output()
-            .expect("cargo tree");
-        let told = String::from_utf8_lossy(&output.stdout);
-        assert!(output.status.success() && told.starts_with(name), "{told}");
+        let told = cargo(&format!(
+            "tree --offline --package {name} --no-default-features --edges normal --prefix none"
+        ));
+        assert!(told.starts_with(name), "{told}");
         // Those of the workspace have a path behind their version.
         let others = told.lines().filter(|line| !line.contains(" (/"));
         let others: BTreeSet<&str> = others.filter_map(|l| l.split(' ').next()).collect();
-        assert!(
-            others.len() <= most,
-            "{name} brings {}: {others:?}",
-            others.len()
-        );
+        let count = others.len();
+        assert!(count <= most, "{name} brings {count}: {others:?}");
     }
 }
 
@@ -318,20 +213,11 @@ fn heavy_crates_stay_in_their_room() {
 /// The solver assembles what scenes name. The names that it knows itself are on one page, `defaults.rs`.
 #[test]
 fn no_plugin_is_named_in_the_solver_but_on_its_page_of_defaults() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
-    let mut files = Vec::from(SOLVERS.map(|name| crates.join(name).join("src")));
+    let folders = SOLVERS.map(|name| root().join("crates").join(name).join("src"));
+    let sources = folders.iter().flat_map(|folder| sources(folder));
     let mut named = Vec::new();
     let mut lines = 0;
-    while let Some(path) = files.pop() {
-        if path.is_dir() {
-            let entries = std::fs::read_dir(&path).expect("a folder");
-            files.extend(entries.map(|e| e.expect("an entry").path()));
-            continue;
-        }
-        if path.ends_with("defaults.rs") {
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).expect("a source");
+    for (path, text) in sources.filter(|(path, _)| !path.ends_with("defaults.rs")) {
         // Tests may run scenes.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         lines += code.lines().count();

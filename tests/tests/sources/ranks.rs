@@ -1,6 +1,6 @@
 //! Physics knows no ranks: the world sums, and copies of particles follow their owners.
 
-use std::path::{Path, PathBuf};
+use crate::{crates, name, sources};
 
 /// Crates that divide flows, run their parts, or write a file of each; and `dem-pfv`, which has no `World` and calls cells
 /// beyond the hull of its triangulation ghosts.
@@ -44,29 +44,15 @@ fn refused(text: &str) -> Vec<(usize, String, &'static str)> {
 
 #[test]
 fn no_physics_names_a_rank() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
-    let entries = std::fs::read_dir(crates).expect("the crates");
-    let paths = entries.map(|entry| entry.expect("a crate").path());
-    let knows = |path: &PathBuf| KNOWS.iter().any(|name| path.ends_with(name));
-    let mut open: Vec<_> = paths
-        .filter(|path| !knows(path))
-        .map(|path| path.join("src"))
-        .collect();
+    let mut crates = crates();
+    crates.retain(|path| !KNOWS.contains(&name(path)));
     let (mut lines, mut found) = (0, Vec::new());
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            let entries = std::fs::read_dir(&path).expect("a folder");
-            open.extend(entries.map(|entry| entry.expect("an entry").path()));
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).expect("a source");
+    for (path, text) in crates.iter().flat_map(|path| sources(&path.join("src"))) {
         lines += text.lines().count();
         let file = path.display();
-        found.extend(
-            refused(&text).into_iter().map(|(line, word, instead)| {
-                format!("{file}:{line}: `{word}`; there is {instead}")
-            }),
-        );
+        for (line, word, instead) in refused(&text) {
+            found.push(format!("{file}:{line}: `{word}`; there is {instead}"));
+        }
     }
     assert!(lines > 50_000, "only {lines} lines were read");
     found.sort();

@@ -1,11 +1,11 @@
 //! Words that names, pages, comments and messages do without: `words.toml` has them, with what to write.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::Deserialize;
 
 use crate::docs::documents;
+use crate::sources_of_crates;
 
 type Advice = BTreeMap<String, String>;
 
@@ -58,12 +58,10 @@ fn without_code(line: &str) -> String {
 fn spoken(line: &str) -> String {
     match line.trim_start().strip_prefix("//") {
         Some(comment) => without_code(comment),
-        None => line
-            .split('"')
-            .skip(1)
-            .step_by(2)
-            .collect::<Vec<_>>()
-            .join(" "),
+        None => {
+            let quoted: Vec<_> = line.split('"').skip(1).step_by(2).collect();
+            quoted.join(" ")
+        }
     }
 }
 
@@ -113,14 +111,10 @@ fn starts(lines: &[String], refused: &Advice) -> Vec<String> {
     let found = numbered.filter_map(|(k, line)| {
         let title = line.strip_prefix('#').or(line.strip_prefix('|'))?;
         let first = title.trim_start_matches('#').split_whitespace().next()?;
-        let advice = refused
-            .iter()
-            .find(|(word, _)| word.to_lowercase() == first.to_lowercase())?
-            .1;
-        Some(format!(
-            "{}: begins with \"{first}\"; write {advice}",
-            k + 1
-        ))
+        let same = |word: &&String| word.to_lowercase() == first.to_lowercase();
+        let advice = &refused[refused.keys().find(same)?];
+        let line = k + 1;
+        Some(format!("{line}: begins with \"{first}\"; write {advice}"))
     });
     found.collect()
 }
@@ -142,42 +136,21 @@ fn openings(text: &str, refused: &Advice) -> Vec<String> {
     found
 }
 
-/// Calls a function with every source of the crates and its text.
-fn each_source(mut work: impl FnMut(&Path, &str)) {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
-    let entries = std::fs::read_dir(crates).expect("the crates");
-    let mut open: Vec<_> = entries
-        .map(|e| e.expect("a crate").path().join("src"))
-        .collect();
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            let entries = std::fs::read_dir(&path).expect("a folder");
-            open.extend(entries.map(|e| e.expect("an entry").path()));
-        } else {
-            let text = std::fs::read_to_string(&path).expect("a source");
-            work(&path, &text);
-        }
-    }
-}
-
 #[test]
 fn names_are_words_of_the_field() {
     let words = words();
     let (mut count, mut found) = (0, Vec::new());
-    each_source(|path, text| {
+    for (path, text) in sources_of_crates() {
         count += 1;
-        let stem = path
-            .file_stem()
-            .and_then(|s| s.to_str())
-            .unwrap_or_default();
+        let stem = path.file_stem().and_then(|s| s.to_str());
         let file = path.display();
-        if let Some(advice) = words.files.get(stem) {
+        if let Some(advice) = words.files.get(stem.unwrap_or_default()) {
             found.push(format!("{file}: the name of the file; write {advice}"));
         }
-        let mut all = names(text, &words.names);
-        all.extend(openings(text, &words.rustdoc));
+        let mut all = names(&text, &words.names);
+        all.extend(openings(&text, &words.rustdoc));
         found.extend(all.iter().map(|f| format!("{file}:{f}")));
-    });
+    }
     assert!(count > 500, "{count} sources");
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
@@ -186,15 +159,11 @@ fn names_are_words_of_the_field() {
 fn comments_and_messages_name_things_and_no_persons() {
     let refused = words().texts;
     let mut found = Vec::new();
-    each_source(|path, text| {
+    for (path, text) in sources_of_crates() {
         let lines: Vec<String> = text.lines().map(spoken).collect();
-        let file = path.display();
-        found.extend(
-            turns(&lines, refused.iter())
-                .iter()
-                .map(|f| format!("{file}:{f}")),
-        );
-    });
+        let all = turns(&lines, refused.iter()).into_iter();
+        found.extend(all.map(|f| format!("{}:{f}", path.display())));
+    }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
@@ -223,11 +192,10 @@ fn pages_state_what_is_so() {
 fn refused_words_are_found_at_their_lines() {
     let words = words();
     let code = "pub(crate) struct Felt<'a> {\n    felt: u8,\n}\nimpl Felt {\n    pub const fn of(x: u8) -> u8 {\n        x\n    }\n}\n";
-    let lines = |found: Vec<String>| -> Vec<String> {
+    let lines = |mut found: Vec<String>| {
+        let cut = |f: &mut String| f.truncate(f.find(';').unwrap_or(f.len()));
+        found.iter_mut().for_each(cut);
         found
-            .iter()
-            .map(|f| f.split(';').next().unwrap_or(f).to_string())
-            .collect()
     };
     let expected = ["1: the name `Felt`", "5: the name `of`"];
     assert_eq!(lines(names(code, &words.names)), expected);
@@ -235,19 +203,13 @@ fn refused_words_are_found_at_their_lines() {
                 It was\nonce empty.\n";
     let found = lines(turns(&prose(page), words.texts.iter()));
     assert_eq!(found, ["4: \"nobody\"", "10: \"was once\""]);
-    assert_eq!(
-        lines(starts(&prose(page), &words.starts)),
-        ["1: begins with \"What\""]
-    );
+    let found = lines(starts(&prose(page), &words.starts));
+    assert_eq!(found, ["1: begins with \"What\""]);
     let code = "//! How it works.\n\nstruct A {\n    /// A length, and\n    /// Where it is.\n    a: f64,\n    \
                 /// Whether it is.\n    ///\n    /// What is more, it may not be.\n    b: bool, // What it is.\n}\n";
-    assert_eq!(
-        lines(openings(code, &words.rustdoc)),
-        ["1: begins with \"How\"", "7: begins with \"Whether\""]
-    );
-    assert_eq!(
-        spoken("    let x = \"told by nobody\"; // nobody"),
-        "told by nobody"
-    );
+    let expected = ["1: begins with \"How\"", "7: begins with \"Whether\""];
+    assert_eq!(lines(openings(code, &words.rustdoc)), expected);
+    let code = "    let x = \"told by nobody\"; // nobody";
+    assert_eq!(spoken(code), "told by nobody");
     assert_eq!(spoken("    /// Nobody, by `nobody`."), "/ Nobody, by  .");
 }

@@ -86,9 +86,8 @@ impl<const D: usize> Bench<D> {
         let walls = wall.build(&setup(specs, spacing, &kernel, &domain));
         let walls: WallSet<D> = walls.expect("walls that are accepted");
         let mut free = Store::new(positions.len());
-        for field in [fields::POSITION, fields::VELOCITY] {
-            free.add(field, Role::State);
-        }
+        free.add(fields::POSITION, Role::State);
+        free.add(fields::VELOCITY, Role::State);
         for field in [fields::DENSITY, fields::VOLUME, fields::PRESSURE] {
             free.add(field, Role::State);
         }
@@ -199,13 +198,8 @@ pub fn over_a_flat_wall(name: &str, rows: usize, offset: f64) -> Bench<2> {
     let row = |k: usize| (0..16).map(move |i| [i as f64, k as f64]);
     let place = |[i, k]: [f64; 2]| Vect::<2>::new(0.5 * (i + offset), 0.5 * (k - offset));
     let positions = (1..=rows).flat_map(row).map(place).collect();
-    Bench::new(
-        name,
-        &[fixed_line(floor)],
-        0.5,
-        periodic_in_x(8.0),
-        positions,
-    )
+    let floor = [fixed_line(floor)];
+    Bench::new(name, &floor, 0.5, periodic_in_x(8.0), positions)
 }
 
 /// Numbers in [0, 1) that are the same at every run.

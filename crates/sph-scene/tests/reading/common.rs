@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sph_core::SceneProblem;
 use sph_scene::{Facets, Line, Scene, load};
+use tempfile::{TempDir, tempdir};
 
 /// Spacing of these scenes, m.
 pub const SPACING: f64 = 0.1;
@@ -20,6 +21,30 @@ pub fn scene(folder: &Path, dimension: usize, wall: &str) -> Scene {
     let file = folder.join("scene.toml");
     std::fs::write(&file, text).unwrap();
     load(&file, &[]).unwrap_or_else(|e| panic!("{e}")).scene
+}
+
+/// All these words, which ` | ` separates, stand in a text: those after `^` at its beginning.
+#[track_caller]
+pub fn says(text: &str, words: &str) {
+    let holds = |word: &str| match word.strip_prefix('^') {
+        Some(start) => text.starts_with(start),
+        None => text.contains(word),
+    };
+    let lacks = words.split(" | ").find(|w| !holds(w));
+    assert!(lacks.is_none(), "`{}` is not in: {text}", lacks.unwrap());
+}
+
+/// A number to a distance.
+#[track_caller]
+pub fn close(found: f64, expected: f64, distance: f64) {
+    assert!((found - expected).abs() < distance, "{found} {expected}");
+}
+
+/// A folder with one file.
+pub fn with(name: &str, content: impl AsRef<[u8]>) -> TempDir {
+    let folder = tempdir().unwrap();
+    std::fs::write(folder.path().join(name), content).unwrap();
+    folder
 }
 
 /// The lines of that wall.

@@ -1,5 +1,6 @@
 //! Where particles stand.
 
+use super::common::close;
 use sph_scene::{
     BodyParticles, Offset, Polygon, Region, Scene, Shape, disturb, estimate, fill, parse,
 };
@@ -40,10 +41,8 @@ fn a_box_has_rows_one_or_half_a_spacing_off_its_sides() {
 fn a_box_in_space_is_filled() {
     let body = [Region::whole(cuboid([0.0; 3], [0.4, 0.5, 0.6]))];
     assert_eq!(counts(&fill(&body, 0.1, Offset::Half, &[None; 3])), [120]);
-    assert_eq!(
-        counts(&fill(&body, 0.1, Offset::None, &[None; 3])),
-        [3 * 4 * 5]
-    );
+    let none = fill(&body, 0.1, Offset::None, &[None; 3]);
+    assert_eq!(counts(&none), [3 * 4 * 5]);
 }
 
 #[test]
@@ -116,11 +115,7 @@ fn a_drop_in_a_bath_leaves_no_ring_empty() {
     ];
     for offset in [Offset::None, Offset::Half] {
         let filled = fill(&bodies, 0.05, offset, &[None; 2]);
-        let edge = if offset == Offset::None {
-            39.0f64
-        } else {
-            40.0
-        };
+        let edge = 40.0 - f64::from(u8::from(offset == Offset::None));
         let share = counts(&filled).iter().sum::<usize>() as f64 / edge.powi(2);
         assert!((0.95..1.05).contains(&share), "{share}");
     }
@@ -138,10 +133,8 @@ fn layers_of_one_box_share_its_lattice() {
     let periodic = [Some([0.0, 1.0]), None];
     // 25 spacings across: 24 rows, the interface midway between two of them.
     let flat = layers("{ level = 0 }");
-    assert_eq!(
-        counts(&fill(&flat, 0.04, Offset::None, &periodic)),
-        [25 * 12; 2]
-    );
+    let even = fill(&flat, 0.04, Offset::None, &periodic);
+    assert_eq!(counts(&even), [25 * 12; 2]);
     // A row on the interface is there once.
     let odd = fill(&flat, 0.05, Offset::None, &periodic);
     assert_eq!(counts(&odd), [20 * 10, 20 * 9]);
@@ -166,10 +159,7 @@ fn an_ellipse_has_its_area() {
     assert_eq!(ellipse.bounds(), ([0.5, 1.7], [1.5, 2.3]));
     let filled = fill(&[Region::whole(ellipse)], 0.02, Offset::Half, &[None; 2]);
     let area = counts(&filled)[0] as f64 * 4e-4;
-    assert!(
-        (area / (0.15 * std::f64::consts::PI) - 1.0).abs() < 0.02,
-        "{area}"
-    );
+    close(area / (0.15 * std::f64::consts::PI), 1.0, 0.02);
 }
 
 #[test]
@@ -181,19 +171,14 @@ fn a_ball_keeps_its_distance_from_its_surface() {
     for (offset, least) in [(Offset::None, 0.05), (Offset::Half, 0.0)] {
         let filled = fill(&body, 0.1, offset, &[None; 3]);
         let depth = |x: &[f64; 3]| body[0].depth(x);
-        let least_found = filled[0]
-            .positions
-            .iter()
-            .map(depth)
-            .fold(f64::INFINITY, f64::min);
+        let depths = filled[0].positions.iter().map(depth);
+        let least_found = depths.fold(f64::INFINITY, f64::min);
         assert!(least_found >= least * (1.0 - 1e-5), "{least_found}");
         let volume = filled[0].positions.len() as f64 * 1e-3;
         let radius = 1.0 - least / 2.0;
         let exact = 4.0 / 3.0 * std::f64::consts::PI * f64::powi(radius, 3);
-        assert!(
-            (volume / exact - 1.0).abs() < 0.1,
-            "a lattice of 20 across: {volume} {exact}"
-        );
+        // A lattice of 20 across.
+        close(volume / exact, 1.0, 0.1);
     }
 }
 
@@ -206,12 +191,8 @@ fn a_huge_scene_is_counted_at_once() {
 #[test]
 fn disorder_stays_in_the_period() {
     let periodic = [Some([0.0, 1.0]), Some([0.0, 1.0])];
-    let mut filled = fill(
-        &[Region::whole(cuboid([0.0; 2], [1.0; 2]))],
-        0.1,
-        Offset::None,
-        &periodic,
-    );
+    let body = [Region::whole(cuboid([0.0; 2], [1.0; 2]))];
+    let mut filled = fill(&body, 0.1, Offset::None, &periodic);
     disturb(&mut filled, 0.1, 0.4, 1, &periodic);
     let inside = |x: &[f64; 2]| x.iter().all(|c| (0.0..1.0).contains(c));
     assert_eq!(counts(&filled), [100]);
@@ -284,7 +265,7 @@ fn solids_are_filled() {
         let body = [Region::whole(body)];
         let filled = fill(&body, 0.05, Offset::Half, &[None; 3]);
         let found = counts(&filled)[0] as f64 * 0.05f64.powi(3);
-        assert!((found / volume - 1.0).abs() < 0.06, "{found} {volume}");
+        close(found / volume, 1.0, 0.06);
     }
 }
 
@@ -296,18 +277,14 @@ fn solids_that_span_a_period_have_no_ends() {
         to: [2.0, 1.0, 1.0],
         radius: 0.55,
     });
-    let corners = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.0, 0.5]];
-    let across = Region::whole(Shape::Extrusion {
-        polygon: Polygon::new(corners),
-        axis: 1,
-        ends: [0.0, 1.0],
-    });
-    let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]];
-    let along = Region::whole(Shape::Extrusion {
-        polygon: Polygon::new(corners),
-        axis: 0,
-        ends: [0.0, 2.0],
-    });
+    let bar = |wide: f64, axis, long| {
+        let corners = vec![[0.0, 0.0], [wide, 0.0], [wide, 0.5], [0.0, 0.5]];
+        Region::whole(Shape::Extrusion {
+            polygon: Polygon::new(corners),
+            axis,
+            ends: [0.0, long],
+        })
+    };
     let at_the_end = |region: &Region<3>| {
         let filled = fill(std::slice::from_ref(region), 0.1, Offset::None, &periodic);
         let positions = &filled[0].positions;
@@ -316,6 +293,6 @@ fn solids_that_span_a_period_have_no_ends() {
         first
     };
     assert!(at_the_end(&pipe) > 60);
-    assert_eq!(at_the_end(&across), 9 * 4);
-    assert_eq!(at_the_end(&along), 9 * 4);
+    assert_eq!(at_the_end(&bar(2.0, 1, 1.0)), 9 * 4);
+    assert_eq!(at_the_end(&bar(1.0, 0, 2.0)), 9 * 4);
 }

@@ -1,6 +1,6 @@
 //! How walls move.
 
-use super::common::scene;
+use super::common::{says, scene};
 use sph_core::course::{Course, Translation};
 use sph_scene::{Courses, SlipCondition};
 use tempfile::tempdir;
@@ -25,10 +25,8 @@ fn constant_motions_are_courses_too() {
     let course = Course::Steady { speed: 5.0 };
     assert_eq!(found.translations, [along([0.6, 0.8], course)]);
     let rotation = found.rotation.unwrap();
-    assert_eq!(
-        (rotation.centre, rotation.axis),
-        ([1.0, 2.0], [0.0, 0.0, 1.0])
-    );
+    let about = ([1.0, 2.0], [0.0, 0.0, 1.0]);
+    assert_eq!((rotation.centre, rotation.axis), about);
     let speed = std::f64::consts::PI;
     assert_eq!(rotation.course, Course::Steady { speed });
     assert_eq!((found.start, found.stop), (0.5, 2.0));
@@ -82,16 +80,15 @@ fn courses_come_from_files() {
     ] {
         file(content);
         let told = courses(folder.path(), text).unwrap_err();
-        assert!(told.starts_with("wall.w.motion.translate.file: "), "{told}");
-        assert!(told.contains(message), "{told}");
+        says(
+            &told,
+            &format!("^wall.w.motion.translate.file: | {message}"),
+        );
     }
     std::fs::remove_file(folder.path().join("gate.csv")).unwrap();
     let turn = "rotate = { centre = [0, 0], file = \"gate.csv\" }";
     let told = courses(folder.path(), turn).unwrap_err();
-    assert!(
-        told.starts_with("wall.w.motion.rotate.file: cannot read"),
-        "{told}"
-    );
+    says(&told, "^wall.w.motion.rotate.file: cannot read");
 }
 
 #[test]
@@ -99,8 +96,6 @@ fn partial_slip_has_a_length() {
     let folder = tempdir().unwrap();
     let text = "box = [[0, 0], [1, 1]]\ncondition = \"partial-slip\"\nslip_length = \"2 cm\"";
     let wall = &scene(folder.path(), 2, text).wall["w"];
-    assert_eq!(
-        (wall.condition, wall.slip_length),
-        (SlipCondition::PartialSlip, Some(0.02))
-    );
+    let slip = (SlipCondition::PartialSlip, Some(0.02));
+    assert_eq!((wall.condition, wall.slip_length), slip);
 }

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use sph_scene::{Diagnostic, Loaded, Origin, Override, Refused, parse};
+use sph_scene::{Diagnostic, Loaded, Origin, Override, Refused, load, parse};
+
+use super::common::{says, with as folder_with};
 
 const SCENE: &str = r#"title = "Pool"
 dimension = 2
@@ -80,10 +82,8 @@ fn a_mistake_of_an_override_is_shown_in_the_override() {
         assert_eq!(diagnostic.origin, Origin::Override(1), "{diagnostic}");
         assert!(diagnostic.message.contains(message), "{diagnostic}");
         assert_eq!(text, set);
-        assert_eq!(
-            (diagnostic.file.as_str(), diagnostic.line, diagnostic.column),
-            ("--set", 1, 1)
-        );
+        let place = (diagnostic.file.as_str(), diagnostic.line, diagnostic.column);
+        assert_eq!(place, ("--set", 1, 1));
     }
 }
 
@@ -94,24 +94,17 @@ fn a_mistake_of_the_file_stays_in_the_file() {
     let refused = parse(&bad, "pool.toml", &[set]).unwrap_err();
     let diagnostic = &refused.diagnostics[0];
     assert_eq!((diagnostic.origin, diagnostic.line), (Origin::File, 4));
-    assert_eq!(
-        &refused.source.text_of(diagnostic)[diagnostic.span.clone()],
-        "end = -1"
-    );
+    let text = refused.source.text_of(diagnostic);
+    assert_eq!(&text[diagnostic.span.clone()], "end = -1");
 }
 
 #[test]
 fn only_an_override_may_name_an_absolute_path() {
-    let scene = with(&["reference.P1.file=/data/p1.csv"]).unwrap().scene;
-    assert_eq!(
-        scene.reference["P1"].path.as_deref(),
-        Some(Path::new("/data/p1.csv"))
-    );
-    let scene = with(&[]).unwrap().scene;
-    assert_eq!(
-        scene.reference["P1"].path.as_deref(),
-        Some(Path::new("scenes/p1.csv"))
-    );
+    let absolute: &[&str] = &["reference.P1.file=/data/p1.csv"];
+    for (sets, path) in [(absolute, "/data/p1.csv"), (&[], "scenes/p1.csv")] {
+        let scene = with(sets).unwrap().scene;
+        assert_eq!(scene.reference["P1"].path.as_deref(), Some(Path::new(path)));
+    }
 }
 
 #[test]
@@ -131,16 +124,18 @@ fn a_problem_found_later_is_shown_where_the_plugin_stands() {
 
 #[test]
 fn files_that_are_too_long_or_no_text_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, "# x\n".repeat(1 << 21)).unwrap();
-    let told = sph_scene::load(&path, &[]).unwrap_err().to_string();
-    assert!(told.contains("longer than 4 MiB"), "{told}");
-    std::fs::write(&path, [b'a', 0xff]).unwrap();
-    let told = sph_scene::load(&path, &[]).unwrap_err().to_string();
-    assert!(told.contains("byte 1, in line 1, is not UTF-8"), "{told}");
-    let told = sph_scene::load(&folder.path().join("none.toml"), &[])
-        .unwrap_err()
-        .to_string();
-    assert!(told.contains("cannot read"), "{told}");
+    let long = "# x\n".repeat(1 << 21);
+    for (name, content, told) in [
+        ("scene.toml", long.as_bytes(), "longer than 4 MiB"),
+        (
+            "scene.toml",
+            &b"a\xff"[..],
+            "byte 1, in line 1, is not UTF-8",
+        ),
+        ("other.toml", &b""[..], "cannot read"),
+    ] {
+        let file = folder_with(name, content);
+        let refused = load(&file.path().join("scene.toml"), &[]).unwrap_err();
+        says(&refused.to_string(), told);
+    }
 }

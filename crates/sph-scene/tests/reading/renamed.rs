@@ -2,6 +2,8 @@
 
 use sph_scene::{Loaded, Refused, parse};
 
+use super::common::says;
+
 fn read(numerics: &str, output: &str, probe: &str) -> Result<Loaded, Refused> {
     let text = format!(
         "title = \"t\"\ndimension = 2\nrun.end = 1\nnumerics = {{ spacing = 0.1, {numerics} }}\n\
@@ -49,8 +51,5 @@ fn former_names_are_read_with_a_remark_at_their_line() {
 fn a_key_under_both_names_is_refused() {
     let refused = read("disorder = 0.2, jitter = 0.1", "", "").expect_err("two values");
     let text = refused.to_string();
-    assert!(
-        text.contains("numerics.disorder: is the former name of `jitter`"),
-        "{text}"
-    );
+    says(&text, "numerics.disorder: is the former name of `jitter`");
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_scene::{Offset, estimate, fill, load, parse};
+use sph_scene::{Diagnostic, Offset, Scene, estimate, fill, load, parse};
 
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -14,26 +14,22 @@ fn files(folder: &str) -> Vec<PathBuf> {
     all
 }
 
+/// How many particles fill a scene, and how many are estimated.
+fn counted<const D: usize>(scene: &Scene) -> (usize, f64) {
+    let (bodies, spacing) = (scene.regions::<D>(), scene.numerics.spacing);
+    let periodic = scene.numerics.periodic.bounds();
+    let filled = fill(&bodies, spacing, Offset::Half, &periodic);
+    let count = filled.iter().map(|f| f.positions.len()).sum();
+    (count, estimate(&bodies, spacing))
+}
+
 #[test]
 fn good_scenes_load_and_fill_as_estimated() {
     for file in files("good") {
         let scene = load(&file, &[]).unwrap_or_else(|e| panic!("{e}")).scene;
-        let spacing = scene.numerics.spacing;
         let (filled, estimated) = match scene.dimension {
-            2 => {
-                let bodies = scene.regions::<2>();
-                let periodic = scene.numerics.periodic.bounds();
-                let filled = fill(&bodies, spacing, Offset::Half, &periodic);
-                let count = filled.iter().map(|f| f.positions.len()).sum::<usize>();
-                (count, estimate(&bodies, spacing))
-            }
-            _ => {
-                let bodies = scene.regions::<3>();
-                let periodic = scene.numerics.periodic.bounds();
-                let filled = fill(&bodies, spacing, Offset::Half, &periodic);
-                let count = filled.iter().map(|f| f.positions.len()).sum::<usize>();
-                (count, estimate(&bodies, spacing))
-            }
+            2 => counted::<2>(&scene),
+            _ => counted::<3>(&scene),
         };
         let name = file.display();
         assert!(
@@ -63,32 +59,29 @@ fn bad_scenes_are_told_every_mistake_at_its_line() {
     for file in files("bad") {
         let text = std::fs::read_to_string(&file).unwrap();
         for (number, case) in text.split("+++\n").enumerate() {
-            let name = format!(
-                "{} case {}",
-                file.file_name().unwrap().display(),
-                number + 1
-            );
+            let file = file.file_name().unwrap().display();
+            let name = format!("{file} case {}", number + 1);
             let expected = expectations(case);
             total += expected.len();
             let told = match parse(case, "bad.toml", &[]) {
                 Ok(_) => Vec::new(),
                 Err(refused) => refused.diagnostics,
             };
-            for (line, message) in &expected {
-                let hit = told
-                    .iter()
-                    .any(|d| d.line == *line && d.message.contains(message));
-                if !hit {
-                    wrong.push(format!("{name}: nobody says `{message}` at line {line}"));
-                }
+            let meets = |d: &Diagnostic, (line, message): &(usize, String)| {
+                d.line == *line && d.message.contains(message)
+            };
+            for expected in expected
+                .iter()
+                .filter(|e| !told.iter().any(|d| meets(d, e)))
+            {
+                let (line, message) = expected;
+                wrong.push(format!("{name}: nobody says `{message}` at line {line}"));
             }
-            for d in &told {
-                let hit = expected
-                    .iter()
-                    .any(|(l, m)| d.line == *l && d.message.contains(m));
-                if !hit {
-                    wrong.push(format!("{name}: unexpected {d}"));
-                }
+            for d in told
+                .iter()
+                .filter(|d| !expected.iter().any(|e| meets(d, e)))
+            {
+                wrong.push(format!("{name}: unexpected {d}"));
             }
         }
     }

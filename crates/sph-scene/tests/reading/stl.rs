@@ -3,10 +3,10 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use super::common::facets;
+use super::common::{close, facets, says, with};
 use sph_scene::Facets;
 use stl_io::{Normal, Triangle, Vertex, write_stl};
-use tempfile::{TempDir, tempdir};
+use tempfile::tempdir;
 
 /// A box of 1 m with outward normals, as an STL file of millimetres has it.
 fn cube(folder: &Path) -> Vec<Triangle> {
@@ -39,28 +39,18 @@ fn ascii(name: &str, triangles: &[Triangle]) -> String {
     format!("SOLID{name}\n{all}endsolid{name}\n")
 }
 
-/// A folder with that file, and the cube.
-fn with(bytes: &[u8]) -> TempDir {
-    let folder = tempdir().unwrap();
-    std::fs::write(folder.path().join("part.stl"), bytes).unwrap();
-    folder
-}
-
 const PART: &str = "file = \"part.stl\"\nunit = \"mm\"";
 
-fn refused(bytes: &[u8], wall: &str) -> String {
-    let problem = facets(with(bytes).path(), wall).unwrap_err();
+#[track_caller]
+fn refused(bytes: impl AsRef<[u8]>, wall: &str, words: &str) {
+    let problem = facets(with("part.stl", bytes).path(), wall).unwrap_err();
     assert!(problem.path.starts_with("wall.w."), "{problem}");
-    problem.to_string()
+    says(&problem.to_string(), words);
 }
 
 fn is_the_cube(surface: &Facets, volume: f64) {
     assert_eq!((surface.points.len(), surface.triangles.len()), (8, 12));
-    assert!(
-        (surface.volume() - volume).abs() < 1e-6,
-        "{}",
-        surface.volume()
-    );
+    close(surface.volume(), volume, 1e-6);
 }
 
 #[test]
@@ -71,7 +61,7 @@ fn binary_and_ascii_files_are_the_same_surface() {
     solid[..14].copy_from_slice(b"solid of a CAD");
     let halves = ascii(" a b", &cube[..5]) + &ascii("", &cube[5..]);
     for bytes in [binary(&cube), solid, ascii("", &cube).into(), halves.into()] {
-        let folder = with(&bytes);
+        let folder = with("part.stl", &bytes);
         is_the_cube(&facets(folder.path(), PART).unwrap(), 1.0);
     }
 }
@@ -80,15 +70,10 @@ fn binary_and_ascii_files_are_the_same_surface() {
 fn the_fluid_is_on_the_side_that_is_asked_for() {
     let folder = tempdir().unwrap();
     let cube = cube(folder.path());
-    let inside_out: Vec<Triangle> = cube
-        .iter()
-        .map(|t| Triangle {
-            normal: t.normal,
-            vertices: [t.vertices[0], t.vertices[2], t.vertices[1]],
-        })
-        .collect();
+    let mut inside_out = cube.clone();
+    inside_out.iter_mut().for_each(|t| t.vertices.swap(1, 2));
     for (given, drawn) in [(&cube, 1.0), (&inside_out, -1.0)] {
-        let folder = with(&binary(given));
+        let folder = with("part.stl", binary(given));
         let of = |fluid: &str| facets(folder.path(), &format!("{PART}\n{fluid}")).unwrap();
         is_the_cube(&of(""), drawn);
         is_the_cube(&of("fluid = \"as-drawn\""), drawn);
@@ -96,26 +81,21 @@ fn the_fluid_is_on_the_side_that_is_asked_for() {
         is_the_cube(&of("fluid = \"inside\""), -1.0);
     }
     // What an open surface winds around most is its inside; a flat one has none.
-    for (given, side, sense) in [
-        (&cube, "outside", 1.0),
-        (&cube, "inside", -1.0),
-        (&inside_out, "outside", 1.0),
-        (&inside_out, "inside", -1.0),
-    ] {
-        let folder = with(&binary(&given[1..]));
-        let sided = facets(folder.path(), &format!("{PART}\nfluid = \"{side}\"")).unwrap();
-        let found = sph_scene::sense(&sided);
-        assert!(sense * found > 0.3, "{side}: {found}");
+    for given in [&cube, &inside_out] {
+        let folder = with("part.stl", binary(&given[1..]));
+        for (side, sense) in [("outside", 1.0), ("inside", -1.0)] {
+            let sided = facets(folder.path(), &format!("{PART}\nfluid = \"{side}\"")).unwrap();
+            let found = sph_scene::sense(&sided);
+            assert!(sense * found > 0.3, "{side}: {found}");
+        }
     }
-    let told = refused(&binary(&cube[..2]), &format!("{PART}\nfluid = \"inside\""));
-    assert!(
-        told.starts_with("wall.w.fluid: ") && told.contains("1 openings (4 edges, "),
-        "{told}"
-    );
+    let inside = format!("{PART}\nfluid = \"inside\"");
+    let told = "^wall.w.fluid: | 1 openings (4 edges, ";
+    refused(binary(&cube[..2]), &inside, told);
     let mut odd = cube.clone();
     odd[4].normal = Normal::new([0.0, 1.0, 0.0]);
     odd[5].normal = Normal::new([0.0, -1.0, 0.0]);
-    assert!(refused(&binary(&odd), PART).contains("the normal of facet"));
+    refused(binary(&odd), PART, "the normal of facet");
 }
 
 #[test]
@@ -123,36 +103,34 @@ fn broken_files_are_refused_with_the_facet() {
     let folder = tempdir().unwrap();
     let cube = cube(folder.path());
     let whole = binary(&cube);
-    assert!(refused(&whole[..whole.len() - 20], PART).contains("12 facets and ends after 11"));
-    assert!(refused(&whole[..60], PART).contains("has 60 bytes"));
-    let mut huge = whole.clone();
-    huge[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
-    assert!(refused(&huge, PART).contains("declares 4294967295 facets, more than 5000000"));
-    assert!(refused(b"", PART).contains("is empty"));
-    assert!(
-        refused(
-            &whole[..80]
-                .iter()
-                .copied()
-                .chain([0; 4])
-                .collect::<Vec<_>>(),
-            PART
-        )
-        .contains("holds no facets")
-    );
-    assert!(refused(b"solid\nendsolid\n", PART).contains("holds no facets"));
+    let counting = |count: u32| [&whole[..80], &count.to_le_bytes(), &whole[84..]].concat();
     let mut infinite = cube.clone();
     infinite[3].vertices[1] = Vertex::new([f32::NAN, 0.0, 0.0]);
-    let told = refused(&binary(&infinite), PART);
-    assert!(
-        told.contains("facet 4: expected finite coordinates, found NaN"),
-        "{told}"
-    );
-    assert!(refused(ascii("", &infinite).as_bytes(), PART).contains("facet 4: expected finite"));
-    let text = ascii("", &cube);
-    assert!(refused(&text.as_bytes()[..text.len() - 40], PART).contains("`endsolid` is missing"));
-    let odd = text.replacen("outer loop", "inner loop", 1);
-    assert!(refused(odd.as_bytes(), PART).contains("facet 1: expected"));
+    let text = ascii("", &cube).into_bytes();
+    let odd = ascii("", &cube).replacen("outer loop", "inner loop", 1);
+    for (bytes, told) in [
+        (
+            whole[..whole.len() - 20].to_vec(),
+            "12 facets and ends after 11",
+        ),
+        (whole[..60].to_vec(), "has 60 bytes"),
+        (
+            counting(u32::MAX),
+            "declares 4294967295 facets, more than 5000000",
+        ),
+        (Vec::new(), "is empty"),
+        (counting(0)[..84].to_vec(), "holds no facets"),
+        (b"solid\nendsolid\n".to_vec(), "holds no facets"),
+        (
+            binary(&infinite),
+            "facet 4: expected finite coordinates, found NaN",
+        ),
+        (ascii("", &infinite).into(), "facet 4: expected finite"),
+        (text[..text.len() - 40].to_vec(), "`endsolid` is missing"),
+        (odd.into(), "facet 1: expected"),
+    ] {
+        refused(bytes, PART, told);
+    }
     let missing = facets(tempdir().unwrap().path(), PART).unwrap_err();
     assert!(missing.to_string().contains("cannot read"));
     let folder = tempdir().unwrap();
@@ -165,31 +143,40 @@ fn broken_files_are_refused_with_the_facet() {
 fn a_size_that_does_not_fit_the_spacing_asks_for_the_unit() {
     let folder = tempdir().unwrap();
     let whole = binary(&cube(folder.path()));
-    let told = refused(&whole, "file = \"part.stl\"\nscale = 10");
-    assert!(
-        told.contains("is the factor from `unit` or `scale` right?"),
-        "{told}"
-    );
-    let large: Vec<Triangle> = cube(folder.path())
-        .iter()
-        .map(|t| Triangle {
-            vertices: t.vertices.map(|v| Vertex::new(v.0.map(|c| 2.0 * c))),
-            ..*t
-        })
-        .collect();
-    let told = refused(&binary(&large), "file = \"part.stl\"");
-    assert!(
-        told.contains("are the coordinates in millimetres? give `unit = \"mm\"`"),
-        "{told}"
-    );
-    let told = refused(&whole, "file = \"part.stl\"\nunit = \"um\"");
-    assert!(told.contains("less than 2 spacings of 0.1 m"), "{told}");
-    let ball = "sphere = { centre = [0, 0, 0], radius = \"1 um\" }";
-    let told = facets(folder.path(), ball).unwrap_err().to_string();
-    assert!(told.starts_with("wall.w.sphere: ") && told.contains("take a smaller spacing"));
-    let ball = "sphere = { centre = [0, 0, 0], radius = \"1e9 km\" }";
-    let told = facets(folder.path(), ball).unwrap_err().to_string();
-    assert!(told.contains("take a larger spacing"), "{told}");
+    let mut large = cube(folder.path());
+    let doubled = |v: Vertex| Vertex::new(v.0.map(|c| 2.0 * c));
+    large
+        .iter_mut()
+        .for_each(|t| t.vertices = t.vertices.map(doubled));
+    for (bytes, wall, told) in [
+        (
+            &whole,
+            "file = \"part.stl\"\nscale = 10",
+            "is the factor from `unit` or `scale` right?",
+        ),
+        (
+            &binary(&large),
+            "file = \"part.stl\"",
+            "are the coordinates in millimetres? give `unit = \"mm\"`",
+        ),
+        (
+            &whole,
+            "file = \"part.stl\"\nunit = \"um\"",
+            "less than 2 spacings of 0.1 m",
+        ),
+        (
+            &whole,
+            "sphere = { centre = [0, 0, 0], radius = \"1 um\" }",
+            "^wall.w.sphere: | take a smaller spacing",
+        ),
+        (
+            &whole,
+            "sphere = { centre = [0, 0, 0], radius = \"1e9 km\" }",
+            "take a larger spacing",
+        ),
+    ] {
+        refused(bytes, wall, told);
+    }
 }
 
 #[test]
@@ -225,21 +212,13 @@ fn shapes_are_closed_unless_left_open_and_hold_the_fluid() {
         ),
     ] {
         let surface = of(wall);
-        assert!(
-            (surface.volume() + volume).abs() < 1e-9,
-            "{wall}: {}",
-            surface.volume()
-        );
+        close(surface.volume(), -volume, 1e-9);
         assert_eq!(surface.triangles.len(), triangles, "{wall}");
         let outside = of(&format!("{wall}\nfluid = \"outside\""));
-        assert!((outside.volume() - volume).abs() < 1e-9, "{wall}");
+        close(outside.volume(), volume, 1e-9);
     }
-    assert_eq!(
-        of("box = [[0, 0, 0], [1, 1, 1]]\nopen = [\"z+\", \"x-\"]")
-            .triangles
-            .len(),
-        8
-    );
+    let open = of("box = [[0, 0, 0], [1, 1, 1]]\nopen = [\"z+\", \"x-\"]");
+    assert_eq!(open.triangles.len(), 8);
     let pipe = of(
         "cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 1, sides = 6, open_ends = true }",
     );

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_tests::Bench;
 
-use crate::bodies::{PROGRAM, reals, states};
+use crate::bodies::{PROGRAM, states};
 
 /// A box that is shot through a fluid without borders, and turns.
 const SHOT: &str = r#"
@@ -40,16 +40,12 @@ vtk = false
 
 /// Momentum of the fluid and of the box, kg m/s.
 fn momenta(bench: &Bench, folder: &str) -> [[f64; 2]; 2] {
-    let folder = bench.path(folder);
-    let mass = reals(&folder, "mass");
-    let velocity = reals(&folder, "velocity");
+    let [mass, velocity] = ["mass", "velocity"].map(|name| bench.state(folder).reals(name));
     let of = |k: usize| {
-        mass.iter()
-            .enumerate()
-            .map(|(i, m)| m * velocity[2 * i + k])
-            .sum::<f64>()
+        let all = mass.iter().enumerate();
+        all.map(|(i, m)| m * velocity[2 * i + k]).sum::<f64>()
     };
-    let state = states::<2>(&folder)[0];
+    let state = states::<2>(&bench.path(folder))[0];
     let body = 300.0 * 0.12;
     [
         std::array::from_fn(of),
@@ -65,16 +61,12 @@ fn fluid_and_body_together_keep_their_momentum_to_rounding() {
         ("dummies", " --set walls={\"dummy-particles\"={}}"),
     ] {
         let bench = Bench::with(PROGRAM, SHOT);
-        bench.done(&format!(
-            "run scene.toml --quiet --out r --threads 1{changes}"
-        ));
+        let run = "run scene.toml --quiet --out r --threads 1";
+        bench.done(&format!("{run}{changes}"));
         let [fluid, body] = momenta(&bench, "r");
         let start = [36.0, 36.0 * 0.3];
         let given = (fluid[0] / start[0]).abs();
-        assert!(
-            given > 0.3,
-            "{name}: the fluid took {given} of the momentum"
-        );
+        assert!(given > 0.3, "{name}: the fluid took {given} of it");
         for k in 0..2 {
             let lost = (fluid[k] + body[k] - start[k]).abs() / start[0];
             assert!(
@@ -123,29 +115,20 @@ fn in_space_momentum_stays_to_rounding_as_well() {
     let bench = Bench::with(PROGRAM, BRICK);
     bench.done("run scene.toml --quiet --out r --threads 1");
     let folder = bench.path("r");
-    let (mass, velocity) = (reals(&folder, "mass"), reals(&folder, "velocity"));
+    let [mass, velocity] = ["mass", "velocity"].map(|name| bench.state("r").reals(name));
     let state = states::<3>(&folder)[0];
     let body = 300.0 * 0.4 * 0.5 * 0.3;
     for (k, start) in [1.0, 0.3, -0.2].into_iter().enumerate() {
-        let of = mass
-            .iter()
-            .enumerate()
-            .map(|(i, m)| m * velocity[3 * i + k]);
-        let fluid: f64 = of.sum();
+        let all = mass.iter().enumerate();
+        let fluid: f64 = all.map(|(i, m)| m * velocity[3 * i + k]).sum();
         let lost = (fluid + body * (state.velocity[k] - start)).abs() / body;
         assert!(
             lost < 1e-11,
             "{lost:e} of the momentum along axis {k} is lost"
         );
     }
-    assert!(
-        state.velocity[0] < 0.9,
-        "the fluid took nothing: {}",
-        state.velocity[0]
-    );
+    let speed = state.velocity[0];
+    assert!(speed < 0.9, "the fluid took nothing: {speed}");
     let spin = Vect::<3>::from(state.angular_velocity).norm();
-    assert!(
-        spin < 0.95 * 5.25_f64.sqrt(),
-        "nothing slows its turn: {spin} rad/s"
-    );
+    assert!(spin < 0.95 * 5.25_f64.sqrt(), "{spin} rad/s are left");
 }

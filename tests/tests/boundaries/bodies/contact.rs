@@ -1,7 +1,6 @@
 //! Bodies that meet walls and each other, away from the fluid.
 
-use sph_io::read_table;
-use sph_tests::Bench;
+use sph_tests::{Bench, close, near};
 
 use crate::bodies::{PROGRAM, states};
 
@@ -65,11 +64,8 @@ fn a_box_that_falls_bounces_to_the_square_of_its_restitution() {
     bench.done(&format!(
         "run scene.toml --quiet --out r --threads 1 --set run.end=0.6 {ONE}.restitution=0.5"
     ));
-    let series = read_table(bench.path("r/series.csv")).expect("a series");
-    let (time, height) = (
-        series.column("time").expect("t"),
-        series.column("one.y").expect("y"),
-    );
+    let series = bench.series("r");
+    let (time, height) = (series.column("time"), series.column("one.y"));
     let down = height.iter().position(|y| *y < -0.48).expect("it falls");
     let (top, at) = (height.iter().zip(time).skip(down)).fold((-1.0, 0.0), |best, (y, t)| {
         if *y > best.0 { (*y, *t) } else { best }
@@ -77,15 +73,9 @@ fn a_box_that_falls_bounces_to_the_square_of_its_restitution() {
     // It meets the floor at a spacing, where it rests.
     let fall: f64 = 0.51 - 0.02;
     let left = ((top + fall) / fall).sqrt();
-    assert!(
-        (left - 0.5).abs() < 0.02,
-        "{left:.3} of the velocity is left"
-    );
+    close(left, 0.5, 0.02, "share of the velocity that is left");
     let expected = (2.0 * fall / 9.81).sqrt() * (1.0 + left);
-    assert!(
-        (at / expected - 1.0).abs() < 0.03,
-        "at {at:.3} s for {expected:.3} s"
-    );
+    near(at, expected, 0.03, "s of the top");
     let turned = states::<2>(&bench.path("r"))[0].angular_velocity[2];
     assert!(turned.abs() < 1e-6, "it turns with {turned:e} rad/s");
 }

@@ -1,9 +1,8 @@
 //! How the force on a wall answers the acceleration that its pressures feel.
 
 use sph_boundary::{Load, Mover, MoverEntry, RigidState};
-use sph_core::{System, plugin};
-use sph_particles::setup::assemble;
-use sph_scene::{Override, parse};
+use sph_core::plugin;
+use sph_tests::{evaluated, scene};
 
 /// A wall that stays, whose pressures feel an acceleration along y all the same.
 #[plugin(MoverEntry [2], "still", "stays and feels an acceleration", source: "the tests")]
@@ -51,20 +50,11 @@ fill = "walls"
 
 /// Force on the block along y, N.
 fn force(acceleration: f64, walls: &str) -> f64 {
-    let changes = [
-        format!("wall.block.mover.still.acceleration={acceleration}"),
-        format!("walls={walls}"),
-    ];
-    let changes: Vec<_> = (changes.iter())
-        .map(|c| Override::parse(c).unwrap())
-        .collect();
-    let loaded = parse(BLOCK, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().expect("forces");
-    parts
-        .flow
-        .measure_wall_forces(|name| name == "block")
-        .expect("a force");
+    let acceleration = format!("wall.block.mover.still.acceleration={acceleration}");
+    let walls = format!("walls={walls}");
+    let mut parts = evaluated::<2>(&scene(BLOCK, &[&acceleration, &walls]));
+    let measured = parts.flow.measure_wall_forces(|name| name == "block");
+    measured.expect("a force");
     let names = &parts.flow.world.walls.names;
     let block = names.iter().position(|n| n == "block").expect("a block");
     parts.flow.world.walls.forces[block].force[1]

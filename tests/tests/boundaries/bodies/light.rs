@@ -1,6 +1,5 @@
 //! Bodies much lighter than the fluid that they push away.
 
-use sph_io::read_table;
 use sph_tests::Bench;
 
 use crate::bodies::{FLOAT, PROGRAM};
@@ -18,9 +17,9 @@ fn boxes_a_tenth_and_a_fiftieth_as_heavy_as_water_swing_about_their_draught() {
              --set phase.water.rheology.newtonian.viscosity=10 --set output.series_every=0.01",
             1000.0 * ratio
         ));
-        let series = read_table(bench.path("r/series.csv")).expect("a series");
-        let height = series.column("float.y").expect("a height");
-        let time = series.column("time").expect("a time");
+        let series = bench.series("r");
+        let height = series.column("float.y");
+        let time = series.column("time");
         // Water of 0.8 m less the box is 0.196 m², of which the box displaces `ratio` of itself.
         let level = (0.196 + 0.02 * ratio) / 0.8;
         let draught = level - 0.1 * ratio - 0.2;

@@ -12,7 +12,7 @@ mod resumed;
 use std::path::Path;
 
 use sph_boundary::RigidState;
-use sph_io::{Checkpoint, ColumnData};
+use sph_tests::FinalState;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -59,22 +59,8 @@ vtk = false
 
 /// The states of all bodies at the end of a run, in the order of their names.
 fn states<const D: usize>(folder: &Path) -> Vec<RigidState<D>> {
-    let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
-    match &checkpoint.column("wall_states").expect("states").data {
-        ColumnData::F64(numbers) => {
-            let parts = numbers.chunks(RigidState::<D>::NUMBERS);
-            let state = |part| RigidState::from_numbers(part).expect("a state");
-            parts.map(state).collect()
-        }
-        other => panic!("{other:?}"),
-    }
-}
-
-/// A column of reals of the checkpoint.
-fn reals(folder: &Path, name: &str) -> Vec<f64> {
-    let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
-    match checkpoint.column(name).map(|c| c.data.clone()) {
-        Some(ColumnData::F64(values)) => values,
-        other => panic!("{name}: {other:?}"),
-    }
+    let numbers = FinalState::read(folder).reals("wall_states");
+    let parts = numbers.chunks(RigidState::<D>::NUMBERS);
+    let state = |part| RigidState::from_numbers(part).expect("a state");
+    parts.map(state).collect()
 }

@@ -1,6 +1,5 @@
 //! A body on a chain.
 
-use sph_io::read_table;
 use sph_tests::Bench;
 
 use crate::bodies::{FLOAT, PROGRAM};
@@ -16,8 +15,8 @@ fn the_probe_tells_the_tension_of_the_closed_form_and_the_chain_holds_the_box() 
     let scene = scene.replacen("[output]", probe, 1);
     let bench = Bench::with(PROGRAM, &scene);
     bench.done("run scene.toml --quiet --out r --threads 1");
-    let series = read_table(bench.path("r/series.csv")).expect("a series");
-    let column = |name: &str| series.column(name).expect("a column");
+    let series = bench.series("r");
+    let column = |name: &str| series.column(name);
     let exact = [
         ("bow.x", -0.1),
         ("bow.y", -5.0 * 0.21908902),

@@ -1,6 +1,6 @@
 //! The same bits for any number of threads and after an interruption.
 
-use sph_tests::{Bench, FinalState};
+use sph_tests::Bench;
 
 use crate::bodies::{FLOAT, PROGRAM};
 
@@ -19,33 +19,12 @@ fn bodies_are_threaded_and_resumed_bit_for_bit() {
                  stiffness = 2000.0\ndamping = 20.0\n"
             ),
         );
+        let one = bench.same_bits(&scheme, 101);
         bench.done(&format!(
-            "run scene.toml --quiet --out one --threads 1 {scheme}"
+            "run scene.toml --quiet --out four --threads 4 {scheme}"
         ));
-        for threads in [2, 4] {
-            bench.done(&format!(
-                "run scene.toml --quiet --out more --threads {threads} {scheme}"
-            ));
-            let more = FinalState::read(&bench.path("more"));
-            FinalState::read(&bench.path("one")).assert_same(&more, integrator);
-        }
-        let part = format!("run scene.toml --quiet --out parts {scheme}");
-        let stopped = bench.call(&format!("{part} --threads 1 --set run.max_steps=101"));
-        assert!(stopped.code.is_some(), "{}", stopped.err);
-        bench.done(&format!("{part} --threads 2 --resume --changed"));
-        let whole = FinalState::read(&bench.path("one"));
-        let parts = FinalState::read(&bench.path("parts"));
-        assert_eq!(
-            whole.columns["wall_states"], parts.columns["wall_states"],
-            "{integrator}"
-        );
-        whole.assert_same(&parts, integrator);
-        let series = sph_io::read_table(bench.path("one/series.csv")).expect("a series");
-        let way = series.column("float.x").expect("a way");
-        let pushed = way.last().expect("rows").abs();
-        assert!(
-            pushed > 1e-3,
-            "{integrator}: the boxes did not meet, {pushed} m"
-        );
+        one.assert_same(&bench.state("four"), integrator);
+        let pushed = bench.series("one").last("float.x").abs();
+        assert!(pushed > 1e-3, "the boxes did not meet, {pushed} m");
     }
 }

@@ -1,7 +1,6 @@
 //! Velocities that are damped: everywhere, in a sponge, for a while.
 
-use sph_io::read_table;
-use sph_tests::{Bench, PERIODIC};
+use sph_tests::{Bench, PERIODIC, close};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -11,8 +10,8 @@ fn momenta(damping: &str, overrides: &str) -> Vec<[f64; 2]> {
     let scene = PERIODIC.replace("every = 0.1", every) + "\n[damping.rayleigh]\n" + damping;
     let bench = Bench::with(PROGRAM, &scene);
     bench.done(&format!("run scene.toml --quiet --out r {overrides}"));
-    let series = read_table(bench.path("r/series.csv")).expect("a series");
-    let column = |name: &str| series.column(name).unwrap_or_else(|| panic!("no {name}"));
+    let series = bench.series("r");
+    let column = |name: &str| series.column(name);
     let both = column("time").iter().zip(column("momentum.x"));
     both.map(|(t, p)| [*t, *p]).collect()
 }
@@ -42,10 +41,11 @@ fn it_ends_when_it_is_told_and_leaves_the_velocity_that_it_is_told() {
     let start = rows[0][1];
     let [_, end] = rows[rows.len() - 1];
     // ΓΔt is some thousand: one step leaves a thousandth of the difference, two a millionth.
-    assert!(
-        (end / start - 0.25).abs() < 1e-6,
-        "{} of the momentum is left",
-        end / start
+    close(
+        end / start,
+        0.25,
+        1e-6,
+        "share of the momentum that is left",
     );
     let late = rows.iter().filter(|row| row[0] > 0.06).map(|row| row[1]);
     let drift = late.map(|p| (p / end - 1.0).abs()).fold(0.0, f64::max);
@@ -82,9 +82,7 @@ fn invalid_damping_is_refused_at_its_line() {
     ] {
         let scene = format!("{PERIODIC}\n[damping.rayleigh]\n{damping}");
         let bench = Bench::with(PROGRAM, &scene);
-        let outcome = bench.call("run scene.toml --quiet --out r");
-        assert_eq!(outcome.code, Some(2), "{damping}{}", outcome.err);
-        assert!(outcome.err.contains(said), "{damping}{}", outcome.err);
+        bench.refused("run scene.toml --quiet --out r").says(said);
         assert!(
             !bench.path("r").exists(),
             "{damping}: something was written"

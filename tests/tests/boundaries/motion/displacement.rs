@@ -1,36 +1,17 @@
 //! The way of every particle since the start: across periodic borders, and only where somebody asks
 //! for it.
 
-use std::path::Path;
-
-use sph_io::{Checkpoint, ColumnData};
-use sph_tests::{Bench, PERIODIC};
+use sph_tests::{Bench, FinalState, PERIODIC};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 const ASKED: &str = "--set output.fields=[\"displacement\"]";
 
-fn reals(folder: &Path, name: &str) -> Vec<f64> {
-    let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
-    match checkpoint.column(name).map(|c| c.data.clone()) {
-        Some(ColumnData::F64(values)) => values,
-        other => panic!("{name}: {other:?}"),
-    }
-}
-
-fn identities(folder: &Path) -> Vec<u32> {
-    let checkpoint = Checkpoint::load(folder.join("checkpoint.sph")).expect("a checkpoint");
-    match checkpoint.column("identity").map(|c| c.data.clone()) {
-        Some(ColumnData::U32(values)) => values,
-        other => panic!("identity: {other:?}"),
-    }
-}
-
 /// Positions in the order of identity.
-fn placed(folder: &Path, name: &str) -> Vec<[f64; 2]> {
-    let values = reals(folder, name);
+fn placed(state: &FinalState, name: &str) -> Vec<[f64; 2]> {
+    let values = state.reals(name);
     let mut found = vec![[0.0; 2]; values.len() / 2];
-    for (k, id) in identities(folder).into_iter().enumerate() {
-        found[id as usize] = [values[2 * k], values[2 * k + 1]];
+    for (k, id) in state.columns["identity"].iter().enumerate() {
+        found[*id as usize] = [values[2 * k], values[2 * k + 1]];
     }
     found
 }
@@ -42,7 +23,7 @@ fn it_is_the_way_across_periodic_borders_and_costs_nothing_unasked() {
         "run scene.toml --quiet --out start {ASKED} --set run.end=1e-9"
     ));
     bench.done(&format!("run scene.toml --quiet --out end {ASKED}"));
-    let [start, end] = ["start", "end"].map(|out| bench.path(out));
+    let [start, end] = ["start", "end"].map(|out| bench.state(out));
     let way = placed(&end, "displacement");
     let (from, to) = (placed(&start, "position"), placed(&end, "position"));
     let mut around = 0;
@@ -66,16 +47,7 @@ fn it_is_the_way_across_periodic_borders_and_costs_nothing_unasked() {
         "nobody crossed a border; the longest way is {longest} m"
     );
     bench.done("run scene.toml --quiet --out without");
-    let without = Checkpoint::load(bench.path("without").join("checkpoint.sph"));
-    assert!(
-        without
-            .expect("a checkpoint")
-            .column("displacement")
-            .is_none()
-    );
-    assert_eq!(
-        placed(&bench.path("without"), "position"),
-        to,
-        "asking changes nothing"
-    );
+    let without = bench.state("without");
+    assert!(!without.columns.contains_key("displacement"));
+    assert_eq!(placed(&without, "position"), to, "asking changes nothing");
 }

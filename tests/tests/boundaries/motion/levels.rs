@@ -58,21 +58,8 @@ fn a_floor_follows_its_table_and_the_water_the_floor() {
         series == bench.read("again/series.csv"),
         "another result on two threads"
     );
-    let mut rows = series.lines();
-    let names: Vec<&str> = rows.next().expect("a heading").split(',').collect();
-    let last: Vec<f64> = rows
-        .last()
-        .expect("a row")
-        .split(',')
-        .map(|n| n.parse().unwrap_or(0.0))
-        .collect();
-    let at = |name: &str| {
-        last[names
-            .iter()
-            .position(|n| n.starts_with(name))
-            .expect("a column")]
-    };
-    let difference = at("left[") - at("right[");
+    let series = bench.series("r");
+    let difference = series.last("left") - series.last("right");
     // ρ g 16 mm, and a tenth of a spacing of water for the particles, whose surface is known no better.
     let (wanted, bound) = (1000.0 * 9.81 * 0.016, 1000.0 * 9.81 * 0.001);
     assert!(
@@ -103,8 +90,6 @@ fn tables_that_do_not_fit_are_told_with_the_nearest_name() {
         let wrong = SCENE.replacen(from, to, 1);
         assert_ne!(wrong, SCENE, "{from}");
         bench.write("wrong.toml", &wrong);
-        let outcome = bench.call("check wrong.toml");
-        assert_eq!(outcome.code, Some(2), "{told}: {}", outcome.err);
-        assert!(outcome.err.contains(told), "{told}: {}", outcome.err);
+        bench.refused("check wrong.toml").says(told);
     }
 }

@@ -1,6 +1,6 @@
 //! Output times are reached with every formulation, whatever the last digit of the clock.
 
-use sph_tests::{Bench, FinalState, PERIODIC};
+use sph_tests::{Bench, PERIODIC};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -15,7 +15,7 @@ fn a_drift_in_halves_does_not_stop_short_of_an_output() {
              --set output.every={every} --set formulation={{\"colagrossi-landrini\"={{}}}}"
         );
         bench.done(&words);
-        let series = FinalState::read(&bench.path(every)).series;
+        let series = bench.state(every).series;
         let last = series.lines().last().expect("a row").to_string();
         assert!(last.starts_with("0.4,"), "every {every}: {last}");
     }

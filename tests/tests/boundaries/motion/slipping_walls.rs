@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use sph_core::{Stage, Symmetric, System, Vect, fields};
+use sph_core::{Stage, Symmetric, Vect, fields};
 use sph_neighbours::interactions;
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::parse;
+use sph_particles::setup::Assembled;
 use sph_soil::stress::{GradientStage, Renormalised, StressDivergence};
+use sph_tests::{evaluated, scene};
 
 /// A periodic layer of shaken particles, 12 rows on a smooth floor.
 fn layer() -> Assembled<2> {
@@ -35,10 +35,7 @@ fn layer() -> Assembled<2> {
         phase = "rubber"
         box = [[0.0, 0.0], [2.0, 1.2]]
     "#;
-    let loaded = parse(text, "layer.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().expect("a state");
-    parts
+    evaluated(&scene(text, &[]))
 }
 
 /// u = (3y, −2y) over a floor at rest: the floor stops the second and does not know the first.

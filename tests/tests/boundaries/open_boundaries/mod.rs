@@ -1,30 +1,17 @@
 //! Fluid that comes in and goes out through walls, `[wall.NAME.open-boundary.PLUGIN]`.
 
 mod current;
+mod in_space;
 mod pulse;
 mod still_water;
-
-use std::path::Path;
 
 use serde_json::Value as Json;
 use sph_core::{SceneProblem, fields};
 use sph_particles::setup::assemble;
-use sph_particles::{Stepper, Summary, run};
-use sph_run::{Identity, RunOptions, Start};
+use sph_particles::{Stepper, Summary};
 use sph_scene::parse;
 use sph_solver::SolverError;
-use sph_tests::FinalState;
-
-/// A column of the series that a run has written, by the beginning of its name.
-fn series(folder: &Path, name: &str) -> Vec<f64> {
-    let text = std::fs::read_to_string(folder.join("series.csv")).expect("a series");
-    let mut lines = text.lines();
-    let mut head = lines.next().expect("a head").split(',');
-    let column = head.position(|c| c.starts_with(name));
-    let column = column.unwrap_or_else(|| panic!("no column {name}"));
-    let number = |line: &str| line.split(',').nth(column).and_then(|n| n.parse().ok());
-    lines.map(|l| number(l).expect("a number")).collect()
-}
+use sph_tests::{Ran, assembled, near, ran, refusals, same_bits, scene};
 
 /// A channel of ten rows between an inlet and an outlet, `MORE` for what a test adds to either.
 const CHANNEL: &str = r#"
@@ -74,54 +61,67 @@ every = 0.6
 vtk = false
 "#;
 
-fn into(folder: &Path, text: &str, threads: usize, start: Start) -> Summary {
-    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions::new(folder, Identity::of_text(CHANNEL))
-        .start(start)
-        .threads(threads);
-    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+fn finished(text: &str, threads: usize) -> Ran {
+    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn folder() -> tempfile::TempDir {
-    tempfile::tempdir().expect("a folder")
-}
-
-fn number(of: &Json, face: &str, key: &str) -> f64 {
-    of[face][key].as_f64().unwrap_or(0.0)
-}
-
-/// entered − left − held of every face, and what particles there are, are four sums of their own.
-#[test]
-fn inflow_less_outflow_is_the_change_of_mass() {
-    let out = folder();
-    let summary = into(out.path(), CHANNEL, 2, Start::Afresh);
+/// What passed the faces, of which nothing is missing.
+fn passed(summary: &Summary) -> &Json {
     let passed = &summary.counts["open_boundaries"];
     let unbalanced = passed["unbalanced"].as_f64().expect("a number");
     assert!(
         unbalanced < 1e-12,
         "{unbalanced:e} of what passed is missing"
     );
-    let entered = number(passed, "inlet.mud", "entered");
-    // ρ u H t, with the density that the pressure at the face makes.
-    assert!(
-        (entered / (1.6 * 0.6) - 1.0).abs() < 0.02,
-        "{entered} kg/m came in"
-    );
+    passed
+}
+
+fn number(of: &Json, face: &str, key: &str) -> f64 {
+    of[face][key].as_f64().unwrap_or(0.0)
+}
+
+/// entered − left − held of every face less what particles there are more than the `first`, four sums of their own,
+/// over what entered.
+fn missing(run: &Ran, first: f64) -> f64 {
+    let passed = passed(&run.summary);
     let faces = ["inlet.mud", "outlet.mud", "outlet.water"];
     let sum = |key: &str| faces.iter().map(|f| number(passed, f, key)).sum::<f64>();
-    let state = FinalState::read(out.path());
-    let mass = state.columns["mass"]
-        .iter()
-        .map(|b| f64::from_bits(*b))
-        .sum::<f64>();
-    let first = 200.0 * 0.01;
-    let missing = sum("entered") - sum("left") - sum("held") - (mass - first);
+    let mass = run.state().reals("mass").iter().sum::<f64>();
+    (sum("entered") - sum("left") - sum("held") - (mass - first)) / sum("entered")
+}
+
+/// A flow of 1 m/s along x, without friction and the same everywhere, stays as it is.
+fn stays_uniform<const D: usize>(run: &Ran) {
+    let velocity = run.state().reals("velocity");
+    let off = velocity.chunks(D).map(|u| {
+        let across = u[1..]
+            .iter()
+            .fold(u[0] - 1.0, |size, across| size.hypot(*across));
+        across.abs()
+    });
+    let off = off.fold(0.0, f64::max);
+    let [least, largest] = run.summary.density_range;
+    println!("velocity off by {off}, density {least} to {largest}");
+    // A density that is off by 0.1 % is a pressure of 0.144 ρu²; sound of this strength moves particles by 0.001 c.
     assert!(
-        missing.abs() < 1e-12 * sum("entered"),
-        "{missing:e} kg/m is missing"
+        off < 0.012 && least > 0.999 && largest < 1.001,
+        "velocity off by {off}, density {least} to {largest}"
     );
+}
+
+/// entered − left − held of every face, and what particles there are, are four sums of their own.
+#[test]
+fn inflow_less_outflow_is_the_change_of_mass() {
+    let run = finished(CHANNEL, 2);
+    let passed = passed(&run.summary);
+    let entered = number(passed, "inlet.mud", "entered");
+    // ρ u H t, with the density that the pressure at the face makes.
+    near(entered, 1.6 * 0.6, 0.02, "kg/m that came in");
+    let missing = missing(&run, 200.0 * 0.01);
+    assert!(missing.abs() < 1e-12, "{missing:e} of it is missing");
     assert!(number(passed, "outlet.water", "died") > 0.3, "{passed}");
     // The summary counts the same deaths and births.
+    let summary = &run.summary;
     assert!(summary.drift.mass.abs() < 1e-13, "{:e}", summary.drift.mass);
     let left = &summary.left["open.outlet.water"];
     assert!(left.particles > 30 && summary.escaped == 0, "{left:?}");
@@ -129,18 +129,7 @@ fn inflow_less_outflow_is_the_change_of_mass() {
 
 #[test]
 fn particles_come_and_go_at_the_same_step_with_the_same_bits_on_any_threads_and_resumed() {
-    let outs: Vec<_> = (0..4).map(|_| folder()).collect();
-    let path = |k: usize| outs[k].path();
-    into(path(0), CHANNEL, 1, Start::Afresh);
-    let whole = FinalState::read(path(0));
-    for (k, threads) in [(1, 2), (2, 4)] {
-        into(path(k), CHANNEL, threads, Start::Afresh);
-        FinalState::read(path(k)).assert_same(&whole, &format!("{threads} threads"));
-    }
-    let part = CHANNEL.replace("end = 0.6\n", "end = 0.6\nmax_steps = 60\n");
-    into(path(3), &part, 1, Start::Afresh);
-    into(path(3), CHANNEL, 2, Start::Resumed);
-    FinalState::read(path(3)).assert_same(&whole, "resumed");
+    same_bits(CHANNEL, 60, &[2, 4], |_| ());
 }
 
 /// A channel without friction with a flow that is the same everywhere: nothing may change it.
@@ -152,23 +141,7 @@ fn a_uniform_flow_passes_both_faces_as_if_they_were_not_there() {
         .replace("[wall.top]", "[wall.top]\ncondition = \"free-slip\"")
         .replace("end = 0.6", "end = 3.0")
         .replace("every = 0.6", "every = 3.0");
-    let out = folder();
-    let summary = into(out.path(), &text, 2, Start::Afresh);
-    let state = FinalState::read(out.path());
-    let velocity: Vec<f64> = state.columns["velocity"]
-        .iter()
-        .map(|b| f64::from_bits(*b))
-        .collect();
-    let off = velocity
-        .chunks(2)
-        .map(|u| (u[0] - 1.0).hypot(u[1]))
-        .fold(0.0, f64::max);
-    let [least, largest] = summary.density_range;
-    // A density that is off by 0.1 % is a pressure of 0.144 ρu²; sound of this strength moves particles by 0.001 c.
-    assert!(
-        off < 0.012 && least > 0.999 && largest < 1.001,
-        "velocity off by {off}, density {least} to {largest}"
-    );
+    stays_uniform::<2>(&finished(&text, 2));
 }
 
 /// Between walls with friction the rows beside them are slow, and a background pressure drives all particles to where they
@@ -196,9 +169,7 @@ fn slow_rows_do_not_gather_before_an_outlet() {
         )
         .replace("\"0.01 Pa s\"", "\"0.016 Pa s\"")
         .replace("speed_of_sound = 12.0", "speed_of_sound = 15.0");
-    let out = folder();
-    into(out.path(), &text, 2, Start::Afresh);
-    let particles = FinalState::read(out.path()).columns["mass"].len();
+    let particles = finished(&text, 2).state().columns["mass"].len();
     // Half a row of eight before either face is in a port or not.
     assert!(
         particles.abs_diff(160) <= 8,
@@ -256,24 +227,14 @@ vtk = false
 /// five particles each threw those beside them up with 2.5 m/s.
 #[test]
 fn water_is_not_thrown_up_where_it_leaves_below_a_level() {
-    let folder = folder();
-    into(folder.path(), LEVEL, 1, Start::Afresh);
-    let series = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
-    let mut rows = series
-        .lines()
-        .map(|line| line.split(',').collect::<Vec<_>>());
-    let head = rows.next().expect("a head");
-    let of_speed = head.iter().position(|c| *c == "largest_speed[m/s]");
-    let column = of_speed.expect("a column of the largest speed");
-    let speeds = rows.map(|row| row[column].parse::<f64>().expect("a speed"));
-    let fastest = speeds.fold(0.0, f64::max);
+    let fastest = finished(LEVEL, 1).series().largest("largest_speed");
     // Bernoulli: water from the floor that comes out at the surface has no more.
     let most = (0.61_f64.powi(2) + 2.0 * 9.81 * 0.22).sqrt();
     assert!(fastest < most, "{fastest} m/s, {most} m/s at most");
 }
 
 /// Problems of a scene, as a user sees them.
-fn problems(text: &str) -> Vec<SceneProblem> {
+fn problems<const D: usize>(text: &str) -> Vec<SceneProblem> {
     let loaded = match parse(text, "scene.toml", &[]) {
         Ok(loaded) => loaded,
         Err(refused) => {
@@ -281,68 +242,32 @@ fn problems(text: &str) -> Vec<SceneProblem> {
             return all.map(|d| SceneProblem::new(d.path, d.message)).collect();
         }
     };
-    match assemble::<2>(&loaded.scene) {
+    match assemble::<D>(&loaded.scene) {
         Err(SolverError::Scene(problems)) => problems,
         Err(other) => panic!("{other}"),
         Ok(_) => panic!("it was let through"),
     }
 }
 
-fn assert_refused(text: &str, path: &str, why: &str) {
-    let all = problems(text);
-    let found = all
-        .iter()
-        .any(|p| p.path == path && p.message.contains(why));
-    assert!(found, "{all:?}");
+/// A scene is refused at a key.
+fn assert_refused<const D: usize>(text: &str, path: &str, why: &str) {
+    let all = problems::<D>(text);
+    let found = |p: &SceneProblem| p.path == path && p.message.contains(why);
+    assert!(all.iter().any(found), "{all:?}");
 }
 
 #[test]
 fn invalid_faces_are_refused_at_their_key() {
+    for case in refusals(include_str!("faces.refused")) {
+        assert_refused::<2>(&case.of(CHANNEL), case.at, case.said[0]);
+    }
+    let block =
+        "[wall.block]\nbox = [[0.02, 0.42], [0.33, 0.73]]\nfluid = \"outside\"\n[phase.water]";
+    let body = "box = [[0.0, 0.0], [2.0, 1.0]]";
+    let blocked = CHANNEL.replace("[phase.water]", block);
+    let blocked = blocked.replace(body, &format!("{body}\nclip = true"));
     let inlet = "wall.inlet.open-boundary.velocity-inlet";
-    let with = |a: &str, b: &str| CHANNEL.replace(a, b);
-    let fast = with("velocity = \"1 m/s\"", "velocity = \"15 m/s\"");
-    assert_refused(&fast, &format!("{inlet}.velocity"), "speed of sound is 12");
-    let short = with("phase = \"mud\"\n", "over_time = [[0, 0], [0.5, 1]]\n");
-    assert_refused(&short, &format!("{inlet}.over_time"), "from 0 s to 0.5 s");
-    let unknown = with("phase = \"mud\"\n", "phase = \"mudd\"\n");
-    assert_refused(&unknown, &format!("{inlet}.phase"), "`mud`");
-    let values = with("phase = \"mud\"\n", "values = { turbulence = 1.0 }\n");
-    assert_refused(&values, &format!("{inlet}.values.turbulence"), "no plugin");
-    let vertices = with("vertices = false", "vertices = true");
-    assert_refused(
-        &vertices,
-        "wall.inlet.open-boundary.velocity-inlet",
-        "vertices = false",
-    );
-    let level = with(
-        "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"",
-        "[wall.outlet.open-boundary.level]\nlevel = 0.5",
-    );
-    assert_refused(
-        &level,
-        "wall.outlet.open-boundary.level.level",
-        "needs gravity",
-    );
-    let nothing = with("memory = \"1 s\"", "pressure = 0");
-    assert_refused(&nothing, "wall.outlet.open-boundary.outflow", "`memory`");
-    let blocked = with(
-        "[phase.water]",
-        "[wall.block]\nbox = [[0.02, 0.42], [0.33, 0.73]]\nfluid = \"outside\"\n[phase.water]",
-    )
-    .replace(
-        "box = [[0.0, 0.0], [2.0, 1.0]]",
-        "box = [[0.0, 0.0], [2.0, 1.0]]\nclip = true",
-    );
-    assert_refused(&blocked, inlet, "blocked at the start");
-    let turbulent = with(
-        "integrator.symplectic-euler",
-        "integrator.predictor-corrector",
-    );
-    assert_refused(
-        &turbulent,
-        "integrator.predictor-corrector",
-        "once per step",
-    );
+    assert_refused::<2>(&blocked, inlet, "blocked at the start");
 }
 
 #[test]
@@ -351,8 +276,7 @@ fn a_closed_box_with_an_inlet_is_told() {
         "[wall.outlet.open-boundary.outflow]\nmemory = \"1 s\"\n",
         "",
     );
-    let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let parts = assembled::<2>(&scene(&text, &[]));
     let told = parts.warnings.iter().any(|w| w.contains("none can leave"));
     assert!(told, "{:?}", parts.warnings);
 }

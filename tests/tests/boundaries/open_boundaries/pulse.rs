@@ -1,5 +1,7 @@
 //! What comes back of a pulse of pressure.
 
+use sph_tests::scene;
+
 use super::*;
 
 /// Speed of sound of [`CHANNEL`], m/s, and width of a pulse in it, m.
@@ -26,8 +28,7 @@ fn with_pulse(length: f64, flow: f64, high: f64, far: &str) -> Stepper<2> {
         )
         .replace("strength = 0.04", "strength = 0.01")
         .replace("memory = \"1 s\"", far);
-    let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut stepper = Stepper::<2>::new(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let mut stepper = Stepper::<2>::new(&scene(&text, &[])).unwrap_or_else(|e| panic!("{e}"));
     stepper.evaluate().unwrap_or_else(|e| panic!("{e}"));
     let pulse = |x: f64| high * (-((x - 5.0) / WIDTH).powi(2)).exp();
     let free = &stepper.parts().flow.world.free;

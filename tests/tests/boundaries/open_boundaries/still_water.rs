@@ -48,10 +48,9 @@ vtk = false
 /// The faces stir the water a little. What they do is less than what water gains that falls by one row, √(2gδr).
 #[test]
 fn still_water_between_two_levels_stays_below_the_speed_of_a_fall_by_a_row() {
-    let folder = folder();
-    into(folder.path(), TANK, 1, Start::Afresh);
+    let run = finished(TANK, 1);
     let largest = |name, zero: f64| {
-        let all = series(folder.path(), name).into_iter();
+        let all = run.column(name).into_iter();
         all.map(|x| (x - zero).abs()).fold(0.0, f64::max)
     };
     let (fastest, off) = (largest("largest_speed", 0.0), largest("middle", 0.5));

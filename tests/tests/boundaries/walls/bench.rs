@@ -2,18 +2,15 @@
 
 use sph_core::{StepLimit, System, Vect, fields};
 use sph_neighbours::WallForce;
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::parse;
+use sph_particles::setup::Assembled;
+use sph_tests::{evaluated, scene};
 
 /// A flow that is stepped by hand.
 pub struct Flowing<const D: usize>(pub Assembled<D>);
 
 /// The flow of a scene, evaluated at its start.
 pub fn flowing<const D: usize>(text: &str) -> Flowing<D> {
-    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<D>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().expect("a state");
-    Flowing(parts)
+    Flowing(evaluated(&scene(text, &[])))
 }
 
 impl<const D: usize> Flowing<D> {

@@ -1,7 +1,7 @@
 //! Relaxing the first particles evens out the density next to slanted and curved walls.
 
-use sph_particles::setup::{Relaxation, assemble};
-use sph_scene::parse;
+use sph_particles::setup::Relaxation;
+use sph_tests::{assembled, scene};
 
 /// Largest error of the density that the scenes ask for.
 const TOLERANCE: f64 = 0.01;
@@ -30,8 +30,7 @@ phase = "fluid"
 fill = "walls"
 "#
     );
-    let loaded = parse(&text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let parts = assemble::<D>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let parts = assembled::<D>(&scene(&text, &[]));
     parts.relaxation.expect("it was asked for")
 }
 

@@ -1,6 +1,6 @@
 //! Animations of the pictures of a run.
 
-use sph_tests::DAM_BREAK;
+use sph_tests::{DAM_BREAK, Says};
 
 use crate::hands::with;
 
@@ -19,10 +19,9 @@ fn an_animation_has_a_frame_for_every_picture_and_is_there_after_a_resume() {
         frames.count()
     };
     assert_eq!((delay(20), delay(150)), (4, 1));
-    let stopped = bench.call(&format!(
+    bench.failed(&format!(
         "run scene.toml -q --threads 1 {set} --set run.max_steps=30 --out parts"
     ));
-    assert_eq!(stopped.code, Some(1));
     bench.done(&format!(
         "run scene.toml -q --threads 1 {set} --out parts --resume --changed"
     ));
@@ -31,7 +30,7 @@ fn an_animation_has_a_frame_for_every_picture_and_is_there_after_a_resume() {
     let listed = bench
         .done(&format!("run scene.toml --threads 1 {set} --out whole"))
         .out;
-    assert!(listed.contains("animations/pressure.gif"), "{listed}");
+    listed.says("animations/pressure.gif");
 }
 
 #[test]
@@ -45,6 +44,5 @@ fn pictures_are_joined_to_a_film_unless_the_scene_wants_none() {
         "run scene.toml -q {set} --set output.animation=0 --out a"
     ));
     assert!(!bench.path("a/animations").exists());
-    let refused = bench.call("check scene.toml --set output.animation=-1");
-    assert_eq!(refused.code, Some(2));
+    bench.refused("check scene.toml --set output.animation=-1");
 }

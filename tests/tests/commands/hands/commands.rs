@@ -1,5 +1,7 @@
 //! Completions and manual pages.
 
+use sph_tests::Says;
+
 use crate::hands::bench;
 
 #[test]
@@ -79,14 +81,9 @@ fn every_page_of_docs_is_in_the_table_of_contents_once() {
 fn manual_pages_are_printed_and_written() {
     let bench = bench();
     let page = bench.done("man run").out;
-    assert!(
-        page.contains(".TH sph-run 1") && page.contains("checkpoint"),
-        "{page}"
-    );
+    page.says(".TH sph-run 1 | checkpoint");
     assert!(bench.done("man").out.contains(".TH sph 1"));
-    let told = bench.call("man rn");
-    assert_eq!(told.code, Some(2));
-    assert!(told.err.contains("did you mean `run`?"), "{}", told.err);
+    bench.refused("man rn").says("did you mean `run`?");
     bench.done("man --out pages");
     for name in ["sph.1", "sph-run.1", "sph-compare.1"] {
         assert!(

@@ -1,7 +1,7 @@
 //! `sph compare`.
 
 use serde_json::Value as Json;
-use sph_tests::DAM_BREAK;
+use sph_tests::{DAM_BREAK, Says};
 
 use crate::hands::with;
 
@@ -14,7 +14,7 @@ fn runs_on_one_and_two_threads_have_the_same_bits() {
     bench.done(&RUN.replace("--threads 1", "--threads 2 --out b"));
     let told = bench.done("compare a b").out;
     assert!(told.starts_with("the same bits in "), "{told}");
-    let json: Json = serde_json::from_str(&bench.done("compare a b --json").out).expect("JSON");
+    let json = bench.done("compare a b --json").json();
     assert_eq!(json["same"], true);
     let columns = json["columns"].as_array().expect("columns");
     assert!(columns.len() > 20, "{} columns", columns.len());
@@ -42,9 +42,8 @@ fn a_number_that_was_changed_is_found_with_its_particle_and_place() {
     };
     u[2 * 17 + 1] += 0.25;
     checkpoint.save(&path).expect("saved");
-    let outcome = bench.call("compare a b --json");
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    let json: Json = serde_json::from_str(&outcome.out).expect("JSON");
+    let outcome = bench.failed("compare a b --json");
+    let json = outcome.json();
     let columns = json["columns"].as_array().expect("columns");
     let differ: Vec<&Json> = columns.iter().filter(|c| c["same"] == false).collect();
     let [only] = differ.as_slice() else {
@@ -60,10 +59,7 @@ fn a_number_that_was_changed_is_found_with_its_particle_and_place() {
     );
     assert!((only["largest"].as_f64().expect("a number") - 0.25).abs() < 1e-12);
     let text = bench.call("compare a b").out;
-    assert!(
-        text.contains(&format!("particle {number}, y, at (")),
-        "{text}"
-    );
+    text.says(&format!("particle {number}, y, at ("));
 }
 
 #[test]
@@ -71,8 +67,7 @@ fn runs_of_other_steps_differ_in_their_fields_and_nothing_is_nothing() {
     let bench = with(DAM_BREAK);
     bench.done(&format!("{RUN} --out a"));
     bench.done(&format!("{RUN} --out b --set run.safety=0.5"));
-    let outcome = bench.call("compare a b");
-    assert_eq!(outcome.code, Some(1));
+    let outcome = bench.failed("compare a b");
     assert!(
         outcome.out.contains("fields of fluid") && outcome.out.contains("t = 0.05 s"),
         "{}",
@@ -82,11 +77,6 @@ fn runs_of_other_steps_differ_in_their_fields_and_nothing_is_nothing() {
     std::fs::create_dir(bench.path("empty")).expect("a folder");
     assert_eq!(bench.call("compare a empty").code, Some(2));
     std::fs::create_dir(bench.path("bare")).expect("a folder");
-    let nothing = bench.call("compare bare empty");
-    assert_eq!(nothing.code, Some(2));
-    assert!(
-        nothing.err.contains("no file of results in common"),
-        "{}",
-        nothing.err
-    );
+    let refused = bench.refused("compare bare empty");
+    refused.says("no file of results in common");
 }

@@ -1,6 +1,6 @@
 //! A viscosity that is given as a kinematic one.
 
-use sph_tests::DAM_BREAK;
+use sph_tests::{DAM_BREAK, Says};
 
 use crate::hands::with;
 
@@ -23,26 +23,14 @@ fn a_kinematic_viscosity_is_that_of_the_phase_with_its_density() {
     let viscosity = law["parameters"]["viscosity"].as_f64().expect("a number");
     assert!((viscosity - 1.134).abs() < 1e-12, "{viscosity} Pa s");
     let dynamic = bench.done("explain scene.toml").out;
-    assert!(dynamic.contains("viscosity = \"1.134 Pa s\""), "{dynamic}");
+    dynamic.says("viscosity = \"1.134 Pa s\"");
 }
 
 #[test]
 fn a_unit_that_is_no_viscosity_is_still_refused_at_its_line() {
     let bench = with(&DAM_BREAK.replace("1 mPa s", "1 m/s"));
-    let outcome = bench.call("check scene.toml");
-    assert_eq!(outcome.code, Some(2));
-    assert!(
-        outcome
-            .err
-            .contains("`m/s` does not measure what is asked for"),
-        "{}",
-        outcome.err
-    );
-    assert!(
-        outcome
-            .err
-            .contains("phase.water.rheology.newtonian.viscosity"),
-        "{}",
-        outcome.err
+    let refused = bench.refused("check scene.toml");
+    refused.says(
+        "`m/s` does not measure what is asked for | phase.water.rheology.newtonian.viscosity",
     );
 }

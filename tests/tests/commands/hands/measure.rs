@@ -50,7 +50,7 @@ fn frames_are_reduced_over_phases_and_bounds() {
         &[0.5, 0.25, 0.5],
     );
     bench.done("measure a y --out heights.csv");
-    let written = std::fs::read_to_string(bench.path("heights.csv")).expect("a table");
+    let written = bench.read("heights.csv");
     assert!(written.starts_with("time [s],mean [m]\n"), "{written}");
 }
 

@@ -1,5 +1,7 @@
 //! What several machines would have and send.
 
+use sph_tests::Says;
+
 use crate::hands::bench;
 
 #[test]
@@ -40,7 +42,7 @@ fn every_particle_has_one_owner_and_ghosts_are_those_that_are_sent() {
         "{columns:?}"
     );
     let text = bench.done("explain hydrostatic-tank --ranks 6").out;
-    assert!(text.contains("split over 6 machines"), "{text}");
+    text.says("split over 6 machines");
 }
 
 #[test]
@@ -54,8 +56,6 @@ fn splits_that_cannot_be_are_told() {
         ("explain hydrostatic-tank --ranks 0", "invalid value"),
         ("explain grains-oedometer --ranks 2", "one of grains"),
     ] {
-        let outcome = bench.call(command);
-        assert_eq!(outcome.code, Some(2), "{command}: {}", outcome.err);
-        assert!(outcome.err.contains(told), "{command}: {}", outcome.err);
+        bench.refused(command).says(told);
     }
 }

@@ -1,62 +1,11 @@
 //! `sph view`, asked as a browser asks.
 
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK};
+use sph_tests::{Bench, DAM_BREAK, Going, Says, get};
 
 use crate::hands::with;
-
-/// Ended with the test.
-struct Server(Child);
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-fn get(port: u16, target: &str) -> (String, Vec<u8>) {
-    let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("a connection");
-    write!(
-        stream,
-        "GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n"
-    )
-    .expect("asked");
-    let mut answer = Vec::new();
-    stream.read_to_end(&mut answer).expect("answered");
-    let end = answer
-        .windows(4)
-        .position(|w| w == b"\r\n\r\n")
-        .expect("a head");
-    (
-        String::from_utf8_lossy(&answer[..end]).into_owned(),
-        answer[end + 4..].to_vec(),
-    )
-}
-
-/// `sph view` on the results in `a`, and its port.
-fn served(bench: &Bench) -> (Server, u16) {
-    let mut command = bench.command("view a --port 0");
-    let mut server = Server(
-        command
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the program starts"),
-    );
-    let mut line = String::new();
-    let stdout = server.0.stdout.take().expect("a pipe");
-    BufReader::new(stdout).read_line(&mut line).expect("a line");
-    let port = line
-        .split("127.0.0.1:")
-        .nth(1)
-        .and_then(|r| r.split('/').next());
-    let port = port.and_then(|p| p.parse().ok());
-    (server, port.unwrap_or_else(|| panic!("{line}")))
-}
 
 #[test]
 fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
@@ -64,7 +13,7 @@ fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
     bench.done(
         "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
     );
-    let (_server, port) = served(&bench);
+    let (_server, port) = bench.view("a");
     let (head, page) = get(port, "/");
     assert!(head.starts_with("HTTP/1.1 200 OK"), "{head}");
     assert!(String::from_utf8_lossy(&page).contains("/state.json"));
@@ -73,17 +22,14 @@ fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
     assert_eq!(state["pictures"]["pressure"][1], "pressure_0001.png");
     assert_eq!(state["summary"]["status"], "done");
     let (head, picture) = get(port, "/files/pictures/pressure_0001.png");
-    assert!(head.contains("image/png"), "{head}");
-    assert_eq!(
-        picture,
-        std::fs::read(bench.path("a/pictures/pressure_0001.png")).expect("there")
-    );
+    head.says("image/png");
+    let drawn = std::fs::read(bench.path("a/pictures/pressure_0001.png"));
+    assert_eq!(picture, drawn.expect("there"));
     let (_, series) = get(port, "/files/series.csv");
     assert!(series.starts_with(b"time[s],"));
     assert!(get(port, "/files/../scene.toml").0.contains("404"));
     assert!(get(port, "/files/checkpoint.sph").0.contains("404"));
-    let refused = bench.call(&format!("view a --port {port}"));
-    assert_eq!(refused.code, Some(2), "{}", refused.err);
+    bench.refused(&format!("view a --port {port}"));
 }
 
 /// A browser without a window, where one is installed.
@@ -99,28 +45,21 @@ fn browser() -> Option<&'static str> {
 /// The page as the browser has it once its script has run.
 fn rendered(browser: &str, bench: &Bench, port: u16) -> String {
     let mut command = Command::new(browser);
-    command.args([
-        "--headless=new",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--no-first-run",
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--virtual-time-budget=6000",
-        "--dump-dom",
-    ]);
+    let words = "--headless=new --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
+                 --disable-component-update --virtual-time-budget=6000 --dump-dom";
+    command.args(words.split_whitespace());
     let profile = bench.path("browser");
     command.arg(format!("--user-data-dir={}", profile.display()));
     command.arg(format!("http://127.0.0.1:{port}/"));
     let out = std::fs::File::create(bench.path("page.html")).expect("a file");
     command.stdout(out).stderr(Stdio::null());
-    let mut child = Server(command.spawn().expect("the browser starts"));
+    let mut child = Going::new(&mut command);
     let begun = Instant::now();
-    while child.0.try_wait().expect("a process").is_none() {
+    while !child.is_over() {
         assert!(begun.elapsed() < Duration::from_secs(120), "it hangs");
         std::thread::sleep(Duration::from_millis(50));
     }
-    std::fs::read_to_string(bench.path("page.html")).expect("a page")
+    bench.read("page.html")
 }
 
 /// The front of an inviscid dam break without an obstacle, 2√(gH) t beyond the gate (Ritter 1892), beside the probe.
@@ -138,11 +77,11 @@ fn a_real_browser_shows_pictures_curves_plots_errors_and_the_log() {
     };
     let bench = with(&format!("{DAM_BREAK}{RITTER}"));
     let ritter = "time[s],front[m]\n0,0.2\n0.06,0.4377\n";
-    std::fs::write(bench.path("ritter.csv"), ritter).expect("a table");
+    bench.write("ritter.csv", ritter);
     bench.done(
         "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
     );
-    let (_server, port) = served(&bench);
+    let (_server, port) = bench.view("a");
     let page = rendered(browser, &bench, port);
     for (what, word) in [
         ("status", "done: "),

@@ -1,7 +1,7 @@
 //! A run that cannot go on says who, where, which term and what to do, and leaves a state to go on from.
 
 use serde_json::Value;
-use sph_tests::{Bench, DAM_BREAK, Outcome, SOAK, STIRRER, files_with_extension};
+use sph_tests::{Bench, DAM_BREAK, Outcome, SOAK, STIRRER, Says, files_with_extension};
 
 use crate::resume::PROGRAM;
 
@@ -15,9 +15,8 @@ struct Failed {
 
 fn failed(scene: &str, set: &str) -> Failed {
     let bench = Bench::with(PROGRAM, scene);
-    let outcome = bench.call(&format!("run scene.toml --out out {set}"));
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).expect("a summary");
+    let outcome = bench.failed(&format!("run scene.toml --out out {set}"));
+    let summary = bench.summary("out");
     assert_eq!(summary["status"], "failed");
     let failed = Failed {
         told: summary["failure"].clone(),
@@ -103,14 +102,13 @@ fn particles_that_collide_end_in_a_report_with_the_largest_term() {
             .contains(&format!("the largest term was `{first}`"))
     );
     // The state before it is a checkpoint, from which the same ends the same.
-    let again = failed
+    failed
         .bench
-        .call(&format!("run scene.toml --out out --resume {set}"));
-    assert_eq!(again.code, Some(1), "{}", again.err);
+        .failed(&format!("run scene.toml --out out --resume {set}"));
     // Mended it goes on, if one says so.
     let mended = format!("run scene.toml --out out --resume {noise}");
     let refused = failed.bench.call(&mended);
-    assert!(refused.err.contains("--changed"), "{}", refused.err);
+    refused.says("--changed");
     failed.bench.done(&format!("{mended} --changed"));
     for name in ["bad_state.vtu", "bad_state.png", "bad_state_near.png"] {
         assert!(
@@ -221,10 +219,7 @@ fn a_step_that_fails_beside_an_open_wall_is_not_tried_again() {
             "not tried again",
         ],
     );
-    assert!(
-        told.contains("note: scene.toml:14: wall.obstacle: its first end"),
-        "{told}"
-    );
+    told.says("note: scene.toml:14: wall.obstacle: its first end");
     assert!(!told.contains("going back"), "{told}");
     assert_eq!(failed.told["retries"], 0);
 }

@@ -3,7 +3,7 @@
 use sph_io::Checkpoint;
 use sph_tests::{Bench, PADDLE};
 
-use crate::resume::{PROGRAM, wait_for};
+use crate::resume::PROGRAM;
 
 /// The paddle moved by a table, a tank from a drawing, and a reference beside it.
 fn scene() -> String {
@@ -34,10 +34,7 @@ fn a_file_that_changed_after_a_kill_is_named_and_refused() {
         bench.write(name, text);
     }
     let run = "run scene.toml --quiet --out r --threads 1";
-    let mut child = bench.command(run).spawn().expect("a run");
-    wait_for(&mut child, &bench, "r", 0.1);
-    child.kill().expect("SIGKILL");
-    child.wait().expect("the end of the run");
+    bench.start_until(run, "r", 0.1).kill();
     let series = bench.read("r/series.csv");
     let changes = [
         // Ten times as far; one digit of the same length; another reference.
@@ -59,19 +56,14 @@ fn a_file_that_changed_after_a_kill_is_named_and_refused() {
     ];
     for ((name, changed, key), (_, whole)) in changes.into_iter().zip(files) {
         bench.write(name, changed);
-        let refused = bench.call(&format!("{run} --resume"));
-        assert_eq!(refused.code, Some(1), "{name}: {}", refused.err);
+        let refused = bench.failed(&format!("{run} --resume"));
         let key = key.replace("[0]", "");
         for told in [
             format!("`{name}`"),
             "--changed".into(),
             "has changed".into(),
         ] {
-            assert!(
-                refused.err.contains(&told),
-                "no `{told}` in {}",
-                refused.err
-            );
+            refused.says(&told);
         }
         let plain = refused.err.replace("[0]", "");
         assert!(plain.contains(&key), "no `{key}` in {}", refused.err);
@@ -118,9 +110,7 @@ fn another_version_of_the_program_is_named_and_refused() {
             }
         }
         other.save(&path).expect("saved");
-        let refused = bench.call(&format!("{run} --resume"));
-        assert_eq!(refused.code, Some(1), "{}", refused.err);
-        assert!(refused.err.contains(told), "{}", refused.err);
+        bench.failed(&format!("{run} --resume")).says(told);
         bench.done(&format!("{run} --resume --changed"));
     }
 }

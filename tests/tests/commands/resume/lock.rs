@@ -1,10 +1,8 @@
 //! A run has its folder for itself.
 
-use std::process::Command;
+use sph_tests::{Bench, DAM_BREAK, Results, wait_until};
 
-use sph_tests::{Bench, DAM_BREAK, Results};
-
-use crate::resume::{PROGRAM, uninterrupted, wait_for};
+use crate::resume::{PROGRAM, uninterrupted};
 
 /// A scene that runs until it is stopped.
 fn endless() -> String {
@@ -15,49 +13,32 @@ fn endless() -> String {
 fn a_second_run_is_refused_while_the_first_goes_on_and_not_after() {
     let bench = Bench::with(PROGRAM, &endless());
     let run = "run scene.toml --quiet --out r";
-    let mut first = bench.command(run).spawn().expect("a run");
-    wait_for(&mut first, &bench, "r", 0.05);
+    let mut first = bench.start_until(run, "r", 0.05);
     for more in ["", " --resume", " --resume --changed --set run.safety=0.5"] {
-        let second = bench.call(&format!("{run}{more}"));
-        assert_eq!(second.code, Some(1), "{}", second.err);
-        let holder = format!("r is in use by process {} on ", first.id());
-        for told in [holder.as_str(), " since 20", "another folder"] {
-            assert!(second.err.contains(told), "no `{told}` in {}", second.err);
-        }
+        let second = bench.failed(&format!("{run}{more}"));
+        let holder = format!("r is in use by process {} on ", first.child().id());
+        second.says(&format!("{holder} |  since 20 | another folder"));
         assert!(!second.err.contains("overwritten"), "{}", second.err);
     }
-    assert!(
-        first.try_wait().expect("a child").is_none(),
-        "the first died"
-    );
+    assert!(!first.is_over(), "the first died");
     // Another folder is free.
     bench.done("run scene.toml --quiet --out other --set run.end=0.02");
-    let pid = first.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &pid]).status();
-    assert!(sent.expect("kill").success());
-    assert_eq!(first.wait().expect("an end").code(), Some(1));
-    assert!(
-        !bench.path("r/.lock").exists(),
-        "the lock was not given back"
-    );
+    first.signal("-INT");
+    first.end().ended(1);
+    let locked = bench.path("r/.lock").exists();
+    assert!(!locked, "the lock was not given back");
 }
 
 #[test]
 fn the_lock_of_a_killed_run_is_taken_over_with_a_word() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);
-    let mut child = bench
-        .command("run scene.toml --quiet --out r")
-        .spawn()
-        .expect("a run");
-    wait_for(&mut child, &bench, "r", 0.1);
-    child.kill().expect("SIGKILL");
-    child.wait().expect("the end of the run");
+    let mut run = bench.start_until("run scene.toml --quiet --out r", "r", 0.1);
+    run.kill();
     assert!(bench.path("r/.lock").exists(), "nothing to take over");
     let again = bench.done("run scene.toml --out r --resume");
-    let told = format!("process {} on ", child.id());
-    assert!(again.err.contains(&told), "{}", again.err);
-    assert!(again.err.contains("taken over"), "{}", again.err);
+    let told = format!("process {} on ", run.child().id());
+    again.says(&format!("{told} | taken over"));
     whole.assert_same(&Results::read(&bench.path("r")), "taken over");
     assert!(!bench.path("r/.lock").exists());
 }
@@ -66,8 +47,7 @@ fn the_lock_of_a_killed_run_is_taken_over_with_a_word() {
 fn a_run_that_fails_gives_its_folder_back() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let bounds = "--set numerics.density_bounds=[0.9999,1.0001] --set run.retries=0";
-    let failed = bench.call(&format!("run scene.toml --out r {bounds}"));
-    assert_eq!(failed.code, Some(1), "{}", failed.err);
+    bench.failed(&format!("run scene.toml --out r {bounds}"));
     assert!(!bench.path("r/.lock").exists());
     bench.done("run scene.toml --quiet --out r --set run.end=0.02");
 }
@@ -87,27 +67,14 @@ fn variants_side_by_side_have_their_folders_and_a_second_study_is_refused() {
     bench.done("study s.toml --quiet --threads 4 --out done");
     assert!(!bench.path("done/.lock").exists());
     bench.write("s.toml", &study("400.0"));
-    let mut first = bench
-        .command("study s.toml --quiet --threads 2 --out busy")
-        .spawn()
-        .expect("a study");
+    let mut first = bench.start("study s.toml --quiet --threads 2 --out busy");
     // Both variants of the first two threads have their folders before anything is asked.
-    let held = || {
+    wait_until("variants side by side at once", || {
         let folders = std::fs::read_dir(bench.path("busy/variants"));
         let folders = folders.into_iter().flatten().flatten();
-        folders.filter(|f| f.path().join(".lock").exists()).count()
-    };
-    let start = std::time::Instant::now();
-    while held() < 2 && start.elapsed().as_secs() < 60 {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    let both = held();
-    let second = bench.call("study s.toml --quiet --threads 2 --out busy");
-    let told = format!("busy is in use by process {}", first.id());
-    // Ended before anything is asserted, so that it does not outlive a failure.
-    first.kill().expect("SIGKILL");
-    first.wait().expect("an end");
-    assert_eq!(both, 2, "variants side by side at once");
-    assert_eq!(second.code, Some(1), "{}", second.err);
-    assert!(second.err.contains(&told), "{}", second.err);
+        folders.filter(|f| f.path().join(".lock").exists()).count() >= 2
+    });
+    let second = bench.failed("study s.toml --quiet --threads 2 --out busy");
+    let holder = first.child().id();
+    second.says(&format!("busy is in use by process {holder}"));
 }

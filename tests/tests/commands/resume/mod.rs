@@ -1,10 +1,6 @@
 //! A run that is killed or interrupted and resumed ends like the one that was not.
 #![cfg(unix)]
 
-use std::process::{Child, Command};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
-
 use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, soil_with};
 
 mod failing;
@@ -15,30 +11,6 @@ mod soak;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
-/// Simulated time that `series.csv` has reached; zero before it is there.
-fn reached(bench: &Bench, out: &str) -> f64 {
-    let series = std::fs::read_to_string(bench.path(out).join("series.csv")).unwrap_or_default();
-    let times = series
-        .lines()
-        .filter_map(|l| l.split(',').next()?.parse().ok());
-    times.fold(0.0, f64::max)
-}
-
-/// Waits until a run has written a checkpoint and passed a simulated time.
-fn wait_for(child: &mut Child, bench: &Bench, out: &str, time: f64) {
-    let start = Instant::now();
-    let checkpoint = bench.path(out).join("checkpoint.sph");
-    while !(checkpoint.exists() && reached(bench, out) >= time) {
-        let ended = child.try_wait().expect("a child");
-        assert!(ended.is_none(), "the run ended before t = {time} s");
-        assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "the run does not get on"
-        );
-        sleep(Duration::from_millis(1));
-    }
-}
-
 fn uninterrupted(bench: &Bench) -> Results {
     bench.done("run scene.toml --quiet --out whole --threads 2");
     Results::read(&bench.path("whole"))
@@ -48,14 +20,9 @@ fn uninterrupted(bench: &Bench) -> Results {
 fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> Results {
     let out = format!("killed-{time}-{threads}");
     let run = format!("run scene.toml --quiet --out {out}");
-    let mut child = bench
-        .command(&format!("{run} --threads 2"))
-        .spawn()
-        .expect("a run");
-    wait_for(&mut child, bench, &out, time);
-    child.kill().expect("SIGKILL");
-    let status = child.wait().expect("the end of the run");
-    assert_eq!(status.code(), None, "killed by a signal, not ended");
+    bench
+        .start_until(&format!("{run} --threads 2"), &out, time)
+        .kill();
     bench.done(&format!("{run} --resume --threads {threads}"));
     Results::read(&bench.path(&out))
 }
@@ -176,24 +143,12 @@ fn sigterm_does_the_same() {
 fn stopped_by(signal: &str) {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     let whole = uninterrupted(&bench);
-    let mut child = bench
-        .command("run scene.toml --out stopped")
-        .spawn()
-        .expect("a run");
-    wait_for(&mut child, &bench, "stopped", 0.1);
-    let pid = child.id().to_string();
-    let sent = Command::new("kill").args([signal, &pid]).status();
-    assert!(sent.expect("kill").success());
-    let output = child.wait_with_output().expect("the end of the run");
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{err}");
-    assert!(
-        err.contains("sph run scene.toml --out stopped --resume"),
-        "{err}"
-    );
-    let summary = bench.read("stopped/summary.json");
-    assert!(summary.contains("\"interrupted\""), "{summary}");
-    assert!(reached(&bench, "stopped") < 0.4, "it went on to the end");
+    let mut run = bench.start_until("run scene.toml --out stopped", "stopped", 0.1);
+    run.signal(signal);
+    let stopped = run.end().ended(1);
+    stopped.says("sph run scene.toml --out stopped --resume");
+    assert_eq!(bench.summary("stopped")["status"], "interrupted");
+    assert!(bench.reached("stopped") < 0.4, "it went on to the end");
 
     bench.done("run scene.toml --quiet --out stopped --resume");
     let resumed = Results::read(&bench.path("stopped"));
@@ -202,9 +157,7 @@ fn stopped_by(signal: &str) {
 
 /// One number of a summary.
 fn summary_number(bench: &Bench, out: &str, key: &str) -> f64 {
-    let summary = bench.read(&format!("{out}/summary.json"));
-    let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
-    summary[key].as_f64().unwrap_or(f64::NAN)
+    bench.summary(out)[key].as_f64().unwrap_or(f64::NAN)
 }
 
 #[test]
@@ -234,21 +187,16 @@ fn a_changed_run_may_begin_to_write_fields_but_not_measure_anew() {
     bench.done(&format!("{run} --set run.end=0.1 --set output.vtk=false"));
     assert!(!bench.path("out/fields.pvd").exists());
     let before = bench.read("out/series.csv");
-    let refused = bench.call(&format!(
+    let failed = bench.failed(&format!(
         "{run} --resume --changed --set probe.mid.kind=front --set probe.mid.axis=x"
     ));
-    assert_eq!(refused.code, Some(1), "{}", refused.err);
-    assert!(
-        refused.err.contains("no column `mid[m]`"),
-        "{}",
-        refused.err
-    );
+    failed.says("no column `mid[m]`");
     assert_eq!(bench.read("out/series.csv"), before, "and nothing is lost");
 
     bench.done(&format!("{run} --resume --changed"));
     let listed = bench.read("out/fields.pvd").matches("<DataSet").count();
     assert!(listed > 0, "no fields after 0.1 s");
-    assert_eq!(reached(&bench, "out"), 0.4);
+    assert_eq!(bench.reached("out"), 0.4);
 }
 
 #[test]
@@ -256,9 +204,8 @@ fn a_state_that_does_not_fit_is_refused() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     bench.done("run scene.toml --quiet --out half --set run.end=0.02");
     let refused = |words: &str, code: i32, why: &str| {
-        let outcome = bench.call(&format!("run scene.toml {words}"));
-        assert_eq!(outcome.code, Some(code), "{}", outcome.err);
-        assert!(outcome.err.contains(why), "{}", outcome.err);
+        let outcome = bench.call(&format!("run scene.toml {words}")).ended(code);
+        outcome.says(why);
     };
     refused("--out new --from nowhere", 2, "no checkpoint in nowhere");
     refused("--out half --from half", 2, "would be overwritten");

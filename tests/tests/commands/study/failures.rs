@@ -1,9 +1,9 @@
 //! What goes wrong in a variant, on the disk or by Ctrl-C costs no finished one.
 
 use serde_json::Value;
-use sph_tests::Disk;
+use sph_tests::{Disk, Says, wait_until};
 
-use crate::study::{STUDY, bench, files, json, says};
+use crate::study::{STUDY, bench, files};
 
 /// One variant whose density leaves its bounds, one that takes too long, one that is good.
 const FAILING: &str = r#"title = "One of three cannot work, one is too slow"
@@ -25,7 +25,7 @@ entries = [
 fn a_variant_that_fails_is_recorded_and_the_study_goes_on() {
     let bench = bench(FAILING);
     let outcome = bench.done("study s.toml");
-    let told = json(&bench.read("results/studies/s/study.json"));
+    let told = bench.json("results/studies/s/study.json");
     let status = |k: usize| {
         (
             &told["variants"][k]["status"],
@@ -35,15 +35,15 @@ fn a_variant_that_fails_is_recorded_and_the_study_goes_on() {
     let (failed, reason) = status(0);
     assert_eq!(failed, "failed", "{}", outcome.out);
     let reason = reason.as_str().expect("a reason");
-    assert!(reason.contains("density of particle"), "{reason}");
+    reason.says("density of particle");
     assert_eq!(status(1).0, "over-limit");
     assert_eq!(status(2).0, "done");
     let page = bench.read("results/studies/s/report.html");
     assert!(page.contains("density of particle") && page.contains("over limit"));
     // Both are settled, until the limit is raised.
-    says(&bench.done("study s.toml"), &["3 variants, 0 to run"]);
+    bench.done("study s.toml").says("3 variants, 0 to run");
     bench.write("s.toml", &FAILING.replace("0.2 s", "0.3 s"));
-    says(&bench.done("study s.toml"), &["3 variants, 1 to run"]);
+    bench.done("study s.toml").says("3 variants, 1 to run");
 }
 
 #[test]
@@ -54,15 +54,11 @@ fn a_full_disk_costs_the_running_variant_and_no_finished_one() {
         println!("skipped: mounting a small file system is not permitted here");
         return;
     };
-    let outcome = bench.call("study s.toml --out disk/s");
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    says(
-        &outcome,
-        &["disk full", "of 6 variants are finished and kept"],
-    );
+    let outcome = bench.failed("study s.toml --out disk/s");
+    outcome.says("disk full | of 6 variants are finished and kept");
     let done = |name: &String| {
         let record = format!("disk/s/variants/{name}/record.json");
-        bench.path(&record).exists() && json(&bench.read(&record))["status"] == "done"
+        bench.path(&record).exists() && bench.json(&record)["status"] == "done"
     };
     let names = files(&bench.path("disk/s/variants"));
     let kept = names.iter().filter(|n| done(n)).count();
@@ -70,50 +66,35 @@ fn a_full_disk_costs_the_running_variant_and_no_finished_one() {
 
     disk.grow(8192);
     let on = bench.done("study s.toml --out disk/s");
-    says(&on, &[&format!("6 variants, {} to run", 6 - kept)]);
+    on.says(&format!("6 variants, {} to run", 6 - kept));
 }
 
 #[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
-    let study = STUDY.replace("numerics.spacing", "run.end");
-    let bench = bench(&study.replace("[0.0625, 0.05, 0.04]", "[0.02, 40.0]"));
+    let short = STUDY.replace("numerics.spacing", "run.end");
+    let bench = bench(&short.replace("[0.0625, 0.05, 0.04]", "[0.02, 40.0]"));
     let set = "--set numerics.spacing=0.0625 --only morris*";
     let command = format!("study s.toml --threads 1 {set}");
-    let mut child = bench.command(&command).spawn().expect("a study");
+    let mut study = bench.start(&command);
     let folder = bench.path("results/studies/s/variants");
     let checkpoint = folder.join("morris_end-40/checkpoint.sph");
-    let start = std::time::Instant::now();
-    while !checkpoint.exists() {
-        assert!(
-            child.try_wait().expect("a child").is_none(),
-            "it ended early"
-        );
-        assert!(start.elapsed().as_secs() < 60, "it does not get on");
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    let pid = child.id().to_string();
-    let signal = std::process::Command::new("kill")
-        .args(["-INT", &pid])
-        .status();
-    assert!(signal.expect("kill").success());
-    let output = child.wait_with_output().expect("the end of the study");
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{err}");
-    assert!(
-        err.contains("1 of 4 variants are finished and kept"),
-        "{err}"
-    );
-    assert!(err.contains("sph study s.toml --threads 1 --only"), "{err}");
-    let told = json(&bench.read("results/studies/s/study.json"));
+    wait_until("it does not get on", || {
+        assert!(!study.is_over(), "it ended early");
+        checkpoint.exists()
+    });
+    study.signal("-INT");
+    let stopped = study.end().ended(1);
+    stopped.says("1 of 4 variants are finished and kept | sph study s.toml --threads 1 --only");
+    let told = bench.json("results/studies/s/study.json");
     assert_eq!(told["variants"][1]["status"], "interrupted");
 
     let on = bench.done(&command);
-    says(&on, &["4 variants, 1 to run", "resuming at t = "]);
-    let told = json(&bench.read("results/studies/s/study.json"));
+    on.says("4 variants, 1 to run | resuming at t = ");
+    let told = bench.json("results/studies/s/study.json");
     assert_eq!(told["variants"][1]["status"], "done");
     // It ends like one that was not interrupted.
     let whole = bench.done(&format!("{command} --out whole --json"));
     let error = |told: &Value| told["variants"][1]["errors"]["velocity-l1"].clone();
-    assert_eq!(error(&told), error(&json(&whole.out)));
+    assert_eq!(error(&told), error(&whole.json()));
 }

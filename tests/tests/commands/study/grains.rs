@@ -1,6 +1,6 @@
 //! Studies over scenes of grains.
 
-use crate::study::{bench, json};
+use crate::study::bench;
 
 /// A few grains that fall into a box.
 const SCENE: &str = r#"title = "Grains fall"
@@ -47,7 +47,7 @@ fn grains_are_studied_as_particles_are_and_settled_once() {
     let bench = bench(STUDY);
     bench.write("grains.toml", SCENE);
     let first = bench.done("study s.toml --quiet --json --out r");
-    let results = json(&first.out);
+    let results = first.json();
     let variants = results["variants"].as_array().expect("variants");
     assert_eq!(variants.len(), 4);
     for variant in variants {
@@ -64,20 +64,14 @@ fn grains_are_studied_as_particles_are_and_settled_once() {
     }
     // Nothing is run again, so that not even the times change.
     let again = bench.done("study s.toml --quiet --json --out r");
-    assert_eq!(json(&again.out)["variants"], results["variants"]);
+    assert_eq!(again.json()["variants"], results["variants"]);
 }
 
 #[test]
 fn mistakes_of_grains_are_shown_where_the_study_makes_them() {
     let bench = bench(&STUDY.replace("\"run.safety\"", "\"run.safty\""));
     bench.write("grains.toml", SCENE);
-    let outcome = bench.call("study s.toml --quiet --out r");
-    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    assert!(
-        outcome.err.contains("did you mean `safety`?"),
-        "{}",
-        outcome.err
-    );
-    assert!(outcome.err.contains("s.toml"), "{}", outcome.err);
+    let refused = bench.refused("study s.toml --quiet --out r");
+    refused.says("did you mean `safety`? | s.toml");
     assert!(!bench.path("r").exists());
 }

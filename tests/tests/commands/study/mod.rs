@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use serde_json::Value;
 use sph_study::{SceneText, Study};
-use sph_tests::{Bench, Outcome};
+use sph_tests::{Bench, Says, line_of};
 
 mod along;
 mod failures;
@@ -40,10 +39,6 @@ fn bench(study: &str) -> Bench {
     bench
 }
 
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
 fn files(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("a folder");
     let name = |e: std::io::Result<std::fs::DirEntry>| e.expect("an entry").file_name();
@@ -54,19 +49,15 @@ fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Replaces a part of the study; the part must be there.
-fn with(from: &str, to: &str) -> String {
-    assert!(STUDY.contains(from), "the study lost `{from}`");
-    STUDY.replacen(from, to, 1)
-}
-
-fn says(outcome: &Outcome, words: &[&str]) {
-    for word in words {
-        assert!(
-            outcome.err.contains(word),
-            "no `{word}` in\n{}",
-            outcome.err
-        );
+/// A study is refused with the changes of a file, at the line that each names, and leaves no file.
+fn refuses(study: &str, file: &'static str) {
+    for case in sph_tests::refusals(file) {
+        let text = case.of(study);
+        let bench = bench(&text);
+        let refused = bench.refused("study s.toml");
+        let line = line_of(&text, case.at);
+        refused.says(&format!("s.toml:{line}: | {}", case.said.join(" | ")));
+        assert_eq!(bench.names(), ["s.toml"], "something was written");
     }
 }
 
@@ -109,15 +100,9 @@ fn shipped_studies_are_good() {
 #[test]
 fn a_shipped_study_of_two_models_runs_in_any_folder() {
     let bench = Bench::new(PROGRAM);
-    let outcome = bench.call("study dilatancy-judge --only loose-roux* --set run.end=0.02");
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
-    assert!(
-        outcome.out.contains("loose, roux-radjai"),
-        "{}",
-        outcome.out
-    );
+    let outcome = bench.done("study dilatancy-judge --only loose-roux* --set run.end=0.02");
+    outcome.out.says("loose, roux-radjai");
     let run = "run undrained-shear --set run.end=0.02 --set \
                reference.pull={probe='excess',file='data/grains_undrained_dense.csv',columns=['shear','share']}";
-    let outcome = bench.call(run);
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    bench.done(run);
 }

@@ -1,41 +1,30 @@
 //! What a study leaves behind, and what it does not run twice.
 
 use serde_json::Value;
+use sph_tests::{Says, exchanged};
 
-use crate::study::{STUDY, bench, files, json, says, with};
+use crate::study::{STUDY, bench, files};
 
 #[test]
 fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
     let bench = bench(STUDY);
     let outcome = bench.done("study s.toml --threads 1");
-    for word in ["order of morris", "krimi", "report.html", "velocity-l1"] {
-        assert!(
-            outcome.out.contains(word),
-            "no `{word}` in\n{}",
-            outcome.out
-        );
-    }
+    outcome
+        .out
+        .says("order of morris | krimi | report.html | velocity-l1");
     let folder = bench.path("results/studies/s");
     assert_eq!(
-        files(&folder),
-        [
-            "error-against-refinement.png",
-            "error-against-refinement.svg",
-            "error-against-time.png",
-            "error-against-time.svg",
-            "report.html",
-            "study.csv",
-            "study.json",
-            "variants"
-        ]
+        files(&folder).join(" "),
+        "error-against-refinement.png error-against-refinement.svg error-against-time.png error-against-time.svg \
+         report.html study.csv study.json variants"
     );
     let variant = folder.join("variants/morris_spacing-0.05");
     assert_eq!(
-        files(&variant),
-        ["record.json", "series.csv", "summary.json"]
+        files(&variant).join(" "),
+        "record.json series.csv summary.json"
     );
 
-    let told = json(&bench.read("results/studies/s/study.json"));
+    let told = bench.json("results/studies/s/study.json");
     assert_eq!(told["schema_version"], 1);
     assert!(told["machine"]["cores"].as_u64() > Some(0));
     let told_machine = told["machine"]["cpu"].as_str().expect("a name").to_string();
@@ -53,9 +42,7 @@ fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
     assert!(orders["finest_three"].is_f64());
     assert_eq!(bench.read("results/studies/s/study.csv").lines().count(), 7);
     let page = bench.read("results/studies/s/report.html");
-    for word in ["<svg", "Pareto", "Convergence", "0.05", "set.run.end"] {
-        assert!(page.contains(word), "no `{word}` on the page");
-    }
+    page.says("<svg | Pareto | Convergence | 0.05 | set.run.end");
     let commit = told["commit"].as_str().unwrap_or("unknown").to_string();
     let told = |key: &str| told[key].as_str().expect("a text").to_string();
     for (name, value) in [
@@ -83,23 +70,23 @@ fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
     let record = |name: &str| bench.read(&format!("results/studies/s/variants/{name}/record.json"));
     let before = record("krimi_spacing-0.04");
     let again = bench.done("study s.toml --threads 1");
-    says(&again, &["6 variants, 0 to run"]);
+    again.says("6 variants, 0 to run");
     bench.write("s.toml", &STUDY.replace("0.04]", "0.04, 0.1]"));
     let more = bench.done("study s.toml --threads 1 --only krimi*");
-    says(&more, &["8 variants, 1 to run"]);
+    more.says("8 variants, 1 to run");
     assert!(more.out.contains("pending"), "{}", more.out);
     assert_eq!(record("krimi_spacing-0.04"), before);
     // Another scene is run again.
     let other = bench.done("study s.toml --threads 1 --only krimi* --set run.end=0.01");
-    says(&other, &["8 variants, 4 to run"]);
+    other.says("8 variants, 4 to run");
     assert_ne!(record("krimi_spacing-0.04"), before);
 }
 
 #[test]
 fn variants_side_by_side_give_the_same_errors() {
-    let bench = bench(&with("set.run.end", "serial = false\nset.run.end"));
+    let bench = bench(&exchanged(STUDY, "set.run", "serial = false\nset.run"));
     let errors = |text: &str| -> Vec<f64> {
-        let all = json(text);
+        let all: Value = serde_json::from_str(text).expect("JSON");
         let all = all["variants"].as_array().expect("variants").clone();
         let value = |v: &Value| v["errors"]["velocity-l1"]["value"].as_f64();
         all.iter().map(|v| value(v).expect("an error")).collect()
@@ -121,7 +108,7 @@ fn repetitions_give_the_least_time_and_missing_ones_are_added() {
     let times = |n: usize| {
         let study = short.replace("set.run", &format!("repetitions = {n}\nset.run"));
         bench.write("s.toml", &study);
-        let told = json(&bench.done("study s.toml --quiet --json").out);
+        let told = bench.done("study s.toml --quiet --json").json();
         let wall = &told["variants"][0]["wall_seconds"];
         let number = |v: &Value| v.as_f64().expect("seconds");
         let all: Vec<f64> = wall["all"]
@@ -147,23 +134,17 @@ fn two_studies_are_compared() {
     let bench = bench(&STUDY.replace("[0.0625, 0.05, 0.04]", "[0.0625, 0.05]"));
     bench.done("study s.toml --quiet --out a");
     bench.done("study s.toml --quiet --out b --set smoother.brezzi-pitkaranta.strength=0.04");
-    let mut other = json(&bench.read("b/study.json"));
+    let mut other = bench.json("b/study.json");
     other["machine"]["cpu"] = "another".into();
     other["variants"].as_array_mut().expect("variants").pop();
     bench.write("b.json", &other.to_string());
     let told = bench.done("study --compare a/study.json b.json").out;
-    for word in [
-        "morris_spacing-0.05",
-        "→ another",
-        "×",
-        "only in a/study.json",
-    ] {
-        assert!(told.contains(word), "no `{word}` in\n{told}");
-    }
-    let told = json(&bench.done("study --json --compare a/study.json b.json").out);
+    told.says("morris_spacing-0.05 | → another | × | only in a/study.json");
+    let told = bench
+        .done("study --json --compare a/study.json b.json")
+        .json();
     assert_eq!(told["variants"].as_array().map(Vec::len), Some(3));
     assert_eq!(told["only_in_first"][0], "krimi_spacing-0.05");
-    let none = bench.call("study --compare a/study.json s.toml");
-    assert_eq!(none.code, Some(2));
-    says(&none, &["`s.toml` is no study.json"]);
+    let none = bench.refused("study --compare a/study.json s.toml");
+    none.says("`s.toml` is no study.json");
 }

@@ -1,6 +1,8 @@
 //! Costs against the number of particles.
 
-use crate::study::{bench, files, json, says};
+use sph_tests::Says;
+
+use crate::study::{bench, files};
 
 const SCALING: &str = r#"title = "Solvers"
 scene = "viscous-box"
@@ -22,13 +24,9 @@ values = [0.125, 0.0625, 0.04]
 fn a_study_tells_the_cost_of_a_solve_against_size() {
     let bench = bench(SCALING);
     let outcome = bench.done("study s.toml --threads 1");
-    for word in ["time per solve", "memory", "exponent", "fastest from 49 "] {
-        assert!(
-            outcome.out.contains(word),
-            "no `{word}` in\n{}",
-            outcome.out
-        );
-    }
+    outcome
+        .out
+        .says("time per solve | memory | exponent | fastest from 49 ");
     let folder = bench.path("results/studies/s");
     let left = files(&folder);
     let has = |name: &str| left.contains(&name.to_string());
@@ -37,7 +35,7 @@ fn a_study_tells_the_cost_of_a_solve_against_size() {
     let page = bench.read("results/studies/s/report.html");
     assert!(page.contains("Cost against size") && !page.contains("Error against run time"));
 
-    let told = json(&bench.read("results/studies/s/study.json"));
+    let told = bench.json("results/studies/s/study.json");
     for variant in told["variants"].as_array().expect("variants") {
         let solves = &variant["solves"];
         let direct = variant["values"]["solver"] == "direct";
@@ -71,10 +69,6 @@ fn a_study_tells_the_cost_of_a_solve_against_size() {
 #[test]
 fn competitors_that_are_not_there_are_refused() {
     let bench = bench(&SCALING.replace("between = \"solver\"", "between = \"sovler\""));
-    let outcome = bench.call("study s.toml");
-    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    says(
-        &outcome,
-        &["s.toml:3:", "no axis `sovler`", "did you mean `solver`"],
-    );
+    let outcome = bench.refused("study s.toml");
+    outcome.says("s.toml:3: | no axis `sovler` | did you mean `solver`");
 }

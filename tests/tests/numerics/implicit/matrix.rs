@@ -7,8 +7,7 @@ use sph_multiphase::viscosity::{
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Weak, World, interactions};
-use sph_particles::setup::assemble;
-use sph_scene::parse;
+use sph_tests::{assembled, scene};
 
 const ETA: f64 = 3.0;
 /// A tank with a slanted wall, and what else stands in `[numerics]` and behind `[wall.tank]`.
@@ -75,10 +74,7 @@ fn cube() -> World<3> {
 }
 
 fn disturbed<const D: usize>(text: &str) -> World<D> {
-    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut flow = assemble::<D>(&loaded.scene)
-        .unwrap_or_else(|e| panic!("{e}"))
-        .flow;
+    let mut flow = assembled::<D>(&scene(text, &[])).flow;
     let spacing = flow.world.spacing;
     let wave = |x: f64, k: usize| (37.0 * x + 2.0 * k as f64).sin();
     let positions = flow.world.free.get_mut(fields::POSITION).unwrap();

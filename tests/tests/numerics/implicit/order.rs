@@ -1,8 +1,7 @@
 //! Orders in time, against the same flow with ever smaller steps.
 
 use sph_core::{System, Vect, fields};
-use sph_particles::setup::assemble;
-use sph_scene::parse;
+use sph_tests::{assembled, scene};
 
 /// Vortices that decay by e^−0.5 in the time that sound takes over half the box.
 pub fn vortices(integrator: &str, viscosity: &str) -> String {
@@ -43,8 +42,7 @@ const SPAN: f64 = 0.05;
 
 /// Velocities after the span, by identity.
 pub fn after(text: &str, steps: usize) -> Vec<Vect<2>> {
-    let loaded = parse(text, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assembled::<2>(&scene(text, &[]));
     let dt = SPAN / steps as f64;
     parts.flow.evaluate().expect("a state");
     for _ in 0..steps {

@@ -1,10 +1,8 @@
 //! What the equations keep, and the discrete system must keep as well.
 
-use std::path::Path;
-
 use sph_core::{StepLimit, System, Vect, fields};
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::{Override, load, parse};
+use sph_particles::setup::Assembled;
+use sph_tests::assembled;
 
 mod conservation;
 mod energy;
@@ -16,20 +14,7 @@ mod walls;
 
 /// A shipped scene with overrides.
 fn shipped(name: &str, overrides: &[&str]) -> Assembled<2> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
-    let loaded = load(&path, &given(overrides)).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
-}
-
-/// A scene from its text with overrides.
-fn written(text: &str, overrides: &[&str]) -> Assembled<2> {
-    let loaded = parse(text, "scene.toml", &given(overrides)).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn given(overrides: &[&str]) -> Vec<Override> {
-    let all = overrides.iter().map(|text| Override::parse(text).unwrap());
-    all.collect()
+    assembled(&sph_tests::shipped(name, overrides))
 }
 
 /// Position and velocity of every particle, by its number.

@@ -1,8 +1,9 @@
 //! The same scene in other units of length, time and mass.
 
 use proptest::prelude::*;
+use sph_tests::{assembled, scene};
 
-use crate::invariants::{States, fly, shipped, states, written};
+use crate::invariants::{States, fly, shipped, states};
 
 /// A dam break in a box, in units of which a metre, a second and a kilogram have the given numbers.
 fn dam_break(length: f64, time: f64, mass: f64) -> States {
@@ -49,7 +50,7 @@ pressure = \"hydrostatic\"
         column = 0.40625 * length,
         deep = 0.5 * length,
     );
-    let mut parts = written(&text, &[]);
+    let mut parts = assembled(&scene(&text, &[]));
     fly(&mut parts, 100, None);
     let speed = 1.0 / speed;
     let back = states(&parts).into_iter();
@@ -101,10 +102,7 @@ fn kilometres_millimetres_and_micrometres_give_the_same_flow() {
 #[test]
 fn implicit_viscosity_gives_the_same_bits_at_twice_the_size() {
     let flown = |overrides: &[&str]| {
-        let implicit = [
-            "numerics.jitter=0.2",
-            "implicit-viscosity.backward-euler={}",
-        ];
+        let implicit = ["numerics.jitter=0.2 implicit-viscosity.backward-euler={}"];
         let all: Vec<&str> = implicit.iter().chain(overrides).copied().collect();
         let mut parts = shipped("taylor-green-2d", &all);
         fly(&mut parts, 20, None);
@@ -112,15 +110,11 @@ fn implicit_viscosity_gives_the_same_bits_at_twice_the_size() {
     };
     let plain = flown(&["numerics.spacing=0.0625"]);
     let doubled = flown(&[
-        "numerics.spacing=0.125",
-        "numerics.periodic.x=[0.0, 2.0]",
-        "numerics.periodic.y=[0.0, 2.0]",
-        "body.box.box=[[0.0, 0.0], [2.0, 2.0]]",
-        "body.box.initial.taylor-green.speed=2.0",
-        "body.box.initial.taylor-green.length=2.0",
-        "body.box.initial.taylor-green.kinematic_viscosity=0.04",
-        "phase.fluid.speed_of_sound=20.0",
-        "phase.fluid.rheology.newtonian.viscosity=0.04",
+        "numerics.spacing=0.125 numerics.periodic.x=[0.0, 2.0] numerics.periodic.y=[0.0, 2.0] \
+         body.box.box=[[0.0, 0.0], [2.0, 2.0]] body.box.initial.taylor-green.speed=2.0 \
+         body.box.initial.taylor-green.length=2.0 \
+         body.box.initial.taylor-green.kinematic_viscosity=0.04 phase.fluid.speed_of_sound=20.0 \
+         phase.fluid.rheology.newtonian.viscosity=0.04",
     ]);
     let halved = doubled.into_iter().map(|(x, u)| (x * 0.5, u * 0.5));
     assert_eq!(apart(&plain, &halved.collect()), [0.0; 2]);

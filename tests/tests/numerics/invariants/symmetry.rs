@@ -105,15 +105,11 @@ fn turned_by_a_right_angle_it_flows_turned() {
 fn in_units_of_half_the_length_it_gives_the_same_bits() {
     let plain = flown(vortices(&[]));
     let doubled = flown(vortices(&[
-        "numerics.spacing=0.08",
-        "numerics.periodic.x=[0.0, 2.0]",
-        "numerics.periodic.y=[0.0, 2.0]",
-        "body.box.box=[[0.0, 0.0], [2.0, 2.0]]",
-        "body.box.initial.taylor-green.speed=2.0",
-        "body.box.initial.taylor-green.length=2.0",
-        "body.box.initial.taylor-green.kinematic_viscosity=0.04",
-        "phase.fluid.speed_of_sound=20.0",
-        "phase.fluid.rheology.newtonian.viscosity=0.04",
+        "numerics.spacing=0.08 numerics.periodic.x=[0.0, 2.0] numerics.periodic.y=[0.0, 2.0] \
+         body.box.box=[[0.0, 0.0], [2.0, 2.0]] body.box.initial.taylor-green.speed=2.0 \
+         body.box.initial.taylor-green.length=2.0 \
+         body.box.initial.taylor-green.kinematic_viscosity=0.04 phase.fluid.speed_of_sound=20.0 \
+         phase.fluid.rheology.newtonian.viscosity=0.04",
     ]));
     let differ = plain.iter().zip(&doubled).filter(|(a, b)| {
         let same =

@@ -2,7 +2,9 @@
 
 use sph_core::Vect;
 
-use crate::invariants::{States, fly, states, written};
+use sph_tests::{assembled, scene};
+
+use crate::invariants::{States, fly, states};
 
 /// Rounding of 1e-16 in positions, times the stiffness of pressure and a hundred steps.
 const ROUNDING: f64 = 1e-12;
@@ -60,7 +62,7 @@ surface = {surface:?}
         cornered([0.40625, 0.0], [1.0, 1.0]),
         cornered([0.0, 0.53125], [1.0, 1.0]),
     );
-    let mut parts = written(&text, &[]);
+    let mut parts = assembled(&scene(&text, &[]));
     fly(&mut parts, 100, Some(1e-3));
     states(&parts)
 }

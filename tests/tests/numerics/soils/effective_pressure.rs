@@ -1,13 +1,12 @@
 //! The effective pressure by conjugate gradients and by Jacobi's iteration.
 
-use std::path::Path;
 use std::time::Instant;
 
 use sph_core::{StepLimit, System, fields};
 use sph_neighbours::World;
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::{Override, load};
+use sph_particles::setup::Assembled;
 use sph_soil::stress::{Laplace, PressureSolver, Soils};
+use sph_tests::{evaluated, shipped};
 
 /// ρ and Δρ of the bed, kg/m³.
 const DENSITY: f64 = 1992.0;
@@ -15,17 +14,10 @@ const BUOYANT: f64 = 992.0;
 
 /// A bed of so many rows of 5 mm under as much water.
 fn bed(rows: usize) -> Assembled<2> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/saturated-bed-at-rest.toml");
     let height = 5e-3 * rows as f64;
-    let set = [
-        format!("body.bed.box=[[0.0, 0.0], [0.1, {height}]]"),
-        format!("body.water.box=[[0.0, {height}], [0.1, {}]]", 2.0 * height),
-    ];
-    let set: Vec<_> = set.iter().map(|o| Override::parse(o).unwrap()).collect();
-    let loaded = load(&path, &set).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().unwrap();
-    parts
+    let bed = format!("body.bed.box=[[0.0, 0.0], [0.1, {height}]]");
+    let water = format!("body.water.box=[[0.0, {height}], [0.1, {}]]", 2.0 * height);
+    evaluated(&shipped("saturated-bed-at-rest", &[&bed, &water]))
 }
 
 /// Iterations of a cold start and the pressures.

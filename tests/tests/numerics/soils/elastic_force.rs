@@ -5,10 +5,11 @@ use std::f64::consts::TAU;
 use sph_core::{Registry, Role, System, Vect, fields};
 use sph_multiphase::viscosity::{Viscosity, ViscousOperatorEntry};
 use sph_neighbours::{Interaction, interactions};
-use sph_particles::setup::{Assembled, assemble};
+use sph_particles::setup::Assembled;
 use sph_rheology::{DruckerPrager, Newtonian, Rheology};
 use sph_soil::stress::{Blended, Rheologies};
 use sph_solver::SolverError;
+use sph_tests::{assembled, scene};
 
 use crate::soils::tried;
 
@@ -94,8 +95,7 @@ box = [[0.0, 0.0, 0.0], [0.5, 1.0, 0.5]]
 
 #[test]
 fn in_space_it_is_the_same_force() {
-    let loaded = sph_scene::parse(CUBE, "cube.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<3>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let mut parts = assembled::<3>(&scene(CUBE, &[]));
     let free = &mut parts.flow.world.free;
     let places = free.get(fields::POSITION).unwrap().to_vec();
     let way = |x: &Vect<3>| Vect::from([0.0, 0.0, 1e-6 * (TAU * x[1]).sin()]);

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
+use sph_tests::Says;
 
 use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
 use crate::soils::tried;
@@ -42,12 +43,9 @@ fn a_standing_wave_keeps_its_frequency_and_its_height() {
 /// 𝒢 = 1 GPa, 30 sub-steps: shaken at random and undamped, a block neither gains energy nor comes to rest.
 #[test]
 fn a_stiff_block_that_is_shaken_gains_nothing() {
-    let shaken = [
-        "phase.rubber.rheology.elastic.young_modulus=2.8e9",
-        "phase.rubber.rheology.elastic.viscosity=0",
-        "numerics.jitter=0.2",
-        "numerics.velocity_noise=0.01",
-    ];
+    let shaken = ["phase.rubber.rheology.elastic.young_modulus=2.8e9 \
+         phase.rubber.rheology.elastic.viscosity=0 numerics.jitter=0.2 \
+         numerics.velocity_noise=0.01"];
     let mut parts = with_sub_steps("elastic-shear-wave", &shaken);
     let limits = parts.flow.step_limits().unwrap();
     assert!(
@@ -126,6 +124,6 @@ fn it_is_refused_where_it_is_not_known() {
         ("velocity-gradient.renormalised.adjoint=true", "adjoint"),
     ] {
         let why = because(&[SUB_STEPS, other]);
-        assert!(why.contains(word) && why.contains("sub_steps"), "{why}");
+        why.says(&format!("{word} | sub_steps"));
     }
 }

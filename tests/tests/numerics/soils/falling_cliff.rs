@@ -1,30 +1,20 @@
 //! A cliff of dry soil that must fall: what holds it, and what a run tells of it.
 
-use sph_particles::{RunError, Solves, Summary, run};
-use sph_run::RunOptions;
-use sph_scene::{Override, parse};
+use sph_particles::{Solves, Summary};
+use sph_tests::{Says, ran, scene};
 
 /// 0.3 m wide, 0.8 m high, friction angle 30°, E = 1 GPa, grains of 10 mm, 0.2 s.
 const CLIFF: &str = include_str!("../../../scenes/cliff.toml");
 const SLOPE: &str = include_str!("../../../../scenes/resting-slope.toml");
 const SUB_STEPS: &str = "elastic-force.divergence.sub_steps=true";
-const IMPLICIT: [&str; 3] = [
-    "elastic-force.divergence.implicit=true",
-    "implicit-viscosity.backward-euler={}",
-    "viscous-operator={monaghan-gingold={within='arithmetic'}}",
+const IMPLICIT: [&str; 1] = [
+    "elastic-force.divergence.implicit=true implicit-viscosity.backward-euler={} \
+     viscous-operator={monaghan-gingold={within='arithmetic'}}",
 ];
 
 fn end_of(text: &str, overrides: &[&str]) -> Summary {
-    outcome(text, overrides).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn outcome(text: &str, overrides: &[&str]) -> Result<Summary, RunError> {
-    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = parse(text, "scene.toml", &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let folder = tempfile::tempdir().unwrap();
-    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(text)).threads(1);
-    run(&loaded.scene, &options, &mut ())
+    let ran = ran(&scene(text, overrides), 1);
+    ran.unwrap_or_else(|e| panic!("{e}")).summary
 }
 
 fn held(summary: &Summary) -> f64 {
@@ -35,11 +25,9 @@ fn held(summary: &Summary) -> f64 {
 /// 0.03 J where sub-steps have 24 J: the solve held 26 % of the weight. A slope at rest needs 2 % while its stress builds up.
 #[test]
 fn a_stiff_cliff_that_stands_with_stresses_of_the_end_of_the_step_is_refused_with_what_to_take() {
-    let refused = outcome(CLIFF, &IMPLICIT).expect_err("it stands");
+    let refused = ran(&scene(CLIFF, &IMPLICIT), 1).err().expect("it stands");
     let refused = refused.to_string();
-    for part in ["sub_steps = true", "numerics.delayed_yield = true"] {
-        assert!(refused.contains(part), "{refused}");
-    }
+    refused.says("sub_steps = true | numerics.delayed_yield = true");
     let allowed = "numerics.delayed_yield=true";
     let stands = end_of(CLIFF, &[&IMPLICIT[..], &[allowed]].concat());
     let (energy, share) = (stands.kinetic_energy, held(&stands));
@@ -47,11 +35,8 @@ fn a_stiff_cliff_that_stands_with_stresses_of_the_end_of_the_step_is_refused_wit
     assert!(share > 0.2, "{share}: 0.261 was measured, with {energy} J");
     let told = |s: &Summary| s.warnings.iter().any(|w| w.contains("sub_steps = true"));
     assert!(told(&stands), "{:?}", stands.warnings);
-    let rest = [
-        "run.end=0.3",
-        "output.vtk=false",
-        "phase.sand.rheology.drucker-prager.young_modulus=1e9",
-    ];
+    let rest =
+        ["run.end=0.3 output.vtk=false phase.sand.rheology.drucker-prager.young_modulus=1e9"];
     let rests = end_of(SLOPE, &[&IMPLICIT[..], &rest[..]].concat());
     println!("at rest {:.3}", held(&rests));
     assert!(held(&rests) < 0.03 && !told(&rests), "0.022 was measured");

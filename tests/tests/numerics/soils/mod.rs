@@ -13,17 +13,11 @@ mod seepage;
 mod solids_at_rest;
 mod stepping;
 
-use std::path::Path;
-
 use sph_particles::setup::{Assembled, assemble};
-use sph_scene::{Override, load};
 use sph_solver::SolverError;
+use sph_tests::shipped;
 
 /// A shipped scene in the plane with some changes, assembled.
 fn tried(scene: &str, overrides: &[&str]) -> Result<Assembled<2>, SolverError> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.toml"));
-    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = load(&path, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<2>(&loaded.scene)
+    assemble::<2>(&shipped(scene, overrides))
 }

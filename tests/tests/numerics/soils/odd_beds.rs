@@ -1,6 +1,6 @@
 //! Beds and gates that nobody wants: refused at their line, or remarked upon before the run starts.
 
-use sph_tests::Bench;
+use sph_tests::{Bench, one_line};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 const BED: &str = include_str!("../../../../scenes/saturated-bed-at-rest.toml");
@@ -15,10 +15,11 @@ fn with(changes: &[[&str; 2]]) -> String {
 
 /// What `sph check` says of a scene that is good.
 fn checked(scene: &str) -> String {
-    let outcome = Bench::with(PROGRAM, scene).call("check scene.toml");
-    assert_eq!(outcome.code, Some(0), "{}", outcome.err);
+    let outcome = Bench::with(PROGRAM, scene)
+        .call("check scene.toml")
+        .ended(0);
     // Lines are broken where the text ends.
-    outcome.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    one_line(&outcome.out)
 }
 
 fn says(text: &str, words: &str) {
@@ -97,15 +98,13 @@ fn a_gate_faster_than_sound() {
         .position(|l| l == "[wall.gate.motion]")
         .expect("the line");
     for command in ["check", "run"] {
-        let outcome = bench.call(&format!("{command} scene.toml"));
-        assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-        let text = outcome.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        let outcome = bench.refused(&format!("{command} scene.toml"));
+        let text = one_line(&outcome.err);
         says(
             &text,
             "the wall moves with 25.000 m/s, faster than sound in the slowest phase, 20.000 m/s",
         );
         says(&text, &format!("scene.toml:{line}:"));
     }
-    let entries = std::fs::read_dir(bench.folder()).expect("the folder");
-    assert_eq!(entries.count(), 1, "something was written");
+    assert_eq!(bench.names().len(), 1, "something was written");
 }

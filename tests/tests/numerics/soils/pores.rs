@@ -1,8 +1,8 @@
 //! Pores of soils: the balance of grains and fluid, consolidation, undrained shear, the same bits, refusals.
 
-use sph_tests::{Bench, FinalState};
+use sph_tests::Bench;
 
-use crate::sediment::refused_of;
+use crate::sediment::refuses;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -68,9 +68,9 @@ fn sum(column: &[f64]) -> f64 {
 
 /// A column of the checkpoint in a folder, in the order of the identities.
 fn by_identity(bench: &Bench, folder: &str, name: &str) -> Vec<f64> {
-    let state = FinalState::read(&bench.path(folder));
-    let both = state.columns["identity"].iter().zip(&state.columns[name]);
-    let mut both: Vec<(u64, f64)> = both.map(|(id, x)| (*id, f64::from_bits(*x))).collect();
+    let state = bench.state(folder);
+    let both = state.columns["identity"].iter().zip(state.reals(name));
+    let mut both: Vec<(&u64, f64)> = both.collect();
     both.sort_by_key(|(id, _)| *id);
     both.into_iter().map(|(_, x)| x).collect()
 }
@@ -98,57 +98,10 @@ fn grains_and_water_are_neither_made_nor_lost() {
 
 #[test]
 fn pores_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = Bench::with(PROGRAM, BED);
-    bench.done("run scene.toml --quiet --out one --threads 1");
-    bench.done("run scene.toml --quiet --out two --threads 2");
-    let one = FinalState::read(&bench.path("one"));
-    one.assert_same(&FinalState::read(&bench.path("two")), "threads");
-    let parts = "run scene.toml --quiet --out parts";
-    bench.call(&format!("{parts} --set run.max_steps=7"));
-    bench.done(&format!("{parts} --resume --changed"));
-    one.assert_same(&FinalState::read(&bench.path("parts")), "parts");
-}
-
-/// Assembly refuses the scene with these words.
-fn refused(from: &str, to: &str, words: &str) {
-    refused_of(BED, from, to, words);
+    Bench::with(PROGRAM, BED).same_bits("", 7);
 }
 
 #[test]
 fn pores_that_are_none_are_refused() {
-    refused("porosity = 0.38", "porosity = 1.2", "must be less than 1");
-    refused("porosity = 0.38", "porosity = 0.0", "must be more than 0");
-    refused(
-        "porosity = 0.38",
-        "porosity = 0.2",
-        "beyond the densest of the law, 0.74",
-    );
-    refused(
-        "porosity = 0.38",
-        "porosity = 0.38\nbodies = { bett = 0.4 }",
-        "no body called `bett`, did you mean `bed`",
-    );
-    refused(
-        "grain_diameter = \"1 mm\"\n[dilatancy",
-        "[dilatancy",
-        "give `grain_diameter` or `permeability`",
-    );
-    refused("soil = \"sand\"", "soil = \"sant\"", "did you mean `sand`");
-    refused("soil = \"sand\"", "soil = \"water\"", "reads no pressure");
-    refused("water = \"water\"", "water = \"sand\"", "is the soil");
-    refused(
-        "[effective-pressure.laplace]\npore_density = 1000.0\n",
-        "",
-        "add [effective-pressure.laplace]",
-    );
-    refused(
-        "[pore-pressure.darcy]\nsoil = \"sand\"\nwater = \"water\"\nporosity = 0.38\ngrain_diameter = \"1 mm\"\n",
-        "",
-        "add [pore-pressure.darcy]",
-    );
-    refused(
-        "[walls.usaw]",
-        "[formulation.colagrossi-landrini]\n[walls.usaw]",
-        "take [formulation.hu-adams]",
-    );
+    refuses(BED, include_str!("pores.refused"));
 }

@@ -1,17 +1,14 @@
 //! Water through the pores of a soil: closed forms, what is conserved, and what is refused.
 
-use std::path::Path;
-
 use sph_core::{System, Vect, fields};
-use sph_particles::setup::{Assembled, assemble};
-use sph_scene::{Override, load};
+use sph_particles::setup::Assembled;
 use sph_soil::seepage::{PoreResistance, SEEPAGE_VELOCITY};
-use sph_tests::{Bench, FinalState};
+use sph_tests::{Bench, Says, evaluated, exchanged, line_of, scene, shipped};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// The scene without its references, which are files beside it.
-fn scene() -> String {
+fn permeameter() -> String {
     let mut text = include_str!("../../../../scenes/permeameter.toml").to_string();
     let references = text.find("# Levels by").unwrap()..text.find("[output]").unwrap();
     text.replace_range(references, "");
@@ -27,21 +24,11 @@ fn beads(quadratic: f64) -> PoreResistance {
     }
 }
 
-fn permeameter(set: &[&str]) -> Assembled<2> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/permeameter.toml");
-    let set: Vec<_> = set.iter().map(|o| Override::parse(o).unwrap()).collect();
-    let loaded = load(&path, &set).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().unwrap();
-    parts
-}
-
 /// A kick in which everybody is accelerated alike.
 fn kick(parts: &mut Assembled<2>, acceleration: Vect<2>, dt: f64) {
     let free = &mut parts.flow.world.free;
-    free.get_mut(fields::ACCELERATION)
-        .unwrap()
-        .fill(acceleration);
+    let rates = free.get_mut(fields::ACCELERATION).unwrap();
+    rates.fill(acceleration);
     parts.flow.kick(dt).unwrap();
 }
 
@@ -52,29 +39,19 @@ fn fastest(parts: &Assembled<2>) -> f64 {
 }
 
 /// No viscosity is solved for, so that a kick is what its acceleration says.
-const PLAIN: [&str; 2] = [
-    "phase.beads.rheology.newtonian.viscosity=0",
-    "phase.water.rheology.newtonian.viscosity=0",
-];
+const PLAIN: [&str; 1] =
+    ["phase.beads.rheology.newtonian.viscosity=0 phase.water.rheology.newtonian.viscosity=0"];
 
 /// The scene without implicit viscosity, of which nothing is left without viscosities.
-fn plain(bench: &Bench, gravity: &str) -> Assembled<2> {
-    let text = scene()
-        .replace("[implicit-viscosity.backward-euler]\n", "")
-        .replace("gravity = [0.0, -9.81]", gravity);
-    bench.write("plain.toml", &text);
-    let set: Vec<_> = PLAIN.iter().map(|o| Override::parse(o).unwrap()).collect();
-    let loaded = load(&bench.path("plain.toml"), &set).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().unwrap();
-    parts
+fn plain() -> Assembled<2> {
+    let text = permeameter().replace("[implicit-viscosity.backward-euler]\n", "");
+    evaluated(&scene(&text, &PLAIN))
 }
 
 #[test]
 fn a_periodic_bed_has_the_flux_of_the_law_from_rest_on() {
     for forchheimer in [0.0, 2e9] {
-        let bench = Bench::new(PROGRAM);
-        let mut text = scene().replace("[implicit-viscosity.backward-euler]\n", "");
+        let mut text = permeameter().replace("[implicit-viscosity.backward-euler]\n", "");
         for (from, to) in [
             ("[walls.usaw]", "[phase.beads]"),
             ("[gauge.left]", "[output]"),
@@ -90,11 +67,7 @@ fn a_periodic_bed_has_the_flux_of_the_law_from_rest_on() {
             .replace("[[0.2, 0.0], [0.3, 0.15]]", "[[0.0, 0.3], [0.1, 0.35]]")
             .replace("pressure = \"hydrostatic\"\n", "")
             .replace("forchheimer = 0.0", &format!("forchheimer = {forchheimer}"));
-        bench.write("bed.toml", &text);
-        let set: Vec<_> = PLAIN.iter().map(|o| Override::parse(o).unwrap()).collect();
-        let loaded = load(&bench.path("bed.toml"), &set).unwrap_or_else(|e| panic!("{e}"));
-        let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-        parts.flow.evaluate().unwrap();
+        let mut parts = evaluated::<2>(&scene(&text, &PLAIN));
         let (law, force) = (beads(forchheimer), 1000.0 * 5.0);
         // A hundredth of the time in which the flux follows, 3.5 ms.
         let dt = 0.01 * law.response(0.0);
@@ -123,20 +96,14 @@ fn a_periodic_bed_has_the_flux_of_the_law_from_rest_on() {
 
 #[test]
 fn nothing_flows_at_rest_nor_in_a_tank_that_is_accelerated_nor_in_free_fall() {
-    let bench = Bench::new(PROGRAM);
     let down = Vect::from([0.0, -9.81]);
     for acceleration in [[0.0, 0.0], [3.0, 0.0], [1.0, -2.0], [0.0, -9.81]] {
         let acceleration = Vect::from(acceleration);
-        let mut parts = plain(&bench, "gravity = [0.0, -9.81]");
-        let position = parts
-            .flow
-            .world
-            .free
-            .get(fields::POSITION)
-            .unwrap()
-            .to_vec();
-        let before = parts.flow.world.free.get(fields::MASS).unwrap().to_vec();
-        let pressure = parts.flow.world.free.get_mut(fields::PRESSURE).unwrap();
+        let mut parts = plain();
+        let free = &mut parts.flow.world.free;
+        let position = free.get(fields::POSITION).unwrap().to_vec();
+        let before = free.get(fields::MASS).unwrap().to_vec();
+        let pressure = free.get_mut(fields::PRESSURE).unwrap();
         for (p, x) in pressure.iter_mut().zip(&position) {
             *p = 1000.0 * (down - acceleration).dot(x);
         }
@@ -160,8 +127,7 @@ fn nothing_flows_at_rest_nor_in_a_tank_that_is_accelerated_nor_in_free_fall() {
 
 #[test]
 fn momentum_of_the_water_is_conserved() {
-    let bench = Bench::new(PROGRAM);
-    let mut parts = plain(&bench, "gravity = [0.0, -9.81]");
+    let mut parts = plain();
     let free = &mut parts.flow.world.free;
     let position = free.get(fields::POSITION).unwrap().to_vec();
     let velocity = free.get_mut(fields::VELOCITY).unwrap();
@@ -183,11 +149,8 @@ fn momentum_of_the_water_is_conserved() {
     let moved: f64 = before.iter().zip(&after).map(|(b, a)| (a - b).abs()).sum();
     let lost = (whole - mass).abs() / moved;
     let phase = parts.flow.world.free.get(fields::PHASE).unwrap();
-    let soil = before
-        .iter()
-        .zip(&after)
-        .zip(phase)
-        .filter(|(_, p)| **p == 0);
+    let both = before.iter().zip(&after).zip(phase);
+    let soil = both.filter(|(_, p)| **p == 0);
     let soil: f64 = soil.map(|((b, a), _)| (a - b).abs()).sum();
     let pushed = (carried - momentum).norm() / momentum.norm();
     println!(
@@ -202,12 +165,12 @@ fn momentum_of_the_water_is_conserved() {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    let bench = Bench::with(PROGRAM, &scene());
+    let bench = Bench::with(PROGRAM, &permeameter());
     let state = |threads: u32| {
         bench.done(&format!(
             "run scene.toml --quiet --out r{threads} --threads {threads} --set run.end=0.01"
         ));
-        FinalState::read(&bench.path(&format!("r{threads}")))
+        bench.state(&format!("r{threads}"))
     };
     let one = state(1);
     for threads in [2, 4] {
@@ -217,10 +180,9 @@ fn the_number_of_threads_changes_no_bit() {
 
 #[test]
 fn particles_that_give_too_much_end_the_run() {
-    let mut parts = permeameter(&[
-        "seepage.darcy-forchheimer.evening=0",
-        "seepage.darcy-forchheimer.size_limit=0.006",
-    ]);
+    let law =
+        ["evening=0", "size_limit=0.006"].map(|key| format!("seepage.darcy-forchheimer.{key}"));
+    let mut parts = evaluated::<2>(&shipped("permeameter", &law.each_ref().map(String::as_str)));
     let mut ended = None;
     for _ in 0..300 {
         if let Err(error) = parts.flow.kick(9e-5) {
@@ -229,27 +191,15 @@ fn particles_that_give_too_much_end_the_run() {
         }
     }
     let told = ended.expect("the run ends");
-    for word in ["size of particle", "seepage", "size_limit"] {
-        assert!(told.contains(word), "{told}");
-    }
+    told.says("size of particle | seepage | size_limit");
 }
 
 /// The scene with `from` as `to` is refused at the line that has `at`.
 fn refused(from: &str, to: &str, at: &str, words: &[&str]) {
-    assert!(scene().contains(from), "the scene lost `{from}`");
-    let text = scene().replacen(from, to, 1);
-    let bench = Bench::with(PROGRAM, &text);
-    let line = 1 + text.lines().position(|l| l.contains(at)).unwrap();
-    let outcome = bench.call("check scene.toml");
-    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    let place = format!("scene.toml:{line}:");
-    for word in words.iter().chain([&place.as_str()]) {
-        assert!(
-            outcome.err.contains(word),
-            "no `{word}` in\n{}",
-            outcome.err
-        );
-    }
+    let text = exchanged(&permeameter(), from, to);
+    let line = line_of(&text, at);
+    let refused = Bench::with(PROGRAM, &text).refused("check scene.toml");
+    refused.says(&format!("scene.toml:{line}: | {}", words.join(" | ")));
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! Solids that rest between walls.
 
-use sph_particles::run;
-use sph_run::RunOptions;
-use sph_scene::{Override, parse};
+use sph_tests::{ran, scene};
 
 /// 0.3 m wide and high, of fine grains: their yield viscosity η_y damps nothing.
 const BLOCK: &str = r#"
@@ -37,13 +35,8 @@ vtk = false
 
 /// Kinetic energy after 0.3 s, J.
 fn energy(overrides: &[&str]) -> f64 {
-    let overrides = overrides.iter().map(|o| Override::parse(o).unwrap());
-    let overrides: Vec<_> = overrides.collect();
-    let loaded = parse(BLOCK, "scene.toml", &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let folder = tempfile::tempdir().unwrap();
-    let options = RunOptions::new(folder.path(), sph_run::Identity::of_text(BLOCK)).threads(1);
-    let summary = run(&loaded.scene, &options, &mut ());
-    summary.unwrap_or_else(|e| panic!("{e}")).kinetic_energy
+    let ran = ran(&scene(BLOCK, overrides), 1).unwrap_or_else(|e| panic!("{e}"));
+    ran.summary.kinetic_energy
 }
 
 /// A hundredth of a spacing of fall is the energy m g δr/100.

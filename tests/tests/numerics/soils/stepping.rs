@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
-use sph_particles::setup::{Assembled, assemble};
+use sph_particles::setup::Assembled;
+use sph_tests::{evaluated, scene};
 
 /// A step, and the forces after it.
 pub fn step(parts: &mut Assembled<2>, dt: f64) {
@@ -85,9 +86,7 @@ angular_velocity = 1.0
 /// What a disc that spins freely with 1 rad/s keeps of its angular momentum in 1000 steps of 1 ms, its elastic force as in `table`.
 pub fn spin_kept(table: &str) -> f64 {
     let text = format!("{DISC}{table}");
-    let loaded = sph_scene::parse(&text, "disc.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut parts = assemble::<2>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    parts.flow.evaluate().unwrap();
+    let mut parts = evaluated::<2>(&scene(&text, &[]));
     let first = spin(&parts);
     for _ in 0..1000 {
         step(&mut parts, 1e-3);

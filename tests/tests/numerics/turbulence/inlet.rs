@@ -57,9 +57,8 @@ fn turbulence_behind_a_grid_begins_as_given_and_decays_as_the_model_says() {
         let s = (1.0 + e_0 * x.max(0.0) / (n * k_0 * u)).powf(-n);
         [k_0 * s, e_0 * s.powf((n + 1.0) / n)]
     };
-    let (_, out) = finished(GRID, 1);
-    let state = FinalState::read(out.path());
-    let column = |name: &str| state.columns[name].iter().map(|b| f64::from_bits(*b));
+    let state = finished(GRID, 1).state();
+    let column = |name: &str| state.reals(name).into_iter();
     let place: Vec<f64> = column("position").step_by(2).collect();
     let found = column(TURBULENT_ENERGY.name).zip(column(DISSIPATION.name));
     let (mut first, mut worst) = (0, [0.0_f64; 2]);

@@ -7,11 +7,10 @@ mod refusals;
 mod strains;
 
 use sph_core::{System, Vect, fields};
-use sph_particles::setup::{Assembled, assemble};
-use sph_particles::{Summary, run};
-use sph_run::{RunOptions, Start};
-use sph_scene::{Override, parse};
-use sph_tests::{Bench, FinalState, PERIODIC};
+use sph_neighbours::World;
+use sph_particles::setup::Assembled;
+use sph_run::Start;
+use sph_tests::{Bench, FinalState, PERIODIC, Ran, Says, near, ran, run_into, scene};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
 };
@@ -76,43 +75,31 @@ fn in_space() -> String {
 }
 
 fn assembled<const D: usize>(text: &str, changes: &[&str]) -> Assembled<D> {
-    let changes = changes
-        .iter()
-        .map(|c| Override::parse(c).expect("a change"));
-    let changes: Vec<_> = changes.collect();
-    let loaded = parse(text, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    assemble::<D>(&loaded.scene).unwrap_or_else(|e| panic!("{e}"))
+    sph_tests::assembled(&scene(text, changes))
 }
 
-fn into(
-    folder: &std::path::Path,
-    text: &str,
-    changes: &[&str],
-    threads: usize,
-    start: Start,
-) -> Summary {
-    let changes = changes
-        .iter()
-        .map(|c| Override::parse(c).expect("a change"));
-    let changes: Vec<_> = changes.collect();
-    let loaded = parse(text, "scene.toml", &changes).unwrap_or_else(|e| panic!("{e}"));
-    let options = RunOptions::new(folder, sph_run::Identity::of_text(text))
-        .start(start)
-        .threads(threads);
-    run(&loaded.scene, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+/// With the rates of the start.
+fn evaluated<const D: usize>(text: &str, changes: &[&str]) -> World<D> {
+    sph_tests::evaluated(&scene(text, changes)).flow.world
 }
 
-fn finished(text: &str, threads: usize) -> (Summary, tempfile::TempDir) {
+fn finished(text: &str, threads: usize) -> Ran {
+    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A run that stops after 20 steps and goes on with two threads.
+fn in_two_parts(text: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    let summary = into(folder.path(), text, &[], threads, Start::Afresh);
-    (summary, folder)
-}
-
-fn last(folder: &std::path::Path, column: &str) -> f64 {
-    let text = std::fs::read_to_string(folder.join("series.csv")).expect("a series");
-    let series = sph_io::Table::parse(&text, "series.csv").expect("a table");
-    let values = series.column(column);
-    *values.expect("a column").last().expect("a row")
+    let begun = run_into(
+        folder.path(),
+        &scene(text, &["run.max_steps=20"]),
+        1,
+        Start::Afresh,
+    );
+    begun.unwrap_or_else(|e| panic!("{e}"));
+    let whole = run_into(folder.path(), &scene(text, &[]), 2, Start::Resumed);
+    whole.unwrap_or_else(|e| panic!("{e}"));
+    folder
 }
 
 /// η_t/ρ of the particles of a lattice that moves as given, away from its edges, m²/s; and h.
@@ -120,17 +107,10 @@ fn eddies(closure: &str, velocity: impl Fn(&Vect<2>) -> Vect<2>) -> (Vec<f64>, f
     let open = PERIODIC.replace("periodic = { x = [0.0, 1.0], y = [0.0, 1.0] }", "");
     let text = format!("{open}\n{closure}");
     let mut flow = assembled::<2>(&text, &[]).flow;
-    let places = flow
-        .world
-        .free
-        .get(fields::POSITION)
-        .expect("places")
-        .to_vec();
+    let free = &mut flow.world.free;
+    let places = free.get(fields::POSITION).expect("places");
     let moving = places.iter().map(velocity).collect();
-    flow.world
-        .free
-        .put(fields::VELOCITY, moving)
-        .expect("a column");
+    free.put(fields::VELOCITY, moving).expect("a column");
     flow.evaluate().expect("an evaluation");
     let world = &flow.world;
     let reach = world.kernel.support_radius();
@@ -175,8 +155,7 @@ fn solid_rotation_has_no_eddies_of_smagorinskys() {
 fn large_eddies_in_the_plane_are_warned_of() {
     let bench = Bench::with(PROGRAM, &format!("{PERIODIC}\n{WALE}\n"));
     let outcome = bench.done("run scene.toml");
-    let told = outcome.out + &outcome.err;
-    assert!(told.contains("in two its results"), "{told}");
+    (outcome.out + &outcome.err).says("in two its results");
 }
 
 /// In the first evaluation the fluid slides as one, so that every particle has the u* of 1 m/s at its distance.
@@ -184,52 +163,49 @@ fn large_eddies_in_the_plane_are_warned_of() {
 fn particles_near_the_bed_have_the_friction_velocity_of_their_true_distance() {
     for (text, roughness) in [(CHANNEL, 0.0), (CHANNEL, 0.005)] {
         let change = format!("wall-function.log-law.roughness={roughness}");
-        let mut flow = assembled::<2>(text, &[&change]).flow;
-        flow.evaluate().expect("an evaluation");
+        let world = evaluated::<2>(text, &[&change]);
         let law = WallLaw {
             roughness,
             ..WallLaw::default()
         };
-        check_friction_velocities(&flow.world, &law);
+        check_friction_velocities(&world, &law);
     }
-    let mut flow = assembled::<3>(&in_space(), &[]).flow;
-    flow.evaluate().expect("an evaluation");
-    check_friction_velocities(&flow.world, &WallLaw::default());
+    let world = evaluated::<3>(&in_space(), &[]);
+    check_friction_velocities(&world, &WallLaw::default());
 }
 
-fn check_friction_velocities<const D: usize>(world: &sph_neighbours::World<D>, law: &WallLaw) {
+fn check_friction_velocities<const D: usize>(world: &World<D>, law: &WallLaw) {
     let places = world.free.get(fields::POSITION).expect("places");
     let friction = world.free.get(FRICTION_VELOCITY).expect("u*");
-    let mut near = 0;
+    let mut counted = 0;
     for (x, found) in places.iter().zip(friction) {
         let z = x[D - 1];
         if z < world.kernel.support_radius() * 0.99 {
             let exact = law.friction_velocity(1.0, z, 1e-6).expect("u*");
             assert!((found / exact - 1.0).abs() < 1e-9, "{z}: {found}, {exact}");
-            near += 1;
+            counted += 1;
         } else if z > world.kernel.support_radius() * 1.01 {
             assert_eq!(*found, 0.0);
         }
     }
-    assert!(near > 0);
+    assert!(counted > 0);
 }
 
 /// What the bed takes is what the fluid loses; a bed that goes along takes nothing.
 #[test]
 fn the_shear_is_a_force_and_its_reaction() {
-    let (_, folder) = finished(CHANNEL, 2);
-    assert!(last(folder.path(), "shear.x") > 0.0);
+    assert!(finished(CHANNEL, 2).last("shear.x") > 0.0);
     // 0.8 and 0.6 m/s along a floor in space: the lattice has both axes alike.
-    let (_, folder) = finished(&in_space(), 2);
-    let [x, y] = ["shear.x", "shear.y"].map(|c| last(folder.path(), c));
+    let run = finished(&in_space(), 2);
+    let [x, y] = ["shear.x", "shear.y"].map(|c| run.last(c));
     assert!(x > 0.0 && (y / x - 0.75).abs() < 1e-6, "{x}, {y}");
     let along = CHANNEL.replace(
         "condition = \"free-slip\"",
         "condition = \"free-slip\"\nvelocity = [1.0, 0.0]",
     );
     assert_ne!(along, CHANNEL);
-    let (_, folder) = finished(&along, 1);
-    let [force, friction] = ["shear.x", "bed"].map(|c| last(folder.path(), c));
+    let run = finished(&along, 1);
+    let [force, friction] = ["shear.x", "bed"].map(|c| run.last(c));
     // Of the pressure noise of a lattice at rest in its own frame: none.
     assert!(force.abs() < 1e-9 && friction < 1e-4, "{force}, {friction}");
 }
@@ -238,11 +214,8 @@ fn the_shear_is_a_force_and_its_reaction() {
 #[test]
 fn momentum_goes_to_the_bed() {
     let each = CHANNEL.replace("every = 0.02", "every = 0.02\nseries_every = 1e-9");
-    let (_, folder) = finished(&each, 1);
-    let text = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
-    let series = sph_io::Table::parse(&text, "series.csv").expect("a table");
-    let column = |name: &str| series.column(name).expect("a column").to_vec();
-    let [time, momentum, force] = ["time", "momentum.x", "shear.x"].map(column);
+    let series = finished(&each, 1).series();
+    let [time, momentum, force] = series.columns(["time", "momentum.x", "shear.x"]);
     let taken = (1..time.len()).map(|k| force[k - 1] * (time[k] - time[k - 1]));
     let (taken, lost) = (taken.sum::<f64>(), momentum[0] - momentum[time.len() - 1]);
     assert!(lost > 0.0 && time.len() > 10);
@@ -253,9 +226,7 @@ fn momentum_goes_to_the_bed() {
 #[test]
 fn distances_are_true_ones() {
     let closure = "[eddy-viscosity.mixing-length]\nlongest = \"1 m\"\n";
-    let mut flow = assembled::<2>(&format!("{CHANNEL}{closure}"), &[]).flow;
-    flow.evaluate().expect("an evaluation");
-    let world = &flow.world;
+    let world = evaluated::<2>(&format!("{CHANNEL}{closure}"), &[]);
     let places = world.free.get(fields::POSITION).expect("places");
     let distance = world.free.get(WALL_DISTANCE).expect("distances");
     for (x, z) in places.iter().zip(distance) {
@@ -276,9 +247,7 @@ fn van_driests_damping_has_the_friction_velocity_of_the_bed() {
         .replace("1 mPa s", "0.1 Pa s");
     let eddies = |damping: &str| {
         let closure = format!("{SMAGORINSKY}\ndamping = \"{damping}\"\n");
-        let mut flow = assembled::<2>(&format!("{plain}{closure}"), &[]).flow;
-        flow.evaluate().expect("an evaluation");
-        let world = flow.world;
+        let world = evaluated::<2>(&format!("{plain}{closure}"), &[]);
         let eddies = world.free.get(fields::EDDY_VISCOSITY).expect("eddies");
         (eddies.to_vec(), world)
     };
@@ -320,18 +289,13 @@ fn homogeneous_turbulence_decays_as_the_model_says() {
     let closure = "[eddy-viscosity.k-epsilon]\nenergy = 0.02\ndissipation = 0.05\n[probe.k]\nkind = \"range\"\nfield = \
                    \"turbulent_energy\"\n";
     let text = format!("{decay}\n{closure}");
-    let (_, folder) = finished(&text, 1);
+    let run = finished(&text, 1);
     let exact = 0.02 * (1.0f64 + 0.92 * 0.05 * 0.5 / 0.02).powf(-1.0 / 0.92);
     for end in ["k.min", "k.max"] {
-        let found = last(folder.path(), end);
-        assert!(
-            (found / exact - 1.0).abs() < 1e-3,
-            "{end}: {found}, {exact}"
-        );
+        near(run.last(end), exact, 1e-3, end);
     }
-    let (_, other) = finished(&text, 2);
-    let state = |f: &tempfile::TempDir| FinalState::read(f.path());
-    state(&folder).assert_same(&state(&other), "one and two threads");
+    let other = finished(&text, 2).state();
+    run.state().assert_same(&other, "one and two threads");
 }
 
 /// Walls, closures, transported scalars and flow control together are the same bits on any number of threads and after a
@@ -341,43 +305,28 @@ fn a_channel_of_all_of_it_is_the_same_on_any_number_of_threads() {
     let rest = "[eddy-viscosity.k-epsilon.channel]\nfriction_velocity = 0.05\ndepth = 0.2\n\
                 [flow-control.bulk-velocity]\nvelocity = 1.0\n";
     let text = format!("{CHANNEL}{rest}");
-    let folders = [1, 2].map(|threads| finished(&text, threads).1);
-    let states = folders.each_ref().map(|f| FinalState::read(f.path()));
-    states[0].assert_same(&states[1], "one and two threads");
-    let resumed = tempfile::tempdir().expect("a folder");
-    into(
-        resumed.path(),
-        &text,
-        &["run.max_steps=20"],
-        1,
-        Start::Afresh,
-    );
-    into(resumed.path(), &text, &[], 2, Start::Resumed);
-    states[0].assert_same(&FinalState::read(resumed.path()), "whole and resumed");
+    let runs = [1, 2].map(|threads| finished(&text, threads));
+    let state = runs[0].state();
+    state.assert_same(&runs[1].state(), "one and two threads");
+    let resumed = FinalState::read(in_two_parts(&text).path());
+    state.assert_same(&resumed, "whole and resumed");
+    let least = |state: &FinalState, name: &str| {
+        let values = state.reals(name).into_iter();
+        values.min_by(f64::total_cmp).expect("values")
+    };
     for name in [TURBULENT_ENERGY.name, DISSIPATION.name] {
-        let values = states[0].columns[name].iter().map(|b| f64::from_bits(*b));
-        assert!(
-            values.min_by(f64::total_cmp).expect("values") > 0.0,
-            "{name}"
-        );
+        assert!(least(&state, name) > 0.0, "{name}");
     }
     // With forces of a mean over a step, too, and solved for.
     for change in [
         "integrator.predictor-corrector={}",
         "implicit-viscosity.backward-euler={}",
     ] {
-        let folder = tempfile::tempdir().expect("a folder");
-        into(folder.path(), &text, &[change], 1, Start::Afresh);
-        let columns = FinalState::read(folder.path()).columns;
-        let energy = columns[TURBULENT_ENERGY.name]
-            .iter()
-            .map(|b| f64::from_bits(*b));
-        assert!(
-            energy.min_by(f64::total_cmp).expect("values") > 0.0,
-            "{change}"
-        );
+        let changed = ran(&scene(&text, &[change]), 1).unwrap_or_else(|e| panic!("{e}"));
+        let energy = least(&changed.state(), TURBULENT_ENERGY.name);
+        assert!(energy > 0.0, "{change}");
     }
     // 40 kg/m that go with 1 m/s.
-    let momentum = last(folders[0].path(), "momentum.x");
+    let momentum = runs[0].last("momentum.x");
     assert!((momentum - 40.0).abs() < 1e-9, "{momentum}");
 }

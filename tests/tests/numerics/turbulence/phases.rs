@@ -2,7 +2,7 @@
 
 use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
-use sph_tests::FinalState;
+use sph_tests::near;
 use sph_turbulence::{
     BED_DISTANCE, BED_FRICTION_VELOCITY, DISSIPATION, SURFACE_SHARE, TURBULENT_ENERGY, WallLaw,
 };
@@ -56,9 +56,7 @@ fn column<const D: usize>(world: &World<D>, field: sph_core::Field<sph_core::Sca
 }
 
 fn evaluated(closure: &str) -> World<2> {
-    let mut flow = assembled::<2>(&format!("{OVER_A_BED}{closure}"), &[]).flow;
-    flow.evaluate().expect("an evaluation");
-    flow.world
+    crate::turbulence::evaluated(&format!("{OVER_A_BED}{closure}"), &[])
 }
 
 #[test]
@@ -95,13 +93,11 @@ fn transported_scalars_do_not_pass_between_phases_whatever_the_number_of_threads
              damped_at_surfaces = true\n{BED}"
         );
         let text = format!("{OVER_A_BED}{closure}");
-        let folders = [1, 2].map(|threads| finished(&text, threads).1);
-        let states = folders.each_ref().map(|f| FinalState::read(f.path()));
+        let states = [1, 2].map(|threads| finished(&text, threads).state());
         states[0].assert_same(&states[1], "one and two threads");
         let phase = &states[0].columns["phase"];
         for name in [TURBULENT_ENERGY.name, DISSIPATION.name] {
-            let values = states[0].columns[name].iter().map(|b| f64::from_bits(*b));
-            for (value, phase) in values.zip(phase) {
+            for (value, phase) in states[0].reals(name).into_iter().zip(phase) {
                 assert_eq!(value > 0.0, *phase == 1, "{variant}, {name}: {value}");
             }
         }
@@ -121,26 +117,22 @@ fn the_first_row_has_the_friction_velocity_of_the_rough_law() {
         roughness: 0.005,
         ..WallLaw::default()
     };
-    let mut near = 0;
+    let mut counted = 0;
     for (i, x) in places.iter().enumerate() {
         let height = x.y - 0.1;
         if !(0.0..0.01).contains(&height) {
             assert!(friction[i] == 0.0 && distance[i].is_infinite(), "{x}");
             continue;
         }
-        near += 1;
+        counted += 1;
         // The sum over a lattice is not quite the integral over half a plane: 4.2 % of the distance was measured.
-        assert!(
-            (distance[i] / height - 1.0).abs() < 0.05,
-            "{} at {height}",
-            distance[i]
-        );
+        near(distance[i], height, 0.05, "distance");
         let exact = law.friction_velocity(1.0, distance[i], 1e-6).expect("u*");
         assert!((friction[i] / exact - 1.0).abs() < 1e-9);
         let shear = (eddies[i] + 1e-3) / distance[i];
         assert!((shear / (1000.0 * exact * exact) - 1.0).abs() < 1e-9);
     }
-    assert_eq!(near, 20);
+    assert_eq!(counted, 20);
 }
 
 /// What the water loses the bed gains, to rounding, and it is ρu*² times the length, but for what the sums over pairs make of it.
@@ -148,23 +140,16 @@ fn the_first_row_has_the_friction_velocity_of_the_rough_law() {
 fn the_shear_of_the_bed_is_a_force_and_its_reaction() {
     let closure = format!("[eddy-viscosity.smagorinsky]\nphases = [\"water\"]\n{BED}");
     let world = evaluated(&closure);
-    let exact = 1000.0
-        * column(&world, BED_FRICTION_VELOCITY)
-            .iter()
-            .copied()
-            .fold(0.0, f64::max)
-            .powi(2);
+    let friction = column(&world, BED_FRICTION_VELOCITY).iter().copied();
+    let exact = 1000.0 * friction.fold(0.0, f64::max).powi(2);
     // Beside a wall sums are divided by γ, which is not the same for both of a pair.
     let (before, rest) = OVER_A_BED.split_once("[walls.usaw]").expect("walls");
     let (_, after) = rest
         .split_once("condition = \"free-slip\"\n")
         .expect("their end");
     let text = format!("{before}{after}{closure}").replace("end = 0.01", "end = 1e-3");
-    let (_, folder) = finished(&text, 1);
-    let state = FinalState::read(folder.path());
-    let series = std::fs::read_to_string(folder.path().join("series.csv")).expect("a series");
-    let series = sph_io::Table::parse(&series, "series.csv").expect("a table");
-    let momentum = series.column("momentum.x").expect("momenta");
+    let run = finished(&text, 1);
+    let (state, momentum) = (run.state(), run.column("momentum.x"));
     let [first, last] = [momentum[0], momentum[momentum.len() - 1]];
     assert!((last / first - 1.0).abs() < 1e-12, "{first}, {last}");
     let velocity = state.columns["velocity"].chunks(2);
@@ -203,18 +188,13 @@ fn friction_along_the_lines_between_particles_leaves_solid_rotation_as_it_is() {
         let text = format!("{open}\n[viscous-operator.monaghan-gingold]\n")
             .replace("viscosity = 1.0", &format!("viscosity = {viscosity}"));
         let mut flow = assembled::<2>(&text, &[]).flow;
-        let places = flow.world.free.get(fields::POSITION).expect("places");
+        let free = &mut flow.world.free;
+        let places = free.get(fields::POSITION).expect("places");
         let moving = places.iter().map(velocity).collect();
-        flow.world
-            .free
-            .put(fields::VELOCITY, moving)
-            .expect("a column");
+        free.put(fields::VELOCITY, moving).expect("a column");
         flow.evaluate().expect("an evaluation");
-        flow.world
-            .free
-            .get(fields::ACCELERATION)
-            .expect("accelerations")
-            .to_vec()
+        let rates = flow.world.free.get(fields::ACCELERATION);
+        rates.expect("accelerations").to_vec()
     };
     let largest = |velocity: &dyn Fn(&Vect<2>) -> Vect<2>| {
         let [thin, thick] = [1.0, 1001.0].map(|eta| accelerations(velocity, eta));
@@ -232,15 +212,9 @@ fn eddies_end_at_the_surface_of_a_channel_of_a_given_depth() {
     let text = format!(
         "{CHANNEL}[eddy-viscosity.k-epsilon]\nsurface_depth = 0.2\nchannel = {{ friction_velocity = 0.05, depth = 0.2 }}\n"
     );
-    let (_, folder) = finished(&text, 1);
-    let state = FinalState::read(folder.path());
-    let real = |name: &str| -> Vec<f64> {
-        state.columns[name]
-            .iter()
-            .map(|b| f64::from_bits(*b))
-            .collect()
-    };
-    let [places, k, e] = ["position", TURBULENT_ENERGY.name, DISSIPATION.name].map(real);
+    let state = finished(&text, 1).state();
+    let names = ["position", TURBULENT_ENERGY.name, DISSIPATION.name];
+    let [places, k, e] = names.map(|name| state.reals(name));
     for (i, x) in places.chunks(2).enumerate() {
         let ratio = e[i] * 0.18 * 0.2 / k[i].powf(1.5);
         assert_eq!(

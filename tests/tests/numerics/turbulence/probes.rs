@@ -1,17 +1,14 @@
 //! Means over time and layers, and spectra.
 
-use sph_run::Start;
-use sph_tests::{Bench, FinalState, PERIODIC};
+use sph_tests::{Bench, FinalState, PERIODIC, Series};
 
-use crate::turbulence::{CHANNEL, PROGRAM, into, last};
+use crate::turbulence::{CHANNEL, PROGRAM, finished, in_two_parts};
 
 const MEANS: &str =
     "[probe.means]\nkind = \"mean-profile\"\naxis = \"y\"\nfrom = 0.0\nto = 0.2\nlayers = 20\n";
 
-fn curve(folder: &std::path::Path, name: &str) -> sph_io::Table {
-    let path = folder.join("curves").join(name);
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    sph_io::Table::parse(&text, name).expect("a table")
+fn curve(folder: &std::path::Path, name: &str) -> Series {
+    Series::of(&folder.join("curves").join(name))
 }
 
 /// u_x = −3y at the start: layers of two rows have the mean of their middle, and half a spacing of fluctuation.
@@ -22,11 +19,8 @@ fn layers_have_the_means_of_their_particles() {
         .replace("end = 0.02", "end = 1e-7")
         + "[body.water.initial.rigid-rotation]\nangular_velocity = 3.0\ncentre = [0.1, 0.0]\n"
         + &MEANS.replace("layers = 20", "layers = 10");
-    let folder = tempfile::tempdir().expect("a folder");
-    into(folder.path(), &turning, &[], 1, Start::Afresh);
-    let table = curve(folder.path(), "means_0000.csv");
-    let column = |name: &str| table.column(name).expect("a column").to_vec();
-    let [distance, mean, rms] = ["distance", "mean.x", "rms.x"].map(column);
+    let table = curve(finished(&turning, 1).folder(), "means_0000.csv");
+    let [distance, mean, rms] = table.columns(["distance", "mean.x", "rms.x"]);
     assert_eq!(distance.len(), 10);
     for k in 0..10 {
         assert!(
@@ -44,28 +38,17 @@ fn layers_have_the_means_of_their_particles() {
 fn means_go_on_in_a_run_that_is_resumed() {
     let text =
         format!("{CHANNEL}{MEANS}").replace("every = 0.02", "every = 0.02\nseries_every = 1e-9");
-    let [whole, stopped] = [0, 1].map(|_| tempfile::tempdir().expect("a folder"));
-    into(whole.path(), &text, &[], 1, Start::Afresh);
-    into(
-        stopped.path(),
-        &text,
-        &["run.max_steps=20"],
-        1,
-        Start::Afresh,
-    );
-    into(stopped.path(), &text, &[], 2, Start::Resumed);
-    FinalState::read(whole.path())
-        .assert_same(&FinalState::read(stopped.path()), "whole and resumed");
-    let [a, b] = [&whole, &stopped].map(|f| {
-        let path = f.path().join("curves/means_0001.csv");
+    let (whole, stopped) = (finished(&text, 1), in_two_parts(&text));
+    let resumed = FinalState::read(stopped.path());
+    whole.state().assert_same(&resumed, "whole and resumed");
+    let [a, b] = [whole.folder(), stopped.path()].map(|folder| {
+        let path = folder.join("curves/means_0001.csv");
         std::fs::read_to_string(path).expect("a curve")
     });
     assert_eq!(a, b);
     // 1 m/s but for what the bed has taken from the first rows.
-    let mean = curve(whole.path(), "means_0001.csv")
-        .column("mean.x")
-        .expect("means")
-        .to_vec();
+    let means = curve(whole.folder(), "means_0001.csv");
+    let mean = means.column("mean.x");
     assert!(
         mean[0] < mean[19] && (mean[19] - 1.0).abs() < 1e-3,
         "{mean:?}"
@@ -80,15 +63,14 @@ fn vortices_of_one_wave_stand_in_one_shell() {
         .replace("end = 0.1", "end = 1e-6")
         + "[body.all.initial.taylor-green]\nspeed = 1.0\nlength = 1.0\nkinematic_viscosity = 1.0\ndensity = 1.0\n\
            [probe.spectrum]\nkind = \"energy-spectrum\"\npoints = 16\n";
-    let folder = tempfile::tempdir().expect("a folder");
-    into(folder.path(), &text, &[], 1, Start::Afresh);
-    let table = curve(folder.path(), "spectrum_0000.csv");
-    let [k, e] = ["wavenumber", "energy"].map(|c| table.column(c).expect("a column").to_vec());
+    let run = finished(&text, 1);
+    let table = curve(run.folder(), "spectrum_0000.csv");
+    let [k, e] = table.columns(["wavenumber", "energy"]);
     let first = std::f64::consts::TAU;
     assert!((k[0] - first).abs() < 1e-9 && k.len() == 8, "{k:?}");
     let total: f64 = e.iter().map(|e| e * first).sum();
     assert!(e[0] * first / total > 0.999, "{e:?}");
-    assert!((last(folder.path(), "spectrum.energy") / total - 1.0).abs() < 1e-3);
+    assert!((run.last("spectrum.energy") / total - 1.0).abs() < 1e-3);
     assert!(total < 0.25 && total > 0.15, "{total}");
 }
 

@@ -1,102 +1,31 @@
 //! What scenes of turbulence are refused for, and what laminar ones do not carry.
 
 use sph_particles::setup::examine;
-use sph_scene::parse;
+use sph_tests::{Says, refusal, refusals, scene};
 
 use crate::turbulence::CHANNEL;
 use crate::turbulence::phases::OVER_A_BED;
 
+/// A scene is refused with the changes of a file.
+fn refuses(text: &str, file: &'static str) {
+    for case in refusals(file) {
+        refusal::<2>(&case.of(text)).says(case.said[0]);
+    }
+}
+
 #[test]
 fn misfits_are_refused_with_the_expected_value() {
-    let no_slip = CHANNEL.replace("condition = \"free-slip\"", "");
-    let vertices = CHANNEL.replace("vertices = false", "vertices = true");
-    let thin = CHANNEL.replace("1 mPa s", "0 Pa s");
-    let with = |closure: &str| format!("{CHANNEL}{closure}");
-    let cases = [
-        (
-            no_slip.clone(),
-            "write `condition = \"free-slip\"` in `[wall.bed]`",
-        ),
-        (vertices, "`vertices = false`"),
-        (thin, "`rheology.newtonian` with a viscosity"),
-        (
-            CHANNEL.replace("walls = [\"bed\"]", "walls = [\"bad\"]"),
-            "did you mean `bed`",
-        ),
-        (
-            CHANNEL.replace("walls = [\"bed\"]", "walls = [\"bed\"]\nroughness = 0.02"),
-            "at most the spacing",
-        ),
-        (
-            with("[eddy-viscosity.k-epsilon]\nenergy = 1.0\n"),
-            "both `energy` and `dissipation`",
-        ),
-        (
-            with("[eddy-viscosity.k-epsilon]\nenergy = -1.0\ndissipation = 1.0\n"),
-            "energy",
-        ),
-        (
-            with("[eddy-viscosity.smagorinsky]\ndamping = \"van-driest\"\n"),
-            "condition = \"no-slip\"",
-        ),
-        (
-            with("[eddy-viscosity.mixing-length]\nwalls = [\"bod\"]\n"),
-            "there is no wall `bod`",
-        ),
-        (
-            with("[flow-control.bulk-velocity]\nvelocity = 1.0\naxis = \"y\"\n"),
-            "[numerics.periodic]",
-        ),
-        (
-            with("[eddy-viscosity.k-epsilon]\nenergy = 1.0\ndissipation = 1.0\n")
-                .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
-                .replace("condition = \"free-slip\"", ""),
-            "[wall-function.log-law]",
-        ),
-    ];
-    assert_refused(&cases);
+    refuses(CHANNEL, include_str!("channel.refused"));
+    let bare = CHANNEL
+        .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
+        .replace("condition = \"free-slip\"", "");
+    let closure = "[eddy-viscosity.k-epsilon]\nenergy = 1.0\ndissipation = 1.0\n";
+    refusal::<2>(&(bare + closure)).says("[wall-function.log-law]");
 }
 
 #[test]
 fn misfits_of_several_phases_are_refused_with_the_expected_value() {
-    let with = |closure: &str| format!("{OVER_A_BED}[eddy-viscosity.smagorinsky]\n{closure}\n");
-    let water = "phases = [\"water\"]\n";
-    let soil = OVER_A_BED.replace(
-        "rheology.newtonian = { viscosity = \"1e5 Pa s\" }",
-        "rheology.bingham = { viscosity = \"1 Pa s\", yield_stress = \"10 Pa\", regularisation.ratio.ratio = 1000 }",
-    );
-    let cases = [
-        (with(""), "phases = [\"syrup\", \"water\"]"),
-        (with("phases = [\"watr\"]"), "did you mean `water`"),
-        (
-            format!("{soil}[eddy-viscosity.smagorinsky]\nphases = [\"syrup\"]\n"),
-            "phase `syrup` has none",
-        ),
-        (
-            with(&format!("{water}bed = {{ phase = \"sirup\" }}")),
-            "did you mean `syrup`",
-        ),
-        (
-            with(&format!("{water}bed = {{ phase = \"water\" }}")),
-            "cannot be its own bed",
-        ),
-        (
-            with(&format!(
-                "{water}bed = {{ phase = \"syrup\", roughness = 0.02 }}"
-            )),
-            "0 to the spacing",
-        ),
-        (
-            OVER_A_BED.to_owned() + "[eddy-viscosity.k-epsilon]\nphases = [\"water\"]\n",
-            "k and ε at the start are missing",
-        ),
-        (
-            OVER_A_BED.to_owned()
-                + "[eddy-viscosity.k-epsilon]\nphases = [\"water\"]\nenergy = 1.0\ndissipation = -1.0\n",
-            "dissipation",
-        ),
-    ];
-    assert_refused(&cases);
+    refuses(OVER_A_BED, include_str!("phases.refused"));
 }
 
 /// The channel between an inlet and an outlet, with k–ε and what comes in as a table says.
@@ -116,36 +45,16 @@ fn entering(values: &str) -> String {
 #[test]
 fn inflow_has_eddies_or_is_refused() {
     let good = entering("turbulent_energy = 1e-3, dissipation = 1e-3");
-    let loaded = parse(&good, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
-    let cases = [
-        (
-            entering("turbulent_energy = -1.0"),
-            "is positive, and -1 m²/s² comes in here: write such a value",
-        ),
-        (
-            entering("dissipation = 0.0"),
-            "is positive, and 0 m²/s³ comes in here: write such a value",
-        ),
-        (entering("disipation = 1.0"), "did you mean `dissipation`"),
-        (entering("velocity = 1.0"), "no plugin of this scene"),
-    ];
-    assert_refused(&cases);
-}
-
-fn assert_refused(cases: &[(String, &str)]) {
-    for (text, expected) in cases {
-        let refused = match parse(text, "scene.toml", &[]) {
-            Err(error) => error.to_string(),
-            Ok(loaded) => match examine(&loaded.scene) {
-                Err(error) => error.to_string(),
-                Ok(_) => panic!("accepted, where `{expected}` was expected:\n{text}"),
-            },
-        };
-        assert!(
-            refused.contains(expected),
-            "`{expected}` is not in: {refused}"
-        );
+    examine(&scene(&good, &[])).unwrap_or_else(|e| panic!("{e}"));
+    let negative = "is positive, and -1 m²/s² comes in here: write such a value";
+    let nothing = "is positive, and 0 m²/s³ comes in here: write such a value";
+    for (values, told) in [
+        ("turbulent_energy = -1.0", negative),
+        ("dissipation = 0.0", nothing),
+        ("disipation = 1.0", "did you mean `dissipation`"),
+        ("velocity = 1.0", "no plugin of this scene"),
+    ] {
+        refusal::<2>(&entering(values)).says(told);
     }
 }
 
@@ -158,8 +67,7 @@ fn a_laminar_scene_carries_nothing_of_turbulence() {
             "[probe.bed]\nkind = \"friction-velocity\"\nwall = \"bed\"\n",
             "",
         );
-    let loaded = parse(&plain, "scene.toml", &[]).unwrap_or_else(|e| panic!("{e}"));
-    let examined = examine(&loaded.scene).unwrap_or_else(|e| panic!("{e}"));
+    let examined = examine(&scene(&plain, &[])).unwrap_or_else(|e| panic!("{e}"));
     for field in &examined.fields {
         let name = field.name.as_str();
         let of_turbulence = [

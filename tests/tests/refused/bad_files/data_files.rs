@@ -2,9 +2,8 @@
 
 use std::fs::File;
 use std::process::Stdio;
-use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK};
+use sph_tests::{Bench, DAM_BREAK, Says, wait_until};
 
 use crate::bad_files::PROGRAM;
 
@@ -31,21 +30,15 @@ fn references_that_nothing_can_be_compared_with_are_refused_before_the_run() {
     ] {
         let bench = with_reference("", table);
         for command in ["check scene.toml", "run scene.toml --out r"] {
-            let outcome = bench.call(command);
-            assert_eq!(outcome.code, Some(2), "{table:?}: {}", outcome.err);
-            assert!(outcome.err.contains(told), "{table:?}: {}", outcome.err);
-            assert!(outcome.err.contains("scene.toml:"), "{}", outcome.err);
+            let refused = bench.refused(command);
+            refused.says(&format!("{told} | scene.toml:"));
         }
         assert!(!bench.path("r").exists());
     }
     let band = "norm = \"band\"\nlower = \"a\"\nupper = \"b\"";
     let bench = with_reference(band, "t,a,b\n0,0,1\n0.1,0,inf\n0.2,0,1\n");
     let outcome = bench.call("check scene.toml");
-    assert!(
-        outcome.err.contains("found inf in row 2 of `b`"),
-        "{}",
-        outcome.err
-    );
+    outcome.says("found inf in row 2 of `b`");
 }
 
 #[test]
@@ -64,9 +57,7 @@ fn norms_that_cannot_be_computed_are_refused_before_the_run() {
         ),
     ] {
         let bench = with_reference(keys, "t,u\n0,1\n1,1\n");
-        let outcome = bench.call("check scene.toml");
-        assert_eq!(outcome.code, Some(2), "{keys}: {}", outcome.err);
-        assert!(outcome.err.contains(told), "{keys}: {}", outcome.err);
+        bench.refused("check scene.toml").says(told);
     }
 }
 
@@ -74,21 +65,12 @@ fn norms_that_cannot_be_computed_are_refused_before_the_run() {
 #[test]
 fn a_reference_that_goes_while_the_run_goes_on_costs_the_comparison_alone() {
     let bench = with_reference("", "t,u\n0,0.2\n0.4,0.6\n");
-    let run = bench.command("run scene.toml --quiet --out r").spawn();
-    let run = run.expect("a run");
-    let begun = Instant::now();
-    while !bench.path("r/series.csv").exists() && begun.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    let run = bench.start("run scene.toml --quiet --out r");
+    wait_until("no series", || bench.path("r/series.csv").exists());
     std::fs::remove_file(bench.path("r.csv")).expect("a table to remove");
-    let output = run.wait_with_output().expect("an end");
-    let err = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{err}");
+    run.end().ended(0);
     let summary = bench.read("r/summary.json");
-    assert!(
-        summary.contains("reference `front` was not compared"),
-        "{summary}"
-    );
+    summary.says("reference `front` was not compared");
 }
 
 #[test]
@@ -96,9 +78,7 @@ fn a_wall_whose_speed_is_no_number_is_refused() {
     let wall = "\n[wall.block]\nbox = [[0.4, 0.3], [0.46, 0.4]]\nfluid = \"outside\"\n\
                 motion.translate = { along = [0.0, 1.0], table = [[0, 0], [1, 1e308], [2, -1e308]] }\n";
     let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}{wall}"));
-    let outcome = bench.call("check scene.toml");
-    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    assert!(outcome.err.contains("wall.block.motion"), "{}", outcome.err);
+    bench.refused("check scene.toml").says("wall.block.motion");
 }
 
 #[test]
@@ -121,9 +101,8 @@ fn a_series_that_is_no_file_is_refused() {
     std::fs::create_dir(bench.path("r")).expect("a folder");
     bench.write("precious", "kept");
     std::os::unix::fs::symlink("../precious", bench.path("r/series.csv")).expect("a link");
-    let outcome = bench.call("run scene.toml --quiet --out r --set run.end=0.02");
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    assert!(outcome.err.contains("series.csv"), "{}", outcome.err);
+    let failed = bench.failed("run scene.toml --quiet --out r --set run.end=0.02");
+    failed.says("series.csv");
     assert_eq!(bench.read("precious"), "kept");
 }
 

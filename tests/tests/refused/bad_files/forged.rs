@@ -63,15 +63,8 @@ fn clocks_and_counters_that_no_run_has_are_refused() {
             .pointer_mut(place)
             .unwrap_or_else(|| panic!("no {place}")) = value.clone();
         forged.save(&path).expect("saved");
-        let refused = bench.call(&format!("{run} --resume"));
-        assert_eq!(refused.code, Some(1), "{place} = {value}: {}", refused.err);
-        for said in ["checkpoint.sph", told] {
-            assert!(
-                refused.err.contains(said),
-                "{place} = {value}: no `{said}` in {}",
-                refused.err
-            );
-        }
+        let failed = bench.failed(&format!("{run} --resume"));
+        failed.says(&format!("checkpoint.sph | {told}"));
         assert_eq!(
             bench.read("r/series.csv"),
             series,
@@ -105,9 +98,7 @@ fn particles_without_mass_or_with_no_velocity_are_refused() {
         }
         forged.save(&path).expect("saved");
         for words in ["--resume", "--resume --changed"] {
-            let refused = bench.call(&format!("{run} {words}"));
-            assert_eq!(refused.code, Some(1), "{column} = {value}: {}", refused.err);
-            assert!(refused.err.contains(told), "{}", refused.err);
+            bench.failed(&format!("{run} {words}")).says(told);
         }
     }
 }
@@ -116,11 +107,6 @@ fn particles_without_mass_or_with_no_velocity_are_refused() {
 fn a_state_past_the_end_is_not_taken_from_another_run_either() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     bench.done("run scene.toml --quiet --out r --set run.end=0.05");
-    let refused = bench.call("run scene.toml --out s --from r --set run.end=0.02");
-    assert_eq!(refused.code, Some(1), "{}", refused.err);
-    assert!(
-        refused.err.contains("past the end of the scene, 0.02 s"),
-        "{}",
-        refused.err
-    );
+    let failed = bench.failed("run scene.toml --out s --from r --set run.end=0.02");
+    failed.says("past the end of the scene, 0.02 s");
 }

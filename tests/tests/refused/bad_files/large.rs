@@ -1,14 +1,12 @@
 //! Drawings as large as the limits allow, or of a size that only near-linear work gets through.
 
+use sph_tests::{Bench, Outcome, binary_stl};
 use std::fmt::Write as _;
-use std::process::{Command, Output};
 
-use sph_tests::Bench;
-
-use crate::bad_files::PROGRAM;
+use crate::bad_files::{PROGRAM, limited};
 
 /// Address space of a check, KiB: twice the gigabyte that no drawing of these sizes may take.
-const MEMORY: &str = "2000000";
+const MEMORY: u32 = 2_000_000;
 
 fn scene(dimension: usize, body: &str, wall: &str) -> String {
     let gravity = ["[0, -9.81]", "[0, 0, -9.81]"][dimension - 2];
@@ -20,30 +18,13 @@ fn scene(dimension: usize, body: &str, wall: &str) -> String {
 }
 
 /// `sph check` of a scene, in the memory that it may have.
-fn checked(bench: &Bench, scene: &str) -> Output {
+fn checked(bench: &Bench, scene: &str) -> Outcome {
     bench.write("scene.toml", scene);
-    Command::new("bash")
-        .args([
-            "-c",
-            &format!("ulimit -v {MEMORY}; exec {PROGRAM} check scene.toml"),
-        ])
-        .env("RAYON_NUM_THREADS", "2")
-        .current_dir(bench.folder())
-        .output()
-        .expect("bash")
+    limited(bench, "check scene.toml", MEMORY)
 }
 
 fn good(bench: &Bench, scene: &str) {
-    let output = checked(bench, scene);
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{told}");
-}
-
-fn refused(bench: &Bench, scene: &str, word: &str) {
-    let output = checked(bench, scene);
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains(word), "no `{word}` in\n{told}");
+    checked(bench, scene).ended(0);
 }
 
 #[test]
@@ -94,24 +75,8 @@ fn polylines_of_twenty_thousand_corners() {
     });
     bench.write("w.csv", &rings);
     let wall = "file = \"w.csv\"\nfluid = \"inside\"\nscale = 0.001";
-    refused(
-        &bench,
-        &scene(2, "[[-0.5, -0.5], [0.5, 0.5]]", wall),
-        "body.water",
-    );
-}
-
-/// A binary STL file of these triangles.
-fn stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
-    let mut bytes = vec![0; 80];
-    bytes.extend((triangles.len() as u32).to_le_bytes());
-    for triangle in triangles {
-        bytes.extend([0; 12]);
-        let corners = triangle.iter().flatten();
-        bytes.extend(corners.flat_map(|x| x.to_le_bytes()));
-        bytes.extend([0; 2]);
-    }
-    bytes
+    let full = scene(2, "[[-0.5, -0.5], [0.5, 0.5]]", wall);
+    checked(&bench, &full).ended(2).says("body.water");
 }
 
 #[test]
@@ -127,9 +92,10 @@ fn facets_by_the_ten_thousand() {
     let tangle: Vec<[[f32; 3]; 3]> = (0..200_000)
         .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| 10.0 * random())))
         .collect();
-    std::fs::write(bench.path("w.stl"), stl(&tangle)).expect("a file");
+    bench.write("w.stl", binary_stl(&tangle));
     let body = "[[-10, -10, -10], [-5, -5, -5]]";
-    refused(&bench, &scene(3, body, "file = \"w.stl\""), "cross");
+    let tangled = scene(3, body, "file = \"w.stl\"");
+    checked(&bench, &tangled).ended(2).says("cross");
     // A sheet of 20,000, of which each has a dozen beside it.
     let height = |i: usize, j: usize| (0.1 * i as f32).sin() + (0.13 * j as f32).cos();
     let at = |i: usize, j: usize| [i as f32, j as f32, height(i, j)];
@@ -140,9 +106,7 @@ fn facets_by_the_ten_thousand() {
             [[a, b, c], [a, c, d]]
         })
         .collect();
-    std::fs::write(bench.path("w.stl"), stl(&sheet)).expect("a file");
-    good(
-        &bench,
-        &scene(3, "[[10, 10, 10], [15, 15, 15]]", "file = \"w.stl\""),
-    );
+    bench.write("w.stl", binary_stl(&sheet));
+    let body = "[[10, 10, 10], [15, 15, 15]]";
+    good(&bench, &scene(3, body, "file = \"w.stl\""));
 }

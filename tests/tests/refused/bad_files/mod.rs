@@ -15,8 +15,10 @@ mod reach;
 #[cfg(target_os = "linux")]
 mod sizes;
 
+use std::process::{Command, Stdio};
+
 use sph_io::{Checkpoint, ColumnData};
-use sph_tests::{Bench, DAM_BREAK, Disk, files_with_extension};
+use sph_tests::{Bench, DAM_BREAK, Disk, Outcome, files_with_extension};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
@@ -24,11 +26,20 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 fn a_folder_that_cannot_be_written_is_named() {
     let bench = Bench::with(PROGRAM, DAM_BREAK);
     for out in ["scene.toml/results", "/proc/self/results"] {
-        let outcome = bench.call(&format!("run scene.toml --out {out}"));
-        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-        assert!(outcome.err.contains(out), "{}", outcome.err);
+        let failed = bench.failed(&format!("run scene.toml --out {out}"));
+        failed.says(out);
     }
     assert_eq!(bench.read("scene.toml"), DAM_BREAK);
+}
+
+/// A call of the program that may have so much address space, KiB.
+#[cfg(target_os = "linux")]
+fn limited(bench: &Bench, call: &str, memory: u32) -> Outcome {
+    let mut shell = Command::new("bash");
+    let script = format!("ulimit -v {memory}; exec {PROGRAM} {call}");
+    shell.args(["-c", &script]).env("RAYON_NUM_THREADS", "2");
+    let shell = shell.current_dir(bench.folder()).stdin(Stdio::null());
+    Outcome::new(call.into(), &shell.output().expect("bash"))
 }
 
 /// A run of a few steps, to have a checkpoint.
@@ -52,11 +63,8 @@ fn a_damaged_checkpoint_is_not_resumed() {
         (vec![b'x'; 4096], "not a checkpoint"),
     ] {
         std::fs::write(&path, &bytes).expect("a damaged checkpoint");
-        let outcome = bench.call("run scene.toml --out r --set run.end=0.02 --resume");
-        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-        assert!(outcome.err.contains("checkpoint.sph"), "{}", outcome.err);
-        assert!(outcome.err.contains(word), "no `{word}` in {}", outcome.err);
-        assert!(outcome.err.contains("without --resume"), "{}", outcome.err);
+        let failed = bench.failed("run scene.toml --out r --set run.end=0.02 --resume");
+        failed.says(&format!("checkpoint.sph | {word} | without --resume"));
         assert_eq!(bench.read("r/series.csv"), series, "the series was touched");
     }
 }
@@ -70,11 +78,8 @@ fn a_checkpoint_of_nonsense_is_not_resumed() {
     let whole = Checkpoint::load(&path).expect("a checkpoint");
     let refused = |forged: &Checkpoint, word: &str| {
         forged.save(&path).expect("saved");
-        let outcome = bench.call("run scene.toml --out r --set run.end=0.02 --resume");
-        assert_eq!(outcome.code, Some(1), "{word}: {}", outcome.err);
-        for said in ["checkpoint.sph", word] {
-            assert!(outcome.err.contains(said), "no `{said}` in {}", outcome.err);
-        }
+        let failed = bench.failed("run scene.toml --out r --set run.end=0.02 --resume");
+        failed.says(&format!("checkpoint.sph | {word}"));
     };
     let change = |name: &str, to: &dyn Fn(&mut ColumnData)| {
         let mut forged = whole.clone();
@@ -117,9 +122,8 @@ fn a_checkpoint_of_another_scene_is_not_resumed() {
     short_run(&bench);
     let series = bench.read("r/series.csv");
     for set in ["", "--set run.end=0.02 --set phase.water.density=999"] {
-        let outcome = bench.call(&format!("run scene.toml --out r --resume {set}"));
-        assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-        assert!(outcome.err.contains("different scene"), "{}", outcome.err);
+        let failed = bench.failed(&format!("run scene.toml --out r --resume {set}"));
+        failed.says("different scene");
         assert_eq!(bench.read("r/series.csv"), series, "the series was touched");
     }
     // Another number of threads is the same scene.
@@ -135,9 +139,8 @@ fn a_full_disk_costs_the_last_output_and_no_other() {
         return;
     };
     let set = "--set output.every=0.002 --set output.picture=pressure";
-    let outcome = bench.call(&format!("run scene.toml --out disk/r {set}"));
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    assert!(outcome.err.contains("disk full"), "{}", outcome.err);
+    let outcome = bench.failed(&format!("run scene.toml --out disk/r {set}"));
+    outcome.says("disk full");
     assert!(!outcome.err.contains("without --resume"), "{}", outcome.err);
 
     let folder = bench.path("disk/r");
@@ -190,17 +193,8 @@ fn a_disk_that_is_full_at_a_checkpoint_is_resumed_once_there_is_room() {
         println!("skipped: mounting a small file system is not permitted here");
         return;
     };
-    let outcome = bench.call(&format!("run scene.toml --out disk/r {quiet}"));
-    assert_eq!(outcome.code, Some(1), "{}", outcome.err);
-    for told in [
-        "disk full",
-        "checkpoint.sph",
-        "make room",
-        "--out disk/r",
-        "--resume",
-    ] {
-        assert!(outcome.err.contains(told), "no `{told}` in {}", outcome.err);
-    }
+    let outcome = bench.failed(&format!("run scene.toml --out disk/r {quiet}"));
+    outcome.says("disk full | checkpoint.sph | make room | --out disk/r | --resume");
     assert!(!outcome.err.contains("start again"), "{}", outcome.err);
     disk.grow(4096);
     bench.done(&format!(

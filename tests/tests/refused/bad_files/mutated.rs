@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use sph_io::{Checkpoint, Column, ColumnData, IoError, Table, read_table};
 use sph_scene::{Facets, Line, LoadError, load};
-use sph_tests::{DAM_BREAK, PADDLE, PERIODIC, SOIL};
+use sph_tests::{DAM_BREAK, PADDLE, PERIODIC, SOIL, Says};
 
 /// What is done to a file at a place.
 #[derive(Clone, Debug)]
@@ -140,10 +140,7 @@ fn checked(path: &Path) -> bool {
         }
         Err(e) => {
             let told = e.to_string();
-            assert!(
-                told.contains("scene.toml") && told.contains("line"),
-                "{told}"
-            );
+            told.says("scene.toml | line");
             false
         }
     }
@@ -213,7 +210,7 @@ const PERCENTILES: &str =
 
 fn refused_by(error: &impl std::fmt::Display, name: &str) {
     let told = error.to_string();
-    assert!(told.contains(name), "{told}");
+    told.says(name);
 }
 
 proptest! {
@@ -337,10 +334,7 @@ fn files_that_are_no_text_name_the_line() {
     let told = sph_particles::setup::size(&scene)
         .expect_err("no text")
         .to_string();
-    assert!(
-        told.contains("tank.csv`, line 2: this is no UTF-8 text"),
-        "{told}"
-    );
+    told.says("tank.csv`, line 2: this is no UTF-8 text");
 }
 
 /// What is mutated is good, and mutations leave some of it good: else nothing would be tested.

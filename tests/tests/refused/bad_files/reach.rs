@@ -64,11 +64,8 @@ fn no_file_of_a_scene_is_out_of_its_folder() {
     ] {
         for (key, scene) in scenes(named) {
             bench.write("scenes/scene.toml", &scene);
-            let outcome = bench.call("check scenes/scene.toml");
-            assert_eq!(outcome.code, Some(2), "{key} {named}: {}", outcome.err);
-            for said in [word, key, "--allow-path"] {
-                assert!(outcome.err.contains(said), "no `{said}` in {}", outcome.err);
-            }
+            let refused = bench.refused("check scenes/scene.toml");
+            refused.says(&format!("{word} | {key} | --allow-path"));
             // The folder may be allowed; then it is read, and what is wrong is another thing.
             let outcome = bench.call("check scenes/scene.toml --allow-path data");
             assert!(
@@ -81,13 +78,11 @@ fn no_file_of_a_scene_is_out_of_its_folder() {
                 "{key}: {}",
                 outcome.err
             );
-            let outcome = bench.call("check scenes/scene.toml --allow-path scenes");
-            assert_eq!(outcome.code, Some(2), "{key} {named}: {}", outcome.err);
+            bench.refused("check scenes/scene.toml --allow-path scenes");
         }
     }
-    let outcome = bench.call("check scenes/scene.toml --allow-path nowhere");
-    assert_eq!(outcome.code, Some(2));
-    assert!(outcome.err.contains("no such folder"), "{}", outcome.err);
+    let refused = bench.refused("check scenes/scene.toml --allow-path nowhere");
+    refused.says("no such folder");
 }
 
 #[test]
@@ -106,9 +101,8 @@ fn a_path_of_the_command_line_is_the_users_own() {
     // It frees that path alone.
     let both = scene + "[reference.r]\nprobe = \"front\"\nfile = \"../data/x.csv\"\n";
     bench.write("scenes/scene.toml", &both);
-    let outcome = bench.call("check scenes/scene.toml --set wall.tank.file=../data/x.csv");
-    assert_eq!(outcome.code, Some(2), "{}", outcome.err);
-    assert!(outcome.err.contains("reference.r.file"), "{}", outcome.err);
+    let refused = bench.refused("check scenes/scene.toml --set wall.tank.file=../data/x.csv");
+    refused.says("reference.r.file");
 }
 
 #[test]
@@ -126,12 +120,11 @@ fn nor_is_what_a_study_names() {
     };
     let refused = |text: &str, call: &str, words: &[&str]| {
         bench.write("studies/s.toml", text);
-        let outcome = bench.call(&format!(
+        let outcome = bench.refused(&format!(
             "study studies/s.toml --set run.end=0.001 --quiet --out o {call}"
         ));
-        assert_eq!(outcome.code, Some(2), "{}", outcome.err);
         for word in words {
-            assert!(outcome.err.contains(word), "no `{word}` in {}", outcome.err);
+            outcome.says(word);
         }
     };
     let out = "lies outside";

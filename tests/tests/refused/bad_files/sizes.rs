@@ -2,15 +2,14 @@
 //! 3 GB here, which a refusal is far from.
 
 use std::fs::File;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK};
+use sph_tests::{Bench, DAM_BREAK, exchanged};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use crate::bad_files::{PROGRAM, limited};
 
 /// Memory that may be asked for, KiB, and the time that may pass.
-const MEMORY: &str = "3000000";
+const MEMORY: u32 = 3_000_000;
 const TIME: Duration = Duration::from_secs(10);
 
 const PLACE: &str = "[walls.usaw]\n";
@@ -19,60 +18,43 @@ const SPACE: &str = "title = \"t\"\ndimension = 3\nrun.end = 1\nnumerics.spacing
                      [body.water]\nphase = \"water\"\nbox = [[0, 0, 0], [1, 1, 1]]\n";
 
 /// `check` refuses the scene with code 2 and all the words, in time and memory.
-fn refused(bench: &Bench, scene: &str, words: &[&str]) {
+fn refused(bench: &Bench, scene: &str, words: &str) {
     bench.write("scene.toml", scene);
     called(bench, "check scene.toml", words);
 }
 
-fn called(bench: &Bench, call: &str, words: &[&str]) {
+fn called(bench: &Bench, call: &str, words: &str) {
     let start = Instant::now();
-    let output = Command::new("bash")
-        .args(["-c", &format!("ulimit -v {MEMORY}; exec {PROGRAM} {call}")])
-        .env("RAYON_NUM_THREADS", "2")
-        .current_dir(bench.folder())
-        .stdin(Stdio::null())
-        .output()
-        .expect("bash");
-    let told = String::from_utf8_lossy(&output.stderr);
+    let refused = limited(bench, call, MEMORY).ended(2);
     let took = start.elapsed();
-    println!("{took:?}: {}", told.lines().next().unwrap_or(""));
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    for word in words {
-        assert!(told.contains(word), "no `{word}` in\n{told}");
-    }
+    println!("{took:?}: {}", refused.err.lines().next().unwrap_or(""));
+    refused.says(words);
     assert!(took < TIME, "it took {took:?}");
 }
 
 #[test]
 fn of_scenes() {
     let bench = Bench::new(PROGRAM);
-    let set = |from: &str, to: &str| {
-        assert!(DAM_BREAK.contains(from), "the scene lost `{from}`");
-        DAM_BREAK.replacen(from, to, 1)
-    };
+    let set = |from: &str, to: &str| exchanged(DAM_BREAK, from, to);
     let spacing = |x: &str| set("spacing = 0.02", &format!("spacing = {x}"));
-    refused(
-        &bench,
-        &spacing("3e-7"),
-        &["particles", "GB", "larger spacing"],
-    );
-    refused(&bench, &spacing("1e-300"), &["numerics.spacing"]);
+    refused(&bench, &spacing("3e-7"), "particles | GB | larger spacing");
+    refused(&bench, &spacing("1e-300"), "numerics.spacing");
     let every = |key: &str| set("every = 0.05", &format!("{key} = 1e-13"));
-    refused(&bench, &every("every"), &["output.every", "1000000 times"]);
+    refused(&bench, &every("every"), "output.every | 1000000 times");
     refused(
         &bench,
         &every("series_every"),
-        &["output.series_every", "times"],
+        "output.series_every | times",
     );
     let often = set("checkpoint_every = 0.02", "checkpoint_every = 1e-12");
-    refused(&bench, &often, &["run.checkpoint_every", "times"]);
+    refused(&bench, &often, "run.checkpoint_every | times");
     let many = |n: usize, one: &dyn Fn(usize) -> String| (0..n).map(one).collect::<String>();
     let times = many(1_000_001, &|k| format!("{k},"));
     // 4 MiB are full before there are as many times as are too many.
     refused(
         &bench,
         &set("every = 0.05", &format!("times = [{times}]")),
-        &["longer than 4 MiB"],
+        "longer than 4 MiB",
     );
     let gauges = many(1_001, &|k| {
         format!("[gauge.g{k}]\nkind = \"level\"\nat = [0.1]\n")
@@ -80,20 +62,20 @@ fn of_scenes() {
     refused(
         &bench,
         &(DAM_BREAK.to_string() + &gauges),
-        &["1001 tables are more than 1000"],
+        "1001 tables are more than 1000",
     );
     let pictures = many(5_000, &|_| "\"pressure\",".to_string());
     let pictured = set("[output]\n", &format!("[output]\npicture = [{pictures}]\n"));
     refused(
         &bench,
         &pictured,
-        &["output.picture", "5000 entries are more than 1000"],
+        "output.picture | 5000 entries are more than 1000",
     );
     let sides = set(
         PLACE,
         "[walls.usaw]\n[wall.d]\ndisc = { centre = [0.5, 0.5], radius = 0.1, sides = 4000000000 }\n",
     );
-    refused(&bench, &sides, &["wall.d.disc.sides", "100000"]);
+    refused(&bench, &sides, "wall.d.disc.sides | 100000");
 }
 
 #[test]
@@ -106,14 +88,14 @@ fn of_scenes_in_space() {
     refused(
         &bench,
         &(SPACE.to_string() + &balls),
-        &["corners or facets, more than 10000000"],
+        "corners or facets, more than 10000000",
     );
     // A million particles, each with seven million neighbours.
     let wide = SPACE.replace(
         "numerics.spacing = 0.01",
         "numerics = { spacing = 0.01, smoothing_ratio = 20, skin = 2 }",
     );
-    refused(&bench, &wide, &["particles", "smaller `smoothing_ratio`"]);
+    refused(&bench, &wide, "particles | smaller `smoothing_ratio`");
 }
 
 #[test]
@@ -129,12 +111,11 @@ fn of_files_that_scenes_name() {
         (4_000_000, "declares 4000000 facets and ends after 2"),
     ] {
         few[80..84].copy_from_slice(&count.to_le_bytes());
-        std::fs::write(bench.path("w.stl"), &few).expect("a file");
-        refused(&bench, &stl, &["wall.w.file", words]);
+        bench.write("w.stl", &few);
+        refused(&bench, &stl, &format!("wall.w.file | {words}"));
     }
     let polyline = "polyline = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]\nclosed = true\n";
-    assert!(DAM_BREAK.contains(polyline));
-    let drawn = DAM_BREAK.replace(polyline, "file = \"w.csv\"\n");
+    let drawn = exchanged(DAM_BREAK, polyline, "file = \"w.csv\"\n");
     let referred = format!("{DAM_BREAK}[reference.r]\nprobe = \"front\"\nfile = \"w.csv\"\n");
     // Holes of eight gigabytes that take no room on the disk.
     let hole = |name: &str| {
@@ -142,20 +123,16 @@ fn of_files_that_scenes_name() {
         made.expect("a sparse file");
     };
     hole("w.stl");
-    refused(&bench, &stl, &["longer than 512 MiB"]);
+    refused(&bench, &stl, "longer than 512 MiB");
     hole("w.csv");
-    refused(&bench, &drawn, &["wall.tank.file", "longer than 64 MiB"]);
-    refused(
-        &bench,
-        &referred,
-        &["reference.r.file", "longer than 64 MiB"],
-    );
+    refused(&bench, &drawn, "wall.tank.file | longer than 64 MiB");
+    refused(&bench, &referred, "reference.r.file | longer than 64 MiB");
     // A hundred thousand lines of which each may lie within each.
     let squares: String = (0..100_000)
         .map(|k| format!("{k},0\n{k}.5,0\n{k}.5,0.5\n{k},0\n\n"))
         .collect();
     bench.write("w.csv", &squares);
-    refused(&bench, &drawn, &["100000 lines", "at most 20000"]);
+    refused(&bench, &drawn, "100000 lines | at most 20000");
     let rows: String = (0..1_000_001).map(|k| format!("{k},0\n")).collect();
     bench.write("w.csv", &rows);
     let moved = DAM_BREAK.replace(
@@ -165,7 +142,7 @@ fn of_files_that_scenes_name() {
     refused(
         &bench,
         &moved,
-        &["wall.tank.motion", "1000001 rows, more than 1000000"],
+        "wall.tank.motion | 1000001 rows, more than 1000000",
     );
 }
 
@@ -180,5 +157,5 @@ fn of_studies() {
         axis("run.end")
     );
     bench.write("s.toml", &study);
-    called(&bench, "study s.toml", &["more than 10000 variants"]);
+    called(&bench, "study s.toml", "more than 10000 variants");
 }

@@ -1,11 +1,11 @@
 //! Scenes with one mistake.
 
-use sph_tests::Bench;
+use sph_tests::{Bench, Says, one_line};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// A corner of a triangle.
-pub type Corner = [f64; 3];
+pub type Corner = [f32; 3];
 
 /// The cube from −½ to ½ as an obstacle: normals point out of it.
 pub fn cube() -> Vec<[Corner; 3]> {
@@ -21,20 +21,6 @@ pub fn cube() -> Vec<[Corner; 3]> {
     let halves = |q: [usize; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]];
     let triangles = quads.into_iter().flat_map(halves);
     triangles.map(|t| t.map(corner)).collect()
-}
-
-/// A binary STL file; normals are left zero.
-pub fn binary(triangles: &[[Corner; 3]]) -> Vec<u8> {
-    let mut bytes = vec![b' '; 80];
-    bytes.extend((triangles.len() as u32).to_le_bytes());
-    for triangle in triangles {
-        bytes.extend([0_u8; 12]);
-        for x in triangle.iter().flatten() {
-            bytes.extend((*x as f32).to_le_bytes());
-        }
-        bytes.extend([0_u8; 2]);
-    }
-    bytes
 }
 
 const PHASE: &str = "[phase.water]\ndensity = 1000.0\nspeed_of_sound = 30.0\n\
@@ -57,41 +43,39 @@ pub fn in_the_plane(more: &str, body: &str) -> String {
     )
 }
 
-/// The scene with its files is refused by `run` and `check`; what is said has all the words.
-pub fn refused(scene: &str, files: &[(&str, &[u8])], words: &[&str]) -> String {
+/// The scene is refused by `run` and `check`, and what is said has all the words; ` | ` stands between two.
+pub fn refused(scene: &str, words: &str) {
+    refused_with(scene, &[], words);
+}
+
+/// The same of a scene with files.
+pub fn refused_with(scene: &str, files: &[(&str, &[u8])], words: &str) {
     let bench = Bench::with(PROGRAM, scene);
     for (name, bytes) in files {
-        std::fs::write(bench.path(name), bytes).expect("a file");
+        bench.write(name, bytes);
     }
-    let mut told = String::new();
     for command in ["check", "run"] {
-        let outcome = bench.call(&format!("{command} scene.toml"));
-        told = outcome.err;
-        println!("{told}");
-        assert_eq!(outcome.code, Some(2), "{command}: {told}");
-        assert!(!told.contains("panicked"), "{told}");
-        assert!(told.contains("scene.toml"), "no place in\n{told}");
-        for word in words {
-            assert!(told.contains(word), "no `{word}` in\n{told}");
-        }
-        let entries = std::fs::read_dir(bench.folder()).expect("the folder");
-        assert_eq!(entries.count(), files.len() + 1, "something was written");
+        let refused = bench.refused(&format!("{command} scene.toml"));
+        println!("{}", refused.err);
+        assert!(!refused.err.contains("panicked"), "{}", refused.err);
+        refused.says(&format!("scene.toml | {words}"));
+        assert_eq!(
+            bench.names().len(),
+            files.len() + 1,
+            "something was written"
+        );
     }
-    told
 }
 
 /// What `check` says of a good scene, in one line.
 fn checked(scene: &str) -> String {
     let outcome = Bench::with(PROGRAM, scene).done("check scene.toml");
-    outcome.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    one_line(&outcome.out)
 }
 
 /// The scene is good, and `check` warns of a wall with all the words.
-pub fn warned(scene: &str, words: &[&str]) {
-    let told = checked(scene);
-    for word in words {
-        assert!(told.contains(word), "no `{word}` in\n{told}");
-    }
+pub fn warned(scene: &str, words: &str) {
+    checked(scene).says(words);
 }
 
 /// The scene is good, and `check` warns of no wall.

@@ -8,19 +8,15 @@ const BODY: &str = "box = [[-2.0, -2.0, -2.0], [2.0, 2.0, 0.0]]";
 fn an_obstacle_inside_a_body_asks_for_clip() {
     let ball =
         "[wall.ball]\nsphere = { centre = [0.0, 0.0, -1.0], radius = 0.5 }\nfluid = \"outside\"";
-    let words = ["body.water", "through wall `ball`", "`clip = true`"];
-    refused(&in_space(ball, BODY), &[], &words);
+    let words = "body.water | through wall `ball` | `clip = true`";
+    refused(&in_space(ball, BODY), words);
 }
 
 #[test]
 fn two_walls_that_cross_are_told_with_both_names_and_the_place() {
     let block = "[wall.block]\nbox = [[1.0, -0.5, -1.0], [3.0, 0.5, 0.0]]\nfluid = \"outside\"";
-    let words = ["`block`", "`tank`", "crosses", "near (2, "];
-    refused(
-        &in_space(block, &format!("{BODY}\nclip = true")),
-        &[],
-        &words,
-    );
+    let words = "`block` | `tank` | crosses | near (2, ";
+    refused(&in_space(block, &format!("{BODY}\nclip = true")), words);
 }
 
 #[test]
@@ -33,5 +29,5 @@ fn a_tank_drawn_inside_out_leaves_no_fluid() {
         "[2.0, 2.0, 2.0]]\n",
         "[2.0, 2.0, 2.0]]\nfluid = \"outside\"\n",
     );
-    refused(&scene, &[], &["body.water", "right side"]);
+    refused(&scene, "body.water | right side");
 }

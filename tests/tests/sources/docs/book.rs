@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::docs::{documents, root};
+use crate::docs::documents;
+use crate::root;
 
 /// Longest line of a page: prose, code, rows of tables. What a row cannot hold becomes an item of a list.
 const LONGEST: usize = 120;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::docs::dependencies::{entries, table, workspace};
-use crate::docs::root;
+use crate::{name, root};
 use sph_tests::list_items;
 
 /// The crates in `crates` and those of the project that each is built on, as a page writes them.
@@ -13,9 +13,7 @@ fn arrows() -> BTreeMap<String, String> {
         .filter(|(_, entry)| entry.get("path").is_some())
         .map(|(name, _)| name)
         .collect();
-    let folders = std::fs::read_dir(root().join("crates")).expect("a folder");
-    let folders = folders.map(|f| f.expect("an entry").file_name());
-    let names = folders.map(|f| f.into_string().expect("a name"));
+    let names = crate::crates().into_iter().map(|c| name(&c).to_string());
     let arrows = names.map(|name| {
         let manifest = table(&format!("crates/{name}/Cargo.toml"));
         let used = entries(&manifest, "dependencies");

@@ -5,7 +5,7 @@ use std::fs;
 
 use toml::{Table, Value};
 
-use crate::docs::root;
+use crate::{name, root};
 
 /// More users than these are `many` on the page.
 const NAMED: usize = 4;
@@ -46,18 +46,14 @@ impl Users {
 /// All crates from outside that a manifest of the workspace names.
 fn used() -> BTreeMap<String, Users> {
     let mut used: BTreeMap<String, Users> = BTreeMap::new();
-    let folders = fs::read_dir(root().join("crates")).expect("a folder");
-    let folders = folders.map(|f| f.expect("an entry").file_name());
-    let mut folders: Vec<_> = folders
-        .map(|f| format!("crates/{}", f.to_str().expect("a name")))
-        .collect();
+    let folders = crate::crates();
+    let folders = folders.iter().map(|f| format!("crates/{}", name(f)));
+    let mut folders: Vec<_> = folders.collect();
     folders.extend(["python", "tests"].map(str::to_owned));
     for folder in folders {
         let manifest = table(&format!("{folder}/Cargo.toml"));
-        let name = entries(&manifest, "package")["name"]
-            .as_str()
-            .map(str::to_owned);
-        let name = name.expect("a name");
+        let package = entries(&manifest, "package");
+        let name = package["name"].as_str().expect("a name");
         let mut add = |of: &Table| {
             for (key, is_test) in [
                 ("dependencies", false),
@@ -69,12 +65,11 @@ fn used() -> BTreeMap<String, Users> {
                 let outside = all.iter().filter(|(_, entry)| entry.get("path").is_none());
                 for (dependency, _) in outside {
                     let users = used.entry(dependency.clone()).or_default();
-                    let users = if is_test {
-                        &mut users.test
-                    } else {
-                        &mut users.run
+                    let users = match is_test {
+                        true => &mut users.test,
+                        false => &mut users.run,
                     };
-                    users.insert(name.clone());
+                    users.insert(name.to_owned());
                 }
             }
         };
@@ -84,11 +79,9 @@ fn used() -> BTreeMap<String, Users> {
             .filter_map(Value::as_table)
             .for_each(add);
     }
-    let own: Vec<_> = entries(&workspace(), "dependencies")
-        .into_iter()
-        .filter(|(_, entry)| entry.get("path").is_some())
-        .collect();
-    used.retain(|name, _| !own.iter().any(|(n, _)| n == name));
+    let declared = entries(&workspace(), "dependencies");
+    let is_own = |name: &str| declared.get(name).is_some_and(|d| d.get("path").is_some());
+    used.retain(|name, _| !is_own(name));
     used
 }
 
@@ -132,11 +125,8 @@ fn items() -> BTreeMap<String, Vec<String>> {
 fn every_crate_from_outside_has_its_item_and_no_item_is_left_over() {
     let (used, items) = (used(), items());
     let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<BTreeSet<_>>();
-    assert_eq!(
-        names(&mut items.keys()),
-        names(&mut used.keys()),
-        "items, manifests"
-    );
+    let (told, found) = (names(&mut items.keys()), names(&mut used.keys()));
+    assert_eq!(told, found, "items, manifests");
     for (name, users) in used {
         let told = &items[&name];
         let empty = told.iter().any(|part| part.trim().is_empty());

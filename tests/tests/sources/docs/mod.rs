@@ -6,8 +6,9 @@ mod dependencies;
 mod keys;
 mod published;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use crate::{listed, name, root};
 use {artificial_viscosity as _, sph_cli as _, syrup as _, tracer as _};
 
 const PLUGINS: &str = include_str!("../../../../docs/plugins.md");
@@ -21,27 +22,19 @@ const QUOTED: [&str; 5] = [
 const LANES: &str = include_str!("../../../../examples/artificial-viscosity/src/lib.rs");
 const MANIFEST: &str = include_str!("../../../../examples/syrup/Cargo.toml");
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
 /// The documents of the workspace: of its root, of `docs` and its folders, and the README of every
 /// crate.
 pub(crate) fn documents() -> Vec<(PathBuf, String)> {
-    let listed = |folder: PathBuf| {
-        let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{folder:?}: {e}"));
-        entries.map(|e| e.expect("an entry").path())
-    };
-    let crates = listed(root().join("crates")).map(|folder| folder.join("README.md"));
-    let inner = listed(root().join("docs")).filter(|p| p.is_dir());
-    let pages = listed(root()).chain(listed(root().join("docs")));
-    let pages = pages.chain(inner.flat_map(listed));
-    let pages = pages.filter(|p| p.extension().is_some_and(|e| e == "md"));
+    let docs = listed(&root().join("docs"));
+    let inner = docs.iter().filter(|p| p.is_dir()).flat_map(|p| listed(p));
+    let mut pages = [listed(&root()), inner.collect(), docs.clone()].concat();
+    pages.retain(|p| p.extension().is_some_and(|e| e == "md"));
+    pages.extend(crate::crates().iter().map(|c| c.join("README.md")));
     let read = |p: PathBuf| {
         let text = std::fs::read_to_string(&p).unwrap_or_else(|e| panic!("{p:?}: {e}"));
         (p, text)
     };
-    pages.chain(crates).map(read).collect()
+    pages.into_iter().map(read).collect()
 }
 
 /// The code blocks of one language.
@@ -65,15 +58,12 @@ fn the_code_of_the_plugin_page_is_that_of_the_examples() {
 /// Manifests: that of the syrup, and that of a stranger's program with the profile and the paths of this workspace.
 #[test]
 fn the_manifests_of_the_plugin_page_are_those_of_the_workspace() {
-    let blocks = blocks(PLUGINS, "toml");
-    let manifests: Vec<_> = blocks
-        .iter()
-        .filter(|b| b.starts_with("[package]"))
-        .collect();
-    let [syrup, program] = manifests.as_slice() else {
+    let mut manifests = blocks(PLUGINS, "toml");
+    manifests.retain(|b| b.starts_with("[package]"));
+    let [syrup, program] = manifests[..] else {
         panic!("{} manifests", manifests.len());
     };
-    assert_eq!(**syrup, MANIFEST);
+    assert_eq!(syrup, MANIFEST);
     let own = std::fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
     let table = |text: &str| text.parse::<toml::Table>().expect("TOML");
     let (program, own) = (table(program), table(&own));
@@ -146,11 +136,10 @@ fn every_scene_and_every_study_is_in_its_page() {
         ("studies", "docs/studies.md"),
     ] {
         let page = std::fs::read_to_string(root().join(page)).expect("a page");
-        let files = std::fs::read_dir(root().join(folder)).expect("a folder");
-        let files = files.map(|f| f.expect("an entry").path());
-        for file in files.filter(|p| p.extension().is_some_and(|e| e == "toml")) {
-            let name = file.file_name().and_then(|n| n.to_str()).expect("a name");
-            let link = format!("{folder}/{name})");
+        let mut files = listed(&root().join(folder));
+        files.retain(|p| p.extension().is_some_and(|e| e == "toml"));
+        for file in files {
+            let link = format!("{folder}/{})", name(&file));
             assert!(page.contains(&link), "{link} is not linked");
         }
     }
@@ -158,18 +147,15 @@ fn every_scene_and_every_study_is_in_its_page() {
 
 #[test]
 fn every_scene_has_a_small_picture() {
-    let files = std::fs::read_dir(root().join("docs/images/scenes")).expect("a folder");
-    let files = files.map(|f| f.expect("an entry"));
-    let sizes: Vec<_> = files
-        .map(|f| (f.path(), f.metadata().expect("a file").len()))
-        .collect();
-    for (path, size) in &sizes {
+    let mut all = 0;
+    for path in listed(&root().join("docs/images/scenes")) {
+        let size = path.metadata().expect("a file").len();
+        all += size;
         let name = path.file_stem().and_then(|n| n.to_str()).expect("a name");
         let scene = root().join(format!("scenes/{name}.toml"));
         assert!(scene.is_file(), "{path:?} is of no scene");
-        assert!(*size < 20_000, "{path:?}: {size} bytes");
+        assert!(size < 20_000, "{path:?}: {size} bytes");
     }
-    let all: u64 = sizes.iter().map(|(_, size)| size).sum();
     assert!(all < 1_500_000, "{all} bytes of all scenes");
 }
 

@@ -1,37 +1,15 @@
 //! Every crate in `crates` is one that can be published: its folder alone has all that its users get.
 
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
 use toml::Table;
 
 use crate::docs::dependencies::{entries, table, workspace};
-use crate::docs::root;
-
-fn crates() -> Vec<PathBuf> {
-    let folders = fs::read_dir(root().join("crates")).expect("a folder");
-    folders.map(|f| f.expect("an entry").path()).collect()
-}
+use crate::{crates, listed, name, root, sources};
 
 fn manifest(folder: &Path) -> Table {
-    let name = folder.file_name().and_then(|n| n.to_str());
-    table(&format!("crates/{}/Cargo.toml", name.expect("a name")))
-}
-
-/// Sources of a folder and of those within it.
-fn sources(folder: &Path) -> Vec<PathBuf> {
-    let (mut found, mut folders) = (Vec::new(), vec![folder.to_path_buf()]);
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            match path.is_dir() {
-                true => folders.push(path),
-                false if path.extension().is_some_and(|e| e == "rs") => found.push(path),
-                false => {}
-            }
-        }
-    }
-    found
+    table(&format!("crates/{}/Cargo.toml", name(folder)))
 }
 
 /// How many folders above the first one a path leads at most.
@@ -80,10 +58,8 @@ fn every_crate_says_what_a_registry_asks_for_and_has_its_licences() {
 fn every_crate_of_the_workspace_that_another_depends_on_has_a_version() {
     let shared = entries(&workspace(), "package")["version"].clone();
     let own = entries(&workspace(), "dependencies");
-    let own: Vec<_> = own
-        .iter()
-        .filter(|(_, e)| e.get("path").is_some())
-        .collect();
+    let own = own.iter().filter(|(_, e)| e.get("path").is_some());
+    let own: Vec<_> = own.collect();
     assert_eq!(own.len(), crates().len());
     for (name, entry) in own {
         assert_eq!(entry.get("version"), Some(&shared), "{name}");
@@ -99,9 +75,8 @@ fn every_crate_of_the_workspace_that_another_depends_on_has_a_version() {
 #[test]
 fn what_is_no_crate_for_others_is_never_published() {
     let mut others = vec!["python".to_owned(), "tests".into(), "fuzz".into()];
-    let examples = fs::read_dir(root().join("examples")).expect("a folder");
-    let names = examples.map(|e| e.expect("an entry").file_name());
-    others.extend(names.map(|n| format!("examples/{}", n.to_str().expect("a name"))));
+    let examples = listed(&root().join("examples"));
+    others.extend(examples.iter().map(|e| format!("examples/{}", name(e))));
     for folder in others {
         let package = entries(&table(&format!("{folder}/Cargo.toml")), "package");
         let publish = package.get("publish").and_then(toml::Value::as_bool);
@@ -126,8 +101,7 @@ fn no_page_of_a_crate_leads_out_of_it() {
 fn no_source_takes_in_a_file_from_outside_of_its_crate() {
     let mut checked = 0;
     for folder in crates() {
-        for source in sources(&folder) {
-            let text = fs::read_to_string(&source).expect("a source");
+        for (source, text) in sources(&folder) {
             let inside = source.strip_prefix(&folder).expect("it is inside");
             let depth = inside.components().count() - 1;
             for macro_name in ["include_str!(\"", "include_bytes!(\"", "#[path = \""] {

@@ -7,8 +7,8 @@
 mod source;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
+use crate::{crates, name, sources};
 use source::{Module, Names, module};
 
 /// The modules of a crate, each in a file.
@@ -37,10 +37,8 @@ impl Modules {
         let all: Vec<Names> = modules.keys().cloned().collect();
         for place in all.iter().filter(|place| !place.is_empty()) {
             let (name, parent) = place.split_last().expect("not the root");
-            if modules
-                .get(parent)
-                .is_some_and(|m| m.for_tests.contains(name))
-            {
+            let parent = modules.get(parent);
+            if parent.is_some_and(|m| m.for_tests.contains(name)) {
                 modules.retain(|other, _| !other.starts_with(place));
             }
         }
@@ -51,17 +49,13 @@ impl Modules {
     fn member(&self, module: &[String], name: &String, depth: usize) -> Option<Target> {
         let inner = [module, std::slice::from_ref(name)].concat();
         if self.0.contains_key(&inner) {
-            return Some(Target {
-                module: inner,
-                whole: true,
-            });
+            let (module, whole) = (inner, true);
+            return Some(Target { module, whole });
         }
         let here = self.0.get(module)?;
         if here.items.contains(name) {
-            return Some(Target {
-                module: module.to_vec(),
-                whole: false,
-            });
+            let (module, whole) = (module.to_vec(), false);
+            return Some(Target { module, whole });
         }
         if let Some(path) = here.imports.get(name) {
             return self.target(module, path, depth + 1);
@@ -129,47 +123,24 @@ impl Modules {
     }
 }
 
-/// The sources below a folder, by their names within it.
-fn sources(folder: &Path) -> Vec<(String, String)> {
-    let mut open = vec![folder.to_path_buf()];
-    let mut found = Vec::new();
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            let entries = std::fs::read_dir(&path).expect("a folder");
-            open.extend(entries.map(|e| e.expect("an entry").path()));
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            let name = path.strip_prefix(folder).expect("below the folder");
-            let text = std::fs::read_to_string(&path).expect("a source");
-            found.push((name.to_str().expect("plain").to_string(), text));
-        }
-    }
-    found
-}
-
 #[test]
 fn no_circle_of_imports_stands_between_modules() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     let (mut count, mut found) = (0, Vec::new());
-    for entry in std::fs::read_dir(crates).expect("the crates") {
-        let path = entry.expect("an entry").path();
-        let files = sources(&path.join("src"));
-        let modules = Modules::read(files.iter().map(|(n, t)| (n.as_str(), t.as_str())));
+    for path in crates() {
+        let folder = path.join("src");
+        let files = sources(&folder);
+        let modules = Modules::read(files.iter().map(|(path, text)| {
+            let place = path.strip_prefix(&folder).expect("below the folder");
+            (place.to_str().expect("plain"), text.as_str())
+        }));
         count += modules.arrows().values().map(BTreeSet::len).sum::<usize>();
-        let name = path.file_name().expect("a crate").display();
-        found.extend(
-            modules
-                .circles()
-                .iter()
-                .map(|arrow| format!("{name}: {arrow}")),
-        );
+        let circles = modules.circles().into_iter();
+        found.extend(circles.map(|arrow| format!("{}: {arrow}", name(&path))));
     }
     assert!(count > 1000, "only {count} arrows were read");
     found.sort();
-    assert!(
-        found.is_empty(),
-        "on circles of imports:\n{}",
-        found.join("\n")
-    );
+    let found = found.join("\n");
+    assert!(found.is_empty(), "on circles of imports:\n{found}");
 }
 
 #[test]
@@ -179,24 +150,20 @@ fn a_circle_is_found_through_re_exports_and_not_in_tests() {
         let high =
             "use crate::{low::{self, Below as B}, Other}; struct Top; struct Mark { low: B }";
         let shelf = "mod inner; pub(crate) use inner::Deep; fn of_all() { inner::each() }";
+        let inner = "use super::super::high::Mark; struct Deep;";
         let files = [
             ("lib.rs", lib),
             ("high.rs", high),
             ("low.rs", low),
             ("shelf/mod.rs", shelf),
-            (
-                "shelf/inner.rs",
-                "use super::super::high::Mark; struct Deep;",
-            ),
+            ("shelf/inner.rs", inner),
         ];
         Modules::read(files).circles()
     };
     let ring = ["high -> low", "low -> high"];
     assert_eq!(circles("use crate::Top; struct Below;"), ring);
-    assert_eq!(
-        circles("struct Below; fn f() -> char { crate::high::g('\"'); '\"' }"),
-        ring
-    );
+    let quoting = "struct Below; fn f() -> char { crate::high::g('\"'); '\"' }";
+    assert_eq!(circles(quoting), ring);
     let long_way = ["high -> low", "low -> shelf::inner", "shelf::inner -> high"];
     assert_eq!(circles("use super::Deep; struct Below;"), long_way);
     let by_the_parent = [
@@ -205,10 +172,8 @@ fn a_circle_is_found_through_re_exports_and_not_in_tests() {
         "shelf -> shelf::inner",
         "shelf::inner -> high",
     ];
-    assert_eq!(
-        circles("use crate::shelf::of_all; struct Below;"),
-        by_the_parent
-    );
+    let low = "use crate::shelf::of_all; struct Below;";
+    assert_eq!(circles(low), by_the_parent);
     let fine = "struct Below<'a>; // crate::Top\n const A: &str = \"super::Top\";\
         #[cfg(test)] #[allow(unused)] mod tests { use super::super::Top; }";
     assert_eq!(circles(fine), Vec::<String>::new());

@@ -129,6 +129,11 @@ fn use_tree(tokens: &[String], at: &mut usize, mut path: Names, found: &mut Vec<
     }
 }
 
+/// What items begin with.
+const ITEMS: [&str; 8] = [
+    "fn", "struct", "enum", "trait", "const", "static", "type", "union",
+];
+
 /// Reads what a source says; its tests are left out.
 pub fn module(text: &str) -> Module {
     let tokens = tokens(text);
@@ -139,12 +144,8 @@ pub fn module(text: &str) -> Module {
         let before = at.checked_sub(1).map_or("", |at| &tokens[at]);
         let token = tokens[at].as_str();
         let next = tokens.get(at + 1).cloned().unwrap_or_default();
-        if token == "#"
-            && tokens[at..]
-                .iter()
-                .take(7)
-                .eq(["#", "[", "cfg", "(", "test", ")", "]"])
-        {
+        let ahead = tokens[at..].iter().take(7);
+        if ahead.eq(["#", "[", "cfg", "(", "test", ")", "]"]) {
             let end = end_of_item(&tokens, at);
             if let Some(name) = tokens[at..end].iter().position(|t| t == "mod") {
                 module.for_tests.insert(tokens[at + name + 1].clone());
@@ -167,11 +168,7 @@ pub fn module(text: &str) -> Module {
             }
             continue;
         }
-        if [
-            "fn", "struct", "enum", "trait", "const", "static", "type", "union",
-        ]
-        .contains(&token)
-        {
+        if ITEMS.contains(&token) {
             module.items.insert(next);
         } else if is(at + 1, "::") && !["::", "$"].contains(&before) {
             let mut path = vec![token.to_string()];

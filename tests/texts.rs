@@ -1,0 +1,109 @@
+//! What texts must have and numbers must be, and scenes with a change that is refused.
+
+/// What must be said.
+pub trait Says {
+    /// All of these words must be in it; ` | ` stands between two.
+    fn says(&self, words: &str);
+}
+
+impl Says for str {
+    #[track_caller]
+    fn says(&self, words: &str) {
+        for word in words.split(" | ") {
+            assert!(self.contains(word), "no `{word}` in\n{self}");
+        }
+    }
+}
+
+/// A text whose lines are broken anywhere, in one line.
+pub fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The number of the first line that has these words.
+#[track_caller]
+pub fn line_of(text: &str, words: &str) -> usize {
+    let line = text.lines().position(|line| line.contains(words));
+    1 + line.unwrap_or_else(|| panic!("no line has `{words}`"))
+}
+
+/// A text with a part of it, which must be there, exchanged.
+#[track_caller]
+pub fn exchanged(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "the text lost `{from}`");
+    text.replacen(from, to, 1)
+}
+
+/// A change of a scene with what is said of it.
+#[derive(Default)]
+pub struct Refusal {
+    from: Vec<&'static str>,
+    to: Vec<&'static str>,
+    /// Words of the line, or the key, that is told.
+    pub at: &'static str,
+    /// Words that are said.
+    pub said: Vec<&'static str>,
+}
+
+/// The refusals of a file: lines that begin with `-` are exchanged by those with `+`, which come last in the scene
+/// without them; `@` tells the place, `!` what is said. A blank line stands between two; `#` begins a comment.
+pub fn refusals(file: &'static str) -> Vec<Refusal> {
+    let one = |lines: &'static str| {
+        let mut refusal = Refusal::default();
+        for line in lines.lines() {
+            let (mark, rest) = line.split_at(line.len().min(2));
+            match mark.trim_end() {
+                "-" => refusal.from.push(rest),
+                "+" => refusal.to.push(rest),
+                "@" => refusal.at = rest,
+                "!" => refusal.said.push(rest),
+                _ => assert!(mark.starts_with('#'), "{line}"),
+            }
+        }
+        refusal
+    };
+    let all: Vec<_> = file.trim_end().split("\n\n").map(one).collect();
+    all.into_iter().filter(|r| !r.said.is_empty()).collect()
+}
+
+impl Refusal {
+    /// A scene with the change.
+    #[track_caller]
+    pub fn of(&self, scene: &str) -> String {
+        let to = self.to.join("\n");
+        match self.from.is_empty() {
+            true => format!("{scene}\n{to}\n"),
+            false => exchanged(scene, &self.from.join("\n"), &to),
+        }
+    }
+}
+
+/// A number must be within a share of another one.
+#[track_caller]
+pub fn near(found: f64, wanted: f64, share: f64, what: &str) {
+    let off = (found / wanted - 1.0).abs();
+    assert!(off < share, "{what}: {found} for {wanted}, off by {off:e}");
+}
+
+/// A number must be within a distance of another one.
+#[track_caller]
+pub fn close(found: f64, wanted: f64, distance: f64, what: &str) {
+    let off = (found - wanted).abs();
+    assert!(
+        off < distance,
+        "{what}: {found} for {wanted}, off by {off:e}"
+    );
+}
+
+/// A binary STL file of triangles; normals are left zero.
+pub fn binary_stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+    let mut bytes = vec![b' '; 80];
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0; 12]);
+        let corners = triangle.iter().flatten();
+        bytes.extend(corners.flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
