@@ -133,7 +133,9 @@ impl<const D: usize> Materials<D> {
     /// True if no stage reads strain rates before the interactions, which may then leave them for terms that do it
     /// later.
     pub(crate) fn strain_rides(&self, read: &[AnyField]) -> bool {
-        self.eddies && !self.laws.iter().any(|law| reads_gradients(&**law)) && !includes_gradients(read)
+        self.eddies
+            && !self.laws.iter().any(|law| reads_gradients(&**law))
+            && !includes_gradients(read)
     }
 }
 
