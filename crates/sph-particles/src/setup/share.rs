@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use sph_boundary::Wall;
-use sph_core::{Declares, StepError, System, fields};
+use sph_core::{Access, Declares, StepError, System, fields};
 use sph_neighbours::WallSet;
 use sph_neighbours::decomposition::{Halo, PartError, Transport, bisect};
 use sph_scene::Scene;
