@@ -3,9 +3,7 @@
 use std::sync::OnceLock;
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-use sph_core::{
-    Field, Scalar, Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin, stage,
-};
+use sph_core::{Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin, stage};
 use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values, WallSet,
     World, add_scaled, all_sums, declared, pair_term, walk_some,

@@ -1,8 +1,6 @@
 //! Surface tension as a continuous surface stress.
 
-use sph_core::{
-    Access, Field, Stage, StepError, StepLimit, Vect, Vector, fields, parameters, plugin, stage,
-};
+use sph_core::{Access, Stage, StepError, StepLimit, Vect, fields, parameters, plugin, stage};
 use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot, pair_term,
     splat,

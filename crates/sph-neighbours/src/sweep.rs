@@ -161,7 +161,7 @@ where
     let room = || world.lists.pools.sweeps.acquire();
     all.enumerate()
         .for_each_init(room, |room, (block, ((a, mut s), mut m))| {
-            let rates = sweep.block(term, &wanted, room, block, (a.len(), start));
+            let rates = sweep.block(term, wanted, room, block, (a.len(), start));
             let rates = rates.iter().enumerate();
             for (k, rates) in rates.filter(|(k, _)| wanted(block * CHUNK + k)) {
                 a[k] = rates.acceleration;

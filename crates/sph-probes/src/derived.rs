@@ -2,9 +2,7 @@
 //!
 //! A scene without them has no column, no stage and no velocity gradient for their sake.
 
-use sph_core::{
-    Access, Declares, Field, Kind, Scalar, Stage, StepError, Store, Tensor, Vect, Vector, fields,
-};
+use sph_core::{Access, Declares, Field, Kind, Stage, StepError, Store, Tensor, Vect, fields};
 use sph_neighbours::World;
 
 sph_core::fields! {

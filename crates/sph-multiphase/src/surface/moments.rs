@@ -1,7 +1,7 @@
 //! Moments of supports that a free surface cuts.
 
 use rayon::prelude::*;
-use sph_core::{Access, Field, Scalar, Stage, Symmetric, SymmetricTensor, Vect, fields, stage};
+use sph_core::{Access, Stage, Symmetric, Vect, fields, stage};
 use sph_neighbours::{
     Lane, LanePair, Neighbourhood, PairSum, Particles, World, add_scaled, walk_in_lanes,
 };

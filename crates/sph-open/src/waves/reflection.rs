@@ -74,7 +74,7 @@ struct Sums {
 /// Places separate waves if they do so a third as well as the best ones.
 const CLEAR: f64 = 1.0 / 3.0;
 
-fn refused(reason: impl Into<String>) -> StepError {
+fn refused(reason: impl ToString) -> StepError {
     StepError::stage("probe `reflection`", reason)
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::{Access, Field, Scalar, StepError, Work, contract, fields, parameters};
+use sph_core::{Access, StepError, Work, contract, fields, parameters};
 use sph_neighbours::World;
 
 use crate::seepage::PoreResistance;

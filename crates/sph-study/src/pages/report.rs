@@ -126,7 +126,7 @@ fn facts(results: &Results) -> String {
         row("built with", origin.built_with.clone()),
     ];
     rows.retain(|row| !row[1].is_empty());
-    let unlike: [(&str, fn(&Origin) -> Option<String>); 3] = [
+    let unlike: [(&str, PartOfOrigin); 3] = [
         ("variants ran at", |o| o.commit.clone()),
         ("variants ran on", |o| Some(o.machine.to_string())),
         ("variants ran with", |o| Some(o.built_with.clone())),
@@ -143,8 +143,11 @@ fn facts(results: &Results) -> String {
     plain_grid(&[], &rows)
 }
 
+/// A text of where and with what a variant has run, if it is known.
+type PartOfOrigin = fn(&Origin) -> Option<String>;
+
 /// Keys in which the variants that have run differ.
-fn differing(results: &Results, of: fn(&Origin) -> Option<String>) -> Vec<String> {
+fn differing(results: &Results, of: PartOfOrigin) -> Vec<String> {
     let ran = results.variants.iter().filter(|v| v.size.steps > 0);
     let all: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
     Vec::from_iter(all)
