@@ -104,7 +104,7 @@ fn light_boxes_rise_alike_with_implicit_pressure() {
 fn bodies_below_a_fiftieth_of_the_fluid_are_refused_at_their_line() {
     let field = Field::new();
     let refused = field.check("light-5", "").ended(2);
-    &refused.says("density = 5.0 | a fiftieth");
+    refused.says("density = 5.0 | a fiftieth");
     field
         .check("light-5", "--set wall.a.mover.rigid-body.density=20")
         .ended(0);

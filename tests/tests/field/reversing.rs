@@ -35,7 +35,7 @@ fn an_outlet_lets_in_while_the_inlet_takes_out() {
     assert_eq!(field.summary()["status"], "done");
     // A part e^(−1 s/0.5 s) of what the outlet's means lag behind is left at the end of each part.
     for (time, velocity) in [(1.0, 0.5), (2.2, -0.5), (4.0, 0.5)] {
-        let (_, found) = field.series().at("momentum.x", time);
+        let (_, found) = series.at("momentum.x", time);
         let asked = as_a_whole(velocity);
         near(found, asked, 0.07, &format!("kg m/s at {time} s"));
     }
@@ -58,7 +58,7 @@ fn a_slow_turn_and_a_start_backwards_do_the_same() {
         let set = format!(
             "--threads 1 --set run.end=3 --set wall.i.open-boundary.velocity-inlet.over_time={course}"
         );
-        field.ran("reverse-outflow", &set);
+        let series = field.ran("reverse-outflow", &set);
         let (_, found) = series.at("momentum.x", 3.0);
         let asked = as_a_whole(turned);
         near(found, asked, 0.1, "kg m/s");

@@ -114,7 +114,7 @@ fn a_table_of_a_study_has_nothing_that_a_terminal_obeys() {
         "title = \"t\"\nscene = \"scene.toml\"\nerror = \"front\"\n[[vary]]\nname = \"v\"\n\
          entries = [{ name = \"\\u001b[2Jx\\u202e\", set = { run.end = 0.01 } }]\n",
     );
-    bench.write("scene.toml", &format!("{DAM_BREAK}{REFERENCE}"));
+    bench.write("scene.toml", format!("{DAM_BREAK}{REFERENCE}"));
     bench.write("r.csv", "t,u\n0,0.2\n0.4,0.6\n");
     let outcome = bench.call("study study.toml --out s");
     let table = bench.read("s/study.csv");

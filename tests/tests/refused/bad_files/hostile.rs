@@ -172,7 +172,7 @@ fn nothing_from_a_file_is_obeyed_by_a_terminal() {
         ("spacing = 0.02", format!("spacing = \"{marks}\" # {marks}")),
     ] {
         assert!(DAM_BREAK.contains(from));
-        bench.write("scene.toml", &DAM_BREAK.replace(from, &to));
+        bench.write("scene.toml", DAM_BREAK.replace(from, &to));
         quiet("check scene.toml", 2);
         quiet("check scene.toml --json", 2);
     }

@@ -36,7 +36,7 @@ fn a_drawing_of_eight_thousand_sub_paths() {
     });
     bench.write(
         "w.svg",
-        &format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 900 900'><path d='{squares}'/></svg>"),
+        format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 900 900'><path d='{squares}'/></svg>"),
     );
     let body = "[[-100, -100], [-50, -50]]";
     for fluid in ["as-drawn", "outside"] {

@@ -144,7 +144,7 @@ fn nor_is_what_a_study_names() {
         allowed,
         &[out],
     );
-    bench.write("studies/s.toml", &study("../scenes/scene.toml", "y.csv"));
+    bench.write("studies/s.toml", study("../scenes/scene.toml", "y.csv"));
     bench.done(&format!(
         "study studies/s.toml --set run.end=0.001 --quiet --out o {allowed}"
     ));
