@@ -119,7 +119,7 @@ fn a_recorded_pressure_acts_as_the_one_it_records() {
     bench.write("recorded.toml", &recorded);
     bench.write(
         "given.toml",
-        &wet().replace("pressure = 0\n", "pressure = 100\n"),
+        wet().replace("pressure = 0\n", "pressure = 100\n"),
     );
     let set = "--quiet --set run.end=0.02";
     bench.done(&format!("run given.toml {set} --out given"));

@@ -19,7 +19,7 @@ fn course(field: &Field, name: &str, file: &str, keys: &str) {
 fn a_course_in_a_wrong_unit_is_refused_at_its_line() {
     let field = Field::new();
     for ending in ["dat", "csv", "txt"] {
-        field.write(&format!("s.{ending}"), &field.read("shake.dat"));
+        field.write(&format!("s.{ending}"), field.read("shake.dat"));
         course(&field, "s", &format!("s.{ending}"), "");
         let place = format!("wall.tank.motion.translate.file | `s.{ending}`, line ");
         field.refuses("s", "", &place);
@@ -47,7 +47,7 @@ fn angles_in_degrees_without_a_word_press_the_fluid_together() {
         let scene = field.read("shake.toml");
         let from = "translate = { along = [1.0, 0.0], file = \"shake.dat\" }";
         let to = format!("rotate = {{ centre = [0.3, 0.0], file = \"tilt.csv\"{keys} }}");
-        field.write("tilt.toml", &scene.replace(from, &to));
+        field.write("tilt.toml", scene.replace(from, &to));
         field.check("tilt", "--set run.end=2")
     };
     assert!(tilt("").err.contains("wall.tank.motion.rotate.file"));
@@ -67,7 +67,7 @@ fn a_course_says_its_unit_its_columns_or_has_them_in_its_head() {
     let milliseconds = |t: &str| 1000.0 * t.parse::<f64>().expect("a time");
     let write = |name: &str, head: &str, row: &dyn Fn(&str, &str) -> String| {
         let rows: Vec<String> = pairs().map(|(t, x)| row(t, x)).collect();
-        field.write(name, &format!("{head}{}\n", rows.join("\n")));
+        field.write(name, format!("{head}{}\n", rows.join("\n")));
     };
     write("head.csv", "n; time [ms]; shift (mm)\n", &|t, x| {
         format!("1; {}; {x}", milliseconds(t))

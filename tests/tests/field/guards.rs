@@ -143,7 +143,7 @@ fn a_series_of_a_million_rows_is_thinned_out_for_the_page() {
     std::fs::create_dir(field.path("r")).expect("a folder");
     let row = |k: usize| format!("{k},{}\n", if k == 123_456 { 7.5 } else { 0.5 });
     let rows: String = (0..1_000_000).map(row).collect();
-    field.write("r/series.csv", &format!("time[s],speed[m/s]\n{rows}"));
+    field.write("r/series.csv", format!("time[s],speed[m/s]\n{rows}"));
     let (_server, port) = field.view("r");
     let (_, answer) = get(port, "/series.csv?column=speed%5Bm/s%5D");
     let answer = String::from_utf8_lossy(&answer);
@@ -176,7 +176,7 @@ fn a_list_of_frames_names_no_files_outside_of_its_folder() {
         "fields/../../other.vtu",
         "link.vtu",
     ] {
-        field.write("r/fields.pvd", &list.replace(name, other));
+        field.write("r/fields.pvd", list.replace(name, other));
         field.refused("compare r s").says("outside its folder");
     }
 }

@@ -74,7 +74,7 @@ fn an_open_polyline_that_faces_away_is_refused_with_the_count() {
 fn flipped_facets_are_told_and_turned_on_request() {
     let field = Field::new();
     let text = field.read("open_tank.stl");
-    field.write("open_tank.stl", &turned(&text, &[2, 7]));
+    field.write("open_tank.stl", turned(&text, &[2, 7]));
     let words = "2 of 10 facets face the other way | facet 3 at | align = true";
     field.refuses("open-tank", "--set wall.tank.fluid=inside", words);
     let more = "--set wall.tank.fluid=inside --set wall.tank.align=true";
@@ -122,14 +122,14 @@ fn a_file_of_facets_is_checked_without_a_scene() {
     );
     assert!((hole["size"].as_f64().expect("a size") - 400.0 * 2f64.sqrt()).abs() < 1e-9);
     let text = field.read("open_tank.stl");
-    field.write("in.stl", &turned(&text, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]));
+    field.write("in.stl", turned(&text, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]));
     assert_eq!(surface(&field, "in.stl")["facing"], "inwards");
     let plain = field.call("check open_tank.stl").out;
     plain.says("0.8 × 0.4 × 0.4 | 4 edges, 0.8944 across | consistent, outwards");
     // Corners that differ in the last figures are one.
     field.write(
         "loose.stl",
-        &text.replacen("4.000000e-01", "4.0000002e-01", 7),
+        text.replacen("4.000000e-01", "4.0000002e-01", 7),
     );
     assert_eq!(
         surface(&field, "loose.stl")["openings"]
@@ -148,7 +148,7 @@ fn invalid_surfaces_are_refused_with_their_defect() {
         "page.stl",
         "<html><body>not found, not found, not found, not found, not found, no</body></html>",
     );
-    field.write("nan.stl", &text.replacen("8.000000e-01", "nan", 1));
+    field.write("nan.stl", text.replacen("8.000000e-01", "nan", 1));
     for (file, word) in [
         ("gone.stl", "cannot read `gone.stl`"),
         ("empty.stl", "is empty"),
@@ -242,7 +242,7 @@ fn a_disc_that_covers_the_end_of_a_pipe_closes_it_as_well() {
         });
     let scaled: Vec<String> = scaled.collect();
     let thick = field.examined("pipe-thick", "")["particles"].clone();
-    field.write("inlet.stl", &scaled.join("\n"));
+    field.write("inlet.stl", scaled.join("\n"));
     assert_eq!(field.examined("pipe-thick", "")["particles"], thick);
 }
 
@@ -263,7 +263,7 @@ fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
     let thin = "wall.floor.polyline = [[0.0, 0.0], [0.2, 0.0]]\nwall.roof.polyline = [[0.2, 0.1], [0.0, 0.1]]\n";
     let field = Field::new();
     let mass = |walls: &str| {
-        field.write("duct.toml", &format!("{scene}{walls}"));
+        field.write("duct.toml", format!("{scene}{walls}"));
         let series = field.ran("duct", "--threads 1");
         ["in.entered", "out.left"].map(|name| {
             let column = series.column(name);

@@ -208,7 +208,7 @@ fn a_pulse_of_sound_returns_from_a_zone_by_less_than_a_hundredth() {
         };
         let rows = (0..600).map(|k| 5e-4 * f64::from(k));
         let rows: String = rows.map(|t| format!("{t},{}\n", way(t))).collect();
-        bench.write("piston.csv", &format!("time [s],x [m]\n{rows}"));
+        bench.write("piston.csv", format!("time [s],x [m]\n{rows}"));
         bench.done("run scene.toml --quiet --out out");
         let series = sph_io::read_table(bench.path("out/series.csv")).expect("a series");
         let column = |name| series.column(name).expect("a column").to_vec();

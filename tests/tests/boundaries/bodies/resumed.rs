@@ -12,7 +12,7 @@ fn bodies_are_threaded_and_resumed_bit_for_bit() {
         // It meets a second box, which is held by a line.
         bench.write(
             "scene.toml",
-            &format!(
+            format!(
                 "{FLOAT}\n[wall.buoy]\nbox = [[0.54, 0.2], [0.64, 0.3]]\nfluid = \"outside\"\n\
                  [wall.buoy.mover.rigid-body]\nmass = 4.0\nfriction = 0.3\nvelocity = [-1.5, 0.0]\n\
                  [[wall.buoy.mover.rigid-body.line]]\nfrom = [0.7, 0.0]\nto = [0.62, 0.2]\n\

@@ -63,10 +63,10 @@ fn variants_side_by_side_have_their_folders_and_a_second_study_is_refused() {
              [[vary]]\nkey = \"run.safety\"\nvalues = [0.5, 0.6, 0.7, 0.8]\n"
         )
     };
-    bench.write("s.toml", &study("0.02"));
+    bench.write("s.toml", study("0.02"));
     bench.done("study s.toml --quiet --threads 4 --out done");
     assert!(!bench.path("done/.lock").exists());
-    bench.write("s.toml", &study("400.0"));
+    bench.write("s.toml", study("400.0"));
     let mut first = bench.start("study s.toml --quiet --threads 2 --out busy");
     // Both variants of the first two threads have their folders before anything is asked.
     wait_until("variants side by side at once", || {

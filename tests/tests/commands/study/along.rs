@@ -93,7 +93,7 @@ fn an_axis_ends_where_it_breaks_and_says_when_where_and_why() {
 
     // Nothing is run twice, not even what is skipped, until the axis no longer breaks.
     bench.done("study s.toml").says("7 variants, 0 to run");
-    bench.write("s.toml", &STUDY.replace("[0.9999, 1.0001]", "[0.4, 2.0]"));
+    bench.write("s.toml", STUDY.replace("[0.9999, 1.0001]", "[0.4, 2.0]"));
     bench.done("study s.toml").says("7 variants, 2 to run");
 }
 

@@ -42,7 +42,7 @@ fn a_variant_that_fails_is_recorded_and_the_study_goes_on() {
     assert!(page.contains("density of particle") && page.contains("over limit"));
     // Both are settled, until the limit is raised.
     bench.done("study s.toml").says("3 variants, 0 to run");
-    bench.write("s.toml", &FAILING.replace("0.2 s", "0.3 s"));
+    bench.write("s.toml", FAILING.replace("0.2 s", "0.3 s"));
     bench.done("study s.toml").says("3 variants, 1 to run");
 }
 

@@ -71,7 +71,7 @@ fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
     let before = record("krimi_spacing-0.04");
     let again = bench.done("study s.toml --threads 1");
     again.says("6 variants, 0 to run");
-    bench.write("s.toml", &STUDY.replace("0.04]", "0.04, 0.1]"));
+    bench.write("s.toml", STUDY.replace("0.04]", "0.04, 0.1]"));
     let more = bench.done("study s.toml --threads 1 --only krimi*");
     more.says("8 variants, 1 to run");
     assert!(more.out.contains("pending"), "{}", more.out);
@@ -137,7 +137,7 @@ fn two_studies_are_compared() {
     let mut other = bench.json("b/study.json");
     other["machine"]["cpu"] = "another".into();
     other["variants"].as_array_mut().expect("variants").pop();
-    bench.write("b.json", &other.to_string());
+    bench.write("b.json", other.to_string());
     let told = bench.done("study --compare a/study.json b.json").out;
     told.says("morris_spacing-0.05 | → another | × | only in a/study.json");
     let told = bench
