@@ -1,6 +1,7 @@
 //! Lines and triangles from files.
 
 pub(crate) mod drawing;
+pub(crate) mod format;
 pub(crate) mod heading;
 pub(crate) mod rows;
 pub(crate) mod svg;

@@ -4,12 +4,9 @@ use scene_text::Problems;
 use sph_core::unit_factor;
 
 use crate::checks::dimension::Dimension;
+use crate::drawings::format::Format;
 use crate::geometry::course::ImposedCourse;
-use crate::geometry::wall_geometry::has_ending;
 use crate::{Levels, Motion};
-
-/// Endings of files that are tables of numbers.
-pub(crate) const TABLES: [&str; 3] = ["csv", "dat", "txt"];
 
 /// Checks the vectors, the times and the courses of a motion.
 pub(crate) fn check(motion: &Motion, of: Dimension, path: &str, found: &mut Problems) {
@@ -115,7 +112,7 @@ fn rising(rows: &[[f64; 2]], place: &str, found: &mut Problems) {
 
 fn csv(file: &Option<String>, path: &str, found: &mut Problems) {
     let Some(file) = file else { return };
-    if !TABLES.iter().any(|ending| has_ending(file, ending)) {
+    if Format::of(file) != Some(Format::Table) {
         let message = format!("expected a file that ends in .csv, .dat or .txt, found `{file}`");
         found.add(format!("{path}.file"), message);
     }

@@ -6,9 +6,9 @@ use scene_text::{Problems, given};
 use sph_core::{suggestion, unit_factor};
 
 use crate::checks::dimension::{Dimension, chain, crossed};
-use crate::checks::motion::{self, TABLES};
+use crate::checks::motion;
 use crate::checks::shapes::keys_of_shape;
-use crate::geometry::wall_geometry::has_ending;
+use crate::drawings::format::Format;
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{FluidSide, SlipCondition, Wall};
 
@@ -125,15 +125,11 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
         let message = "`fluid` says which way the file faces: leave one of the two out";
         misplaced("flip", message);
     }
-    let ends = |ending: &str| {
-        wall.file
-            .as_ref()
-            .is_some_and(|file| has_ending(file, ending))
-    };
-    if wall.columns.is_some() && !TABLES.iter().any(|ending| ends(ending)) {
+    let format = wall.file.as_deref().and_then(Format::of);
+    if wall.columns.is_some() && format != Some(Format::Table) {
         misplaced("columns", "only a `file` that is a table has columns");
     }
-    if wall.align && !ends("stl") {
+    if wall.align && format != Some(Format::Stl) {
         let message = "only facets of an STL file are turned to face one way";
         misplaced("align", message);
     }
@@ -217,18 +213,16 @@ fn ramp(wedge: &Wedge, of: Dimension, path: &str, found: &mut Problems) {
 
 /// The name of a file gives its kind.
 fn geometry_file(file: &str, of: Dimension, path: &str, found: &mut Problems) {
-    let is = |endings: &[&str]| endings.iter().any(|e| has_ending(file, e));
-    let (drawing, surface) = (is(&["svg"]) || is(&TABLES), is(&["stl"]));
-    let message = match of.0 {
-        2 if drawing => return,
-        3 if surface => return,
-        2 if surface => {
+    let holds = Format::of(file).map(Format::dimension);
+    let message = match (of.0, holds) {
+        (2, Some(2)) | (3, Some(3)) => return,
+        (2, Some(_)) => {
             "an STL file is a wall of three dimensions, and this scene has two: give a .svg or .csv file".to_string()
         }
-        3 if drawing => {
+        (3, Some(_)) => {
             "a drawing is a wall of two dimensions, and this scene has three: give a .stl file".to_string()
         }
-        2 => format!("expected a file that ends in .svg or .csv, found `{file}`"),
+        (2, None) => format!("expected a file that ends in .svg or .csv, found `{file}`"),
         _ => format!("expected a file that ends in .stl, found `{file}`"),
     };
     found.add(path, message);

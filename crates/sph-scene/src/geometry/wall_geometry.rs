@@ -3,9 +3,8 @@
 use scene_text::surface::Facets;
 use sph_core::{Axis, SceneProblem, bounds, unit_factor};
 
+use crate::drawings::format::lines;
 use crate::drawings::heading::Form;
-use crate::drawings::rows;
-use crate::drawings::svg;
 use crate::geometry::divide::{self, sides_of};
 use crate::geometry::outlines::{Line, SideError, oriented, rectangle};
 use crate::geometry::solid;
@@ -172,13 +171,10 @@ impl Wall {
         }
         let path = self.path.as_ref();
         let path = path.ok_or("a geometry in the plane is missing")?;
-        if has_ending(&path.to_string_lossy(), "svg") {
-            return svg::read(path, TOLERANCE * spacing);
-        }
         // A drawing that is scaled later is taken as it stands, else the heads of the columns may have units.
         let scaled = self.unit.is_some() || self.scale.is_some();
         let form = Form::places(&self.columns, scaled.then_some(1.0));
-        rows::lines(&rows::text(path)?, &path.display().to_string(), &form)
+        lines(path, TOLERANCE * spacing, &form)
     }
 
     /// The surface of a shape, facing outwards.
@@ -270,12 +266,6 @@ impl Wedge {
         let of = |corner: &[f64]| axes.map(|k| corner.get(k).copied().unwrap_or(0.0));
         solid::ramp(of(&self.lo), of(&self.hi), rise_first, self.rise, up)
     }
-}
-
-/// True if the name of a file ends in `.ending`, in letters of any size.
-pub(crate) fn has_ending(file: &str, ending: &str) -> bool {
-    let found = file.rsplit_once('.').map(|(_, found)| found);
-    found.is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 fn length(line: &Line) -> f64 {
