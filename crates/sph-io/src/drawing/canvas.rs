@@ -67,12 +67,15 @@ impl Canvas {
 
     /// Fills whole pixels.
     pub(crate) fn block(&mut self, rect: Rect, colour: Colour) {
-        let [left, top, right, bottom] =
-            [rect.left, rect.top, rect.right, rect.bottom].map(|x| x.round() as f32);
-        if let Some(rect) = tiny_skia::Rect::from_ltrb(left, top, right, bottom) {
-            let paint = paint(Fill::solid(colour));
-            self.map
-                .fill_rect(rect, &paint, Transform::identity(), None);
+        let span = |from: f64, to: f64, side: u32| {
+            let end = f64::from(side);
+            from.round().clamp(0.0, end) as usize..to.round().clamp(0.0, end) as usize
+        };
+        let columns = span(rect.left, rect.right, self.map.width());
+        for j in span(rect.top, rect.bottom, self.map.height()) {
+            for i in columns.clone() {
+                self.blend([i, j], colour, 1.0);
+            }
         }
     }
 
