@@ -142,7 +142,7 @@ fn find<const D: usize>(
     })?;
     places.clear();
     places.extend(sights.iter().map(|(place, _)| *place));
-    let open = |i: usize| sights[i].1 != Vect::zeros();
+    let open = |i: usize| sights[i].1 != Vect::<D>::zeros();
     walk_in_lanes(world, &InCone(sights), open, places, |seen, _| {
         match seen > 0.0 {
             true => Place::Inside,
