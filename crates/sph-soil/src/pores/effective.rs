@@ -110,7 +110,8 @@ impl PlasticShare {
     pub fn shares<const D: usize>(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let stress = world.free.get(fields::ELASTIC_STRESS)?;
         let stress: Vec<_> = stress.iter().map(|t| *t * (1.0 / YIELDS)).collect();
-        let yielding = self.0.yielding(world, &stress)?;
+        let mut yielding = Vec::new();
+        self.0.yielding(world, &stress, &mut yielding)?;
         let share = |y: &Yielding| if y.held < 1.0 { 1.0 } else { y.friction };
         Ok(yielding.iter().map(share).collect())
     }

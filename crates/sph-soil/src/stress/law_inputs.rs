@@ -81,14 +81,15 @@ impl LawInputs {
         &self,
         world: &World<D>,
         stress: &[Symmetric],
-    ) -> Result<Vec<Yielding>, StepError> {
-        let mut yielding = vec![Yielding::NONE; stress.len()];
-        self.each(world, &mut yielding, |law, inputs, run, out| {
+        yielding: &mut Vec<Yielding>,
+    ) -> Result<(), StepError> {
+        yielding.clear();
+        yielding.resize(stress.len(), Yielding::NONE);
+        self.each(world, yielding, |law, inputs, run, out| {
             if let Some(elastic) = law.elastic() {
                 elastic.yielding(inputs, &stress[run], out);
             }
-        })?;
-        Ok(yielding)
+        })
     }
 }
 

@@ -158,14 +158,29 @@ impl<const D: usize> Stage<World<D>> for ImplicitElasticStress {
 
 /// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_FRACTION`](fields::SOLID_FRACTION) and
 /// [`YIELD_FACTOR`](fields::YIELD_FACTOR) from the remembered stress; 1 in phases without an elastic part.
-pub struct Yielded(pub LawInputs);
+pub struct Yielded {
+    law_inputs: LawInputs,
+    /// Kept for its memory.
+    yielding: Vec<Yielding>,
+}
+
+impl Yielded {
+    /// That of some laws.
+    pub fn new(law_inputs: LawInputs) -> Self {
+        let yielding = Vec::new();
+        Yielded {
+            law_inputs,
+            yielding,
+        }
+    }
+}
 
 impl Declares for Yielded {
     fn name(&self) -> String {
         "yielding".into()
     }
     fn access(&self) -> Access {
-        self.0
+        self.law_inputs
             .access()
             .here(fields::ELASTIC_STRESS)
             .writes(fields::FRICTION_SHARE)
@@ -177,7 +192,8 @@ impl Declares for Yielded {
 impl<const D: usize> Stage<World<D>> for Yielded {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let stress = world.free.get(fields::ELASTIC_STRESS)?;
-        let yielding = self.0.yielding(world, stress)?;
+        let all = &mut self.yielding;
+        self.law_inputs.yielding(world, stress, all)?;
         type Share = fn(&Yielding) -> f64;
         let columns: [(_, Share); 3] = [
             (fields::FRICTION_SHARE, |y| y.friction),
@@ -186,7 +202,7 @@ impl<const D: usize> Stage<World<D>> for Yielded {
         ];
         for (field, share) in columns {
             let column = world.free.get_mut(field)?;
-            let all = column.iter_mut().zip(&yielding);
+            let all = column.iter_mut().zip(&self.yielding);
             all.for_each(|(value, yielding)| *value = share(yielding));
         }
         Ok(())

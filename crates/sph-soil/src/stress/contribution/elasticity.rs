@@ -106,7 +106,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             true => offer.stage(ImplicitElasticStress(law_inputs.clone())),
             false => offer.stage(CarriedStress(law_inputs.clone())),
         }
-        offer.stage(Yielded(law_inputs.clone()));
+        offer.stage(Yielded::new(law_inputs.clone()));
         if let Some(gradient) = self.0.adjoint() {
             offer.stage(StressCorrection(gradient.clone()));
         }
