@@ -3,8 +3,7 @@
 use sph_core::{Access, AnyField, Evolved, Field, Scalar, Stage};
 use sph_neighbours::{Interaction, Terms, World};
 
-use crate::report::Reporting;
-use crate::{Gate, Limiter, OutsideForce, Report, Stages, StepHook};
+use crate::{Gate, Limiter, OutsideForce, Report, Stages, StepHook, StepPhase};
 
 /// An energy that single particles store, J, by their index.
 pub type ParticleEnergy<'a> = Box<dyn Fn(usize) -> f64 + Sync + 'a>;
@@ -126,5 +125,27 @@ impl<const D: usize> Offer<D> {
     /// Adds a gate.
     pub fn gate(&mut self, gate: impl Gate<D> + 'static) {
         self.gates.push(Box::new(gate));
+    }
+}
+
+/// A hook that works in no phase.
+struct Reporting<F> {
+    name: String,
+    access: Access,
+    report: F,
+}
+
+impl<const D: usize, F: Fn(&World<D>) -> Report + Send> StepHook<D> for Reporting<F> {
+    fn name(&self) -> String {
+        self.name.clone()
+    }
+    fn access(&self) -> Access {
+        self.access.clone()
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[]
+    }
+    fn report(&self, world: &World<D>) -> Report {
+        (self.report)(world)
     }
 }

@@ -1,10 +1,7 @@
 //! Counts and remarks of a piece of physics, for summaries.
 
 use serde_json::Value as Json;
-use sph_core::{Access, StepError};
-use sph_neighbours::World;
-
-use crate::{StepHook, StepPhase};
+use sph_core::StepError;
 
 /// Counts of a hook since the start, and its remarks at the end of a run.
 #[derive(Debug, Default)]
@@ -38,27 +35,5 @@ impl Report {
             advice: vec![text.into()],
             ..Report::default()
         }
-    }
-}
-
-/// A hook that works in no phase.
-pub(crate) struct Reporting<F> {
-    pub name: String,
-    pub access: Access,
-    pub report: F,
-}
-
-impl<const D: usize, F: Fn(&World<D>) -> Report + Send> StepHook<D> for Reporting<F> {
-    fn name(&self) -> String {
-        self.name.clone()
-    }
-    fn access(&self) -> Access {
-        self.access.clone()
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[]
-    }
-    fn report(&self, world: &World<D>) -> Report {
-        (self.report)(world)
     }
 }

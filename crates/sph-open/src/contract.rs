@@ -142,7 +142,7 @@ pub struct Entering {
 
 impl Entering {
     /// Particles of a phase that begin with the values of the fluid in front of the face.
-    pub fn of(phase: &Option<String>) -> Self {
+    pub fn in_phase(phase: &Option<String>) -> Self {
         Entering {
             phase: phase.clone(),
             ..Entering::default()

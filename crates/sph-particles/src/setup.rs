@@ -20,6 +20,7 @@ mod movers;
 mod open_faces;
 mod placement;
 mod probe_setup;
+mod ranks;
 mod reference_table;
 mod relax;
 mod rims;
@@ -38,8 +39,7 @@ pub use estimate::{Estimate, Memory, Size, short_steps, size};
 pub use examination::{Examination, FieldUse, StageUse, examine, examine_in};
 pub use leaks::Leak;
 pub use probe_setup::{Probes, measure_walls, rehearse};
+pub use ranks::{ExchangeUse, RankUse, Ranks, ranks};
 pub use reference_table::{readable, reference_table};
 pub use relax::Relaxation;
-pub use share::{
-    ExchangeUse, ExistingWalls, RankUse, Ranks, Share, all_ready, ranks, refuse_the_indivisible,
-};
+pub use share::{ExistingWalls, Share, all_ready, refuse_the_indivisible};

@@ -40,7 +40,7 @@ impl SolverError {
     ///
     /// # Errors
     /// The problems.
-    pub fn of(problems: Vec<SceneProblem>) -> Result<(), Self> {
+    pub fn refuse(problems: Vec<SceneProblem>) -> Result<(), Self> {
         match problems.is_empty() {
             true => Ok(()),
             false => Err(SolverError::Scene(problems)),

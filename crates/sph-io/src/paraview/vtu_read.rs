@@ -11,7 +11,7 @@ use crate::error::{IoError, Result};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Location, Piece, SECTIONS};
 
 /// A part of a file, or what is wrong with it.
-type Read<T> = std::result::Result<T, &'static str>;
+type Parsed<T> = std::result::Result<T, &'static str>;
 
 /// Largest array that is read, bytes.
 const MOST: usize = 1 << 36;
@@ -41,7 +41,7 @@ struct Array {
     bytes: Vec<u8>,
 }
 
-fn piece(file: &[u8], name: &str) -> Read<(Piece<'static>, f64)> {
+fn piece(file: &[u8], name: &str) -> Parsed<(Piece<'static>, f64)> {
     const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
     let end = file.windows(MARK.len()).position(|w| w == MARK);
     let end = end.ok_or("its arrays are not appended")?;
@@ -49,7 +49,7 @@ fn piece(file: &[u8], name: &str) -> Read<(Piece<'static>, f64)> {
     let head = format!("{head}</VTKFile>");
     let head = Document::parse(&head).map_err(|_| "a tag cannot be read")?;
     let appended = &file[end + MARK.len()..];
-    let section = |tag: &str| -> Read<Vec<Array>> {
+    let section = |tag: &str| -> Parsed<Vec<Array>> {
         let section = head.descendants().find(|n| n.has_tag_name(tag));
         let arrays = section.ok_or("a section is missing")?.children();
         let arrays = arrays.filter(|n| n.has_tag_name("DataArray"));
@@ -78,7 +78,7 @@ fn piece(file: &[u8], name: &str) -> Read<(Piece<'static>, f64)> {
     fits.map(|()| (piece, time))
 }
 
-fn array(node: Node<'_, '_>, appended: &[u8]) -> Read<Array> {
+fn array(node: Node<'_, '_>, appended: &[u8]) -> Parsed<Array> {
     let get = |name| node.attribute(name);
     let offset = get("offset").and_then(|o| o.parse::<usize>().ok());
     let data = offset.and_then(|o| appended.get(o..));
@@ -95,7 +95,7 @@ fn array(node: Node<'_, '_>, appended: &[u8]) -> Read<Array> {
 }
 
 /// The blocks of `vtkZLibDataCompressor`, expanded.
-pub(crate) fn expanded(data: &[u8]) -> Read<Vec<u8>> {
+pub(crate) fn expanded(data: &[u8]) -> Parsed<Vec<u8>> {
     let cut = "an array is cut off";
     let word = |k: usize| {
         let bytes = data.get(8 * k..8 * k + 8)?;
@@ -126,7 +126,7 @@ pub(crate) fn expanded(data: &[u8]) -> Read<Vec<u8>> {
     Ok(out)
 }
 
-fn field(array: Array, location: Location) -> Read<FieldData<'static>> {
+fn field(array: Array, location: Location) -> Parsed<FieldData<'static>> {
     let data = match array.kind.as_str() {
         "Float64" => FieldValues::F64(numbers(&array.bytes, f64::from_le_bytes).into()),
         "UInt32" => FieldValues::U32(numbers(&array.bytes, u32::from_le_bytes).into()),
@@ -147,7 +147,7 @@ fn numbers<T, const N: usize>(bytes: &[u8], number: fn([u8; N]) -> T) -> Vec<T> 
     images.iter().map(|image| number(*image)).collect()
 }
 
-fn cells(arrays: &[Array]) -> Read<Cells<'static>> {
+fn cells(arrays: &[Array]) -> Parsed<Cells<'static>> {
     let get = |name| arrays.iter().find(|a| a.name == name);
     let (Some(joined), Some(types)) = (get("connectivity"), get("types")) else {
         return Err("it has no cells");

@@ -93,7 +93,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         let Some(diagonal) = operator.diagonal() else {
             let (none, system) = (Preconditioner::None, (operator, right, x));
             let work = |memory: &mut _| iterate(none, within(ITERATIONS), memory, system);
-            return self.memories.lend(work);
+            return self.memories.with_memory(work);
         };
         let mixed = matches!(diagonal, Diagonal::Block(_));
         let stages = match (mild(operator), mixed) {
@@ -114,7 +114,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
             // Each stage starts from the result of the one before.
             let system = (operator, right, &mut *x);
             let work = |memory: &mut _| iterate(preconditioner, within(iterations), memory, system);
-            match self.memories.lend(work) {
+            match self.memories.with_memory(work) {
                 Err(SolveError::NotConverged { .. } | SolveError::NotPositive { .. })
                     if !last || patience.is_some() =>
                 {

@@ -70,7 +70,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         };
         let system = (operator, right, x);
         self.memories
-            .lend(|memory| iterate(self.preconditioner, tolerance, memory, system))
+            .with_memory(|memory| iterate(self.preconditioner, tolerance, memory, system))
     }
 }
 

@@ -32,7 +32,10 @@ pub struct Memories(Option<Box<dyn Any + Send + Sync>>);
 
 impl Memories {
     /// Lends that of solves for vectors of D components.
-    pub(crate) fn lend<const D: usize, R>(&mut self, work: impl FnOnce(&mut Memory<D>) -> R) -> R {
+    pub(crate) fn with_memory<const D: usize, R>(
+        &mut self,
+        work: impl FnOnce(&mut Memory<D>) -> R,
+    ) -> R {
         let kept = self.0.take().and_then(|kept| kept.downcast().ok());
         let mut memory: Box<Memory<D>> = kept.unwrap_or_default();
         let done = work(&mut memory);

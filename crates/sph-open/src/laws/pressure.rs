@@ -37,7 +37,7 @@ impl<const D: usize> OpenBoundary<D> for Pressure {
         check_course(&self.over_time, setting)
     }
     fn entering(&self) -> Entering {
-        Entering::of(&self.phase)
+        Entering::in_phase(&self.phase)
     }
     fn lets_out(&self) -> bool {
         true
@@ -87,7 +87,7 @@ impl<const D: usize> OpenBoundary<D> for Level {
         check_course(&self.over_time, setting)
     }
     fn entering(&self) -> Entering {
-        Entering::of(&self.phase)
+        Entering::in_phase(&self.phase)
     }
     fn lets_out(&self) -> bool {
         true

@@ -161,7 +161,7 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
         Ok(())
     }
     fn entering(&self) -> Entering {
-        Entering::of(&self.phase)
+        Entering::in_phase(&self.phase)
     }
     fn lets_out(&self) -> bool {
         true

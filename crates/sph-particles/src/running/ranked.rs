@@ -12,9 +12,9 @@ use sph_scene::Scene;
 
 use crate::failure::error::RunError;
 use crate::results::summary::RankShare;
+use crate::running::beginning::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
-use crate::running::model::begin;
 use crate::running::output::shows_depths;
 use crate::setup::{Assembled, Memory, Share, assemble_share};
 

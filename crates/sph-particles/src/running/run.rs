@@ -11,9 +11,10 @@ use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
-use crate::running::course::{Running, ready};
+use crate::running::course::Running;
 use crate::running::next_step::{RECOVERY, next_step, standing_still};
 use crate::running::output::outlay;
+use crate::running::ready::ready;
 use crate::setup::all_ready;
 use crate::{RunError, Summary};
 

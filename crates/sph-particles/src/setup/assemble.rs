@@ -180,7 +180,7 @@ fn wall_speeds<const D: usize>(
     let sounds = laws.iter().map(|law| law.reference().sound_speed);
     let slowest = sounds.fold(f64::INFINITY, f64::min);
     let found = speeds(scene, &drawn.walls, slowest, extent(&drawn.regions));
-    SolverError::of(found.refused).map(|()| found.remarks)
+    SolverError::refuse(found.refused).map(|()| found.remarks)
 }
 
 /// Input of a plan, before there is one.

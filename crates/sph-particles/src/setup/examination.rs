@@ -48,7 +48,7 @@ pub struct StageUse {
 }
 
 impl StageUse {
-    fn of(stage: &impl Declares) -> Self {
+    fn new(stage: &impl Declares) -> Self {
         let access = stage.access();
         let names = |fields: &[AnyField]| fields.iter().map(|f| f.name.to_string()).collect();
         StageUse {
@@ -135,7 +135,7 @@ pub fn examine_in<const D: usize>(
     let memory = memory(scene, &mut assembled.flow, dt)?;
     let flow = &assembled.flow;
     let world = &flow.world;
-    let stages: Vec<StageUse> = flow.stages.iter().map(StageUse::of).collect();
+    let stages: Vec<StageUse> = flow.stages.iter().map(StageUse::new).collect();
     let users = |uses: &dyn Fn(&StageUse) -> bool| -> Vec<String> {
         let using = stages.iter().filter(|stage| uses(stage));
         using.map(|s| s.name.clone()).collect()

@@ -50,7 +50,7 @@ pub(crate) fn prepare<const D: usize>(
         }
         settled.push((wall, Arc::from(mover)));
     }
-    SolverError::of(problems)?;
+    SolverError::refuse(problems)?;
     for spec in &mut drawn.walls {
         let of_it = |(name, _): &&(String, _)| name == spec.drawing.name();
         spec.mover = settled.iter().find(of_it).map(|(_, m)| m.clone());

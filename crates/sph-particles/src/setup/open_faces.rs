@@ -58,7 +58,7 @@ pub(crate) fn prepare<const D: usize>(
         let path = path(scene, wall, &refusal.key);
         Some(SceneProblem::new(path, refusal.why))
     });
-    SolverError::of(refused.collect())?;
+    SolverError::refuse(refused.collect())?;
     for spec in &mut drawn.walls {
         if given.iter().any(|(name, _)| name == spec.drawing.name()) {
             spec.open = true;
@@ -97,7 +97,7 @@ pub(crate) fn check<const D: usize>(
     let misfits = opened.misfits().into_iter();
     let misfits = misfits
         .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why));
-    SolverError::of(misfits.collect())?;
+    SolverError::refuse(misfits.collect())?;
     let mut blocked = Vec::<SceneProblem>::new();
     if let Some(walls) = walls {
         for (name, place) in opened.in_front(ROOM * scene.numerics.spacing) {
@@ -112,7 +112,7 @@ pub(crate) fn check<const D: usize>(
             }
         }
     }
-    SolverError::of(blocked)?;
+    SolverError::refuse(blocked)?;
     let mut all = remarks(scene, opened);
     all.extend(lift(scene, opened, walls, filled));
     Ok(all)
@@ -174,7 +174,7 @@ pub(crate) fn join<const D: usize>(
             problems.push(SceneProblem::new(path, why));
         }
     }
-    SolverError::of(problems)
+    SolverError::refuse(problems)
 }
 
 /// Lift over ρcΔu: half as much again for reflections at faces and walls.

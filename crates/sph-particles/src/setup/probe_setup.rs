@@ -43,7 +43,7 @@ pub fn prepare<const D: usize>(
             problems.push(SceneProblem::new(format!("reference.{name}.probe"), why));
         }
     }
-    SolverError::of(problems)
+    SolverError::refuse(problems)
 }
 
 /// Reads the file that a probe compares with, and hands it over.
@@ -142,7 +142,7 @@ pub(crate) fn check_output_fields<const D: usize>(
         let missing = colours.fields().filter(|name| !known(name));
         problems.extend(missing.map(|name| unknown(&format!("output.picture_range.{name}"), name)));
     }
-    SolverError::of(problems)
+    SolverError::refuse(problems)
 }
 
 #[cfg(test)]

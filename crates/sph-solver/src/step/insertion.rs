@@ -176,27 +176,3 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 }
-
-/// Initial values of newborn particles.
-pub struct NewParticleDefaults<const D: usize> {
-    pub(crate) formulation: Arc<dyn Formulation<D>>,
-    /// Columns that contributions bring along.
-    pub(crate) columns: Vec<OwnColumn<D>>,
-    /// Names of the phases.
-    pub(crate) phases: Vec<String>,
-}
-
-impl<const D: usize> NewParticleDefaults<D> {
-    /// That of a scene.
-    pub fn new(
-        scene: &Scene,
-        formulation: Arc<dyn Formulation<D>>,
-        columns: Vec<OwnColumn<D>>,
-    ) -> Self {
-        NewParticleDefaults {
-            formulation,
-            columns,
-            phases: scene.phase.keys().cloned().collect(),
-        }
-    }
-}

@@ -4,8 +4,6 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, StepError, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
-use crate::Flow;
-
 /// The walls, and the loads of their movers.
 pub(crate) type MovedWalls<'a, const D: usize> = (
     Option<&'a mut (dyn Wall<D> + 'static)>,
@@ -118,22 +116,5 @@ impl<const D: usize> Snapshot<D> {
         world.dt = self.dt;
         self.walls_back(world, walls);
         Ok(())
-    }
-}
-
-impl<const D: usize> Snapshot<D> {
-    /// Copies the state; reuses its buffers.
-    pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
-        self.save(&flow.world, flow.walls.as_deref(), &flow.loads)
-    }
-
-    /// Puts the state back. If the particles were sorted meanwhile, they return to their
-    /// order; those that left since come back, those that came in are gone.
-    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
-        let walls = (flow.walls.as_deref_mut(), &mut flow.loads);
-        self.put_back(&mut flow.world, walls)?;
-        // The results of the evaluation of this state are among it.
-        flow.restored = true;
-        flow.rebuild_lists()
     }
 }

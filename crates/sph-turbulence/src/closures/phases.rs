@@ -94,7 +94,7 @@ impl<'a> Kinematic<'a> {
         Ok(Kinematic { of_phase, phase })
     }
 
-    /// With the column that tells phases apart, where there are several.
+    /// With the column of phases, where there are several.
     pub fn access(of_phase: &[Option<f64>], access: Access) -> Access {
         match of_phase.len() {
             1 => access,

@@ -26,7 +26,7 @@ pub(crate) fn wall_units<const D: usize>(viscosities: Vec<Option<f64>>) -> impl 
         let mut units = world.free.take(DAMPING_UNITS)?;
         let friction = friction_velocities(&viscosities, world)?;
         let factors = &world.walls.elements.friction_factor;
-        let tree = tree.of(world, |s| factors[s] > 0.0);
+        let tree = tree.updated(world, |s| factors[s] > 0.0);
         let within = REACH * world.kernel.smoothing_length();
         let positions = world.free.get(fields::POSITION)?;
         let viscosity = Kinematic::from_world(&viscosities, world)?;

@@ -19,7 +19,7 @@ pub(crate) fn wall_distance<const D: usize>(
         let mut distance = world.free.take(WALL_DISTANCE)?;
         let walls = &world.walls;
         let name = |s: usize| &walls.names[walls.elements.wall[s] as usize];
-        let tree = tree.of(world, |s| named.is_empty() || named.contains(name(s)));
+        let tree = tree.updated(world, |s| named.is_empty() || named.contains(name(s)));
         let positions = world.free.get(fields::POSITION)?;
         let all = distance.par_iter_mut().zip(positions).with_min_len(256);
         all.for_each(|(d, x)| *d = tree.nearest(x, within).map_or(within, |n| n.0));

@@ -63,7 +63,7 @@ pub(crate) struct KeptTree<const D: usize>(
 
 impl<const D: usize> KeptTree<D> {
     /// Of the present places of all elements that count.
-    pub fn of(&mut self, world: &World<D>, counts: impl Fn(usize) -> bool) -> &ElementTree<D> {
+    pub fn updated(&mut self, world: &World<D>, counts: impl Fn(usize) -> bool) -> &ElementTree<D> {
         let (walls, places) = (&world.walls, &world.walls.points.position);
         self.0.take_if(|(_, of)| of != places);
         let made = || {

@@ -1,0 +1,111 @@
+//! Rows of `series.csv`: balances and probes, and their extremes.
+
+use sph_solver::Flow;
+
+use crate::failure::error::RunError;
+use crate::results::balance::Balance;
+use crate::setup::Probes;
+use crate::zones::Coupling;
+
+/// Extremes of the rows so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Extrema {
+    /// Least and largest density ratio over all rows.
+    pub density_range: [f64; 2],
+    /// Highest energy, J, largest speed over the speed of sound, and largest share of the mass beyond [`FAST`], over all
+    /// rows.
+    pub peaks: [f64; 3],
+    /// Largest |energy| over all rows, J.
+    pub energy_scale: f64,
+    /// Largest Σ m|u| over all rows.
+    pub momentum_scale: f64,
+}
+
+/// Names and units of all columns, with the labels of exits.
+pub fn columns<const D: usize>(left: &[String], probes: &Probes<D>) -> Vec<(String, String)> {
+    let mut columns = Vec::new();
+    let mut add = |name: String, unit: &str| columns.push((name, unit.to_string()));
+    for name in ["time", "dt"] {
+        add(name.into(), "s");
+    }
+    for axis in &["x", "y", "z"][..D] {
+        add(format!("momentum.{axis}"), "kg m/s");
+    }
+    for (name, unit) in [
+        ("kinetic_energy", "J"),
+        ("potential_energy", "J"),
+        ("internal_energy", "J"),
+        ("largest_speed", "m/s"),
+        ("least_density_ratio", "1"),
+        ("largest_density_ratio", "1"),
+    ] {
+        add(name.into(), unit);
+    }
+    for label in left {
+        add(label.clone(), "kg");
+        add(format!("{label}.particles"), "1");
+    }
+    for (name, probe) in probes {
+        for column in probe.columns() {
+            add(format!("{name}{}", column.suffix), column.unit);
+        }
+    }
+    columns
+}
+
+impl Extrema {
+    /// Of no row.
+    pub const NONE: Extrema = Extrema {
+        density_range: [f64::INFINITY, f64::NEG_INFINITY],
+        peaks: [f64::NEG_INFINITY, 0.0, 0.0],
+        energy_scale: 0.0,
+        momentum_scale: 0.0,
+    };
+
+    /// All but the peaks, as checkpoints have them.
+    pub fn numbers(&self) -> [f64; 4] {
+        let [low, high] = self.density_range;
+        [low, high, self.energy_scale, self.momentum_scale]
+    }
+
+    /// Measures a row; forces on walls have been [measured](crate::setup::measure_walls).
+    pub fn row<const D: usize>(
+        &mut self,
+        (flow, zones): (&Flow<D>, &Coupling<D>),
+        probes: &Probes<D>,
+        dt: f64,
+    ) -> Result<(Vec<f64>, Balance<D>), RunError> {
+        let balance = Balance::from_flow(flow)?;
+        let mut row = vec![flow.world.time, dt];
+        row.extend(balance.momentum.iter());
+        row.extend([
+            balance.kinetic,
+            balance.potential,
+            balance.internal,
+            balance.fastest,
+            balance.least_density,
+            balance.largest_density,
+        ]);
+        for (_, left) in flow.left().take(flow.outlets.labels().len()) {
+            row.extend([left.mass, left.particles as f64]);
+        }
+        for (name, probe) in probes {
+            let (probe, world) = zones.measuring(name).unwrap_or((&**probe, &flow.world));
+            if let Some(sums) = probe.as_gathers() {
+                sums.gather(world)?;
+            }
+            row.extend(probe.measure(world)?);
+        }
+        self.density_range[0] = self.density_range[0].min(balance.least_density);
+        self.density_range[1] = self.density_range[1].max(balance.largest_density);
+        let parts = [balance.kinetic, balance.potential, balance.internal];
+        let energy = balance.energy().abs();
+        let largest = parts.iter().fold(energy, |m, e| m.max(e.abs()));
+        let fast = balance.faster[0] / balance.mass.max(f64::MIN_POSITIVE);
+        let now = [balance.energy(), balance.mach, fast];
+        self.peaks = std::array::from_fn(|k| self.peaks[k].max(now[k]));
+        self.energy_scale = self.energy_scale.max(largest);
+        self.momentum_scale = self.momentum_scale.max(balance.momentum_scale);
+        Ok((row, balance))
+    }
+}
