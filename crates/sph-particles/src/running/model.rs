@@ -3,14 +3,9 @@
 use std::path::Path;
 
 use sph_core::StepError;
-use sph_run::{Frames, Identity, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
-use sph_scene::Scene;
-use sph_solver::Flow;
-use sph_solver::step::Hooked;
+use sph_run::{Frames, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
 
 use crate::running::beginning::begin;
-use crate::running::checkpoint;
-use crate::running::counters::Counters;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
 use crate::running::ranked;

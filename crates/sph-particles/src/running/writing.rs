@@ -5,17 +5,14 @@ use std::path::Path;
 
 use sph_probes::Probe;
 use sph_run::{Frames, RunCounters, Watch};
-use sph_solver::Flow;
 
 use crate::failure::error::RunError;
-use crate::results::balance::Balance;
 use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;
 use crate::running::pieces::write_own_share;
 use crate::setup::Probes;
-use crate::zones::Coupling;
 
 /// Sums of probes, by their names.
 fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {

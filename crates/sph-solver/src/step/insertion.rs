@@ -1,13 +1,10 @@
 //! Particles that come into the flow.
 
-use std::sync::Arc;
-
-use sph_contribution::{Birth, Initial, Newborn, OwnColumn};
+use sph_contribution::{Birth, Initial, Newborn};
 use sph_core::{FieldError, StepError, fields};
-use sph_multiphase::Formulation;
-use sph_scene::Scene;
 
 use crate::step::flow::Flow;
+use crate::step::new_particles::NewParticleDefaults;
 
 impl<const D: usize> Flow<D> {
     /// Lets in particles born at the end of a step of `dt` seconds.

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 use sph_contribution::even_out;
-use sph_core::{Removed, StepError, Store, Vect, fields};
+use sph_core::{StepError, Vect, fields};
 use sph_neighbours::Words;
-use sph_scene::{Outlet, Scene};
+use sph_scene::Scene;
 
 use crate::Flow;
 use crate::step::outlets::OutletTotals;

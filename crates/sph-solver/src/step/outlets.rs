@@ -1,13 +1,8 @@
 //! Outlets of the flow, and particles that leave it.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use sph_contribution::even_out;
-use sph_core::{Removed, SceneProblem, StepError, Store, Vect, fields};
-use sph_neighbours::Words;
+use sph_core::{Removed, SceneProblem, Store, Vect};
 use sph_scene::{Outlet, Scene};
-
-use crate::Flow;
 
 /// The outlets of a scene.
 pub struct Outlets {

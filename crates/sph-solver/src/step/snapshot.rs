@@ -1,7 +1,7 @@
 //! The state before a step, to fall back on when the step fails.
 
 use sph_boundary::{Wall, WallStates};
-use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, StepError, Store, Vect, fields};
+use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
 /// The walls, and the loads of their movers.
