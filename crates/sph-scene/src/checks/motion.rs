@@ -112,7 +112,7 @@ fn rising(rows: &[[f64; 2]], place: &str, found: &mut Problems) {
 
 fn csv(file: &Option<String>, path: &str, found: &mut Problems) {
     let Some(file) = file else { return };
-    if Format::of(file) != Some(Format::Table) {
+    if Format::from_name(file) != Some(Format::Table) {
         let message = format!("expected a file that ends in .csv, .dat or .txt, found `{file}`");
         found.add(format!("{path}.file"), message);
     }

@@ -125,7 +125,7 @@ fn companions(wall: &Wall, path: &str, found: &mut Problems) {
         let message = "`fluid` says which way the file faces: leave one of the two out";
         misplaced("flip", message);
     }
-    let format = wall.file.as_deref().and_then(Format::of);
+    let format = wall.file.as_deref().and_then(Format::from_name);
     if wall.columns.is_some() && format != Some(Format::Table) {
         misplaced("columns", "only a `file` that is a table has columns");
     }
@@ -213,7 +213,7 @@ fn ramp(wedge: &Wedge, of: Dimension, path: &str, found: &mut Problems) {
 
 /// The name of a file gives its kind.
 fn geometry_file(file: &str, of: Dimension, path: &str, found: &mut Problems) {
-    let holds = Format::of(file).map(Format::dimension);
+    let holds = Format::from_name(file).map(Format::dimension);
     let message = match (of.0, holds) {
         (2, Some(2)) | (3, Some(3)) => return,
         (2, Some(_)) => {

@@ -27,7 +27,7 @@ const ENDINGS: [(&str, Format); 5] = [
 
 impl Format {
     /// The format of a file of this name, whose ending has letters of any size.
-    pub fn of(file: &str) -> Option<Self> {
+    pub fn from_name(file: &str) -> Option<Self> {
         let (_, ending) = file.rsplit_once('.')?;
         let found = ENDINGS.iter().find(|(e, _)| e.eq_ignore_ascii_case(ending));
         found.map(|(_, format)| *format)
@@ -44,7 +44,7 @@ impl Format {
 
 /// The lines of a file, with curves within `tolerance`; any but a drawing is taken for a table of the form.
 pub(crate) fn lines(path: &Path, tolerance: f64, form: &Form) -> Result<Vec<Line>, String> {
-    match Format::of(&path.to_string_lossy()) {
+    match Format::from_name(&path.to_string_lossy()) {
         Some(Format::Svg) => svg::read(path, tolerance),
         _ => rows::lines(&rows::text(path)?, &path.display().to_string(), form),
     }
