@@ -2,9 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{Access, Field, Scalar, Stage, StepError, Vect, fields, stage};
-use sph_neighbours::{
-    CHUNK, Lane, LanePair, Neighbourhood, PairSum, Particles, World, add_scaled, dot, walk_in_lanes,
-};
+use sph_neighbours::{Around, CHUNK, Values, World, walk_into};
 
 /// Kind of a particle by its place: [`Place`] as a number.
 pub const FREE_SURFACE: Field<Scalar> = Field::new(
@@ -68,86 +66,29 @@ pub(super) fn free_surface<const D: usize>(sums: bool) -> impl Stage<World<D>> {
             .here((fields::MASS, fields::DENSITY, fields::DENSITY_CONSTANT))
             .where_there(fields::RENORMALISATION);
     }
-    // Kept for their memory.
-    let mut buffers = Default::default();
+    // Kept for its memory.
+    let mut places = Vec::new();
     stage("free surface", access, move |world: &mut World<D>| {
         let mut surface = world.free.take(FREE_SURFACE)?;
         match sums {
-            true => find(world, lacking(world)?, &mut buffers, &mut surface)?,
-            false => find(world, |_| true, &mut buffers, &mut surface)?,
+            true => find(world, lacking(world)?, &mut places, &mut surface)?,
+            false => find(world, |_| true, &mut places, &mut surface)?,
         }
         Ok(world.free.put(FREE_SURFACE, surface)?)
     })
 }
 
-/// Σ w and δr^d Σ ∇w of free neighbours.
-struct Filling {
-    /// δr^d.
-    cell: f64,
-}
-
-impl<const D: usize> PairSum<D> for Filling {
-    const VALUES: bool = true;
-    type Own<L: Lane> = ();
-    type Sum<L: Lane> = (L, [L; D]);
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, _: Particles) {}
-    #[inline(always)]
-    fn pair<L: Lane>(&self, _: &(), _: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
-        sum.0 += pair.value;
-        add_scaled(
-            &mut sum.1,
-            &pair.separation,
-            L::splat(self.cell) * pair.factor,
-        );
-    }
-}
-
-/// Number of the free neighbours in the cone of a particle.
-struct InCone<'a, const D: usize>(&'a [Sight<D>]);
-
-impl<const D: usize> PairSum<D> for InCone<'_, D> {
-    type Own<L: Lane> = [L; D];
-    type Sum<L: Lane> = L;
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> [L; D] {
-        all.each(|i| self.0[i].1.into())
-    }
-    #[inline(always)]
-    fn pair<L: Lane>(&self, inwards: &[L; D], _: usize, pair: &LanePair<D, L>, sum: &mut L) {
-        let (one, none) = (L::splat(1.0), L::splat(0.0));
-        // Separations point from the neighbour to the particle.
-        let along = dot(&pair.separation, inwards) - L::splat(CONE) * pair.distance2.sqrt();
-        *sum += (-pair.factor).where_positive(along.where_positive(one, none), none);
-    }
-}
-
-/// The place of a particle, and the axis −n of the cone that decides it; no axis where it is known.
-type Sight<const D: usize> = (Place, Vect<D>);
-
 /// Particles at a surface, among those that `wanted` names, then those near them.
 fn find<const D: usize>(
     world: &World<D>,
     wanted: impl Fn(usize) -> bool + Sync,
-    (sights, places): &mut (Vec<Sight<D>>, Vec<Place>),
+    places: &mut Vec<Place>,
     surface: &mut [f64],
 ) -> Result<(), StepError> {
-    let cell = world.spacing.powi(D as i32);
-    sights.clear();
-    sights.resize(world.free.len(), (Place::Inside, Vect::zeros()));
-    walk_in_lanes(world, &Filling { cell }, wanted, sights, |sums, rows| {
-        sight(world, sums, rows)
-    })?;
     places.clear();
-    places.extend(sights.iter().map(|(place, _)| *place));
-    let open = |i: usize| sights[i].1 != Vect::<D>::zeros();
-    walk_in_lanes(world, &InCone(sights), open, places, |seen, _| {
-        match seen > 0.0 {
-            true => Place::Inside,
-            false => Place::At,
-        }
+    places.resize(world.free.len(), Place::Inside);
+    walk_into(world, Values::Both, wanted, places, |around| {
+        place(world, around)
     })?;
     let places = &places[..];
     let lists = world.lists.nearest();
@@ -196,40 +137,46 @@ fn lacking<const D: usize>(
     })
 }
 
-/// The place of a particle, but for surfaces of others, or the axis of its cone.
-fn sight<const D: usize>(
-    world: &World<D>,
-    (values, slopes): (f64, [f64; D]),
-    rows: &Neighbourhood<'_, D>,
-) -> Sight<D> {
-    let known = |place| (place, Vect::zeros());
-    let (kernel, points) = (&*world.kernel, &world.walls.points);
+/// Measures of the neighbourhood of a particle, but for surfaces of others.
+fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
+    let rows = &around.rows;
+    let points = &world.walls.points;
     let cell = world.spacing.powi(D as i32);
-    let own = cell * kernel.value_at_zero();
-    let (mut others, mut gradient) = (cell * values, Vect::from(slopes));
+    let own = cell * world.kernel.value_at_zero();
+    let mut others = cell * around.free.iter().sum::<f64>();
+    let mut gradient = Vect::<D>::zeros();
+    for (separation, factor) in rows.free.separation.iter().zip(rows.free.factor) {
+        gradient += separation * (cell * factor);
+    }
     for (k, &v) in rows.wall.index.iter().enumerate() {
         let part = points.share[v as usize] * points.volume[v as usize];
-        others += part * kernel.at(rows.wall.distance2[k].sqrt()).0;
+        others += part * around.wall[k];
         gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
     }
     let inverse = rows.inverse_renormalisation;
     if others * inverse < own {
-        return known(Place::Alone);
+        return Place::Alone;
     }
     let filling = (others + own) * inverse;
     if filling < HALF {
-        return known(Place::At);
+        return Place::At;
     }
     for contact in rows.contacts {
         gradient -= contact.gradient * filling;
     }
-    let Some(inwards) = gradient.try_normalize(FAINT / kernel.support_radius()) else {
-        return known(Place::Inside);
+    let Some(inwards) = gradient.try_normalize(FAINT / world.kernel.support_radius()) else {
+        return Place::Inside;
     };
     // Beside walls there may be more noise, and it may face the wall.
     let faces = |normal: &Vect<D>| normal.dot(&inwards) > CONE * normal.norm();
-    match rows.contacts.iter().any(|contact| faces(&contact.gradient)) {
-        true => known(Place::Inside),
-        false => (Place::Inside, inwards),
+    if rows.contacts.iter().any(|contact| faces(&contact.gradient)) {
+        return Place::Inside;
+    }
+    // Separations point from the neighbour to the particle.
+    let pairs = rows.free.separation.iter().zip(rows.free.distance2);
+    let mut seen = pairs.map(|(r, r2)| (r.dot(&inwards), r2));
+    match seen.any(|(along, r2)| along > CONE * r2.sqrt()) {
+        true => Place::Inside,
+        false => Place::At,
     }
 }
