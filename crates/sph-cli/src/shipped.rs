@@ -58,7 +58,7 @@ pub fn find(name: &str) -> Option<Shipped> {
     listed.find(|s| s.name == name)
 }
 
-/// The shipped scene of a name like this one, as a question; empty if there is none.
+/// The question for the shipped scene of the most similar name; empty if no name is similar.
 pub fn suggestion(name: &str) -> String {
     sph_core::suggestion(name, all().iter().map(|s| s.name.as_str()))
 }

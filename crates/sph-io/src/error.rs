@@ -52,7 +52,7 @@ pub enum IoError {
     #[error("{}, line {}: {}", .0.display(), .1, .2)]
     Table(PathBuf, usize, String),
     /// A series on disk ends before the place where it is to be continued: its length, in `bytes` or `output times`, and
-    /// that which was recorded when the run was interrupted.
+    /// the length that the checkpoint has.
     #[error("{} holds {} {} but is to be continued after {}", .0.display(), .1, .2, .3)]
     TooShort(PathBuf, u64, &'static str, u64),
     /// A file that is to be continued is not of the form that this crate writes.

@@ -184,7 +184,7 @@ pub(crate) fn layer<'a>(
                 for triangle in &surface.triangles {
                     let [a, b, c] = triangle.map(|k| Vector3::from(surface.points[k as usize]));
                     let normal = (b - a).cross(&(c - a)) / 6.0;
-                    // So are the middles of the edges.
+                    // The middles of the edges are exact, too.
                     for x in [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5] {
                         add(x, normal);
                     }

@@ -221,7 +221,7 @@ fn stiffness<E: Entry<D>, const D: usize>(
     all.map(row).reduce(|| 0.0, f64::max)
 }
 
-/// Couplings of a row over what is left of its diagonal.
+/// Ratio of the couplings of a row to the rest of its diagonal.
 pub(crate) fn coupling_ratio(coupled: f64, left: f64) -> f64 {
     match coupled > 0.0 {
         true if left > 0.0 => coupled / left,

@@ -210,7 +210,7 @@ impl<const D: usize> Running<'_, D> {
     }
 }
 
-/// A number over a scale; 0 where there is none.
+/// A number over a scale; 0 without a positive scale.
 fn over(x: f64, scale: f64) -> f64 {
     if scale > 0.0 { x / scale } else { 0.0 }
 }

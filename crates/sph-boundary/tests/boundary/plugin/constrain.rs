@@ -20,8 +20,8 @@ fn crosses(a: Vect<2>, b: Vect<2>, c: Vect<2>, d: Vect<2>) -> bool {
 /// Shots from random places of a square, at least a quarter of a spacing from all walls.
 fn shooters(wall: &Polyline, low: f64, high: f64, seed: u64) -> Bench<2> {
     let specs = [fixed_line(wall.clone())];
-    let nobody = vec![Vect::repeat(50.0)];
-    let probe = Bench::new("usaw", &specs, SPACING, wide(), nobody);
+    let far = vec![Vect::repeat(50.0)];
+    let probe = Bench::new("usaw", &specs, SPACING, wide(), far);
     let mut random = Random::new(seed);
     let mut places = Vec::new();
     while places.len() < SHOTS / STEPS.len() {

@@ -32,8 +32,8 @@ fn crosses(a: &Vect<3>, b: &Vect<3>, [p, q, r]: &[Vect<3>; 3]) -> bool {
 /// returns how many went through the wall and how many it turned away.
 fn flown(surface: &Surface, low: f64, high: f64, aims: &[Vect<3>], dt: f64) -> [usize; 2] {
     let walls = [WallSpec::at_rest(wall(surface.clone()))];
-    let nobody = vec![Vect::repeat(50.0)];
-    let probe = Bench::new("usaw", &walls, SPACING, wide(), nobody);
+    let far = vec![Vect::repeat(50.0)];
+    let probe = Bench::new("usaw", &walls, SPACING, wide(), far);
     let mut random = Random::new(11 + (1e4 * dt) as u64);
     let mut places: Vec<Vect<3>> = Vec::new();
     while places.len() < SHOTS {
