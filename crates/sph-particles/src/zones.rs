@@ -1,8 +1,9 @@
 //! Zones of finer particles, each a flow of its own that shares time, walls and laws with the flow around it.
 //!
 //! * [`attach()`]: the zones of a scene, and the scene of each.
-//! * `frame`: the box of a zone, its core, and the band around it.
-//! * `sample`: the state of particles near a box, and its value anywhere by a fit.
+//! * `frame`: the shape of a zone, its core, and the band around it.
+//! * `sample`: the state of particles near a zone, and its value anywhere; `near`, `fit`: particles near a place, and their
+//!   weights.
 //! * `guard`: the band, in which finer particles follow those around; they are kept apart.
 //! * [`Level`]: a zone that follows the flow around it in time; [`Coupling`]: all zones of a flow; [`Stepper`]: steps of a
 //!   flow with its zones.
@@ -15,8 +16,10 @@
 mod attach;
 mod checkpoints;
 mod coupling;
+mod fit;
 mod frame;
 mod guard;
+mod near;
 mod refusals;
 mod sample;
 

@@ -160,6 +160,153 @@ fn zones_that_do_not_fit_are_refused() {
     }
 }
 
+/// A disc that is towed through a period, with a round zone.
+const TOWED: &str = r#"
+title = "A towed disc"
+dimension = 2
+[run]
+end = 0.3
+[numerics]
+spacing = 0.02
+periodic = { x = [0.0, 1.2], y = [0.0, 0.7] }
+relax = { steps = 0 }
+[phase.fluid]
+density = 1000.0
+speed_of_sound = 10.0
+[phase.fluid.equation-of-state.tait]
+[phase.fluid.rheology.newtonian]
+viscosity = 5.0
+[wall.disc]
+disc = { centre = [0.9, 0.35], radius = 0.1 }
+fluid = "outside"
+motion.velocity = [1.0, 0.0]
+[body.box]
+phase = "fluid"
+box = [[0.0, 0.0], [1.2, 0.7]]
+clip = true
+[zone.near]
+disc = { centre = [0.9, 0.35], radius = 0.2 }
+follows = "disc"
+[output]
+every = 1.0
+vtk = false
+"#;
+
+/// The disc crosses the end of the period, and a quarter of its way the zone lies on both sides.
+#[test]
+fn a_round_zone_follows_its_wall_with_the_mass_around_it() {
+    let bench = Bench::with(PROGRAM, TOWED);
+    bench.done("run scene.toml --quiet --out out");
+    bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
+    // Radius with the band of two supports of the finer particles, m.
+    let reach = 0.2 + 2.0 * 4.0 * 0.01;
+    let masses = |folder: &str, way: f64| -> [f64; 2] {
+        let file = format!("{folder}/checkpoint.sph");
+        let place = column(&bench, &file, "position");
+        let inside = |x: &[f64]| {
+            let along = x[0] - 0.9 - way;
+            let nearest = along - 1.2 * (along / 1.2).round();
+            nearest.hypot(x[1] - 0.35) <= reach
+        };
+        let mass = column(&bench, &file, "mass");
+        let pairs = place.chunks_exact(2).zip(&mass);
+        let around: f64 = pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum();
+        let zone = column(&bench, &format!("{folder}/checkpoint-near.sph"), "mass");
+        [around, zone.iter().sum()]
+    };
+    let [begun, begun_finer] = masses("none", 0.0);
+    let [around, finer] = masses("out", 0.3);
+    // Lattices of both spacings cut the disc differently.
+    near(finer, begun_finer + around - begun, 1e-12 * around, "kg");
+    let place = column(&bench, "out/checkpoint-near.sph", "position");
+    let round = place.chunks_exact(2).filter(|x| x[0] < 0.4).count();
+    assert!(round > 100, "{round} particles have come round");
+}
+
+/// A box that floats too deep, in a zone that follows it.
+const HEAVING: &str = r#"
+title = "A box heaves in a zone that follows it"
+dimension = 2
+[run]
+end = 0.15
+[numerics]
+spacing = 0.02
+gravity = [0.0, -9.81]
+relax = { steps = 0 }
+[walls.usaw]
+vertices = false
+[wall.tank]
+polyline = [[0.0, 0.6], [0.0, 0.0], [1.2, 0.0], [1.2, 0.6]]
+condition = "free-slip"
+[wall.box]
+box = [[0.5, 0.24], [0.7, 0.44]]
+fluid = "outside"
+condition = "free-slip"
+mover.rigid-body = { density = 500.0, free = ["y"] }
+[phase.water]
+density = 1000.0
+[phase.water.equation-of-state.tait]
+[phase.water.rheology.newtonian]
+viscosity = 1e-3
+[body.water]
+phase = "water"
+box = [[0.0, 0.0], [1.2, 0.4]]
+clip = true
+pressure = "hydrostatic"
+[probe.box]
+kind = "wall-motion"
+wall = "box"
+[probe.finer]
+kind = "wall-force"
+wall = "box"
+[probe.coarser]
+kind = "wall-force"
+wall = "box"
+[zone.near]
+box = [[0.35, 0.1], [0.85, 0.55]]
+follows = "box"
+probes = ["finer"]
+[output]
+every = 1.0
+series_every = 1e-9
+vtk = false
+"#;
+
+/// Newton's second law with the force of the finer particles gives the way of the body; with that of the coarser ones it is a
+/// tenth off.
+#[test]
+fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
+    let bench = Bench::with(PROGRAM, HEAVING);
+    bench.done("run scene.toml --quiet --out out");
+    let series = bench.series("out");
+    let (time, height) = (series.column("time"), series.column("box.y"));
+    let mass = 500.0 * 0.2 * 0.2;
+    let way = |force: &str| {
+        let steps = time.windows(2).map(|t| t[1] - t[0]);
+        let forces = series.column(force).iter();
+        let mut velocity = 0.0;
+        let parts = steps.zip(forces).map(|(dt, force)| {
+            velocity += (force / mass - 9.81) * dt;
+            velocity * dt
+        });
+        parts.sum::<f64>()
+    };
+    let true_way = height[height.len() - 1] - height[0];
+    assert!(true_way > 0.02, "{true_way} m");
+    near(way("finer.y"), true_way, 0.03 * true_way, "m");
+    let coarser = way("coarser.y") / true_way;
+    assert!((coarser - 1.0).abs() > 0.1, "{coarser}");
+}
+
+#[test]
+fn zones_that_move_have_the_same_bits_on_threads_and_after_an_interruption() {
+    let bench = Bench::with(PROGRAM, HEAVING);
+    bench.same_bits("", 100);
+    let file = |folder: &str| format!("{folder}/checkpoint-near.sph");
+    let [a, b] = ["one", "parts"].map(|folder| column(&bench, &file(folder), "density_constant"));
+    assert!(!a.is_empty() && a == b);
+}
+
 /// A tube of 160 rows with a piston that makes a pulse of sound of 40 rows; the end answers after the run.
 const TUBE: &str = r#"
 title = "A pulse of sound in a tube"

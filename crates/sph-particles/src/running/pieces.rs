@@ -76,14 +76,15 @@ pub(crate) fn own_particles<const D: usize>(
     })
 }
 
-/// The particles of a zone that are in its box.
+/// The particles of a zone that are in its shape.
 pub(crate) fn zone_particles<const D: usize>(
     level: &Level<D>,
     wanted: impl Fn(&str) -> bool,
 ) -> Result<Piece<'static>, RunError> {
     let flow = &level.stepper.parts.flow;
     let position = flow.world.free.get(fields::POSITION)?;
-    let inside = position.iter().map(|x| level.frame.holds(x, 0.0));
+    let frame = level.frame();
+    let inside = position.iter().map(|x| frame.holds(x, 0.0));
     let inside: Vec<bool> = inside.collect();
     some_particles(flow, &format!("zone-{}", level.name), &inside, wanted)
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sph_core::{Vect, fields};
 use sph_neighbours::World;
 use sph_scene::{Output, Scene, Zone};
 use sph_solver::SolverError;
@@ -46,13 +47,21 @@ fn level<const D: usize>(
     depth: usize,
 ) -> Result<Level<D>, SolverError> {
     let support = 0.5 * around.flow.world.kernel.support_radius();
-    let frame = Frame::new(scene, zone, support);
+    let shapeless = || SolverError::at(format!("zone.{name}"), "it has no shape");
+    let frame = Frame::new(scene, zone, support).ok_or_else(shapeless)?;
     let frame = frame.with_core(around.flow.walls.as_deref(), scene.numerics.spacing);
     let finer = scene_of_zone((scene, &around.flow.world), (name, zone), &frame);
     let mut parts = assemble::<D>(&finer)?;
     // Those of zones within it were assembled too, for their own scenes.
     let own = |probe: &String| zone.probes.contains(probe);
     parts.probes.retain(|(probe, _)| own(probe));
+    // The window of the scene is the box around the shape.
+    let beyond = |x: &Vect<D>| !frame.holds(x, frame.band);
+    let position = parts.flow.world.free.get(fields::POSITION)?;
+    let beyond: Vec<bool> = position.iter().map(beyond).collect();
+    if beyond.contains(&true) {
+        parts.flow.world.free.take_out(&beyond);
+    }
     refuse(name, &parts)?;
     let guard = Guard::new(frame.clone(), scene.numerics.spacing);
     let coupling = coupling(&finer, &parts, Some(guard), depth + 1)?;
@@ -60,7 +69,7 @@ fn level<const D: usize>(
     Ok(Level::new(name, frame, stepper, depth))
 }
 
-/// The scene of a zone whose box is `frame`, in a flow around it.
+/// The scene of a zone in a flow around it.
 pub(crate) fn scene_of_zone<const D: usize>(
     (scene, around): (&Scene, &World<D>),
     (name, zone): (&str, &Zone),
@@ -89,13 +98,13 @@ pub(crate) fn scene_of_zone<const D: usize>(
     finer
 }
 
-/// Names of the walls that no particle of a zone can see. Where walls bound a body all stay.
+/// Names of the walls that no particle of a zone can ever see. Where walls bound a body all stay.
 fn walls_out_of_reach<const D: usize>(
     scene: &Scene,
     around: &World<D>,
     frame: &Frame<D>,
 ) -> Vec<String> {
-    if scene.body.values().any(|body| body.fill.is_some()) {
+    if frame.carrier().is_some() || scene.body.values().any(|body| body.fill.is_some()) {
         return Vec::new();
     }
     let [low, high] = frame.corners(frame.band + around.kernel.support_radius());
@@ -107,7 +116,11 @@ fn walls_out_of_reach<const D: usize>(
         (0..D).any(|k| to[k] < low[k] || from[k] > high[k])
     };
     let names = walls.names.iter().enumerate();
-    let names = names.filter(|(number, name)| scene.wall.contains_key(*name) && far(*number));
+    let stays = |name: &String| {
+        let wall = scene.wall.get(name);
+        wall.is_some_and(|wall| wall.motion.is_none() && wall.mover.is_empty())
+    };
+    let names = names.filter(|(number, name)| stays(name) && far(*number));
     names.map(|(_, name)| name.clone()).collect()
 }
 

@@ -7,13 +7,15 @@ use rayon::prelude::*;
 use serde::Serialize;
 use sph_core::{StepError, System, Vect, fields};
 use sph_multiphase::Diffused;
-use sph_neighbours::{CellGrid, World};
+use sph_neighbours::World;
 use sph_probes::Probe;
 use sph_solver::Flow;
 
+use super::fit::weight;
 use super::frame::Frame;
 use super::guard::{Guard, spread};
-use super::sample::{REACH, State, States, weight};
+use super::near::Near;
+use super::sample::{REACH, State, States};
 use crate::setup::{Assembled, measure_walls};
 
 pub(crate) use level::Level;
@@ -75,9 +77,10 @@ impl<const D: usize> Coupling<D> {
         let mut band = Vec::new();
         flow.evaluate_with(|flow, restored| {
             if let Some(guard) = self.guard.as_ref() {
-                let around = guard.states(flow, |x| !guard.frame.in_core(x))?;
+                let frame = guard.frame.at(flow);
+                let around = guard.states(flow, |x| !frame.in_core(x))?;
                 let position = flow.world.free.get(fields::POSITION)?;
-                let beyond = |(k, _): &(usize, State<D>)| !guard.frame.holds(&position[*k], 0.0);
+                let beyond = |(k, _): &(usize, State<D>)| !frame.holds(&position[*k], 0.0);
                 let (outer, overlap): (States<D>, States<D>) = around.into_iter().partition(beyond);
                 band = outer;
                 // A state to which a run came back has these densities, and the same bits: sums of the same constants.
@@ -90,8 +93,10 @@ impl<const D: usize> Coupling<D> {
                 set_densities(flow, &band)?;
             }
             self.inner.clear();
+            flow.finer_loads.clear();
             for level in &mut self.levels {
                 self.inner.extend(level.follow(flow)?);
+                flow.finer_loads.extend(level.loads()?);
             }
             let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
             let states = band.iter();
@@ -99,7 +104,7 @@ impl<const D: usize> Coupling<D> {
             Ok(())
         })?;
         match &self.guard {
-            Some(guard) => accelerate(flow, &band, &guard.frame),
+            Some(guard) => accelerate(flow, &band, &guard.frame.at(flow)),
             None => Ok(()),
         }
     }
@@ -122,14 +127,18 @@ impl<const D: usize> Coupling<D> {
         flow.let_out(dt)?;
         flow.let_in(dt)?;
         if let Some(guard) = &self.guard {
-            spread(flow, &guard.frame)?;
+            guard.lead_walls(flow)?;
+            spread(flow, &guard.frame.at(flow))?;
         }
         // A drift in parts may end one rounding short of its aim, and the sliver that is left
         // be too short for its parts to move the clock: for ever.
         if time + dt >= target * (1.0 - 1e-12) {
             flow.world.time = target;
         }
-        Ok(())
+        match &self.guard {
+            Some(guard) => guard.exchange(flow),
+            None => Ok(()),
+        }
     }
 
     /// Before a step of `dt` seconds: particles that a zone leads go towards its densities and velocities.
@@ -156,8 +165,9 @@ impl<const D: usize> Coupling<D> {
         let Some(guard) = &self.guard else {
             return Ok(());
         };
-        let band = guard.states(flow, |x| !guard.frame.holds(x, 0.0))?;
-        accelerate(flow, &band, &guard.frame)
+        let frame = guard.frame.at(flow);
+        let band = guard.states(flow, |x| !frame.holds(x, 0.0))?;
+        accelerate(flow, &band, &frame)
     }
 
     /// All zones, those within zones too.
@@ -184,12 +194,13 @@ impl<const D: usize> Coupling<D> {
         wanted: &dyn Fn(&Vect<D>) -> bool,
     ) -> Result<Vec<Particles<'a, D>>, StepError> {
         let position = flow.world.free.get(fields::POSITION)?;
-        let finer = |x: &Vect<D>| self.levels.iter().any(|level| level.frame.holds(x, 0.0));
+        let frames: Vec<_> = self.levels.iter().map(Level::frame).collect();
+        let finer = |x: &Vect<D>| frames.iter().any(|frame| frame.holds(x, 0.0));
         let own = |k: &usize| wanted(&position[*k]) && !finer(&position[*k]);
         let mut all = vec![(flow, (0..position.len()).filter(own).collect())];
-        for level in &self.levels {
+        for (level, frame) in self.levels.iter().zip(&frames) {
             let zone = &level.stepper;
-            let inside = |x: &Vect<D>| level.frame.holds(x, 0.0);
+            let inside = |x: &Vect<D>| frame.holds(x, 0.0);
             all.extend(zone.coupling.finest_within(&zone.parts.flow, &inside)?);
         }
         Ok(all)
@@ -258,19 +269,16 @@ fn with_mean_densities<const D: usize>(
     let free = &flow.world.free;
     let (position, density) = (free.get(fields::POSITION)?, free.get(fields::DENSITY)?);
     let domain = &flow.world.domain;
-    let radius = REACH * flow.world.spacing;
     let places: Vec<Vect<D>> = led.iter().map(|(k, _)| position[*k]).collect();
-    let grid = CellGrid::new(&places, radius, domain);
+    let missing = led.iter().map(|(k, state)| state.density - density[*k]);
+    let missing: Vec<f64> = missing.collect();
+    let near = Near::new(&places, REACH * flow.world.spacing, domain);
     let mean = |(k, state): &(usize, State<D>)| {
         let (mut weights, mut sum) = (0.0, 0.0);
-        grid.ranges(&position[*k], radius, |found| {
-            for other in &grid.order()[found] {
-                let (other, around) = &led[*other as usize];
-                let q = domain.nearest(position[*k] - position[*other]).norm() / radius;
-                let weight = weight(q);
-                weights += weight;
-                sum += weight * (around.density - density[*other]);
-            }
+        near.visit(&position[*k], |other, _, q| {
+            let weight = weight(q);
+            weights += weight;
+            sum += weight * missing[other];
         });
         let density = density[*k] + sum / weights;
         (*k, State { density, ..*state })

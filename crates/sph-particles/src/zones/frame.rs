@@ -1,8 +1,10 @@
-//! The box of a zone, and the band around it.
+//! The shape of a zone, and the band around it.
 
 use sph_boundary::Wall;
 use sph_core::Vect;
-use sph_scene::{Scene, Zone};
+use sph_neighbours::{Domain, Frame as Pose};
+use sph_scene::{Scene, Shape, Zone};
+use sph_solver::Flow;
 
 use super::sample::REACH;
 
@@ -10,73 +12,118 @@ use super::sample::REACH;
 /// these have all of theirs in the band.
 const BAND: f64 = 2.0;
 
-/// A box along the axes; along a period that it spans it has no sides.
+/// The shape of a zone, where it was drawn and where it is.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame<const D: usize> {
-    low: Vect<D>,
-    high: Vect<D>,
+    /// Where it was drawn; along a period that a box spans it has no sides.
+    pub shape: Shape<D>,
     /// Width of the band around it, m.
     pub band: f64,
-    /// Corners of its core, in which the flow around is led by the zone.
-    core: [Vect<D>; 2],
+    /// The shape of its core, in which the flow around is led by the zone.
+    core: Shape<D>,
+    /// Distance of the core behind that shape, m.
+    inset: f64,
+    /// The wall that carries it.
+    carrier: Option<String>,
+    /// The pose of that wall, and the domain with its periods.
+    carried: Option<(Pose<D>, Domain<D>)>,
 }
 
 impl<const D: usize> Frame<D> {
-    /// The box of a zone whose particles have a support, m.
-    pub fn new(scene: &Scene, zone: &Zone, support: f64) -> Self {
-        let periods = scene.numerics.periodic.bounds::<D>();
-        let [low, high] = &zone.bounds;
-        let spans = |k: usize| periods[k].is_some_and(|[lo, hi]| low[k] <= lo && hi <= high[k]);
-        let end = |corner: &[f64], infinite: f64| {
-            Vect::from_fn(|k, _| if spans(k) { infinite } else { corner[k] })
-        };
-        let (low, high) = (end(low, f64::NEG_INFINITY), end(high, f64::INFINITY));
-        Frame {
-            low,
-            high,
-            band: BAND * support,
-            core: [low, high],
+    /// The shape of a zone whose particles have a support, m; none if the zone has no shape.
+    pub fn new(scene: &Scene, zone: &Zone, support: f64) -> Option<Self> {
+        let mut shape = zone.shape.shape::<D>()?;
+        if let Shape::Cuboid { lo, hi } = &mut shape {
+            let periods = scene.numerics.periodic.bounds::<D>();
+            for (k, period) in periods.into_iter().enumerate() {
+                if period.is_some_and(|[from, to]| lo[k] <= from && to <= hi[k]) {
+                    (lo[k], hi[k]) = (f64::NEG_INFINITY, f64::INFINITY);
+                }
+            }
         }
+        Some(Frame {
+            core: shape.clone(),
+            shape,
+            band: BAND * support,
+            inset: 0.0,
+            carrier: zone.follows.clone(),
+            carried: None,
+        })
+    }
+
+    /// Where it is while a flow is in its present state.
+    pub fn at(&self, flow: &Flow<D>) -> Self {
+        let walls = &flow.world.walls;
+        let carrier = self.carrier.as_ref();
+        let wall = carrier.and_then(|wall| walls.names.iter().position(|name| name == wall));
+        let pose = wall.and_then(|wall| walls.frames.get(wall));
+        Frame {
+            carried: pose.map(|pose| (*pose, flow.world.domain.clone())),
+            ..self.clone()
+        }
+    }
+
+    /// A place as it would be with the shape where it was drawn.
+    fn drawn(&self, x: &Vect<D>) -> [f64; D] {
+        let Some((pose, domain)) = &self.carried else {
+            return (*x).into();
+        };
+        let (low, high) = self.shape.bounds();
+        let middle = |k: usize| {
+            if low[k].is_finite() {
+                0.5 * (low[k] + high[k])
+            } else {
+                0.0
+            }
+        };
+        let centre = Vect::from_fn(|k, _| middle(k));
+        let way = domain.nearest(x - pose.present(&centre));
+        (centre + pose.turned_back(&way)).into()
     }
 
     /// With a core that begins a fit's radius behind each side with fluid before it; `spacing` is that around the zone, m.
     ///
     /// Between core and side both flows are computed: a flow that is fitted to the other at once copies its own errors.
     pub fn with_core(mut self, walls: Option<&dyn Wall<D>>, spacing: f64) -> Self {
+        let Shape::Cuboid { mut lo, mut hi } = self.shape else {
+            self.inset = REACH * spacing;
+            return self;
+        };
         for axis in 0..D {
-            for side in 0..2 {
+            for (end, side, inwards) in [(&mut lo, 0, 1.0), (&mut hi, 1, -1.0)] {
                 if self.is_open(walls, spacing, (axis, side)) {
-                    let inwards = if side == 0 { 1.0 } else { -1.0 };
-                    self.core[side][axis] += inwards * REACH * spacing;
+                    end[axis] += inwards * REACH * spacing;
                 }
             }
         }
+        self.core = Shape::Cuboid { lo, hi };
         self
     }
 
-    /// True if there may be fluid before a side: a place in front of all walls.
+    /// True if there may be fluid before a side of the box around it: a place in front of all walls, or a zone that moves.
     pub fn is_open(
         &self,
         walls: Option<&dyn Wall<D>>,
         spacing: f64,
         (axis, side): (usize, usize),
     ) -> bool {
-        let Some(walls) = walls else {
-            return true;
-        };
-        let ends = [self.low, self.high];
+        let (low, high) = self.shape.bounds();
+        let ends = [low, high];
         if !ends[side][axis].is_finite() {
             return false;
         }
+        let Some(walls) = walls.filter(|_| self.carrier.is_none()) else {
+            return true;
+        };
         let outwards = if side == 0 { -1.0 } else { 1.0 };
         // Along a period that the box spans all places are alike for what stands in it.
         let first = ends[side][axis] + 0.25 * outwards * spacing;
-        let span = |k: usize| match (k == axis, self.low[k].is_finite()) {
+        let span = |k: usize| match (k == axis, low[k].is_finite()) {
             (true, _) => (first, outwards * spacing, 3),
             (false, true) => {
-                let length = self.high[k] - self.low[k];
+                let length = high[k] - low[k];
                 let count = (length / spacing).ceil();
-                (self.low[k], length / count, count as usize + 1)
+                (low[k], length / count, count as usize + 1)
             }
             (false, false) => (0.0, 0.0, 1),
         };
@@ -93,9 +140,9 @@ impl<const D: usize> Frame<D> {
         })
     }
 
-    /// True if a place is in the box widened by a margin, m.
+    /// True if a place is in the shape widened by a margin, m.
     pub fn holds(&self, x: &Vect<D>, margin: f64) -> bool {
-        (0..D).all(|k| self.low[k] - margin <= x[k] && x[k] < self.high[k] + margin)
+        holds(&self.shape, &self.drawn(x), margin)
     }
 
     /// True if a place is in the outer half of the band, or beyond it.
@@ -105,11 +152,26 @@ impl<const D: usize> Frame<D> {
 
     /// True if a place is in the core.
     pub fn in_core(&self, x: &Vect<D>) -> bool {
-        (0..D).all(|k| self.core[0][k] <= x[k] && x[k] < self.core[1][k])
+        holds(&self.core, &self.drawn(x), -self.inset)
     }
 
-    /// Corners of the box widened by a margin, m.
+    /// The wall that carries it; it stays if there is none.
+    pub fn carrier(&self) -> Option<&String> {
+        self.carrier.as_ref()
+    }
+
+    /// Corners of the box around the shape where it was drawn, widened by a margin, m.
     pub fn corners(&self, margin: f64) -> [Vect<D>; 2] {
-        [self.low.add_scalar(-margin), self.high.add_scalar(margin)]
+        let (low, high) = self.shape.bounds();
+        let [low, high] = [low, high].map(Vect::from);
+        [low.add_scalar(-margin), high.add_scalar(margin)]
+    }
+}
+
+/// True if a place is in a shape widened by a margin, m; boxes keep their corners.
+fn holds<const D: usize>(shape: &Shape<D>, x: &[f64; D], margin: f64) -> bool {
+    match shape {
+        Shape::Cuboid { lo, hi } => (0..D).all(|k| lo[k] - margin <= x[k] && x[k] < hi[k] + margin),
+        _ => shape.depth(x) >= -margin,
     }
 }

@@ -1,13 +1,14 @@
 //! The band around a zone, in which its particles follow those around and are pushed apart until no two lie together.
 
 use rayon::prelude::*;
-use sph_boundary::Wall;
+use sph_boundary::{Wall, WallStates};
 use sph_contribution::Newborn;
 use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::CellGrid;
 use sph_solver::Flow;
 
 use super::frame::Frame;
+use super::near::Near;
 use super::sample::{Sample, Source, States};
 
 /// Distance from the band over the spacing around it, beyond which a finer particle is brought back.
@@ -16,6 +17,10 @@ const LOST: f64 = 2.0;
 /// Particles around a zone, and the band that follows them.
 pub(crate) struct Guard<const D: usize> {
     pub frame: Frame<D>,
+    /// The shape at the times of both samples.
+    frames: [Frame<D>; 2],
+    /// States of walls with movers at these times.
+    walls: [WallStates; 2],
     /// Spacing around the zone, m.
     pub spacing: f64,
     before: Sample<D>,
@@ -28,6 +33,8 @@ impl<const D: usize> Guard<D> {
     /// Around a zone, in particles with a spacing, m.
     pub fn new(frame: Frame<D>, spacing: f64) -> Self {
         Guard {
+            frames: [frame.clone(), frame.clone()],
+            walls: Default::default(),
             frame,
             spacing,
             before: Sample::default(),
@@ -42,7 +49,15 @@ impl<const D: usize> Guard<D> {
     /// If a column is missing.
     pub fn look(&mut self, around: &Flow<D>) -> Result<(), StepError> {
         let margin = self.frame.band + 4.0 * self.spacing;
-        let now = Sample::of_flow(around, |x| self.frame.holds(x, margin))?;
+        self.frames.swap(0, 1);
+        self.walls.swap(0, 1);
+        self.frames[1] = self.frame.at(around);
+        self.walls[1] = around
+            .walls
+            .as_ref()
+            .map(|w| w.states())
+            .unwrap_or_default();
+        let now = Sample::of_flow(around, |x| self.frames[1].holds(x, margin))?;
         self.before = std::mem::replace(&mut self.now, now);
         if self.before.time >= self.now.time {
             self.before = Sample::default();
@@ -51,6 +66,37 @@ impl<const D: usize> Guard<D> {
         let identities = self.now.identities.iter();
         self.earlier = identities.map(|id| slots.slot(*id)).collect();
         Ok(())
+    }
+
+    /// Puts walls with movers where those around are at the time of a zone.
+    ///
+    /// # Errors
+    /// A wall that cannot follow.
+    pub fn lead_walls(&self, zone: &mut Flow<D>) -> Result<(), StepError> {
+        let (Some(from), Some(to), Some(walls)) =
+            (self.before.time, self.now.time, zone.walls.as_deref_mut())
+        else {
+            return Ok(());
+        };
+        let [before, now] = self.walls.each_ref().map(|states| &states.now);
+        if now.is_empty() {
+            return Ok(());
+        }
+        let time = zone.world.time;
+        let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
+        let part = |(a, b): (&f64, &f64)| {
+            if share == 1.0 {
+                *b
+            } else {
+                a + share * (b - a)
+            }
+        };
+        let states = WallStates {
+            now: before.iter().zip(now).map(part).collect(),
+            listed: None,
+        };
+        let led = walls.put_back(&mut zone.world.walls, &states, time);
+        led.map_err(|e| StepError::stage("walls of a zone", e.to_string()))
     }
 
     /// States around those particles of a zone whose places are `wanted`, at its time.
@@ -66,50 +112,57 @@ impl<const D: usize> Guard<D> {
         let around = self.now.since(&self.before, &self.earlier, world);
         let source = Source::new(&around, &world.domain, self.spacing);
         let position = world.free.get(fields::POSITION)?;
-        let at = |(k, x): (usize, &Vect<D>)| {
-            let state = wanted(x).then(|| source.at(x));
-            Some((k, state.flatten()?))
-        };
-        let all = position.par_iter().enumerate().with_min_len(256);
-        Ok(all.filter_map(at).collect())
+        Ok(source.all(position, wanted))
     }
 
-    /// Lets finer particles in where those around come into the band, and takes them out where those leave it, mass for
-    /// mass. True if any did.
+    /// At the end of the time that it knows: lets finer particles in where those around come into the band, and takes them
+    /// out where those leave it, mass for mass.
     ///
     /// # Errors
     /// A particle that cannot come in.
-    pub fn exchange(&self, zone: &mut Flow<D>) -> Result<bool, StepError> {
+    pub fn exchange(&self, zone: &mut Flow<D>) -> Result<(), StepError> {
+        if self.now.time != Some(zone.world.time) {
+            return Ok(());
+        }
         let outer = self.frame.band;
+        let [before, here] = &self.frames;
         let (mut comes, mut goes) = (Vec::new(), Vec::new());
         for (k, earlier) in self.earlier.iter().enumerate() {
             let Some(earlier) = earlier else {
                 continue;
             };
             let then = &self.before.positions[*earlier as usize];
-            let was = self.frame.holds(then, outer);
-            match (was, self.frame.holds(&self.now.positions[k], outer)) {
+            let was = before.holds(then, outer);
+            match (was, here.holds(&self.now.positions[k], outer)) {
                 (false, true) => comes.push(k),
                 (true, false) => goes.push(k),
                 _ => {}
             }
         }
-        let changed = self.bring_back(zone)? | self.take_out(zone, &goes)?;
+        self.bring_back(zone)?;
+        self.take_out(zone, &goes)?;
         let births: Vec<_> = comes.iter().flat_map(|k| self.children(zone, *k)).collect();
         zone.insert(&births)?;
-        Ok(changed || !births.is_empty())
+        let free = &mut zone.world.free;
+        if free.has(fields::MEAN_ACCELERATION.name) {
+            let mean = free.get_mut(fields::MEAN_ACCELERATION)?;
+            let first = mean.len() - births.len();
+            let parents = comes.iter().flat_map(|k| std::iter::repeat_n(*k, 1 << D));
+            let born = mean[first..].iter_mut().zip(parents);
+            born.for_each(|(own, parent)| *own = self.now.mean_accelerations[parent]);
+        }
+        Ok(())
     }
 
-    /// Puts particles that are behind a wall, or far from the band, beside the nearest particle around. True if there are
-    /// some.
-    fn bring_back(&self, zone: &mut Flow<D>) -> Result<bool, StepError> {
+    /// Puts particles that are behind a wall, or far from the band, beside the nearest particle around.
+    fn bring_back(&self, zone: &mut Flow<D>) -> Result<(), StepError> {
         let mut position = zone.world.free.take(fields::POSITION)?;
         let domain = &zone.world.domain;
         let lost = self.frame.band + LOST * self.spacing;
         let is_fluid = |x: &Vect<D>| zone.walls.as_ref().is_none_or(|w| w.contains(x));
-        let mut some = false;
+        let here = &self.frames[1];
         for x in &mut position {
-            if self.frame.holds(x, 0.0) || (self.frame.holds(x, lost) && is_fluid(x)) {
+            if here.holds(x, 0.0) || (here.holds(x, lost) && is_fluid(x)) {
                 continue;
             }
             let way = |y: &Vect<D>| domain.nearest(*x - *y);
@@ -119,16 +172,14 @@ impl<const D: usize> Guard<D> {
                 let aside = way(place).cap_magnitude(0.25 * self.spacing);
                 let beside = domain.wrapped(place + aside);
                 *x = if is_fluid(&beside) { beside } else { *place };
-                some = true;
             }
         }
-        zone.world.free.put(fields::POSITION, position)?;
-        Ok(some)
+        Ok(zone.world.free.put(fields::POSITION, position)?)
     }
 
     /// Takes out the finer particles nearest to those that leave, as many as these are divided into; the next nearest keeps
-    /// the difference of mass. True if there are some.
-    fn take_out(&self, zone: &mut Flow<D>, goes: &[usize]) -> Result<bool, StepError> {
+    /// the difference of mass.
+    fn take_out(&self, zone: &mut Flow<D>, goes: &[usize]) -> Result<(), StepError> {
         let mut mass = zone.world.free.take(fields::MASS)?;
         let world = &zone.world;
         let position = world.free.get(fields::POSITION)?;
@@ -162,11 +213,10 @@ impl<const D: usize> Guard<D> {
             }
         }
         zone.world.free.put(fields::MASS, mass)?;
-        let some = leaves.contains(&true);
-        if some {
+        if leaves.contains(&true) {
             zone.world.free.take_out(&leaves);
         }
-        Ok(some)
+        Ok(())
     }
 
     /// The finer particles of one that has come into the band: at the corners of a cube, nearer to it where a wall is.
@@ -220,22 +270,17 @@ pub(crate) fn spread<const D: usize>(
     let near = |k: &usize| !frame.holds(&position[*k], -spacing);
     let band: Vec<usize> = (0..position.len()).filter(near).collect();
     let places: Vec<Vect<D>> = band.iter().map(|k| position[*k]).collect();
-    let grid = CellGrid::new(&places, reach, domain);
-    let moved = |n: usize| {
-        let x = places[n];
+    let near = Near::new(&places, reach, domain);
+    let moved = |x: &Vect<D>| {
         let mut way = Vect::<D>::zeros();
-        grid.ranges(&x, reach, |found| {
-            for other in grid.order()[found].iter().map(|k| *k as usize) {
-                let d = domain.nearest(x - places[other]);
-                let r = d.norm();
-                if r > 0.0 && r < reach {
-                    way += d * (PART * (reach / r - 1.0).min(1.0));
-                }
+        near.visit(x, |_, there, q| {
+            if q > 0.0 {
+                way -= there * (PART * reach * (1.0 / q - 1.0).min(1.0));
             }
         });
         x + way
     };
-    let all = (0..band.len()).into_par_iter().with_min_len(256);
+    let all = places.par_iter().with_min_len(256);
     let aside: Vec<Vect<D>> = all.map(moved).collect();
     let walls = flow.walls.as_deref();
     let near_wall = NEAR_WALL * spacing;

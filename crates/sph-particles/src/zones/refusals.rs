@@ -1,14 +1,14 @@
 //! Scenes that cannot have zones, and zones that do not fit their surroundings.
 
 use sph_core::fields;
-use sph_scene::Scene;
+use sph_scene::{Scene, Shape, Zone};
 use sph_solver::SolverError;
 
 use super::frame::Frame;
 use crate::setup::Assembled;
 
-/// Columns of state that follow from places, velocities and densities, or are led.
-const CARRIED: [&str; 8] = [
+/// Columns of state that follow from places, velocities and densities, are led, or begin with those of the parents.
+const CARRIED: [&str; 9] = [
     fields::POSITION.name,
     fields::VELOCITY.name,
     fields::MASS.name,
@@ -17,6 +17,7 @@ const CARRIED: [&str; 8] = [
     fields::SHIFT_VELOCITY.name,
     fields::DISPLACEMENT.name,
     fields::DENSITY.name,
+    fields::MEAN_ACCELERATION.name,
 ];
 
 /// Kinds of plugins that solve for all particles at once.
@@ -32,58 +33,65 @@ pub(crate) fn refuse_places<const D: usize>(
 ) -> Result<(), SolverError> {
     let support = parts.flow.world.kernel.support_radius();
     let periods = scene.numerics.periodic.bounds::<D>();
-    let banded = |zone: &sph_scene::Zone| {
-        let frame = Frame::<D>::new(scene, zone, support * zone.ratio);
-        let corners = frame.corners(frame.band);
-        (frame, corners)
-    };
+    let frame = |zone: &Zone| Frame::<D>::new(scene, zone, support * zone.ratio);
     for (name, zone) in &scene.zone {
-        let path = format!("zone.{name}.box");
-        let (frame, [low, high]) = banded(zone);
+        let path = format!("zone.{name}");
+        let Some(own) = frame(zone) else { continue };
+        let [low, high] = own.corners(own.band);
         let crosses = |k: usize| {
             let within = |[lo, hi]: [f64; 2]| lo <= low[k] && high[k] <= hi;
             low[k].is_finite() && periods[k].is_some_and(|period| !within(period))
         };
         if (0..D).any(crosses) {
             let why = format!(
-                "the band around it, {:.4} m wide, reaches across a periodic side: move the box, or let it span the \
+                "the band around it, {:.4} m wide, reaches across a periodic side: move it, or let a box span the \
                  whole period",
-                frame.band
+                own.band
             );
             return Err(SolverError::at(path, why));
         }
         if let Some(outer) = scene.around_zone(zone) {
-            let (around, _) = banded(&scene.zone[outer]);
-            let spacing = scene.numerics.spacing * scene.zone[outer].ratio;
-            let reaches_out = |(axis, side): (usize, usize)| {
-                let beyond = match side {
-                    0 => low[axis] < around.corners(0.0)[0][axis],
-                    _ => high[axis] > around.corners(0.0)[1][axis],
-                };
-                beyond && around.is_open(parts.flow.walls.as_deref(), spacing, (axis, side))
-            };
-            let mut sides = (0..D).flat_map(|axis| [(axis, 0), (axis, 1)]);
-            if sides.any(reaches_out) {
+            let outer_zone = &scene.zone[outer];
+            let spacing = scene.numerics.spacing * outer_zone.ratio;
+            let around = frame(outer_zone);
+            if around.is_some_and(|around| reaches_out(&own, &around, parts, spacing)) {
                 let why = format!(
                     "the band around it, {:.4} m wide, reaches out of the zone `{outer}`: make that zone larger",
-                    frame.band
+                    own.band
                 );
                 return Err(SolverError::at(path, why));
             }
         }
         for (other, second) in &scene.zone {
-            let [a, b] = banded(second).1;
-            let meets = (0..D).all(|k| low[k] < b[k] && a[k] < high[k]);
+            let gap = 2.0 * own.band;
+            let meets = frame(second).is_some_and(|second| second.shape.is_near(&own.shape, gap));
             if name < other && second.ratio == zone.ratio && meets {
                 let why = format!(
-                    "its band meets that of the zone `{name}`: move the boxes {:.4} m apart, or make them one",
-                    2.0 * frame.band
+                    "its band meets that of the zone `{name}`: move them {gap:.4} m apart, or make them one"
                 );
-                return Err(SolverError::at(format!("zone.{other}.box"), why));
+                return Err(SolverError::at(format!("zone.{other}"), why));
             }
         }
     }
     Ok(())
+}
+
+/// True if the band of a zone reaches out of the zone around it, where there may be fluid; `spacing` is that around the outer
+/// one, m.
+fn reaches_out<const D: usize>(
+    zone: &Frame<D>,
+    around: &Frame<D>,
+    parts: &Assembled<D>,
+    spacing: f64,
+) -> bool {
+    if !matches!(around.shape, Shape::Cuboid { .. }) {
+        return !around.shape.encloses(&zone.shape, zone.band);
+    }
+    let ([low, high], [from, to]) = (zone.corners(zone.band), around.corners(0.0));
+    (0..D).any(|axis| {
+        let open = |side| around.is_open(parts.flow.walls.as_deref(), spacing, (axis, side));
+        (low[axis] < from[axis] && open(0)) || (high[axis] > to[axis] && open(1))
+    })
 }
 
 /// Refuses a zone whose flow has more than particles of one phase with a density and a velocity.
@@ -104,16 +112,14 @@ pub(crate) fn refuse<const D: usize>(name: &str, zone: &Assembled<D>) -> Result<
         ));
     }
     let solves = |kind: &str| SOLVES.contains(&kind);
-    let walls = flow.world.walls.names.len();
-    let mut own = flow.walls.iter();
     let why = if !flow.gates.is_empty() {
         "particles come in or leave by walls of this scene, which zones cannot follow"
     } else if !flow.hooks.kicking.is_empty() || zone.plugins.iter().any(|p| solves(&p.kind)) {
         "this scene solves for the end of a step over all particles, which zones cannot share"
     } else if !zone.integrator.kicks_once() {
         "zones want an integrator that evaluates once a step, as `symplectic-euler`"
-    } else if own.any(|w| (0..walls).any(|k| w.needs_forces(k))) {
-        "a wall of this scene moves by the forces on it, which zones do not share yet"
+    } else if !flow.world.walls.beds.is_empty() {
+        "grains make a wall of this scene, which zones do not share"
     } else {
         return Ok(());
     };

@@ -90,6 +90,15 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
         reference.path = located(&reference.file, &path, source, found);
     }
     for (name, zone) in &scene.zone {
+        if let Some(wall) = zone
+            .follows
+            .as_ref()
+            .filter(|w| !scene.wall.contains_key(*w))
+        {
+            let near = suggestion(wall, scene.wall.keys().map(String::as_str));
+            let message = format!("there is no wall called `{wall}`{near}");
+            found.add(format!("zone.{name}.follows"), message);
+        }
         for (k, probe) in zone.probes.iter().enumerate() {
             known(probe, format!("zone.{name}.probes[{k}]"), found);
         }

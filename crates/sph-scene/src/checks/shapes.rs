@@ -79,7 +79,8 @@ fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
     }
 }
 
-fn shape(keys: &BodyShape, of: Dimension, path: &str, found: &mut Problems) {
+/// Checks that one shape is given, and its keys.
+pub(crate) fn shape(keys: &BodyShape, of: Dimension, path: &str, found: &mut Problems) {
     let all = match of.0 {
         2 => "`box`, `polygon`, `disc` or `ellipse`",
         _ => "`box`, `sphere`, `cylinder`, `cone` or `extrusion`",

@@ -1,8 +1,9 @@
-//! Checks of outlets, and of zones: their boxes, ratios, and how they are nested.
+//! Checks of outlets, and of zones: their shapes, ratios, and how they are nested.
 
 use scene_text::{Problems, given};
 
 use crate::checks::dimension::Dimension;
+use crate::checks::shapes::shape;
 use crate::{Scene, Zone};
 
 /// Finest ratio of a zone.
@@ -13,7 +14,7 @@ pub(crate) fn check_zones(scene: &Scene, of: Dimension, found: &mut Problems) {
     let before = found.0.len();
     for (name, zone) in &scene.zone {
         let path = format!("zone.{name}");
-        of.corners(&zone.bounds, &format!("{path}.box"), found);
+        shape(&zone.shape, of, &path, found);
         let ratio = zone.ratio;
         if !is_power(ratio) {
             let message = format!(
@@ -26,7 +27,10 @@ pub(crate) fn check_zones(scene: &Scene, of: Dimension, found: &mut Problems) {
         return;
     }
     for (name, zone) in &scene.zone {
-        nested(scene, name, zone, found);
+        match of.0 {
+            2 => nested::<2>(scene, name, zone, found),
+            _ => nested::<3>(scene, name, zone, found),
+        }
     }
 }
 
@@ -34,28 +38,35 @@ fn is_power(ratio: f64) -> bool {
     ratio >= FINEST && (1.0 / ratio).log2().fract() == 0.0
 }
 
-/// A zone that is finer than a half lies in one of twice its spacing.
-fn nested(scene: &Scene, name: &str, zone: &Zone, found: &mut Problems) {
+/// A zone that is finer than a half lies in one of twice its spacing, and moves with it.
+fn nested<const D: usize>(scene: &Scene, name: &str, zone: &Zone, found: &mut Problems) {
     let path = format!("zone.{name}");
-    if zone.ratio < 0.5 && scene.around_zone(zone).is_none() {
+    let around = scene.around_zone(zone);
+    if zone.ratio < 0.5 && around.is_none() {
         let wanted = 2.0 * zone.ratio;
         let message = format!(
-            "a ratio of {} lies in a zone with the ratio {wanted}, whose box encloses this one: add such a zone",
+            "a ratio of {} lies in a zone with the ratio {wanted}, whose shape encloses this one: add such a zone",
             zone.ratio
         );
         found.add(format!("{path}.ratio"), message);
     }
+    if let Some(around) = around.filter(|around| scene.zone[*around].follows != zone.follows) {
+        let message = format!("it follows the same wall as the zone `{around}` around it");
+        found.add(format!("{path}.follows"), message);
+    }
+    let own = zone.shape.shape::<D>();
+    let overlaps = |second: &Zone| {
+        let other = second.shape.shape::<D>();
+        own.as_ref()
+            .zip(other.as_ref())
+            .is_some_and(|(a, b)| a.is_near(b, 0.0))
+    };
     for (other, second) in &scene.zone {
-        if name < other.as_str() && second.ratio == zone.ratio && overlap(zone, second) {
+        if name < other.as_str() && second.ratio == zone.ratio && overlaps(second) {
             let message = format!("it overlaps the zone `{name}` of the same ratio: make them one");
-            found.add(format!("zone.{other}.box"), message);
+            found.add(format!("zone.{other}"), message);
         }
     }
-}
-
-fn overlap(a: &Zone, b: &Zone) -> bool {
-    let [a, b] = [&a.bounds, &b.bounds];
-    (0..a[0].len()).all(|k| a[0][k] < b[1][k] && b[0][k] < a[1][k])
 }
 
 /// Checks the geometry of all outlets.

@@ -119,6 +119,34 @@ impl<const D: usize> Shape<D> {
         }
     }
 
+    /// True if it encloses another shape widened by a margin, m; of shapes other than a ball the box around it.
+    pub fn encloses(&self, inner: &Shape<D>, margin: f64) -> bool {
+        if let Shape::Ball { centre, radius } = inner {
+            return self.depth(centre) >= radius + margin;
+        }
+        let (low, high) = inner.bounds();
+        (0..1 << D).all(|corner: usize| {
+            let x = std::array::from_fn(|k| match corner >> k & 1 {
+                0 => low[k] - margin,
+                _ => high[k] + margin,
+            });
+            self.depth(&x) >= 0.0
+        })
+    }
+
+    /// True if another shape is nearer than a distance, m; of shapes other than a ball the box around it.
+    pub fn is_near(&self, other: &Shape<D>, distance: f64) -> bool {
+        match (self, other) {
+            (Shape::Ball { centre, radius }, other) | (other, Shape::Ball { centre, radius }) => {
+                other.depth(centre) > -(radius + distance)
+            }
+            _ => {
+                let (a, b) = (self.bounds(), other.bounds());
+                (0..D).all(|k| a.0[k] - distance < b.1[k] && b.0[k] - distance < a.1[k])
+            }
+        }
+    }
+
     /// Lower and upper corner of the smallest box around it, m; infinite where it has no end.
     pub fn bounds(&self) -> ([f64; D], [f64; D]) {
         match self {
@@ -220,6 +248,17 @@ mod tests {
         };
         assert_eq!(ball.depth(&[1.0, 2.0]), 1.0);
         assert_eq!(ball.bounds(), ([-1.0; 2], [3.0; 2]));
+        let square = |lo: f64, hi: f64| Shape::Cuboid {
+            lo: [lo; 2],
+            hi: [hi; 2],
+        };
+        // The corner of the square is √2 from the centre.
+        assert!(ball.encloses(&square(0.0, 2.0), 0.4) && !ball.encloses(&square(0.0, 2.0), 0.42));
+        assert!(square(-2.0, 4.0).encloses(&ball, 1.0) && !square(-2.0, 4.0).encloses(&ball, 1.1));
+        let beside = square(4.0, 5.0);
+        assert!(beside.is_near(&square(1.0, 3.0), 1.1) && !beside.is_near(&square(1.0, 3.0), 0.9));
+        let gap = 18f64.sqrt() - 2.0;
+        assert!(ball.is_near(&beside, gap + 0.01) && !beside.is_near(&ball, gap - 0.01));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use sph_core::{Axis, parameters};
 
 use crate::Heading;
+use crate::tables::body::BodyShape;
 
 /// A place where particles leave the flow: a box, or all that is beyond a plane across an axis.
 ///
@@ -40,16 +41,17 @@ impl Outlet {
     }
 }
 
-/// A box in which the flow is computed with finer particles, too.
+/// A place in which the flow is computed with finer particles, too.
 ///
-/// The scene's own particles stay everywhere; within the box they follow the finer ones, and finer ones in a band around
-/// the box follow the scene's.
+/// The scene's own particles stay everywhere; within the shape they follow the finer ones, and finer ones in a band around
+/// it follow the scene's.
 #[parameters]
 pub struct Zone {
-    /// Lower and upper corner of the box, m. It may reach beyond walls, and span a whole period.
-    #[serde(rename = "box")]
-    #[parameter(unit: "m")]
-    pub bounds: [Vec<f64>; 2],
+    /// Its shape, which may reach beyond walls; a box may span a whole period.
+    #[serde(flatten)]
+    pub shape: BodyShape,
+    /// Name of a wall that carries the shape with its centre; it stays if left out.
+    pub follows: Option<String>,
     /// Spacing in the zone over that of the scene: 1/2, or 1/4 and 1/8 within a zone of twice that.
     #[parameter(default: 0.5, above: 0, below: 1)]
     pub ratio: f64,

@@ -48,7 +48,7 @@ pub struct Scene {
     /// Places where particles leave, by name, `[outlet.NAME]`.
     #[parameter(default)]
     pub outlet: BTreeMap<String, Outlet>,
-    /// Boxes with finer particles, by name, `[zone.NAME]`.
+    /// Places with finer particles, by name, `[zone.NAME]`.
     #[parameter(default)]
     pub zone: BTreeMap<String, Zone>,
     /// Corners of the box outside of which bodies have no particles, m; without it they are whole.
@@ -185,15 +185,21 @@ impl Scene {
         Some(solution(reference, name, given.parameters.clone()))
     }
 
-    /// The zone of twice the ratio whose box encloses that of a zone.
+    /// The zone of twice the ratio whose shape encloses that of a zone.
     pub fn around_zone(&self, zone: &Zone) -> Option<&String> {
-        let [low, high] = &zone.bounds;
-        let encloses = |other: &Zone| {
-            let of = &other.bounds;
-            other.ratio == 2.0 * zone.ratio
-                && (0..low.len()).all(|k| of[0][k] <= low[k] && high[k] <= of[1][k])
-        };
-        let found = self.zone.iter().find(|(_, other)| encloses(other));
+        match self.dimension {
+            2 => self.around_shape::<2>(zone),
+            _ => self.around_shape::<3>(zone),
+        }
+    }
+
+    fn around_shape<const D: usize>(&self, zone: &Zone) -> Option<&String> {
+        let inner = zone.shape.shape::<D>()?;
+        let shape = |other: &Zone| other.shape.shape::<D>();
+        let encloses = |other: &Zone| shape(other).is_some_and(|s| s.encloses(&inner, 0.0));
+        let twice = |other: &Zone| other.ratio == 2.0 * zone.ratio;
+        let mut all = self.zone.iter();
+        let found = all.find(|(_, other)| twice(other) && encloses(other));
         found.map(|(name, _)| name)
     }
 

@@ -56,6 +56,7 @@ pub fn joined<const D: usize>(
         inner_bounds: offer.inner_bounds,
         walls: given.walls,
         loads: Vec::new(),
+        finer_loads: Vec::new(),
         evolved,
         integrated,
         outside: offer.outside,

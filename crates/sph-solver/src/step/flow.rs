@@ -40,6 +40,8 @@ pub struct Flow<const D: usize> {
     pub walls: Option<Box<dyn Wall<D>>>,
     /// Loads of movers, in the order of the walls' names, from the last kick; empty if none needs them.
     pub loads: Vec<WallForce<D>>,
+    /// Forces on some walls, by their numbers, as a flow of finer particles has them in the present state.
+    pub finer_loads: Vec<(usize, WallForce<D>)>,
     pub(crate) evolved: Vec<Evolved>,
     /// All scalars that are advanced in time.
     pub(crate) integrated: Vec<Field<Scalar>>,

@@ -18,7 +18,9 @@ impl<const D: usize> Flow<D> {
     /// Velocities and evolved scalars: value += Δt rate, and all hooks.
     pub(crate) fn kick_over(&mut self, dt: f64) -> Result<(), StepError> {
         let force_requests = self.force_requests();
-        self.load_walls(&force_requests)?;
+        if !force_requests.is_empty() && self.world.lists.builds > 0 {
+            self.loads = self.wall_loads(&force_requests)?;
+        }
         self.look_before_walls()?;
         self.on_walls.clear();
         self.run_hooks(StepPhase::BeforeKick, dt)?;
@@ -47,7 +49,7 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Marks of walls whose mover needs forces; empty if none does.
-    fn force_requests(&self) -> Vec<bool> {
+    pub fn force_requests(&self) -> Vec<bool> {
         let Some(walls) = &self.walls else {
             return Vec::new();
         };
@@ -60,17 +62,21 @@ impl<const D: usize> Flow<D> {
         names.iter().map(all_of_it).collect()
     }
 
-    /// Measures the forces of the terms of the sweep on walls whose movers need them, with the velocities of the sweep.
-    fn load_walls(&mut self, force_requests: &[bool]) -> Result<(), StepError> {
-        if force_requests.is_empty() || self.world.lists.builds == 0 {
-            return Ok(());
-        }
+    /// Forces of the terms of the sweep on the requested walls, with the velocities of the sweep; of a finer flow where one
+    /// has measured them.
+    ///
+    /// # Errors
+    /// If a term misses a column.
+    pub fn wall_loads(&self, force_requests: &[bool]) -> Result<Vec<WallForce<D>>, StepError> {
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
-        self.loads = reactions(&self.world, &terms, force_requests)?;
+        let mut loads = reactions(&self.world, &terms, force_requests)?;
         let facing = facing_forces(&self.world, force_requests)?;
-        let loads = self.loads.iter_mut().zip(&facing);
-        loads.for_each(|(f, more)| f.add(more));
-        Ok(())
+        let both = loads.iter_mut().zip(&facing);
+        both.for_each(|(f, more)| f.add(more));
+        for (wall, finer) in &self.finer_loads {
+            loads[*wall] = *finer;
+        }
+        Ok(loads)
     }
 
     /// Measures the depth of the fluid before walls whose movers need it.

@@ -1,7 +1,7 @@
 //! A zone as a flow of its own, which follows the flow around it.
 
-use rayon::prelude::*;
 use sph_core::{StepError, fields};
+use sph_neighbours::WallForce;
 use sph_solver::{Flow, Snapshot};
 
 use super::stepper::Stepper;
@@ -12,8 +12,10 @@ use crate::zones::sample::{Sample, Source, States};
 pub(crate) struct Level<const D: usize> {
     /// Its name in the scene.
     pub name: String,
-    pub frame: Frame<D>,
+    frame: Frame<D>,
     pub stepper: Stepper<D>,
+    /// The wall that carries it, if all of that is in its core: its forces are those of the finer particles.
+    measures: Option<String>,
     /// Levels between the scene's spacing and the one around it.
     depth: usize,
     /// States to go back to, of the steps of each coarser level.
@@ -21,10 +23,19 @@ pub(crate) struct Level<const D: usize> {
 }
 
 impl<const D: usize> Level<D> {
-    /// A zone whose box is `frame`, in a flow `depth` levels below the coarsest.
+    /// A zone with a shape, `frame`, in a flow `depth` levels below the coarsest.
     pub fn new(name: &str, frame: Frame<D>, stepper: Stepper<D>, depth: usize) -> Self {
+        let walls = &stepper.parts.flow.world.walls;
+        let within = |carrier: &&String| {
+            let places = walls.points.position.iter().zip(&walls.points.wall);
+            let own = places.filter(|(_, wall)| walls.names.get(**wall as usize) == Some(*carrier));
+            let inside: Vec<bool> = own.map(|(x, _)| frame.in_core(x)).collect();
+            !inside.is_empty() && !inside.contains(&false)
+        };
+        let measures = frame.carrier().filter(within).cloned();
         Level {
             name: name.into(),
+            measures,
             frame,
             stepper,
             depth,
@@ -46,26 +57,42 @@ impl<const D: usize> Level<D> {
             self.keep(self.depth)?;
             self.stepper.hold()?;
             self.stepper.run_until(time).map_err(|e| self.named(e))?;
-            self.stepper.exchange()?;
         }
         self.stepper.evaluate().map_err(|e| self.named(e))?;
         self.states(around)
+    }
+
+    /// Forces on the wall that carries it, if all of that is in its core.
+    ///
+    /// # Errors
+    /// If a term misses a column.
+    pub fn loads(&self) -> Result<Vec<(usize, WallForce<D>)>, StepError> {
+        let flow = &self.stepper.parts.flow;
+        let mut requests = flow.force_requests();
+        let walls = flow.world.walls.names.iter();
+        let own = requests.iter_mut().zip(walls);
+        own.for_each(|(request, wall)| *request &= self.measures.as_ref() == Some(wall));
+        if !requests.contains(&true) {
+            return Ok(Vec::new());
+        }
+        let loads = flow.wall_loads(&requests)?.into_iter().enumerate();
+        Ok(loads.filter(|(wall, _)| requests[*wall]).collect())
+    }
+
+    /// Its shape where it is now.
+    pub fn frame(&self) -> Frame<D> {
+        self.frame.at(&self.stepper.parts.flow)
     }
 
     /// States of the particles of the flow around that are in the core.
     fn states(&self, around: &Flow<D>) -> Result<States<D>, StepError> {
         let own = &self.stepper.parts.flow;
         // A fit in the core does not reach beyond the sides.
-        let sample = Sample::of_flow(own, |x| self.frame.holds(x, 0.0))?;
+        let frame = self.frame();
+        let sample = Sample::of_flow(own, |x| frame.holds(x, 0.0))?;
         let source = Source::new(&sample, &own.world.domain, own.world.spacing);
         let position = around.world.free.get(fields::POSITION)?;
-        let frame = &self.frame;
-        let at = |(k, x)| {
-            let inside = frame.in_core(x);
-            Some((k, inside.then(|| source.at(x)).flatten()?))
-        };
-        let all = position.par_iter().enumerate().with_min_len(256);
-        Ok(all.filter_map(at).collect())
+        Ok(source.all(position, |x| frame.in_core(x)))
     }
 
     /// Keeps its state, and that of its zones, for a flow `depth` levels below the coarsest.

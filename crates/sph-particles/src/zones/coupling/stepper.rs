@@ -155,17 +155,4 @@ impl<const D: usize> Stepper<D> {
         self.evaluate()?;
         self.coupling.hold(&mut self.parts.flow)
     }
-
-    /// Lets particles of this zone in and out at the outer side of its band.
-    ///
-    /// # Errors
-    /// A particle that cannot come in.
-    pub(crate) fn exchange(&mut self) -> Result<(), StepError> {
-        let guard = self.coupling.guard.as_ref();
-        let changed = guard.map_or(Ok(false), |guard| guard.exchange(&mut self.parts.flow))?;
-        if changed {
-            self.changed();
-        }
-        Ok(())
-    }
 }
