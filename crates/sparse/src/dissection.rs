@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::UpperTriangle;
-use crate::vertex_cover::Joins;
+use crate::vertex_cover::cover;
+use crate::{Groups, UpperTriangle};
 
 /// Parts that are not cut further.
 const SMALL: usize = 8;
@@ -26,7 +26,7 @@ pub fn nested_dissection(matrix: &UpperTriangle, places: &[Vector3<f64>]) -> Vec
 }
 
 struct Cutter<'a> {
-    neighbours: (Vec<u32>, Vec<u32>),
+    neighbours: Groups,
     places: &'a [Vector3<f64>],
     /// Number of the half in which an unknown was last.
     side: Vec<u32>,
@@ -68,28 +68,25 @@ impl Cutter<'_> {
 
     /// The fewest unknowns without which nothing joins the lower half to the upper one of a mark, ascending.
     fn separator(&mut self, lower: &[u32], mark: u32) -> Vec<u32> {
-        let (starts, list) = (&self.neighbours.0, &self.neighbours.1);
-        let (mut left, mut right, mut joins) = (Vec::new(), Vec::new(), Joins::default());
+        let (mut left, mut right, mut joins) = (Vec::new(), Vec::new(), Groups::default());
         for &u in lower {
-            let range = starts[u as usize] as usize..starts[u as usize + 1] as usize;
-            let over = list[range].iter();
-            let over = over.filter(|v| self.side[**v as usize] == mark);
-            let before = joins.list.len();
-            for &v in over {
+            let over = self.neighbours.members(u as usize).iter();
+            let before = joins.members.len();
+            for &v in over.filter(|v| self.side[**v as usize] == mark) {
                 let number = &mut self.number[v as usize];
                 if right.get(*number as usize) != Some(&v) {
                     *number = right.len() as u32;
                     right.push(v);
                 }
-                joins.list.push(*number);
+                joins.members.push(*number);
             }
-            if joins.list.len() > before {
+            if joins.members.len() > before {
                 left.push(u);
                 joins.starts.push(before as u32);
             }
         }
-        joins.starts.push(joins.list.len() as u32);
-        let [of_left, of_right] = joins.cover(right.len());
+        joins.starts.push(joins.members.len() as u32);
+        let [of_left, of_right] = cover(&joins, right.len());
         let kept = |ends: &[u32], kept: &[bool]| {
             let all = ends.iter().zip(kept).filter(|(_, kept)| **kept);
             all.map(|(u, _)| *u).collect::<Vec<_>>()
@@ -101,31 +98,14 @@ impl Cutter<'_> {
     }
 }
 
-/// Starts and lists of the neighbours of every unknown.
-fn neighbours(matrix: &UpperTriangle) -> (Vec<u32>, Vec<u32>) {
+/// Neighbours of every unknown.
+fn neighbours(matrix: &UpperTriangle) -> Groups {
     let n = matrix.len();
-    let mut starts = vec![0_u32; n + 1];
-    let entries = || {
-        (0..n).flat_map(|c| {
-            let range = matrix.starts[c] as usize..matrix.starts[c + 1] as usize;
-            let own = matrix.rows[range].iter().map(move |r| (*r as usize, c));
-            own.filter(|(r, c)| r != c)
-        })
-    };
-    for (r, c) in entries() {
-        starts[r + 1] += 1;
-        starts[c + 1] += 1;
-    }
-    for k in 0..n {
-        starts[k + 1] += starts[k];
-    }
-    let mut next = starts.clone();
-    let mut list = vec![0; starts[n] as usize];
-    for (r, c) in entries() {
-        for (a, b) in [(r, c), (c, r)] {
-            list[next[a] as usize] = b as u32;
-            next[a] += 1;
-        }
-    }
-    (starts, list)
+    let pairs = (0..n as u32).flat_map(|c| {
+        let range = matrix.starts[c as usize] as usize..matrix.diagonal(c as usize);
+        matrix.rows[range]
+            .iter()
+            .flat_map(move |r| [(*r, c), (c, *r)])
+    });
+    Groups::new(n, pairs)
 }

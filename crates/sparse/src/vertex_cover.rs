@@ -2,66 +2,56 @@
 
 use std::collections::VecDeque;
 
-/// Ends on the right that each end on the left is joined to: row by row.
-#[derive(Default)]
-pub struct Joins {
-    pub starts: Vec<u32>,
-    pub list: Vec<u32>,
-}
+use crate::Groups;
 
-/// No facet.
+/// No end.
 const NONE: u32 = u32::MAX;
 
-impl Joins {
-    fn row(&self, left: u32) -> &[u32] {
-        &self.list[self.starts[left as usize] as usize..self.starts[left as usize + 1] as usize]
-    }
-
-    /// Marks of the ends on the left, and on the right of which there are `right`, that are in a smallest cover.
-    /// Source: König 1931, from a largest matching by augmenting paths.
-    pub fn cover(&self, right: usize) -> [Vec<bool>; 2] {
-        let left = self.starts.len() - 1;
-        let mut mates = [vec![NONE; left], vec![NONE; right]];
-        // The end on the left from which one on the right was reached, in the search of a number.
-        let mut reached = vec![(NONE, NONE); right];
-        let mut queue = VecDeque::new();
-        for begin in 0..left as u32 {
-            queue.clear();
-            queue.push_back(begin);
-            'search: while let Some(u) = queue.pop_front() {
-                for &v in self.row(u) {
-                    if reached[v as usize].0 == begin {
-                        continue;
+/// Marks of the ends on the left, and on the right of which there are `right`, that are in a smallest cover of the joins of
+/// each end on the left with ends on the right.
+/// Source: König 1931, from a largest matching by augmenting paths.
+pub fn cover(joins: &Groups, right: usize) -> [Vec<bool>; 2] {
+    let left = joins.starts.len() - 1;
+    let mut mates = [vec![NONE; left], vec![NONE; right]];
+    // The end on the left from which one on the right was reached, in the search of a number.
+    let mut reached = vec![(NONE, NONE); right];
+    let mut queue = VecDeque::new();
+    for begin in 0..left as u32 {
+        queue.clear();
+        queue.push_back(begin);
+        'search: while let Some(u) = queue.pop_front() {
+            for &v in joins.members(u as usize) {
+                if reached[v as usize].0 == begin {
+                    continue;
+                }
+                reached[v as usize] = (begin, u);
+                match mates[1][v as usize] {
+                    NONE => {
+                        augment(&mut mates, &reached, v);
+                        break 'search;
                     }
-                    reached[v as usize] = (begin, u);
-                    match mates[1][v as usize] {
-                        NONE => {
-                            augment(&mut mates, &reached, v);
-                            break 'search;
-                        }
-                        mate => queue.push_back(mate),
-                    }
+                    mate => queue.push_back(mate),
                 }
             }
         }
-        // What alternating paths from unmatched ends on the left reach.
-        let mut seen = [vec![false; left], vec![false; right]];
-        let mut stack: Vec<u32> = (0..left as u32)
-            .filter(|u| mates[0][*u as usize] == NONE)
-            .collect();
-        while let Some(u) = stack.pop() {
-            if std::mem::replace(&mut seen[0][u as usize], true) {
-                continue;
-            }
-            for &v in self.row(u) {
-                if !std::mem::replace(&mut seen[1][v as usize], true) {
-                    stack.push(mates[1][v as usize]);
-                }
+    }
+    // What alternating paths from unmatched ends on the left reach.
+    let mut seen = [vec![false; left], vec![false; right]];
+    let mut stack: Vec<u32> = (0..left as u32)
+        .filter(|u| mates[0][*u as usize] == NONE)
+        .collect();
+    while let Some(u) = stack.pop() {
+        if std::mem::replace(&mut seen[0][u as usize], true) {
+            continue;
+        }
+        for &v in joins.members(u as usize) {
+            if !std::mem::replace(&mut seen[1][v as usize], true) {
+                stack.push(mates[1][v as usize]);
             }
         }
-        let [of_left, of_right] = seen;
-        [of_left.into_iter().map(|seen| !seen).collect(), of_right]
     }
+    let [of_left, of_right] = seen;
+    [of_left.into_iter().map(|seen| !seen).collect(), of_right]
 }
 
 /// Matches along the path that reached an unmatched end on the right.
@@ -81,13 +71,13 @@ fn augment(mates: &mut [Vec<u32>; 2], reached: &[(u32, u32)], mut v: u32) {
 mod tests {
     use super::*;
 
-    fn joins(rows: &[&[u32]]) -> Joins {
-        let mut joins = Joins::default();
+    fn joins(rows: &[&[u32]]) -> Groups {
+        let mut joins = Groups::default();
         for row in rows {
-            joins.starts.push(joins.list.len() as u32);
-            joins.list.extend(*row);
+            joins.starts.push(joins.members.len() as u32);
+            joins.members.extend(*row);
         }
-        joins.starts.push(joins.list.len() as u32);
+        joins.starts.push(joins.members.len() as u32);
         joins
     }
 
@@ -106,7 +96,7 @@ mod tests {
                 .map(|_| (0..5).filter(|_| draw() % 3 == 0).collect())
                 .collect();
             let rows: Vec<&[u32]> = rows.iter().map(Vec::as_slice).collect();
-            let [left, right] = joins(&rows).cover(5);
+            let [left, right] = cover(&joins(&rows), 5);
             let touched = |left: &dyn Fn(usize) -> bool, right: &dyn Fn(usize) -> bool| {
                 let mut all = rows.iter().enumerate();
                 all.all(|(u, row)| row.iter().all(|v| left(u) || right(*v as usize)))

@@ -23,8 +23,7 @@ impl CoupledSystem {
 
     /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells whose places are inside.
     fn cells(&self, axis: usize, inside: impl Fn(&Vector) -> bool) -> Vec<(f64, f64, f64)> {
-        let places = self.pores.middles();
-        let clock = &self.clock;
+        let (places, clock) = (self.pores.middles(), &self.clock);
         let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
         let cells = cells.filter(|((x, _), _)| inside(x));
         let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));
@@ -81,10 +80,10 @@ impl CoupledSystem {
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
         let mut sides = vec![WallBoundary::closed(); 6];
-        let walls = self.grains.walls.iter().enumerate();
-        let facing = |sign: f64| walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
+        let walls = &self.grains.walls;
+        let facing = |sign: f64| walls.iter().position(|w| sign * w.normal[axis] > 0.5);
         let none = GrainError::NoArea(2 * axis);
-        let (Some((low, _)), Some((high, _))) = (facing(1.0), facing(-1.0)) else {
+        let (Some(low), Some(high)) = (facing(1.0), facing(-1.0)) else {
             return Err(none.into());
         };
         sides[low] = WallBoundary::drained(0.0);

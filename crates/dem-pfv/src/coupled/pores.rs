@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::edge_forces::EdgeForces;
-use crate::coupled::{CoupledError, FlowSetup, Fluid, Vector, condition};
+use crate::coupled::{CoupledError, FlowSetup, Vector, condition};
 use crate::flow::{
     Boundary, Conductance, FlowSystem, PoreGeometry, SlipCondition, Storage, UnitForces,
     cell_volumes,
@@ -51,17 +51,17 @@ pub(crate) struct Pores {
 }
 
 impl Pores {
-    /// Makes the mesh of grains at their places, and its system, at a time and for a step (s). Overlaps may be as deep
+    /// Makes the mesh of grains at their places, and its system, at their time and for a step (s). Overlaps may be as deep
     /// as `deepest` in terms of the smaller radius.
     pub fn new(
         places: Places,
-        radii: &[f64],
+        grains: &GrainSystem,
         setup: &FlowSetup,
         law: &dyn Conductance,
-        [time, step]: [f64; 2],
+        step: f64,
         deepest: f64,
     ) -> Result<Self, CoupledError> {
-        let spheres = places.centres.iter().zip(radii);
+        let spheres = places.centres.iter().zip(&grains.grains.radius);
         let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
         let mesh = Triangulation::within(&spheres, &places.planes())?;
         let grips = setup.sides.iter().map(|s| match s.sticks {
@@ -70,7 +70,7 @@ impl Pores {
         });
         let grips: Vec<_> = grips.collect();
         let geometry = PoreGeometry::pressed(mesh, &grips, setup.angles, deepest)?;
-        let boundary = condition::boundary(&setup.sides, &geometry, time);
+        let boundary = condition::boundary(&setup.sides, &geometry, grains.time);
         let system = Self::assemble(&geometry, &boundary, setup, law, step)?;
         let forces = UnitForces::new(&geometry);
         let edges = EdgeForces::new(&geometry, setup);
@@ -91,16 +91,11 @@ impl Pores {
         law: &dyn Conductance,
         step: f64,
     ) -> Result<FlowSystem, CoupledError> {
-        let Fluid {
-            viscosity,
-            bulk_modulus,
-            ..
-        } = setup.fluid;
-        let storage = bulk_modulus.map(|bulk_modulus| Storage { bulk_modulus, step });
-        let solver = setup.solver;
-        Ok(FlowSystem::new(
-            geometry, boundary, law, viscosity, storage, solver,
-        )?)
+        let (fluid, solver) = (&setup.fluid, setup.solver);
+        let modulus = fluid.bulk_modulus;
+        let storage = modulus.map(|bulk_modulus| Storage { bulk_modulus, step });
+        let system = FlowSystem::new(geometry, boundary, law, fluid.viscosity, storage, solver);
+        Ok(system?)
     }
 
     /// Values of the conditions at a time (s).

@@ -5,7 +5,7 @@ use sph_core::parameters;
 
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
-use crate::{OutOfRange, POSITIVE, require};
+use crate::{AT_LEAST_0, POSITIVE, require};
 
 /// The fluid in the pores.
 #[parameters]
@@ -68,11 +68,13 @@ impl Fluid {
         if let Some(Lubrication { roughness, range }) = self.lubrication {
             let what = "the roughness of lubrication is";
             require(what, roughness, POSITIVE, roughness > 0.0)?;
-            let (what, valid) = (
+            let valid = "above the roughness and finite";
+            require(
                 "the range of lubrication is",
-                "above the roughness and finite",
-            );
-            require(what, range, valid, range > roughness)?;
+                range,
+                valid,
+                range > roughness,
+            )?;
         }
         let k = self.bulk_modulus.unwrap_or(1.0);
         Ok(require("the bulk modulus is", k, POSITIVE, k > 0.0)?)
@@ -152,13 +154,13 @@ impl FlowSetup {
         for (wall, side) in self.sides.iter().enumerate() {
             side.check(wall)?;
         }
-        match self.remeshing.strain {
-            Some(value) if value.is_nan() || value < 0.0 => Err(CoupledError::Number(OutOfRange {
-                what: "the strain for remeshing is".into(),
-                value,
-                valid: "at least 0",
-            })),
-            _ => Ok(()),
-        }
+        let finite = |strain: &f64| *strain != f64::INFINITY;
+        let strain = self.remeshing.strain.filter(finite).unwrap_or_default();
+        Ok(require(
+            "the strain for remeshing is",
+            strain,
+            AT_LEAST_0,
+            strain >= 0.0,
+        )?)
     }
 }

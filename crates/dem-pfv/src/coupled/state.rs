@@ -47,9 +47,7 @@ impl CoupledSystem {
         if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
             return bad("the mesh is that of other grains or walls");
         }
-        let now = [grains.time, clock.storage_step];
-        let radii = &grains.grains.radius;
-        let pores = Pores::new(places, radii, &setup, &*law, now, PRESSED)?;
+        let pores = Pores::new(places, &grains, &setup, &*law, clock.storage_step, PRESSED)?;
         let cells = pores.geometry.volumes.len();
         let columns = [&clock.volumes, &clock.rates, &clock.pressures];
         if columns.iter().any(|c| c.len() != cells) {

@@ -78,8 +78,7 @@ impl CoupledSystem {
         check(&grains, &setup)?;
         let places = Places::from_grains(&grains);
         let storage_step = 0.1 * grains.critical_step();
-        let (radii, now) = (&grains.grains.radius, [grains.time, storage_step]);
-        let pores = Pores::new(places, radii, &setup, &*law, now, GIVEN)?;
+        let pores = Pores::new(places, &grains, &setup, &*law, storage_step, GIVEN)?;
         let volumes = pores.geometry.volumes.to_vec();
         let clock = Clock {
             rates: vec![0.0; volumes.len()],
@@ -290,9 +289,8 @@ impl CoupledSystem {
 
     /// Makes the mesh anew where the grains are; rates are left to the caller.
     fn rebuild(&mut self, places: Places) -> Result<(), CoupledError> {
-        let now = [self.grains.time, self.clock.storage_step];
-        let radii = &self.grains.grains.radius;
-        let pores = Pores::new(places, radii, &self.setup, &*self.law, now, PRESSED)?;
+        let (setup, step) = (&self.setup, self.clock.storage_step);
+        let pores = Pores::new(places, &self.grains, setup, &*self.law, step, PRESSED)?;
         let clock = &mut self.clock;
         clock.pressures = transferred(&self.pores, &clock.pressures, &pores);
         clock.volumes = pores.geometry.volumes.to_vec();

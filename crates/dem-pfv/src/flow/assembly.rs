@@ -165,18 +165,17 @@ impl Boundary {
         total
     }
 
-    /// Gives the pressure of one cell, Pa.
-    pub fn cell_pressure(&mut self, cell: usize, pressure: f64) {
-        self.pressures[cell] = Some(pressure);
-    }
-
     /// Adds a source to one cell, m³/s; negative takes fluid out.
     pub fn source(&mut self, cell: usize, rate: f64) {
         self.sources[cell] += rate;
     }
 
-    /// For every cell, whether it has a given pressure.
-    pub fn given(&self) -> impl Iterator<Item = bool> {
-        self.pressures.iter().map(Option::is_some)
+    /// Zero wherever a pressure is given, no sources.
+    pub(crate) fn silent(&self) -> Self {
+        let pressures = self.pressures.iter().map(|p| p.map(|_| 0.0));
+        Self {
+            pressures: pressures.collect(),
+            sources: vec![0.0; self.sources.len()],
+        }
     }
 }

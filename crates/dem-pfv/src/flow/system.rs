@@ -7,7 +7,7 @@ use crate::flow::assembly::{
     GIVEN, assemble, conductances, firsts, givers, joined, numbered, reachable,
 };
 use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
-use crate::require;
+use crate::{POSITIVE, require};
 
 /// Solvers of the system.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -80,7 +80,7 @@ impl FlowSystem {
         storage: Option<Storage>,
         solver: Solver,
     ) -> Result<Self, FlowError> {
-        positive("viscosity is", viscosity)?;
+        require("viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
         let conductances = conductances(geometry, law, viscosity)?;
         let ends = geometry.throats.iter().map(|t| t.cells.map(|c| c as u32));
         let ends: Vec<_> = ends.collect();
@@ -135,8 +135,14 @@ impl FlowSystem {
     fn refresh(&mut self) -> Result<(), FlowError> {
         let mut diagonal = self.diagonal.clone();
         if let Some(storage) = self.storage {
-            positive("bulk modulus is", storage.bulk_modulus)?;
-            positive("step is", storage.step)?;
+            let Storage { bulk_modulus, step } = storage;
+            require(
+                "bulk modulus is",
+                bulk_modulus,
+                POSITIVE,
+                bulk_modulus > 0.0,
+            )?;
+            require("step is", step, POSITIVE, step > 0.0)?;
             for (c, &u) in self.unknowns.iter().enumerate() {
                 if u != GIVEN {
                     diagonal[u as usize] += self.capacity(c);
@@ -178,20 +184,8 @@ impl FlowSystem {
     /// Checks that a list has a number for each cell.
     fn fits(&self, what: &'static str, given: usize) -> Result<(), FlowError> {
         let needed = self.unknowns.len();
-        match given == needed {
-            true => Ok(()),
-            false => Err(FlowError::Length(what, given, needed)),
-        }
-    }
-
-    /// Number of unknown pressures.
-    pub fn unknowns(&self) -> usize {
-        self.matrix.len()
-    }
-
-    /// k of every throat, m³ Pa⁻¹ s⁻¹; zero for open ones, whose cells have one pressure.
-    pub fn conductances(&self) -> &[f64] {
-        &self.conductances
+        let wrong = FlowError::Length(what, given, needed);
+        (given == needed).then_some(()).ok_or(wrong)
     }
 
     /// Pressures of all cells (Pa), with rates of the cells' volumes dV/dt (m³/s); an empty list stands for
@@ -313,10 +307,6 @@ impl FlowSystem {
         });
         flux.sum()
     }
-}
-
-fn positive(what: &'static str, value: f64) -> Result<(), FlowError> {
-    Ok(require(what, value, "positive and finite", value > 0.0)?)
 }
 
 fn chosen(solver: Solver, unknowns: usize) -> Solver {

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::grains::{GrainError, GrainSystem, Partner, Slot, Vector};
+use crate::grains::{ContactLaw, GrainError, GrainSystem, Partner, Slot, Vector};
 use crate::sphere;
 
 /// A contact as it was at the last evaluation.
@@ -50,21 +50,23 @@ impl GrainSystem {
         }
     }
 
+    /// The law of the contacts in a part of the table.
+    pub(crate) fn law_of(&self, part: usize) -> &dyn ContactLaw {
+        let walls = self.walls.iter().map(|w| w.law);
+        let others = walls.chain(self.meshes.iter().map(|m| m.law));
+        let number = std::iter::once(0).chain(others).nth(part);
+        &*self.laws[number.unwrap_or_default()]
+    }
+
     fn touch(&self, part: usize, slot: &Slot) -> Touch {
         let grain = slot.first as usize;
         let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
-        let partner = self.partner(part, slot);
-        let law = match partner {
-            Partner::Grain(_) => 0,
-            Partner::Wall(wall) => self.walls[wall].law,
-            Partner::Triangle { mesh, .. } => self.meshes[mesh].law,
-        };
         let normal = slot.force.dot(&slot.normal);
         let tangential = (slot.force - slot.normal * normal).norm();
-        let limit = self.laws[law].friction() * normal.max(0.0);
+        let limit = self.law_of(part).friction() * normal.max(0.0);
         Touch {
             grain,
-            partner,
+            partner: self.partner(part, slot),
             normal: slot.normal,
             overlap: slot.overlap,
             point: self.grains.position[grain] - slot.normal * arm,

@@ -1,12 +1,12 @@
-//! The table of neighbours: a grid of grains, pairs, grains at walls, grains at triangles, the memory of contacts.
+//! The state of a system of grains, and its table of neighbours: pairs, grains at walls and at triangles.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use sparse::Groups;
 
 use crate::grains::{Grains, MEMORY, Mesh, Period, Vector, Wall, nearest, separation};
-use crate::groups::Groups;
 
 /// Two bodies that are near each other.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
@@ -74,13 +74,42 @@ struct PreviousState {
     vertices: Vec<Vec<Vector>>,
 }
 
-/// Input of the table.
-#[derive(Clone, Copy)]
-pub(crate) struct Bodies<'a> {
-    pub grains: &'a Grains,
-    pub walls: &'a [Wall],
-    pub meshes: &'a [Mesh],
-    pub period: &'a Period,
+/// A step and the grain that sets it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct Limit {
+    pub step: f64,
+    pub grain: usize,
+}
+
+/// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
+/// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct State {
+    /// The grains; the next evaluation finds the contacts of those that were moved.
+    pub grains: Grains,
+    /// The walls.
+    pub walls: Vec<Wall>,
+    /// The meshes.
+    pub meshes: Vec<Mesh>,
+    /// Axes along which the box repeats itself.
+    pub period: Period,
+    /// Gravity, m/s².
+    pub gravity: Vector,
+    pub(crate) damping: f64,
+    pub(crate) skin: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Motion since the last evaluation, s.
+    pub(crate) last_step: f64,
+    pub(crate) limit: Option<Limit>,
+    /// Step at which the limit is found anew.
+    pub(crate) limit_due: u64,
+    #[serde(rename = "contacts")]
+    pub(crate) table: Table,
+    /// Number of times that the lists of neighbours were made.
+    pub renewals: u64,
 }
 
 /// Grains per task when lists are made.
@@ -108,19 +137,34 @@ impl Table {
         entries.map(|&entry| (&self.slots[(entry >> 1) as usize], (entry & 1) as usize))
     }
 
+    /// Both tables are sorted, so one walk along them finds the common entries.
+    fn carry(&mut self, old: &Self) {
+        for (part, new) in self.parts().enumerate().take(old.ends.len()) {
+            let mut new = new.iter_mut().peekable();
+            for slot in old.slots[old.part(part)].iter().filter(|s| s.active) {
+                while new.next_if(|n| n.key() < slot.key()).is_some() {}
+                if let Some(n) = new.next_if(|n| n.key() == slot.key()) {
+                    *n = *slot;
+                }
+            }
+        }
+    }
+}
+
+impl State {
     /// True if something may have come near that is not in the table.
-    pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
-        let (then, grains) = (&self.then, bodies.grains);
-        if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {
+    pub(crate) fn expired(&self) -> bool {
+        let (then, grains) = (&self.table.then, &self.grains);
+        if then.positions.len() != grains.len() || then.walls.len() != self.walls.len() {
             return true;
         }
-        let half = 0.5 * skin;
+        let half = 0.5 * self.skin;
         let moved = |wall: &Wall, point: &Vector| (wall.point - point).dot(&wall.normal).abs();
-        let mut walls = bodies.walls.iter().zip(&then.walls);
+        let mut walls = self.walls.iter().zip(&then.walls);
         if walls.any(|(wall, point)| moved(wall, point) > half) {
             return true;
         }
-        for (mesh, old) in bodies.meshes.iter().zip(&then.vertices) {
+        for (mesh, old) in self.meshes.iter().zip(&then.vertices) {
             let mut vertices = mesh.vertices.iter().zip(old);
             if vertices.any(|(new, old)| (new - old).norm_squared() > half * half) {
                 return true;
@@ -128,7 +172,7 @@ impl Table {
         }
         let left = |i: usize| {
             let room = half - (grains.radius[i] - then.radii[i]);
-            let way = separation(&grains.position[i], &then.positions[i], bodies.period);
+            let way = separation(&grains.position[i], &then.positions[i], &self.period);
             room < 0.0 || way.norm_squared() > room * room
         };
         let all = (0..grains.len()).into_par_iter();
@@ -136,53 +180,41 @@ impl Table {
     }
 
     /// Makes the table anew; contacts keep their memory.
-    pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
-        let (grains, period) = (bodies.grains, bodies.period);
+    pub(crate) fn renew(&mut self) {
+        let (grains, skin) = (&self.grains, self.skin);
         let largest = grains.largest_radius();
-        let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
-        let mut slots = pairs(grains, &grid, period, skin);
-        let mut ends = vec![slots.len()];
-        for wall in bodies.walls {
+        let grid = Grid::new(&grains.position, &self.period, 2.0 * largest + skin);
+        let mut new = Table {
+            slots: pairs(grains, &grid, &self.period, skin),
+            ..Table::default()
+        };
+        let pairs = new.slots.len();
+        new.ends.push(pairs);
+        for wall in &self.walls {
             let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
             let near = (0..grains.len()).filter(near);
-            slots.extend(near.map(|i| Slot::new(i as u32, 0)));
-            ends.push(slots.len());
+            new.slots.extend(near.map(|i| Slot::new(i as u32, 0)));
+            new.ends.push(new.slots.len());
         }
-        for mesh in bodies.meshes {
-            slots.extend(triangles(grains, &grid, mesh, largest, skin));
-            ends.push(slots.len());
+        for mesh in &self.meshes {
+            new.slots
+                .extend(triangles(grains, &grid, mesh, largest, skin));
+            new.ends.push(new.slots.len());
         }
-        let old = std::mem::replace(&mut self.slots, slots);
-        let old_ends = std::mem::replace(&mut self.ends, ends);
-        self.carry(&old, &old_ends);
-        let pairs = self.part(0).end;
-        let entries = self.slots.iter().enumerate().flat_map(|(k, slot)| {
+        new.carry(&self.table);
+        let entries = new.slots.iter().enumerate().flat_map(|(k, slot)| {
             let second = (k < pairs).then_some((slot.second, 2 * k as u32 + 1));
             [Some((slot.first, 2 * k as u32)), second]
         });
-        self.entries = Groups::new(grains.len(), entries.flatten());
-        self.then = PreviousState {
+        new.entries = Groups::new(grains.len(), entries.flatten());
+        new.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
-            walls: bodies.walls.iter().map(|w| w.point).collect(),
-            vertices: bodies.meshes.iter().map(|m| m.vertices.clone()).collect(),
+            walls: self.walls.iter().map(|w| w.point).collect(),
+            vertices: self.meshes.iter().map(|m| m.vertices.clone()).collect(),
         };
-    }
-
-    /// Both tables are sorted, so one walk along them finds the common entries.
-    fn carry(&mut self, old: &[Slot], old_ends: &[usize]) {
-        let mut from = 0;
-        for (part, &to) in old_ends.iter().enumerate().take(self.ends.len()) {
-            let range = self.part(part);
-            let mut new = self.slots[range].iter_mut().peekable();
-            for slot in old[from..to].iter().filter(|s| s.active) {
-                while new.next_if(|n| n.key() < slot.key()).is_some() {}
-                if let Some(n) = new.next_if(|n| n.key() == slot.key()) {
-                    *n = *slot;
-                }
-            }
-            from = to;
-        }
+        self.table = new;
+        self.renewals += 1;
     }
 }
 

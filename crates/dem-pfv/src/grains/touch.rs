@@ -3,20 +3,11 @@
 use rayon::prelude::*;
 
 use crate::grains::{
-    Contact, ContactLaw, Grains, Mesh, Period, Slot, Turn, Vector, Wall, nearest, separation,
+    Contact, ContactLaw, Mesh, Slot, State, Turn, Vector, Wall, nearest, separation,
 };
 
 /// Slots that one call of a law answers at most.
 const BATCH: usize = 128;
-
-/// Grains as the second body of a contact sees them.
-#[derive(Clone, Copy)]
-pub(crate) struct View<'a> {
-    pub grains: &'a Grains,
-    pub period: &'a Period,
-    /// Time since the last evaluation, s.
-    pub step: f64,
-}
 
 /// The second body of a contact: a grain, a plane or a point of a triangle; the latter two of infinite radius and mass.
 struct Second {
@@ -38,14 +29,14 @@ impl Second {
     }
 }
 
-impl View<'_> {
+impl State {
     /// Forces between grains.
-    pub fn pairs(&self, slots: &mut [Slot], law: &dyn ContactLaw) {
+    pub(crate) fn at_grains(&self, slots: &mut [Slot], law: &dyn ContactLaw) {
         sweep(slots, law, |slot| self.pair(slot));
     }
 
     /// Forces at a wall.
-    pub fn wall(&self, slots: &mut [Slot], wall: &Wall, law: &dyn ContactLaw) {
+    pub(crate) fn at_wall(&self, slots: &mut [Slot], wall: &Wall, law: &dyn ContactLaw) {
         sweep(slots, law, |slot| {
             let grain = slot.first as usize;
             let gap = wall.distance(&self.grains.position[grain]) - self.grains.radius[grain];
@@ -55,15 +46,15 @@ impl View<'_> {
     }
 
     /// Forces at a mesh.
-    pub fn mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
+    pub(crate) fn at_mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
         let groups = slots.par_chunk_by_mut(|a, b| a.first == b.first);
         groups.for_each(|group| self.at_triangles(group, mesh, law));
     }
 
     fn pair(&self, slot: &Slot) -> Option<Contact> {
         let (a, b) = (slot.first as usize, slot.second as usize);
-        let g = self.grains;
-        let apart = separation(&g.position[a], &g.position[b], self.period);
+        let g = &self.grains;
+        let apart = separation(&g.position[a], &g.position[b], &self.period);
         let reach = g.radius[a] + g.radius[b];
         let square = apart.norm_squared();
         if square >= reach * reach {
@@ -85,7 +76,7 @@ impl View<'_> {
     }
 
     fn contact(&self, slot: &Slot, normal: Vector, overlap: f64, second: Second) -> Contact {
-        let (g, a) = (self.grains, slot.first as usize);
+        let (g, a) = (&self.grains, slot.first as usize);
         let radius = [g.radius[a], second.radius];
         let lever = radius.map(|r| r - 0.5 * overlap);
         let mut rolling = g.spin[a] * lever[0];
@@ -97,7 +88,7 @@ impl View<'_> {
                 let turn = Turn {
                     axis: slot.normal.cross(&normal),
                     cosine: slot.normal.dot(&normal),
-                    twist: 0.5 * self.step * normal.dot(&(g.spin[a] + second.spin)),
+                    twist: 0.5 * self.last_step * normal.dot(&(g.spin[a] + second.spin)),
                 };
                 (slot.memory, turn)
             }
@@ -110,7 +101,7 @@ impl View<'_> {
             spin: g.spin[a] - second.spin,
             radius,
             mass: [g.mass[a], second.mass],
-            step: self.step,
+            step: self.last_step,
             memory,
             force: Vector::zeros(),
             couple: Vector::zeros(),

@@ -45,12 +45,8 @@ pub fn scene(scene: &Scene, table: &Table, source: &Source) -> Vec<SceneProblem>
 /// Adds what is wrong of some rules: whether it is, the key below `path`, and the message.
 fn refuse<const N: usize>(found: &mut Problems, path: &str, rules: [(bool, &str, &str); N]) {
     for (_, key, message) in rules.into_iter().filter(|(wrong, ..)| *wrong) {
-        let dot = if path.is_empty() || key.is_empty() {
-            ""
-        } else {
-            "."
-        };
-        found.add(format!("{path}{dot}{key}"), message);
+        let names = [path, key].into_iter().filter(|name| !name.is_empty());
+        found.add(names.collect::<Vec<_>>().join("."), message);
     }
 }
 
@@ -99,22 +95,16 @@ fn oedometer(scene: &Scene, found: &mut Problems) {
     let piston = wall.and_then(|w| w.piston.as_ref());
     let unprepared = piston.is_some_and(|p| p.prepared.is_none());
     let message = "`prepared` is missing: the load is the step from it to `stress`";
-    refuse(
-        found,
-        &format!("wall.{}.piston", test.wall),
-        [(unprepared, "", message)],
-    );
+    let path = format!("wall.{}.piston", test.wall);
     let moves = scene.start.settle.is_none_or(|tolerance| tolerance >= 1.0);
     let rest = "an oedometer test starts from rest: give `settle` below 1";
     let dry = scene.fluid.is_none();
-    refuse(
-        found,
-        "",
-        [
-            (dry, "oedometer", "needs a `[fluid]`"),
-            (moves, "start", rest),
-        ],
-    );
+    let rules = [
+        (unprepared, path.as_str(), message),
+        (dry, "oedometer", "needs a `[fluid]`"),
+        (moves, "start", rest),
+    ];
+    refuse(found, "", rules);
 }
 
 fn output(scene: &Scene, found: &mut Problems) {

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use sph_core::bounds;
 
+use crate::error::DEEPEST;
 use crate::grains::{Grain, GrainSystem, Setup};
 use crate::scene::{
     BOX, DemError, Fluid, Laws, Loaded, POURED, Plugins, Scene, from_file, headings, planes, setup,
@@ -305,7 +306,7 @@ fn carried(loaded: &Loaded, radius: f64) -> Result<(), DemError> {
     let setup = setup(loaded, Vec::new(), Laws::from_scene(scene)?)?;
     let fluid = scene.fluid.as_ref().map_or(0.0, |f| f.given.density);
     let mass = (scene.grains.density - fluid) * volume(&[radius]);
-    let deepest = GrainSystem::DEEPEST * radius;
+    let deepest = DEEPEST * radius;
     for (wall, name) in setup.walls.iter().zip(planes(scene)) {
         let weight = -mass * setup.gravity.dot(&wall.normal);
         let law = &setup.laws[wall.law];
@@ -317,7 +318,7 @@ fn carried(loaded: &Loaded, radius: f64) -> Result<(), DemError> {
             let message = format!(
                 "a grain of {radius} m sinks into the wall `{name}` by more than {} of its radius under its weight of \
                  {weight:.3e} N: the contact law needs {:.1} times the `modulus`",
-                GrainSystem::DEEPEST,
+                DEEPEST,
                 weight / (mean * deepest)
             );
             return Err(DemError::at(law_of(scene, &name), message));

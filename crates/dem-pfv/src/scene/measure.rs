@@ -42,7 +42,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
         Probe::Borne { wall: name } => {
             let weight = buoyant_weight(model);
             let wall: &Wall = wall(name)?.1;
-            (weight > 0.0).then(|| -wall.force().dot(&wall.normal) / weight)
+            (weight > 0.0).then(|| -wall.force.dot(&wall.normal) / weight)
         }
         Probe::Carried {} => {
             let (wet, weight) = (model.wet()?, buoyant_weight(model));

@@ -3,18 +3,10 @@
 use scene_text::{Problems, given, suggestion, unit_factor};
 
 use super::refuse;
-use crate::scene::{BOX, Scene, Wall, Weight, periodic, planes};
+use crate::scene::{BOX, Cloud, Grown, Piston, Scene, Wall, Weight, periodic, planes};
 
-/// Mistakes of the start.
+/// Mistakes of the start: more than one way, or none.
 pub fn start(scene: &Scene, found: &mut Problems) {
-    ways(scene, found);
-    numbers_and_sizes(scene, found);
-    room(scene, found);
-    weight(scene, found);
-}
-
-/// Checks that the grains get their places in one way alone.
-fn ways(scene: &Scene, found: &mut Problems) {
     let s = &scene.start;
     let given = given([
         ("cloud", s.cloud.is_some()),
@@ -26,6 +18,9 @@ fn ways(scene: &Scene, found: &mut Problems) {
     let none = "one of `cloud`, `grown`, `rained`, `lattice`, `file` is missing";
     refuse(found, "start", [(given.is_empty(), "", none)]);
     found.at_most_one(&given, "start");
+    numbers_and_sizes(scene, found);
+    room(scene, found);
+    weight(scene, found);
 }
 
 /// Number and sizes of the grains, unless the start has them.
@@ -33,73 +28,46 @@ fn numbers_and_sizes(scene: &Scene, found: &mut Problems) {
     let (s, grains) = (&scene.start, &scene.grains);
     let by_height = s.rained.as_ref().is_some_and(|r| r.height.is_some());
     let counted = (s.cloud.is_some() || s.grown.is_some() || s.rained.is_some()) && !by_height;
-    let (count, radius, file) = (
-        grains.count.is_some(),
-        grains.radius.is_some(),
-        s.file.is_some(),
-    );
+    let (count, radius, file) = (grains.count, grains.radius, s.file.is_some());
     let unit = s.unit.is_some() && !file;
+    let given = "the start gives the number of grains: leave it out";
+    let of_file = "this is the unit of the numbers in a `file`";
+    let missing = "`radius` is missing: the smallest and the largest";
+    let twice = "the file has the radii: leave it out";
+    let targets = |g: &Grown| g.stress.is_some() == g.porosity.is_some();
+    let targets = s.grown.as_ref().is_some_and(targets);
+    let target = "either `stress` or `porosity` is needed";
+    let [low, high] = radius.filter(|_| !file).unwrap_or([1.0; 2]);
+    let least = format!("must be more than 0 m, found {low}");
+    let order = format!("{low} m to {high} m: the smallest comes first");
     let rules = [
-        (counted && !count, "grains", "`count` is missing"),
-        (
-            !counted && count,
-            "grains.count",
-            "the start gives the number of grains: leave it out",
-        ),
-        (
-            unit,
-            "start.unit",
-            "this is the unit of the numbers in a `file`",
-        ),
-        (
-            !file && !radius,
-            "grains",
-            "`radius` is missing: the smallest and the largest",
-        ),
-        (
-            file && radius,
-            "grains.radius",
-            "the file has the radii: leave it out",
-        ),
+        (counted && count.is_none(), "grains", "`count` is missing"),
+        (!counted && count.is_some(), "grains.count", given),
+        (unit, "start.unit", of_file),
+        (!file && radius.is_none(), "grains", missing),
+        (file && radius.is_some(), "grains.radius", twice),
+        (low <= 0.0, "grains.radius", &least),
+        (low > 0.0 && low > high, "grains.radius", &order),
+        (targets, "start.grown", target),
     ];
     refuse(found, "", rules);
-    let message = match grains.radius.filter(|_| !file) {
-        Some([low, _]) if low <= 0.0 => Some(format!("must be more than 0 m, found {low}")),
-        Some([low, high]) if low > high => {
-            Some(format!("{low} m to {high} m: the smallest comes first"))
-        }
-        _ => None,
-    };
-    if let Some(message) = message {
-        found.add("grains.radius", message);
-    }
-    let targets = |g: &crate::scene::Grown| g.stress.is_some() == g.porosity.is_some();
-    let target = "either `stress` or `porosity` is needed";
-    refuse(
-        found,
-        "start.grown",
-        [(s.grown.as_ref().is_some_and(targets), "", target)],
-    );
 }
 
 /// The room that the grains start in.
 fn room(scene: &Scene, found: &mut Problems) {
     let s = &scene.start;
     let needs_box = s.grown.is_some() || s.rained.is_some() || s.lattice.is_some();
-    let corners = |c: &crate::scene::Cloud| c.low.is_some() && c.high.is_some();
-    let within = s.cloud.as_ref().is_some_and(|c| !corners(c));
+    let inside = |c: &Cloud| c.low.is_none() || c.high.is_none();
+    let within = s.cloud.as_ref().is_some_and(inside);
     let no_box = scene.r#box.is_none() && (needs_box || within);
     let lowered = s.headroom.is_some();
     let no_top = lowered && !planes(scene).iter().any(|p| p == "top");
     let loose = lowered && s.settle.is_none() && s.rained.is_none();
+    let rest = "the grains must come to rest first: give `settle`";
     let rules = [
         (no_box, "", "these grains fill a box: `[box]` is missing"),
         (no_top, "headroom", "there is no wall `top` to be moved"),
-        (
-            loose,
-            "headroom",
-            "the grains must come to rest first: give `settle`",
-        ),
+        (loose, "headroom", rest),
     ];
     refuse(found, "start", rules);
 }
@@ -155,12 +123,9 @@ fn place(scene: &Scene, name: &str, wall: &Wall, path: &str, found: &mut Problem
             "a plane needs `point` and `normal`, a surface a `file`; it is no wall of the box";
         let nowhere = !file && (wall.point.is_none() || !normal);
         let flat = !file && wall.normal.is_some_and(|n| n.iter().all(|x| *x == 0.0));
+        let curved = "a surface from a file has no normal";
         let rules = [
-            (
-                file && normal,
-                "normal",
-                "a surface from a file has no normal",
-            ),
+            (file && normal, "normal", curved),
             (nowhere, "", &format!("{placed}{near}")),
             (flat, "normal", "has no direction"),
         ];
@@ -169,19 +134,16 @@ fn place(scene: &Scene, name: &str, wall: &Wall, path: &str, found: &mut Problem
     let fixed = "a wall of the box has its place from `[box]`";
     let no_box = scene.r#box.is_none();
     let periodic = periodic(scene, number / 2);
-    let open = |b: &crate::scene::Box| b.open.iter().any(|o| o == name);
-    let open = !periodic && scene.r#box.as_ref().is_some_and(open);
+    let mut open = scene.r#box.iter().flat_map(|b| &b.open);
+    let open = !periodic && open.any(|o| o == name);
+    let repeats = "there is no such wall: the box is periodic there";
     let rules = [
         (wall.point.is_some(), "point", fixed),
         (normal, "normal", fixed),
         (file, "file", fixed),
         (wall.spin.is_some(), "spin", fixed),
         (no_box, "", "there is no such wall: there is no `[box]`"),
-        (
-            periodic,
-            "",
-            "there is no such wall: the box is periodic there",
-        ),
+        (periodic, "", repeats),
         (open, "", "there is no such wall: the box is open there"),
     ];
     refuse(found, path, rules);
@@ -220,7 +182,7 @@ fn motions(scene: &Scene, wall: &Wall, path: &str, found: &mut Problems) {
     let others = || planes(scene).iter().any(|p| !BOX.contains(&p.as_str()));
     let no_volume = wall.keeps_volume && (!closed || others());
     let volume = "the volume is that of a closed `[box]` without further planes";
-    let swings = |p: &crate::scene::Piston| p.amplitude != 0.0 && p.period.is_none();
+    let swings = |p: &Piston| p.amplitude != 0.0 && p.period.is_none();
     let swings = wall.piston.as_ref().is_some_and(swings);
     let rules = [
         (steered, "", "a surface moves by `velocity` and `spin` only"),
@@ -239,9 +201,6 @@ fn conditions(scene: &Scene, wall: &Wall, path: &str, found: &mut Problems) {
     ]);
     found.at_most_one(&sides, path);
     let dry = scene.fluid.is_none() && (!sides.is_empty() || wall.sticks);
-    refuse(
-        found,
-        path,
-        [(dry, "", "conditions of the fluid need a `[fluid]`")],
-    );
+    let message = "conditions of the fluid need a `[fluid]`";
+    refuse(found, path, [(dry, "", message)]);
 }
