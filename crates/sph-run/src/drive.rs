@@ -6,7 +6,7 @@ use std::time::Instant;
 use sph_io::{FolderLock, IoError, SeriesWriter};
 
 use crate::frames::{Frames, Outlay};
-use crate::model::{Model, ModelTime, Poll, RunCounters, Status};
+use crate::model::{Model, Poll, RunCounters, Status};
 use crate::observer::{Command, Progress, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 use crate::schedule::{DueOutputs, Schedule};
@@ -196,7 +196,10 @@ impl Driver<'_> {
         let mut limit = time;
         loop {
             let now = match model.advance(limit, observer) {
-                Ok(now) => now,
+                Ok(now) => Progress {
+                    end: schedule.end,
+                    ..now
+                },
                 Err(error) => return Ok(Err(error)),
             };
             let stepped = now.time > self.opened.books.time;
@@ -226,7 +229,7 @@ impl Driver<'_> {
             if now.time >= schedule.end {
                 return Ok(Ok(Status::Done));
             }
-            if schedule.max_steps.is_some_and(|most| now.steps >= most) {
+            if schedule.max_steps.is_some_and(|most| now.step >= most) {
                 if schedule.capped == Status::Interrupted {
                     observer.message("the largest number of steps is reached");
                 }
@@ -238,15 +241,8 @@ impl Driver<'_> {
     }
 
     /// Reports a step; whether the observer or the bound on the run time stops it.
-    fn wants_to_stop(&mut self, now: &ModelTime, observer: &mut Watch<'_>) -> bool {
-        let command = observer.step(&Progress {
-            time: now.time,
-            end: self.schedule.end,
-            step: now.steps,
-            dt: now.dt,
-            limiter: now.limiter,
-            particles: now.size,
-        });
+    fn wants_to_stop(&mut self, now: &Progress, observer: &mut Watch<'_>) -> bool {
+        let command = observer.step(now);
         let most = self.schedule.max_wall;
         let late = most.is_some_and(|most| self.counters().wall_seconds > most);
         command == Command::Stop || late

@@ -23,7 +23,7 @@ mod trouble;
 pub use drive::{Opened, run};
 pub use frames::{BAD_STATE, BAD_STATE_NEAR, BAD_STATE_PICTURE, Frames, Outlay};
 pub use identity::{FileMark, Identity};
-pub use model::{Model, ModelTime, Poll, RunCounters, Status};
+pub use model::{Model, Poll, RunCounters, Status};
 pub use observer::{Command, Observer, Progress, Watch};
 pub use options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 pub use schedule::{Schedule, next_multiple};

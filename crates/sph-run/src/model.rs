@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use sph_io::{ColourRanges, IoError};
 
 use crate::frames::Frames;
-use crate::observer::Watch;
+use crate::observer::{Progress, Watch};
 use crate::options::Start;
 
 /// A state that advances in time, with its outputs.
@@ -36,7 +36,7 @@ pub trait Model {
     ///
     /// # Errors
     /// An error that ends the run.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime, Self::Error>;
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Progress, Self::Error>;
 
     /// Names and units of the columns of `series.csv`.
     fn columns(&self) -> Vec<(String, String)>;
@@ -85,21 +85,6 @@ pub trait Model {
         books: &RunCounters,
         observer: &mut Watch<'_>,
     ) -> Result<Option<Self::Summary>, Self::Error>;
-}
-
-/// Time and step of a model.
-#[derive(Clone, Copy, Debug)]
-pub struct ModelTime {
-    /// Simulated time, s.
-    pub time: f64,
-    /// Steps taken.
-    pub steps: u64,
-    /// The last step, s.
-    pub dt: f64,
-    /// Bound that limited it.
-    pub limiter: &'static str,
-    /// Particles, grains, or other items of the model.
-    pub size: usize,
 }
 
 /// A question to all processes of a run.

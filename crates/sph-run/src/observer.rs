@@ -1,11 +1,11 @@
 //! Progress of a run, for its observers.
 
 /// Progress of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Progress {
     /// Simulated time, s.
     pub time: f64,
-    /// Simulated time at the end, s.
+    /// Simulated time at the end, s; a model leaves it to the driver.
     pub end: f64,
     /// Steps taken.
     pub step: u64,
