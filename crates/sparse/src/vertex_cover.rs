@@ -37,9 +37,8 @@ pub fn cover(joins: &Groups, right: usize) -> [Vec<bool>; 2] {
     }
     // What alternating paths from unmatched ends on the left reach.
     let mut seen = [vec![false; left], vec![false; right]];
-    let mut stack: Vec<u32> = (0..left as u32)
-        .filter(|u| mates[0][*u as usize] == NONE)
-        .collect();
+    let unmatched = (0..left as u32).filter(|u| mates[0][*u as usize] == NONE);
+    let mut stack: Vec<u32> = unmatched.collect();
     while let Some(u) = stack.pop() {
         if std::mem::replace(&mut seen[0][u as usize], true) {
             continue;

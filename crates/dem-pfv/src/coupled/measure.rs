@@ -7,11 +7,6 @@ use crate::flow::{FlowSystem, PoreGeometry, Solver};
 use crate::grains::{GrainError, GrainSystem};
 
 impl CoupledSystem {
-    /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
-    pub fn pore_places(&self) -> Vec<Vector> {
-        self.pores.middles()
-    }
-
     /// Mean pressure (Pa) of the cells whose places lie between two places along an axis (m), by their volumes; none
     /// without such cells.
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
@@ -23,7 +18,7 @@ impl CoupledSystem {
 
     /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells whose places are inside.
     fn cells(&self, axis: usize, inside: impl Fn(&Vector) -> bool) -> Vec<(f64, f64, f64)> {
-        let (places, clock) = (self.pores.middles(), &self.clock);
+        let (places, clock) = (self.pores.geometry.middles(), &self.clock);
         let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
         let cells = cells.filter(|((x, _), _)| inside(x));
         let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));

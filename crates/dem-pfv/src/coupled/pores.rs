@@ -9,7 +9,7 @@ use crate::flow::{
     cell_volumes,
 };
 use crate::grains::GrainSystem;
-use crate::triangulation::{Cell, Sphere, Triangulation, Vertex, Wall};
+use crate::triangulation::{Sphere, Triangulation, Vertex, Wall};
 
 /// Places of grains and walls; with the radii it is all that a mesh follows from.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -64,10 +64,8 @@ impl Pores {
         let spheres = places.centres.iter().zip(&grains.grains.radius);
         let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
         let mesh = Triangulation::within(&spheres, &places.planes())?;
-        let grips = setup.sides.iter().map(|s| match s.sticks {
-            true => SlipCondition::NoSlip,
-            false => SlipCondition::Slip,
-        });
+        let grips = [SlipCondition::Slip, SlipCondition::NoSlip];
+        let grips = setup.sides.iter().map(|s| grips[usize::from(s.sticks)]);
         let grips: Vec<_> = grips.collect();
         let geometry = PoreGeometry::pressed(mesh, &grips, setup.angles, deepest)?;
         let boundary = condition::boundary(&setup.sides, &geometry, grains.time);
@@ -120,22 +118,6 @@ impl Pores {
     pub fn volumes(&self, places: &Places) -> Vec<f64> {
         cell_volumes(&self.geometry.mesh, &places.centres, &places.planes())
     }
-
-    /// A place inside each cell (m): the mean of its centres, half-way to its walls.
-    pub fn middles(&self) -> Vec<Vector> {
-        let mesh = &self.geometry.mesh;
-        let middle = |cell: &Cell| {
-            let mean = mesh.middle(cell);
-            cell.vertices().iter().fold(mean, |at, v| match v {
-                Vertex::Wall(w) => {
-                    let wall = &mesh.walls[*w];
-                    at - 0.5 * wall.distance(mean) * wall.normal
-                }
-                Vertex::Sphere(_) => at,
-            })
-        };
-        mesh.cells.iter().map(middle).collect()
-    }
 }
 
 /// Pressure (Pa) of every new cell: that of the old cell of the same vertices, else that of the old cell
@@ -144,7 +126,7 @@ impl Pores {
 /// A fluid that gives way needs it, and conjugate gradients start from it; a factorisation of stiff fluid does not.
 pub(crate) fn transferred(old: &Pores, pressures: &[f64], new: &Pores) -> Vec<f64> {
     let (before, after) = (&old.geometry.mesh, &new.geometry.mesh);
-    let (places, middles) = (old.middles(), new.middles());
+    let (places, middles) = (old.geometry.middles(), new.geometry.middles());
     let value = |cell: usize| {
         let vertices = sorted(after, cell);
         let mut nearest = (f64::INFINITY, 0.0);

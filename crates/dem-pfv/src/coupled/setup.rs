@@ -69,12 +69,8 @@ impl Fluid {
             let what = "the roughness of lubrication is";
             require(what, roughness, POSITIVE, roughness > 0.0)?;
             let valid = "above the roughness and finite";
-            require(
-                "the range of lubrication is",
-                range,
-                valid,
-                range > roughness,
-            )?;
+            let what = "the range of lubrication is";
+            require(what, range, valid, range > roughness)?;
         }
         let k = self.bulk_modulus.unwrap_or(1.0);
         Ok(require("the bulk modulus is", k, POSITIVE, k > 0.0)?)
@@ -156,11 +152,7 @@ impl FlowSetup {
         }
         let finite = |strain: &f64| *strain != f64::INFINITY;
         let strain = self.remeshing.strain.filter(finite).unwrap_or_default();
-        Ok(require(
-            "the strain for remeshing is",
-            strain,
-            AT_LEAST_0,
-            strain >= 0.0,
-        )?)
+        let what = "the strain for remeshing is";
+        Ok(require(what, strain, AT_LEAST_0, strain >= 0.0)?)
     }
 }

@@ -87,6 +87,22 @@ impl PoreGeometry {
         area.dot(&self.mesh.walls[wall].normal).abs()
     }
 
+    /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
+    pub fn middles(&self) -> Vec<Vector> {
+        let mesh = &self.mesh;
+        let middle = |cell: &Cell| {
+            let mean = mesh.middle(cell);
+            cell.vertices().iter().fold(mean, |at, v| match v {
+                Vertex::Wall(w) => {
+                    let wall = &mesh.walls[*w];
+                    at - 0.5 * wall.distance(mean) * wall.normal
+                }
+                Vertex::Sphere(_) => at,
+            })
+        };
+        mesh.cells.iter().map(middle).collect()
+    }
+
     /// All edges with a sphere, in the order of their numbers, spheres before walls. A face between grains at a free
     /// surface reaches up to the wall above them.
     ///

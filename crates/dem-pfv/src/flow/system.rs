@@ -135,13 +135,8 @@ impl FlowSystem {
     fn refresh(&mut self) -> Result<(), FlowError> {
         let mut diagonal = self.diagonal.clone();
         if let Some(storage) = self.storage {
-            let Storage { bulk_modulus, step } = storage;
-            require(
-                "bulk modulus is",
-                bulk_modulus,
-                POSITIVE,
-                bulk_modulus > 0.0,
-            )?;
+            let (modulus, step) = (storage.bulk_modulus, storage.step);
+            require("bulk modulus is", modulus, POSITIVE, modulus > 0.0)?;
             require("step is", step, POSITIVE, step > 0.0)?;
             for (c, &u) in self.unknowns.iter().enumerate() {
                 if u != GIVEN {
@@ -162,8 +157,8 @@ impl FlowSystem {
     /// V_void / (K Δt) of a cell, m³ Pa⁻¹ s⁻¹.
     fn capacity(&self, cell: usize) -> f64 {
         let per_volume = |s: Storage| 1.0 / (s.bulk_modulus * s.step);
-        self.storage
-            .map_or(0.0, |s| self.void_volumes[cell].max(0.0) * per_volume(s))
+        let stored = |s| self.void_volumes[cell].max(0.0) * per_volume(s);
+        self.storage.map_or(0.0, stored)
     }
 
     /// Pressures of all cells (Pa) from which conjugate gradients start; the last ones by default. A

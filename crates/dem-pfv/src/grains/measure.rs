@@ -153,8 +153,7 @@ impl GrainSystem {
     /// # Errors
     /// If the box is not closed.
     pub fn section(&self, axis: usize) -> Result<f64, GrainError> {
-        let lengths = self.box_lengths();
-        let lengths = lengths.ok_or(GrainError::NoArea(2 * axis))?;
+        let lengths = self.box_lengths().ok_or(GrainError::NoArea(2 * axis))?;
         Ok(lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3])
     }
 

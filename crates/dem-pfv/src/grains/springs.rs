@@ -65,12 +65,8 @@ impl ContactLaw for LinearElastic {
             ("modulus", modulus, "positive", modulus > 0.0),
             ("stiffness ratio", ratio, AT_LEAST_0, ratio >= 0.0),
         ];
-        check(
-            "linear-elastic",
-            own,
-            [self.friction, self.damping],
-            self.rolling,
-        )
+        let shared = [self.friction, self.damping];
+        check("linear-elastic", own, shared, self.rolling)
     }
 
     fn memory(&self) -> &'static [&'static str] {
@@ -175,12 +171,8 @@ impl ContactLaw for HertzMindlin {
             ("shear modulus", shear, "positive", shear > 0.0),
             ("Poisson's ratio", poisson, "above -1 and at most 0.5", fine),
         ];
-        check(
-            "hertz-mindlin",
-            own,
-            [self.friction, self.damping],
-            self.rolling,
-        )
+        let shared = [self.friction, self.damping];
+        check("hertz-mindlin", own, shared, self.rolling)
     }
 
     fn memory(&self) -> &'static [&'static str] {
@@ -300,11 +292,8 @@ fn check(
     let mut all = Vec::from(own);
     all.push(("friction", friction, AT_LEAST_0, friction >= 0.0));
     all.push(("damping", damping, BELOW_1, damped));
-    if let Some(RollingResistance {
-        coefficient: eta,
-        stiffness: beta,
-    }) = rolling
-    {
+    if let Some(rolling) = rolling {
+        let (eta, beta) = (rolling.coefficient, rolling.stiffness);
         all.push(("rolling coefficient", eta, AT_LEAST_0, eta >= 0.0));
         all.push(("rolling stiffness", beta, "positive", beta > 0.0));
     }

@@ -148,8 +148,8 @@ impl GrainSystem {
             state.at_grains(pairs, &*laws[0]);
         }
         for (number, slots) in (0..state.walls.len()).zip(parts.by_ref()) {
-            let law = &laws[state.walls[number].law];
-            state.at_wall(slots, &state.walls[number], &**law);
+            let law = &*laws[state.walls[number].law];
+            state.at_wall(slots, &state.walls[number], law);
             let (grains, wall) = (&state.grains, &mut state.walls[number]);
             let active = slots.iter().filter(|s| s.active);
             let zero = (Vector::zeros(), 0.0);
@@ -163,11 +163,8 @@ impl GrainSystem {
             });
         }
         for (number, slots) in (0..state.meshes.len()).zip(parts) {
-            state.at_mesh(
-                slots,
-                &state.meshes[number],
-                &*laws[state.meshes[number].law],
-            );
+            let law = &*laws[state.meshes[number].law];
+            state.at_mesh(slots, &state.meshes[number], law);
             let (grains, mesh) = (&state.grains, &mut state.meshes[number]);
             (mesh.force, mesh.torque) = (Vector::zeros(), Vector::zeros());
             for slot in slots.iter().filter(|s| s.active) {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use sparse::Groups;
+use sph_core::bounds;
 
 use crate::grains::{Grains, MEMORY, Mesh, Period, Vector, Wall, nearest, separation};
 
@@ -197,8 +198,8 @@ impl State {
             new.ends.push(new.slots.len());
         }
         for mesh in &self.meshes {
-            new.slots
-                .extend(triangles(grains, &grid, mesh, largest, skin));
+            let near = triangles(grains, &grid, mesh, largest, skin);
+            new.slots.extend(near);
             new.ends.push(new.slots.len());
         }
         new.carry(&self.table);
@@ -281,12 +282,8 @@ pub(crate) struct Grid {
 
 impl Grid {
     pub fn new(positions: &[Vector], period: &Period, reach: f64) -> Self {
-        let mut low = Vector::repeat(f64::INFINITY);
-        let mut high = Vector::repeat(f64::NEG_INFINITY);
-        for p in positions {
-            low = low.inf(p);
-            high = high.sup(p);
-        }
+        let points = positions.iter().map(|p| (*p).into());
+        let [mut low, mut high] = bounds(points).map(Vector::from);
         for (axis, ends) in period.iter().enumerate() {
             if let Some(ends) = ends {
                 [low[axis], high[axis]] = *ends;
@@ -302,12 +299,10 @@ impl Grid {
             }
             size *= 1.26;
         };
+        let per_length = |n: f64, length: f64| if length > 0.0 { n / length } else { 0.0 };
         let mut grid = Self {
             low,
-            rate: counts.zip_map(&(high - low), |n, length| match length > 0.0 {
-                true => n / length,
-                false => 0.0,
-            }),
+            rate: counts.zip_map(&(high - low), per_length),
             count: [counts.x as usize, counts.y as usize, counts.z as usize],
             periodic: period.map(|p| p.is_some()),
             members: Groups::default(),

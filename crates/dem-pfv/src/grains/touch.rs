@@ -2,32 +2,13 @@
 
 use rayon::prelude::*;
 
-use crate::grains::{
-    Contact, ContactLaw, Mesh, Slot, State, Turn, Vector, Wall, nearest, separation,
-};
+use crate::grains::{Contact, ContactLaw, Mesh, Slot, State, Vector, Wall, nearest, separation};
 
 /// Slots that one call of a law answers at most.
 const BATCH: usize = 128;
 
-/// The second body of a contact: a grain, a plane or a point of a triangle; the latter two of infinite radius and mass.
-struct Second {
-    velocity: Vector,
-    spin: Vector,
-    radius: f64,
-    mass: f64,
-}
-
-impl Second {
-    fn surface(velocity: Vector, spin: Vector) -> Self {
-        let [radius, mass] = [f64::INFINITY; 2];
-        Self {
-            velocity,
-            spin,
-            radius,
-            mass,
-        }
-    }
-}
+/// Radius and mass of a plane and of a triangle.
+const OF_SURFACES: [f64; 2] = [f64::INFINITY; 2];
 
 impl State {
     /// Forces between grains.
@@ -40,8 +21,8 @@ impl State {
         sweep(slots, law, |slot| {
             let grain = slot.first as usize;
             let gap = wall.distance(&self.grains.position[grain]) - self.grains.radius[grain];
-            let second = || Second::surface(wall.velocity, Vector::zeros());
-            (gap < 0.0).then(|| self.contact(slot, wall.normal, -gap, second()))
+            let motion = [wall.velocity, Vector::zeros()];
+            (gap < 0.0).then(|| self.contact(slot, wall.normal, -gap, motion, OF_SURFACES))
         });
     }
 
@@ -66,41 +47,41 @@ impl State {
             true => apart / distance,
             false => Vector::x(),
         };
-        let second = Second {
-            velocity: g.velocity[b],
-            spin: g.spin[b],
-            radius: g.radius[b],
-            mass: g.mass[b],
-        };
-        Some(self.contact(slot, normal, reach - distance, second))
+        let (motion, size) = ([g.velocity[b], g.spin[b]], [g.radius[b], g.mass[b]]);
+        Some(self.contact(slot, normal, reach - distance, motion, size))
     }
 
-    fn contact(&self, slot: &Slot, normal: Vector, overlap: f64, second: Second) -> Contact {
+    /// A contact with a second body by its velocity, angular velocity, radius and mass.
+    fn contact(
+        &self,
+        slot: &Slot,
+        normal: Vector,
+        overlap: f64,
+        [velocity, spin]: [Vector; 2],
+        [radius, mass]: [f64; 2],
+    ) -> Contact {
         let (g, a) = (&self.grains, slot.first as usize);
-        let radius = [g.radius[a], second.radius];
+        let radius = [g.radius[a], radius];
         let lever = radius.map(|r| r - 0.5 * overlap);
         let mut rolling = g.spin[a] * lever[0];
         if lever[1].is_finite() {
-            rolling += second.spin * lever[1];
+            rolling += spin * lever[1];
         }
         let (memory, turn) = match slot.active {
             true => {
-                let turn = Turn {
-                    axis: slot.normal.cross(&normal),
-                    cosine: slot.normal.dot(&normal),
-                    twist: 0.5 * self.last_step * normal.dot(&(g.spin[a] + second.spin)),
-                };
-                (slot.memory, turn)
+                let twist = 0.5 * self.last_step * normal.dot(&(g.spin[a] + spin));
+                let (axis, cosine) = (slot.normal.cross(&normal), slot.normal.dot(&normal));
+                (slot.memory, (axis, cosine, twist))
             }
             false => Default::default(),
         };
         Contact {
             normal,
             overlap,
-            velocity: g.velocity[a] - second.velocity - rolling.cross(&normal),
-            spin: g.spin[a] - second.spin,
+            velocity: g.velocity[a] - velocity - rolling.cross(&normal),
+            spin: g.spin[a] - spin,
             radius,
-            mass: [g.mass[a], second.mass],
+            mass: [g.mass[a], mass],
             step: self.last_step,
             memory,
             force: Vector::zeros(),
@@ -139,8 +120,8 @@ impl State {
                     (b - a).cross(&(c - a)).normalize()
                 }
             };
-            let second = Second::surface(mesh.velocity_at(&point), mesh.spin);
-            self.contact(&group[k], normal, radius - distance, second)
+            let motion = [mesh.velocity_at(&point), mesh.spin];
+            self.contact(&group[k], normal, radius - distance, motion, OF_SURFACES)
         });
         let mut batch: Vec<Contact> = batch.collect();
         for slot in group.iter_mut() {

@@ -4,10 +4,9 @@ use crate::coupled::{
     CoupledError, CoupledSystem, FlowCondition, FlowSetup, Remeshing, WallBoundary,
 };
 use crate::grains::{GrainError, GrainSystem};
-use crate::scene::tables::{self};
 use crate::scene::{
-    BOX, DemError, FAR, Laws, Loaded, Model, Origin, Piston, Scene, control, planes_with_tables,
-    prepare, read_recorded, surfaces, throats,
+    BOX, DemError, FAR, Fluid, Laws, Loaded, Model, Origin, Piston, Scene, Wall, control,
+    planes_with_tables, prepare, surfaces, throats,
 };
 
 /// A scene ready to run.
@@ -92,7 +91,7 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
 }
 
 /// The fluid and its conditions.
-fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
+fn flow(loaded: &Loaded, fluid: &Fluid) -> Result<FlowSetup, DemError> {
     let mut setup = FlowSetup::new(fluid.given);
     setup.remeshing = Remeshing {
         strain: Some(fluid.remesh_strain),
@@ -106,13 +105,13 @@ fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
     Ok(setup)
 }
 
-fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<WallBoundary, DemError> {
+fn side(loaded: &Loaded, name: &str, table: &Wall) -> Result<WallBoundary, DemError> {
     let condition = match (table.pressure, table.inflow, &table.wave) {
         (Some(pressure), ..) => FlowCondition::Pressure(pressure),
         (_, Some(speed), _) => FlowCondition::Inflow(speed),
         (.., Some(load)) => FlowCondition::Wave(*load),
         _ => match &table.recorded {
-            Some(load) => FlowCondition::Recorded(read_recorded(&loaded.source, name, load)?),
+            Some(load) => FlowCondition::Recorded(loaded.recorded(name, load)?),
             None => FlowCondition::Closed,
         },
     };

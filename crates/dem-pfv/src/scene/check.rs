@@ -129,19 +129,13 @@ fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Problems) {
     let path = format!("probe.{name}");
     let dry = scene.fluid.is_none();
     let closed = scene.r#box.as_ref().is_some_and(|b| b.open.is_empty());
-    let flows = matches!(
-        probe,
-        Flux { .. } | Carried {} | Pressure { .. } | Gradient { .. } | Permeability { .. }
-    );
-    let boxed = matches!(
-        probe,
-        Strain { .. }
-            | VolumetricStrain {}
-            | Deviator { .. }
-            | MeanStress {}
-            | EffectiveStress { .. }
-            | Porosity { .. }
-    );
+    let flows = matches!(probe, Flux { .. } | Carried {} | Pressure { .. })
+        || matches!(probe, Gradient { .. } | Permeability { .. });
+    let boxed = matches!(probe, Strain { .. } | VolumetricStrain {} | Deviator { .. })
+        || matches!(
+            probe,
+            MeanStress {} | EffectiveStress { .. } | Porosity { .. }
+        );
     if let Stress { wall } | Borne { wall } | Flux { wall } | Amplitude { wall } = probe {
         let names = planes(scene);
         let names: Vec<_> = names.iter().map(String::as_str).collect();
@@ -164,11 +158,7 @@ fn probe(scene: &Scene, name: &str, probe: &Probe, found: &mut Problems) {
         (upwards && !no_box, "axis", "must be x or y"),
     ];
     refuse(found, &path, rules);
-    if let Pressure { from, to, .. }
-    | Gradient { from, to, .. }
-    | Level { from, to, .. }
-    | K0 { from, to, .. }
-    | Porosity { from, to, .. } = probe
+    if let Some((_, [from, to])) = probe.layer()
         && from >= to
     {
         let message = format!("must be above `from`: {to} m is not above {from} m");

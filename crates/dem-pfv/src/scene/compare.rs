@@ -153,10 +153,8 @@ impl RunSeries<'_> {
             _ => f64::NAN,
         };
         let aspect = self.origin.top / length;
-        let wanted = laws
-            .iter()
-            .find_map(|law| law.at(aspect))
-            .unwrap_or(f64::NAN);
+        let wanted = laws.iter().find_map(|law| law.at(aspect));
+        let wanted = wanted.unwrap_or(f64::NAN);
         let rows = self.rows(probe, ALL);
         let found = statistic(&rows, Statistic::Last);
         let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");

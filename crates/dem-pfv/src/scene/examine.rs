@@ -246,12 +246,8 @@ pub fn foreseen(loaded: &Loaded, count: Option<usize>) -> Result<(Cost, Vec<Stri
         );
         return Err(DemError::at("run.end", message));
     }
-    let steps = (end / step).ceil();
-    let most = scene
-        .run
-        .max_steps
-        .map_or(f64::INFINITY, |most| most as f64);
-    let steps = steps.min(most);
+    let most = scene.run.max_steps.map_or(f64::INFINITY, |n| n as f64);
+    let steps = (end / step).ceil().min(most);
     let seconds = SECONDS * grains as f64 * steps;
     let days = seconds / 86400.0;
     let remark = format!(

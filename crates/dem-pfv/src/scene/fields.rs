@@ -85,11 +85,8 @@ pub fn strain_deviators(system: &GrainSystem, origin: &Origin) -> Vec<f64> {
         let deviator = strain - Matrix3::identity() * (strain.trace() / 3.0);
         (2.0 / 3.0_f64).sqrt() * deviator.norm()
     };
-    let all = strains(
-        origin.tetrahedra(&system.grains.radius),
-        &origin.positions,
-        &moved,
-    );
+    let tetrahedra = origin.tetrahedra(&system.grains.radius);
+    let all = strains(tetrahedra, &origin.positions, &moved);
     all.into_iter().map(size).collect()
 }
 

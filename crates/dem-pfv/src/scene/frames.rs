@@ -7,6 +7,7 @@ use sph_io::{Cells, FieldData, Picture, Piece, View};
 
 use crate::Vector;
 use crate::coupled::CoupledSystem;
+use crate::flow::Throat;
 use crate::grains::{GrainSystem, Partner, Wall};
 use crate::scene::fields::unit;
 use crate::scene::{DemError, FAR_ENOUGH, Model, Origin, displacements, names, values};
@@ -120,13 +121,11 @@ fn pores(system: &CoupledSystem) -> Piece<'static> {
 
 /// A line between the places of two pores, with the conductance of the throat between them.
 fn throats(system: &CoupledSystem) -> Piece<'static> {
-    let places = system.pore_places().into_iter().map(<[f64; 3]>::from);
+    let places = system.pores().middles().into_iter().map(<[f64; 3]>::from);
     let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
     let pressure = |cell: usize| system.pressures()[cell];
-    let differences = all
-        .iter()
-        .map(|t| pressure(t.cells[0]) - pressure(t.cells[1]));
+    let difference = |t: &Throat| pressure(t.cells[0]) - pressure(t.cells[1]);
     let radii = all.iter().map(|t| t.hydraulic_radius());
     let radii = radii.map(|r| if r.is_finite() { r } else { 0.0 });
     let areas = all.iter().map(|t| t.fluid_area);
@@ -135,7 +134,11 @@ fn throats(system: &CoupledSystem) -> Piece<'static> {
         points: places.collect::<Vec<_>>().into(),
         cells: Cells::Segments(lines.into()),
         fields: vec![
-            at_cells("pressure_difference", "Pa", differences.collect()),
+            at_cells(
+                "pressure_difference",
+                "Pa",
+                all.iter().map(difference).collect(),
+            ),
             at_cells("hydraulic_radius", "m", radii.collect()),
             at_cells("fluid_area", "m²", areas.collect()),
         ],

@@ -1,15 +1,14 @@
 //! The system of a scene, grains alone or in a fluid, and its checkpoint.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use sph_run::{RunCounters, SavedState, save_state};
+use sph_run::RunCounters;
 
 use crate::coupled::{CoupledError, CoupledSystem};
 use crate::flow::Conductance;
 use crate::grains::{ContactLaw, Control, GrainSystem};
-use crate::scene::{DemError, Failure, Origin, Piston};
+use crate::scene::{Failure, Origin, Piston};
 
 /// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
 const MOTION_SHARE: f64 = 0.1;
@@ -55,13 +54,6 @@ impl Model {
         match self {
             Self::Dry(_) => None,
             Self::Wet(system) => Some(system),
-        }
-    }
-
-    /// Makes every step measure the flow through walls, if there is a fluid.
-    pub fn measure_inflow(&mut self) {
-        if let Self::Wet(system) = self {
-            system.measure_inflow();
         }
     }
 
@@ -175,42 +167,4 @@ pub struct CheckpointState {
     pub origin: Origin,
     /// Its progress.
     pub progress: Progress,
-}
-
-/// Writes a checkpoint; `scene` identifies the scene for a resume.
-pub fn save_checkpoint(
-    mut kept: CheckpointState,
-    scene: &str,
-    path: &Path,
-) -> Result<(), DemError> {
-    let meta = serde_json::json!({
-        "method": "grains",
-        "scene": scene,
-        "wall_seconds": std::mem::take(&mut kept.progress.books.wall_seconds),
-        "preparation_seconds": kept.progress.preparation_seconds,
-    });
-    Ok(save_state(path, meta, &kept)?)
-}
-
-/// Reads a checkpoint; with `changed` also one of another scene.
-pub fn load_checkpoint(
-    scene: &str,
-    changed: bool,
-    path: &Path,
-) -> Result<CheckpointState, DemError> {
-    let saved = SavedState::load(path)?;
-    let refused = |why: &str| DemError::Resume(format!("{}: {why}", path.display()));
-    if saved.meta["method"] != "grains" {
-        return Err(refused("it is the checkpoint of a scene of particles"));
-    }
-    if saved.meta["scene"] != scene && !changed {
-        return Err(refused(
-            "the scene has changed since; --changed goes on all the same, or start without --resume",
-        ));
-    }
-    let mut kept: CheckpointState = saved.state().map_err(|e| refused(&e))?;
-    let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
-    kept.progress.books.wall_seconds = seconds("wall_seconds");
-    kept.progress.preparation_seconds = seconds("preparation_seconds");
-    Ok(kept)
 }

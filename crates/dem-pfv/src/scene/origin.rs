@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 
 /// The state at the start of the run, and the measurements before it.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Origin {
     /// Lengths of the box, m, if it is closed.
     pub lengths: Option<[f64; 3]>,
@@ -43,9 +43,7 @@ impl Origin {
             top: grains.highest(),
             diameter: 2.0 * all.mean_radius(),
             load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
-            dry_strain: None,
-            mobility: None,
-            tetrahedra: OnceLock::new(),
+            ..Self::default()
         }
     }
 

@@ -11,15 +11,13 @@ use crate::sphere;
 
 /// Porosity at which a poured bed is expected to lie.
 pub(crate) const POURED: f64 = 0.4;
+/// A listener to the steps of a preparation.
+type Tell<'a> = &'a mut dyn FnMut(&str);
 /// Share of the box that grains fill before they grow.
 const BEFORE_GROWTH: f64 = 0.25;
 
 /// The grains of a scene, prepared, with the laws of the run.
-pub fn grains(
-    loaded: &Loaded,
-    mut laws: Laws,
-    tell: &mut dyn FnMut(&str),
-) -> Result<GrainSystem, DemError> {
+pub fn grains(loaded: &Loaded, mut laws: Laws, tell: Tell<'_>) -> Result<GrainSystem, DemError> {
     let scene = &loaded.scene;
     let placed = place(loaded)?;
     let prepared = std::mem::take(&mut laws.prepared);
@@ -42,34 +40,29 @@ pub fn grains(
         system.gravity = gravity;
         let steps = steps.map_err(|e| DemError::at("start.grown", e))?;
         let porosity = system.porosity().map(|n| format!(", porosity {n:.4}"));
-        tell(&format!(
-            "grown in {steps} steps{}",
-            porosity.unwrap_or_default()
-        ));
+        let porosity = porosity.unwrap_or_default();
+        tell(&format!("grown in {steps} steps{porosity}"));
     }
     settled(loaded, &mut system, tell)?;
     for (number, law) in run_laws {
         system.set_law(number, law).map_err(told)?;
     }
-    lower_the_top(scene, &mut system, top)?;
+    if let Some(top) = top {
+        lower_the_top(scene, &mut system, top)?;
+    }
     Ok(system)
 }
 
 /// Lets the grains come to rest under their `weight` and the prepared stress of pistons.
-fn settled(
-    loaded: &Loaded,
-    system: &mut GrainSystem,
-    tell: &mut dyn FnMut(&str),
-) -> Result<(), DemError> {
+fn settled(loaded: &Loaded, system: &mut GrainSystem, tell: Tell<'_>) -> Result<(), DemError> {
     let scene = &loaded.scene;
     let poured = scene.start.rained.as_ref().map(|_| 1e-2);
     let Some(tolerance) = scene.start.settle.or(poured) else {
         return Ok(());
     };
     if tolerance >= 1.0 {
-        tell(&format!(
-            "`start.settle` is {tolerance}, and 1 is free fall: the grains start as they are"
-        ));
+        let why = "and 1 is free fall: the grains start as they are";
+        tell(&format!("`start.settle` is {tolerance}, {why}"));
         return Ok(());
     }
     tell("letting the grains settle");
@@ -98,19 +91,12 @@ fn settled(
 }
 
 /// Puts the top of the box above the grains, or finds that they fit under it.
-fn lower_the_top(
-    scene: &Scene,
-    system: &mut GrainSystem,
-    top: Option<usize>,
-) -> Result<(), DemError> {
-    let (Some(top), Some(given)) = (top, &scene.r#box) else {
-        return Ok(());
-    };
-    let highest = system.highest();
-    let at = match scene.start.headroom {
-        Some(room) => highest + room,
-        None if scene.start.rained.is_some() => given.high[2],
-        None => return Ok(()),
+fn lower_the_top(scene: &Scene, system: &mut GrainSystem, top: usize) -> Result<(), DemError> {
+    let (highest, given) = (system.highest(), &scene.r#box);
+    let at = match (scene.start.headroom, given) {
+        (Some(room), _) => highest + room,
+        (None, Some(given)) if scene.start.rained.is_some() => given.high[2],
+        _ => return Ok(()),
     };
     if highest > at {
         let above = "above the top of the box: give `start.headroom`";
@@ -142,7 +128,7 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
     let size: [f64; 3] = std::array::from_fn(|k| high[k] - low[k]);
     let count = scene.grains.count.unwrap_or_default();
     if let Some(lattice) = &start.lattice {
-        return lattice_of(scene, lattice, low, size);
+        return Ok(lattice_of(scene, lattice, low, size));
     }
     if let Some(rained) = &start.rained {
         let mean = volume(&draw(10_000)) / 1e4;
@@ -164,23 +150,13 @@ fn place(loaded: &Loaded) -> Result<Vec<Grain>, DemError> {
         }
     }
     let whole = start.cloud.as_ref().is_none_or(|c| c.low.is_none());
-    for axis in scene
-        .r#box
-        .iter()
-        .filter(|_| whole)
-        .flat_map(|b| &b.periodic)
-    {
+    for axis in given.iter().filter(|_| whole).flat_map(|b| &b.periodic) {
         cloud = cloud.periodic(axis.number());
     }
     cloud.grains(&radii, density, seed).map_err(told)
 }
 
-fn lattice_of(
-    scene: &Scene,
-    lattice: &Lattice,
-    low: [f64; 3],
-    size: [f64; 3],
-) -> Result<Vec<Grain>, DemError> {
+fn lattice_of(scene: &Scene, lattice: &Lattice, low: [f64; 3], size: [f64; 3]) -> Vec<Grain> {
     let [nx, ny, nz] = lattice.count.map(|n| n as usize);
     let [small, large] = scene.grains.radius.unwrap_or_default();
     let (count, seed) = (nx * ny * nz, scene.grains.seed);
@@ -196,7 +172,7 @@ fn lattice_of(
         });
         Grain::new(at, radii[k], scene.grains.density)
     };
-    Ok((0..count).map(grain).collect())
+    (0..count).map(grain).collect()
 }
 
 pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemError> {
@@ -209,9 +185,8 @@ pub(crate) fn from_file(loaded: &Loaded, file: &str) -> Result<Vec<Grain>, DemEr
     let factor = factor.map_err(|why| DemError::at("start.unit", why))?;
     let mut grains = Vec::new();
     for (line, row) in rows(&text) {
-        let words = row
-            .split(|c: char| c == ',' || c.is_whitespace())
-            .filter(|w| !w.is_empty());
+        let words = row.split(|c: char| c == ',' || c.is_whitespace());
+        let words = words.filter(|w| !w.is_empty());
         let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
         let found = match numbers.as_deref() {
             Ok([x, y, z, r]) => {

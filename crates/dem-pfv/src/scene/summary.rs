@@ -113,8 +113,6 @@ fn derived(origin: &Origin) -> BTreeMap<String, f64> {
         ("oedometric modulus [Pa]", modulus),
         ("consolidation coefficient [m²/s]", origin.consolidation()),
     ];
-    let known = all.into_iter();
-    known
-        .filter_map(|(name, value)| Some((name.to_string(), value?)))
-        .collect()
+    let known = |(name, value): (&str, Option<f64>)| Some((name.to_string(), value?));
+    all.into_iter().filter_map(known).collect()
 }

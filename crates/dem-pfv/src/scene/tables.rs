@@ -234,9 +234,7 @@ impl Piston {
     /// σ at a time (s), Pa.
     pub(crate) fn stress_at(&self, time: f64) -> f64 {
         let turn = |period: f64| (2.0 * std::f64::consts::PI * time / period).sin();
-        let swing = self
-            .period
-            .map_or(0.0, |period| self.amplitude * turn(period));
+        let swing = self.period.map_or(0.0, |t| self.amplitude * turn(t));
         self.stress + self.ramp * time + swing
     }
 }

@@ -39,29 +39,23 @@ pub(crate) fn setup(
     }
     if let Some(given) = &scene.r#box {
         for axis in given.periodic.iter().map(|a| a.number()) {
-            setup = setup.periodic(axis, given.low[axis], given.high[axis]);
+            setup.period[axis] = Some([given.low[axis], given.high[axis]]);
         }
     }
-    for (name, table) in &scene.wall {
-        if let Some(file) = &table.file {
-            let mut mesh = surface(loaded, name, file, table)?;
-            mesh.centre = table.point.unwrap_or_default().into();
-            mesh.law = law_of(name, laws.of_others);
-            setup = setup.mesh(mesh);
-        }
+    for (name, table) in scene.wall.iter().filter(|(_, table)| table.file.is_some()) {
+        let mut mesh = surface(loaded, name, table)?;
+        mesh.centre = table.point.unwrap_or_default().into();
+        mesh.law = law_of(name, laws.of_others);
+        setup.meshes.push(mesh);
     }
     Ok(setup)
 }
 
 /// The triangles of a file, scaled and shifted.
-fn surface(
-    loaded: &Loaded,
-    name: &str,
-    file: &str,
-    table: &tables::Wall,
-) -> Result<Mesh, DemError> {
+fn surface(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<Mesh, DemError> {
     let key = format!("wall.{name}.file");
-    let read = scene_text::surface::read(&loaded.resolve(&key, file)?);
+    let file = loaded.resolve(&key, table.file.as_deref().unwrap_or_default())?;
+    let read = scene_text::surface::read(&file);
     let corners = read.map_err(|e| DemError::at(&key, e))?.triangles;
     let unit = table.unit.as_deref().and_then(|u| unit_factor(u, "m").ok());
     let factor = table.scale.or(unit).unwrap_or(1.0);

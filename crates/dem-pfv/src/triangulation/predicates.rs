@@ -79,8 +79,8 @@ impl Predicates {
     pub fn side(&self, rays: [u32; 3], e: u32) -> Ordering {
         let o = self.points[e as usize];
         if rays.iter().all(|v| self.is_point(*v)) {
-            let [a, b, c] = rays.map(|v| coord(&self.points[v as usize]));
-            return sign(orient3d(a, b, c, coord(&o)));
+            let [a, b, c] = rays.map(|v| coord(self.points[v as usize]));
+            return sign(orient3d(a, b, c, coord(o)));
         }
         let (value, size) = determinant3(&rays.map(|v| self.row(v, e)));
         if value.abs() > FLAT * size {
@@ -214,12 +214,8 @@ fn sign(x: f64) -> Ordering {
     (x + 0.0).total_cmp(&0.0)
 }
 
-fn coord(p: &[f64; 4]) -> Coord3D<f64> {
-    Coord3D {
-        x: p[0],
-        y: p[1],
-        z: p[2],
-    }
+fn coord([x, y, z, _]: [f64; 4]) -> Coord3D<f64> {
+    Coord3D { x, y, z }
 }
 
 /// Determinant and the sum of the absolute values of its products.
