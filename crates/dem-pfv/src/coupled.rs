@@ -34,7 +34,6 @@ mod limit;
 mod measure;
 mod pores;
 mod setup;
-mod state;
 mod system;
 
 pub use crate::Vector;
@@ -42,5 +41,4 @@ pub use crate::error::{CoupledError, StepLimit};
 pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
 pub use measure::Terzaghi;
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
-pub use state::State;
-pub use system::CoupledSystem;
+pub use system::{CoupledSystem, State};

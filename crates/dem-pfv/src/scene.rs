@@ -51,8 +51,6 @@ mod frames;
 mod laws;
 mod measure;
 mod model;
-mod names;
-mod origin;
 mod prepare;
 mod read;
 mod run;
@@ -70,16 +68,14 @@ pub(crate) use fields::{displacements, names, strain_deviators, values};
 pub(crate) use laws::{Laws, throats};
 pub(crate) use measure::{headings, row};
 pub(crate) use model::{CheckpointState, Progress};
-pub use model::{Model, Saved};
-pub(crate) use names::{BOX, FAR_ENOUGH, periodic, planes, planes_with_tables, surfaces};
-pub use origin::Origin;
+pub use model::{Model, Origin, Saved};
 pub(crate) use prepare::{POURED, from_file, named, volume};
 pub use read::{Loaded, editor_schema, is_grain_scene, read};
 pub use run::{DiscreteElements, identity, run};
 pub use summary::Summary;
-pub(crate) use tables::RecordedLoad;
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
     Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
+pub(crate) use tables::{BOX, RecordedLoad};
 pub(crate) use walls::{FAR, control, setup};

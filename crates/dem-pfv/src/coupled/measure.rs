@@ -113,6 +113,11 @@ impl CoupledSystem {
         self.grains
     }
 
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.grains.time
+    }
+
     /// The fluid, the conditions and the criterion for meshes.
     pub fn setup(&self) -> &FlowSetup {
         &self.setup

@@ -1,10 +1,12 @@
-//! The coupled system: made, stepped, meshed anew.
+//! The coupled system: made, stepped, meshed anew, saved and resumed.
+
+use serde::{Deserialize, Serialize};
 
 use crate::coupled::limit::{Mode, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores, transferred};
 use crate::coupled::{CoupledError, FlowSetup, StepLimit, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
-use crate::grains::GrainSystem;
+use crate::grains::{self, ContactLaw, GrainSystem};
 use crate::{POSITIVE, require, sphere};
 
 /// Grains that move, and the fluid in the pores between them.
@@ -32,7 +34,7 @@ pub struct CoupledSystem {
 }
 
 /// State remembered from step to step.
-#[derive(Clone, Debug, Default, serde::Deserialize, serde::Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub(crate) struct Clock {
     /// Volumes of the cells where grains are now, m³.
     pub volumes: Vec<f64>,
@@ -53,6 +55,17 @@ pub(crate) struct Clock {
     /// Mode of strongest drag, and whether it is that of this mesh.
     pub mode: Mode,
     pub fresh: bool,
+}
+
+/// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
+/// keeps every bit of a number.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct State {
+    grains: grains::State,
+    setup: FlowSetup,
+    /// Places at which the mesh was made; it is made again there.
+    places: Places,
+    clock: Clock,
 }
 
 impl CoupledSystem {
@@ -77,36 +90,37 @@ impl CoupledSystem {
     ) -> Result<Self, CoupledError> {
         check(&grains, &setup)?;
         let places = Places::from_grains(&grains);
-        let storage_step = 0.1 * grains.critical_step();
-        let pores = Pores::new(places, &grains, &setup, &*law, storage_step, GIVEN)?;
-        let volumes = pores.geometry.volumes.to_vec();
         let clock = Clock {
-            rates: vec![0.0; volumes.len()],
-            pressures: vec![0.0; volumes.len()],
-            volumes,
             meshes: 1,
-            storage_step,
+            storage_step: 0.1 * grains.critical_step(),
             ..Clock::default()
         };
-        Ok(Self::from_parts(grains, setup, law, pores, clock))
+        let mut system = Self::meshed(grains, setup, law, (places, GIVEN), clock)?;
+        let clock = &mut system.clock;
+        clock.volumes = system.pores.geometry.volumes.to_vec();
+        clock.rates = vec![0.0; clock.volumes.len()];
+        clock.pressures = clock.rates.clone();
+        Ok(system)
     }
 
-    pub(crate) fn from_parts(
+    /// With the mesh of grains at their places and the deepest overlap.
+    fn meshed(
         grains: GrainSystem,
         setup: FlowSetup,
         law: Box<dyn Conductance>,
-        pores: Pores,
+        (places, deepest): (Places, f64),
         clock: Clock,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, CoupledError> {
+        let step = clock.storage_step;
+        Ok(Self {
+            pores: Pores::new(places, &grains, &setup, &*law, step, deepest)?,
             grains,
             setup,
             law,
-            pores,
             clock,
             evaluated: false,
             inflows: None,
-        }
+        })
     }
 
     fn evaluate(&mut self) -> Result<(), CoupledError> {
@@ -182,9 +196,9 @@ impl CoupledSystem {
     /// λ_max Δt / 2 + ω_max² Δt² / 4 < 1
     /// ```
     ///
-    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found anew every hundred steps. Walls that follow a
-    /// servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it moved alone and is too
-    /// long by a factor of three to six for narrow gradings.
+    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found anew every
+    /// hundred steps. Walls that follow a servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it
+    /// moved alone and is too long by a factor of three to six for narrow gradings.
     ///
     /// # Errors
     /// A system that cannot be solved.
@@ -339,13 +353,43 @@ impl CoupledSystem {
         done
     }
 
-    /// Time, s.
-    pub fn time(&self) -> f64 {
-        self.grains.time
+    /// State to resume.
+    pub fn save(&self) -> State {
+        State {
+            grains: self.grains.save(),
+            setup: self.setup.clone(),
+            places: self.pores.places.clone(),
+            clock: self.clock.clone(),
+        }
+    }
+
+    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together.
+    pub fn resume(
+        state: State,
+        laws: Vec<Box<dyn ContactLaw>>,
+        law: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        let grains = GrainSystem::resume(state.grains, laws)?;
+        let (setup, places, clock) = (state.setup, state.places, state.clock);
+        check(&grains, &setup)?;
+        let bad = |problem| Err(CoupledError::BadState(problem));
+        if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
+            return bad("the mesh is that of other grains or walls");
+        }
+        let system = Self::meshed(grains, setup, law, (places, PRESSED), clock)?;
+        let (clock, cells) = (&system.clock, system.pores.geometry.volumes.len());
+        let columns = [&clock.volumes, &clock.rates, &clock.pressures];
+        if columns.iter().any(|c| c.len() != cells) {
+            return bad("columns of the pores differ in length from the mesh");
+        }
+        Ok(system)
     }
 }
 
-pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
+fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
     if !grains.meshes.is_empty() {
         return Err(CoupledError::Meshes(grains.meshes.len()));
     }

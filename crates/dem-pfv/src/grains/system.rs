@@ -245,22 +245,6 @@ impl GrainSystem {
         }
     }
 
-    /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
-    ///
-    /// # Errors
-    /// If there is no such mesh or a number is not finite.
-    pub fn steer_mesh(
-        &mut self,
-        mesh: usize,
-        velocity: Vector,
-        spin: Vector,
-    ) -> Result<(), GrainError> {
-        let none = || GrainError::BadMesh(mesh, 0, "there is no such mesh".into());
-        let moved = self.meshes.get_mut(mesh).ok_or_else(none)?;
-        (moved.velocity, moved.spin) = (velocity, spin);
-        moved.check(mesh)
-    }
-
     /// Sets the clock to zero, as when a preparation is over. Nothing else changes.
     pub fn restart_clock(&mut self) {
         (self.time, self.steps, self.limit_due) = (0.0, 0, 0);

@@ -9,8 +9,7 @@ use sph_core::bounds;
 use crate::error::DEEPEST;
 use crate::grains::{Grain, GrainSystem, Setup};
 use crate::scene::{
-    BOX, DemError, Fluid, Laws, Loaded, POURED, Plugins, Scene, from_file, headings, planes, setup,
-    surfaces, volume,
+    BOX, DemError, Fluid, Laws, Loaded, POURED, Plugins, Scene, from_file, headings, setup, volume,
 };
 
 /// Data of a scene before it runs.
@@ -62,8 +61,8 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
         method: "grains",
         grains: count(scene).or(scene.start.file.as_ref().map(|_| estimate.grains)),
         start: start(scene),
-        walls: planes(scene),
-        surfaces: surfaces(scene),
+        walls: scene.planes(),
+        surfaces: scene.surfaces().map(|(name, _)| name.clone()).collect(),
         coupled,
         plugins: plugins(scene),
         columns: headings(scene),
@@ -303,7 +302,7 @@ fn carried(loaded: &Loaded, radius: f64) -> Result<(), DemError> {
     let fluid = scene.fluid.as_ref().map_or(0.0, |f| f.given.density);
     let mass = (scene.grains.density - fluid) * volume(&[radius]);
     let deepest = DEEPEST * radius;
-    for (wall, name) in setup.walls.iter().zip(planes(scene)) {
+    for (wall, name) in setup.walls.iter().zip(scene.planes()) {
         let weight = -mass * setup.gravity.dot(&wall.normal);
         let law = &setup.laws[wall.law];
         let parts = 64;

@@ -10,7 +10,7 @@ use crate::coupled::CoupledSystem;
 use crate::flow::Throat;
 use crate::grains::{GrainSystem, Partner, Wall};
 use crate::scene::fields::unit;
-use crate::scene::{DemError, FAR_ENOUGH, Model, Origin, displacements, names, values};
+use crate::scene::{DemError, Model, Origin, displacements, names, values};
 use crate::triangulation::Vertex;
 
 /// Everything at one time: `spheres`, `contacts`, and with a fluid `pores` and `throats`.
@@ -179,6 +179,9 @@ pub fn picture(
     };
     Ok(picture.save(path)?)
 }
+
+/// Walls beyond this place are not there any more, m.
+const FAR_ENOUGH: f64 = 5e3;
 
 /// Walls across x and z as lines around the contents.
 fn walls(system: &GrainSystem, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {

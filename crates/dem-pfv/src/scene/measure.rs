@@ -7,9 +7,7 @@ use nalgebra::Matrix3;
 use sph_core::bounds;
 
 use crate::grains::{GrainSystem, Vector};
-use crate::scene::{
-    Box, Model, Origin, Probe, Scene, displacements, periodic, planes, strain_deviators,
-};
+use crate::scene::{Box, Model, Origin, Probe, Scene, displacements, strain_deviators};
 use crate::sphere;
 
 /// Unit of a probe's values.
@@ -29,7 +27,7 @@ pub fn unit(probe: &Probe) -> &'static str {
 /// Present value of a probe; none where there is nothing to measure.
 fn value(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Option<f64> {
     let grains = model.grains();
-    let wall = |name: &str| planes(scene).iter().position(|p| p == name);
+    let wall = |name: &str| scene.planes().iter().position(|p| p == name);
     let (axis, [from, to]) = probe.layer().unwrap_or_default();
     match probe {
         Probe::Stress { wall: name } => grains.wall_stress(wall(name)?).ok(),
@@ -233,7 +231,7 @@ fn common(scene: &Scene) -> impl Iterator<Item = &'static Common> {
 /// True if the box has six walls or periodic ends all the time.
 fn closed(scene: &Scene) -> bool {
     let removed = scene.wall.values().any(|w| w.removed);
-    let whole = |b: &Box| b.open.is_empty() || (0..3).all(|axis| periodic(scene, axis));
+    let whole = |b: &Box| b.open.is_empty() || (0..3).all(|axis| scene.periodic(axis));
     !removed && scene.r#box.as_ref().is_some_and(whole)
 }
 

@@ -4,8 +4,7 @@ use crate::grains::{
     Cloud, Grain, GrainError, GrainSystem, Partner, rain, step_to_rest, uniform_radii,
 };
 use crate::scene::{
-    DemError, FAR, Fluid, Lattice, Laws, Loaded, Oedometer, Scene, Weight, control, planes,
-    planes_with_tables, setup,
+    DemError, FAR, Fluid, Lattice, Laws, Loaded, Oedometer, Scene, Weight, control, setup,
 };
 use crate::sphere;
 
@@ -22,7 +21,7 @@ pub fn grains(loaded: &Loaded, mut laws: Laws, tell: Tell<'_>) -> Result<GrainSy
     let placed = place(loaded)?;
     let prepared = std::mem::take(&mut laws.prepared);
     let mut setup = setup(loaded, placed, laws)?;
-    let top = planes(scene).iter().position(|p| p == "top");
+    let top = scene.planes().iter().position(|p| p == "top");
     let poured = scene.start.rained.is_some();
     if let (true, Some(top)) = (poured, top) {
         setup.walls[top].point.z += FAR;
@@ -67,7 +66,10 @@ fn settled(loaded: &Loaded, system: &mut GrainSystem, tell: Tell<'_>) -> Result<
     }
     tell("letting the grains settle");
     let mass: f64 = system.grains.mass.iter().sum();
-    for (number, table) in planes_with_tables(scene).filter(|(_, w)| w.piston.is_some()) {
+    for (number, table) in scene
+        .planes_with_tables()
+        .filter(|(_, w)| w.piston.is_some())
+    {
         let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
         system.walls[number].control = before;
     }
@@ -212,7 +214,7 @@ pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Resu
     let told = |e: GrainError| DemError::at(key, e);
     let laws = Laws::from_scene(scene)?.all;
     let mut dry = GrainSystem::resume(grains.save(), laws).map_err(told)?;
-    let wall = planes(scene).iter().position(|p| *p == test.wall);
+    let wall = scene.planes().iter().position(|p| *p == test.wall);
     let piston = scene.wall.get(&test.wall).and_then(|w| w.piston.as_ref());
     let (Some(wall), Some(piston)) = (wall, piston) else {
         return Err(DemError::at(key, "has no piston"));
@@ -247,7 +249,7 @@ pub fn named(loaded: &Loaded, error: &GrainError) -> String {
         body: Partner::Wall(wall),
         ..
     } = error
-        && let Some(name) = planes(&loaded.scene).get(*wall)
+        && let Some(name) = loaded.scene.planes().get(*wall)
     {
         names.push(format!("wall {wall} is `{name}`"));
     }

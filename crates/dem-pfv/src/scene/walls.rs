@@ -3,7 +3,7 @@
 use scene_text::unit_factor;
 
 use crate::grains::{Control, Mesh, Setup, Wall};
-use crate::scene::{BOX, DemError, Laws, Loaded, planes, tables};
+use crate::scene::{BOX, DemError, Laws, Loaded, tables};
 
 /// Distance of a wall that is not there, m.
 pub(crate) const FAR: f64 = 1e4;
@@ -25,7 +25,7 @@ pub(crate) fn setup(
         ..Setup::default()
     };
     let cuboid = scene.r#box.as_ref().map(|b| Wall::cuboid(b.low, b.high));
-    for name in planes(scene) {
+    for name in scene.planes() {
         let boxed = BOX.iter().position(|b| *b == name).zip(cuboid);
         let wall = match (boxed, scene.wall.get(&name)) {
             (Some((number, cuboid)), _) => cuboid[number].with_law(law_of(&name, laws.of_box)),
@@ -42,7 +42,7 @@ pub(crate) fn setup(
             setup.period[axis] = Some([given.low[axis], given.high[axis]]);
         }
     }
-    for (name, table) in scene.wall.iter().filter(|(_, table)| table.file.is_some()) {
+    for (name, table) in scene.surfaces() {
         let mut mesh = surface(loaded, name, table)?;
         mesh.centre = table.point.unwrap_or_default().into();
         mesh.law = law_of(name, laws.of_others);
