@@ -103,9 +103,8 @@ fn neighbours(matrix: &UpperTriangle) -> Groups {
     let n = matrix.len();
     let pairs = (0..n as u32).flat_map(|c| {
         let range = matrix.starts[c as usize] as usize..matrix.diagonal(c as usize);
-        matrix.rows[range]
-            .iter()
-            .flat_map(move |r| [(*r, c), (c, *r)])
+        let rows = matrix.rows[range].iter();
+        rows.flat_map(move |r| [(*r, c), (c, *r)])
     });
     Groups::new(n, pairs)
 }

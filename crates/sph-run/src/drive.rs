@@ -6,8 +6,7 @@ use std::time::Instant;
 use sph_io::{FolderLock, IoError, SeriesWriter};
 
 use crate::frames::{Frames, Outlay};
-use crate::model::{Model, Poll, RunCounters, Status};
-use crate::observer::{Command, Progress, Watch};
+use crate::model::{Command, Model, Poll, Progress, RunCounters, Status, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 use crate::schedule::{DueOutputs, Schedule};
 

@@ -26,13 +26,6 @@ pub(crate) struct EdgeForces {
     edges: Vec<Edge>,
 }
 
-/// Force (N) and moment (N m) on every grain, force on every wall.
-pub(crate) struct Loads {
-    pub forces: Vec<Vector>,
-    pub torques: Vec<Vector>,
-    pub walls: Vec<Vector>,
-}
-
 /// The gap between two neighbours.
 struct Gap {
     /// From the sphere to its neighbour.
@@ -64,15 +57,12 @@ impl EdgeForces {
         edges.filter_map(move |edge| Some((edge, gap(edge, grains, fluid)?)))
     }
 
-    /// Forces of the velocities of now; every body sums its edges in their order.
-    pub fn apply(&self, grains: &GrainSystem, fluid: &Fluid) -> Loads {
+    /// Force (N) and moment (N m) of the velocities of now on every grain, and force on every wall; every body sums its
+    /// edges in their order.
+    pub fn apply(&self, grains: &GrainSystem, fluid: &Fluid) -> [Vec<Vector>; 3] {
         let g = &grains.grains;
-        let zero = vec![Vector::zeros(); g.len()];
-        let mut loads = Loads {
-            forces: zero.clone(),
-            torques: zero,
-            walls: vec![Vector::zeros(); grains.walls.len()],
-        };
+        let counts = [g.len(), g.len(), grains.walls.len()];
+        let [mut forces, mut torques, mut walls] = counts.map(|n| vec![Vector::zeros(); n]);
         for (edge, gap) in self.gaps(grains, fluid) {
             let k = edge.sphere;
             let there = |sphere: usize, lever: f64| {
@@ -87,17 +77,17 @@ impl EdgeForces {
             let along = difference.dot(&gap.normal) * gap.normal;
             let [sliding, parting] = gap.resistances;
             let force = sliding * (difference - along) + parting * along;
-            loads.forces[k] += force;
-            loads.torques[k] += lever * gap.normal.cross(&force);
+            forces[k] += force;
+            torques[k] += lever * gap.normal.cross(&force);
             match edge.other {
                 Vertex::Sphere(l) => {
-                    loads.forces[l] -= force;
-                    loads.torques[l] += beyond * gap.normal.cross(&force);
+                    forces[l] -= force;
+                    torques[l] += beyond * gap.normal.cross(&force);
                 }
-                Vertex::Wall(w) => loads.walls[w] -= force,
+                Vertex::Wall(w) => walls[w] -= force,
             }
         }
-        loads
+        [forces, torques, walls]
     }
 
     /// A bound (1/s) of the largest eigenvalue of M⁻¹ times the resistances, and the grain that has it:

@@ -262,13 +262,13 @@ impl CoupledSystem {
             wall.external_force = *f;
         }
         if let Some(edges) = &pores.edges {
-            let loads = edges.apply(&self.grains, &self.setup.fluid);
+            let [forces, torques, walls] = edges.apply(&self.grains, &self.setup.fluid);
             let grains = &mut self.grains.grains;
-            for (external, f) in grains.external_force.iter_mut().zip(&loads.forces) {
+            for (external, f) in grains.external_force.iter_mut().zip(&forces) {
                 *external += f;
             }
-            grains.external_torque.copy_from_slice(&loads.torques);
-            for (wall, f) in self.grains.walls.iter_mut().zip(&loads.walls) {
+            grains.external_torque.copy_from_slice(&torques);
+            for (wall, f) in self.grains.walls.iter_mut().zip(&walls) {
                 wall.external_force += f;
             }
         }

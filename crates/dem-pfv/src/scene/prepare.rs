@@ -28,7 +28,11 @@ pub fn grains(loaded: &Loaded, mut laws: Laws, tell: Tell<'_>) -> Result<GrainSy
     }
     let mut swap = |(k, law)| (k, std::mem::replace(&mut setup.laws[k], law));
     let run_laws: Vec<_> = prepared.into_iter().map(&mut swap).collect();
-    let told = |e: GrainError| at_start(loaded, e);
+    let told = |e: GrainError| {
+        let file = scene.start.file.as_ref();
+        let message = format!("{e}{}", named(loaded, &e));
+        DemError::at(file.map_or("start", |_| "start.file"), message)
+    };
     let mut system = GrainSystem::new(setup).map_err(told)?;
     if let Some(grown) = &scene.start.grown {
         tell("growing the grains");
@@ -66,10 +70,8 @@ fn settled(loaded: &Loaded, system: &mut GrainSystem, tell: Tell<'_>) -> Result<
     }
     tell("letting the grains settle");
     let mass: f64 = system.grains.mass.iter().sum();
-    for (number, table) in scene
-        .planes_with_tables()
-        .filter(|(_, w)| w.piston.is_some())
-    {
+    let pistons = scene.planes_with_tables();
+    for (number, table) in pistons.filter(|(_, w)| w.piston.is_some()) {
         let before = control(table, mass, |p| p.prepared.unwrap_or(p.stress));
         system.walls[number].control = before;
     }
@@ -231,13 +233,6 @@ pub fn dry_strain(scene: &Scene, test: &Oedometer, grains: &GrainSystem) -> Resu
     }
     step_to_rest(&mut dry, safety, 1e-6, most).map_err(told)?;
     Ok((height(grains) - height(&dry)) / height(grains))
-}
-
-/// A refusal at the start with the names of its walls, and with the lines of its grains if they come from a file.
-pub fn at_start(loaded: &Loaded, error: GrainError) -> DemError {
-    let file = loaded.scene.start.file.as_ref();
-    let message = format!("{error}{}", named(loaded, &error));
-    DemError::at(file.map_or("start", |_| "start.file"), message)
 }
 
 /// The names of the walls and the lines of the grains that an error numbers, in brackets; empty if it has none.

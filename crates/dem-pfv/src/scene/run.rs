@@ -56,7 +56,20 @@ pub fn run(
         folders: output.picture.iter().take(1).map(|_| "pictures").collect(),
     };
     pool.install(|| {
-        let mut running = Running::new(loaded, options, observer)?;
+        let mut running = Running {
+            loaded,
+            options,
+            parts: None,
+            progress: Progress::default(),
+            limiter: "none",
+        };
+        if options.start == Start::Afresh {
+            let begun = Instant::now();
+            running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
+            let seconds = begun.elapsed().as_secs_f64();
+            running.progress.preparation_seconds = seconds;
+            running.progress.books.wall_seconds = seconds;
+        }
         let summary = sph_run::run(&mut running, options, &schedule, outlay, observer)?;
         summary.ok_or_else(|| DemError::Resume("there is no summary of the run".into()))
     })
@@ -72,28 +85,7 @@ struct Running<'a> {
     limiter: &'static str,
 }
 
-impl<'a> Running<'a> {
-    fn new(
-        loaded: &'a Loaded,
-        options: &'a RunOptions,
-        observer: &mut Watch<'_>,
-    ) -> Result<Self, DemError> {
-        let (mut parts, mut progress) = (None, Progress::default());
-        if options.start == Start::Afresh {
-            let begun = Instant::now();
-            parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
-            progress.preparation_seconds = begun.elapsed().as_secs_f64();
-            progress.books.wall_seconds = progress.preparation_seconds;
-        }
-        Ok(Running {
-            loaded,
-            options,
-            parts,
-            progress,
-            limiter: "none",
-        })
-    }
-
+impl Running<'_> {
     fn parts(&self) -> Result<&Assembled, DemError> {
         let none = || DemError::Resume("there are no grains yet".into());
         self.parts.as_ref().ok_or_else(none)
