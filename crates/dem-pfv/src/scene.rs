@@ -46,7 +46,6 @@ mod check;
 mod compare;
 mod error;
 mod examine;
-mod fields;
 mod frames;
 mod laws;
 mod measure;
@@ -56,7 +55,6 @@ mod read;
 mod run;
 mod summary;
 mod tables;
-mod walls;
 
 pub(crate) use assemble::loads;
 pub use assemble::{Assembled, assemble};
@@ -64,12 +62,12 @@ pub use compare::Compared;
 pub use error::{DemError, Failure};
 pub(crate) use examine::plugins;
 pub use examine::{Cost, Examination, PluginInForce, examine};
-pub(crate) use fields::{displacements, names, strain_deviators, values};
+pub(crate) use frames::{displacements, names, strain_deviators, values};
 pub(crate) use laws::{Laws, throats};
 pub(crate) use measure::{headings, row};
 pub(crate) use model::{CheckpointState, Progress};
 pub use model::{Model, Origin, Saved};
-pub(crate) use prepare::{POURED, from_file, named, volume};
+pub(crate) use prepare::{FAR, POURED, control, from_file, named, setup, volume};
 pub use read::{Loaded, editor_schema, is_grain_scene, read};
 pub use run::{DiscreteElements, identity, run};
 pub use summary::Summary;
@@ -78,4 +76,3 @@ pub use tables::{
     Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
 pub(crate) use tables::{BOX, RecordedLoad};
-pub(crate) use walls::{FAR, control, setup};
