@@ -43,10 +43,7 @@ impl GrainSystem {
         match part {
             0 => Partner::Grain(second),
             part if part <= walls => Partner::Wall(part - 1),
-            part => Partner::Triangle {
-                mesh: part - 1 - walls,
-                triangle: second,
-            },
+            part => Partner::Triangle(part - 1 - walls, second),
         }
     }
 
@@ -169,14 +166,10 @@ impl GrainSystem {
             let first = above(touch.grain);
             let second = match touch.partner {
                 Partner::Grain(other) => above(other),
-                Partner::Wall(wall) => {
-                    let wall = &self.walls[wall];
-                    match wall.normal[axis].abs() > 0.5 {
-                        true => wall.point[axis] >= at,
-                        false => first,
-                    }
+                Partner::Wall(wall) if self.walls[wall].normal[axis].abs() > 0.5 => {
+                    self.walls[wall].point[axis] >= at
                 }
-                Partner::Triangle { .. } => first,
+                _ => first,
             };
             if first != second {
                 force += if first { 1.0 } else { -1.0 } * touch.force[axis];

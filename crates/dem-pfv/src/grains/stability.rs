@@ -136,13 +136,9 @@ impl GrainSystem {
             return Ok(());
         };
         let grain = slot.first as usize;
-        Err(GrainError::TooDeep {
-            grain,
-            at: self.grains.position[grain].into(),
-            body: self.partner(part, slot),
-            overlap: slot.overlap,
-            share: slot.overlap / self.grains.radius[grain],
-        })
+        let (at, body) = (self.grains.position[grain].into(), self.partner(part, slot));
+        let share = slot.overlap / self.grains.radius[grain];
+        Err(GrainError::TooDeep(grain, at, body, slot.overlap, share))
     }
 
     pub(crate) fn check_overlaps(&mut self) -> Result<(), GrainError> {

@@ -158,8 +158,7 @@ fn cap_volume(radius: f64, up: f64) -> f64 {
 
 /// Porosity between two planes across an axis of a closed box.
 fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64> {
-    let lengths = grains.box_lengths()?;
-    let area = lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3];
+    let area = grains.section(axis).ok()?;
     let all = &grains.grains;
     let below = |x: &Vector, r: f64, at: f64| cap_volume(r, at - x[axis]);
     let parts = all.position.iter().zip(&all.radius);

@@ -243,10 +243,7 @@ pub fn named(loaded: &Loaded, error: &GrainError) -> String {
     let mut names = Vec::new();
     if let GrainError::InWall(_, wall, ..)
     | GrainError::BadWall(wall, _)
-    | GrainError::TooDeep {
-        body: Partner::Wall(wall),
-        ..
-    } = error
+    | GrainError::TooDeep(_, _, Partner::Wall(wall), ..) = error
         && let Some(name) = loaded.scene.planes().get(*wall)
     {
         names.push(format!("wall {wall} is `{name}`"));
