@@ -41,4 +41,4 @@ pub use crate::error::{CoupledError, StepLimit};
 pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
 pub use measure::Terzaghi;
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
-pub use system::{CoupledSystem, State};
+pub use system::{CoupledSystem, PoreState, State};

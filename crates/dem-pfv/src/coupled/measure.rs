@@ -127,26 +127,6 @@ impl CoupledSystem {
     pub fn pores(&self) -> &PoreGeometry {
         &self.pores.geometry
     }
-
-    /// Pressures of all cells at the last step, Pa.
-    pub fn pressures(&self) -> &[f64] {
-        &self.clock.pressures
-    }
-
-    /// Volumes of all cells where the grains are now, m³; they add up to the box.
-    pub fn volumes(&self) -> &[f64] {
-        &self.clock.volumes
-    }
-
-    /// Rates at which the volumes changed in the last step, m³/s.
-    pub fn volume_rates(&self) -> &[f64] {
-        &self.clock.rates
-    }
-
-    /// Number of meshes made, the first included.
-    pub fn meshes(&self) -> u64 {
-        self.clock.meshes
-    }
 }
 
 /// Exact consolidation of an elastic layer under a sudden load, drained at one face: dp/dt = C_v d²p/dz².

@@ -5,6 +5,7 @@ use sph_core::parameters;
 
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
+use crate::grains::GrainSystem;
 use crate::{AT_LEAST_0, POSITIVE, require};
 
 /// The fluid in the pores.
@@ -142,7 +143,14 @@ impl FlowSetup {
         self
     }
 
-    pub(crate) fn check(&self, walls: usize) -> Result<(), CoupledError> {
+    pub(crate) fn check(&self, grains: &GrainSystem) -> Result<(), CoupledError> {
+        if !grains.meshes.is_empty() {
+            return Err(CoupledError::Meshes(grains.meshes.len()));
+        }
+        if let Some(axis) = grains.period.iter().position(Option::is_some) {
+            return Err(CoupledError::Periodic(axis));
+        }
+        let walls = grains.walls.len();
         self.fluid.check()?;
         if self.sides.len() != walls {
             return Err(CoupledError::Sides(self.sides.len(), walls));

@@ -1,5 +1,7 @@
 //! The coupled system: made, stepped, meshed anew, saved and resumed.
 
+use std::ops::Deref;
+
 use serde::{Deserialize, Serialize};
 
 use crate::coupled::limit::{Mode, combined, strongest_drag};
@@ -26,35 +28,43 @@ pub struct CoupledSystem {
     pub(crate) setup: FlowSetup,
     pub(crate) law: Box<dyn Conductance>,
     pub(crate) pores: Pores,
-    pub(crate) clock: Clock,
+    pub(crate) clock: PoreState,
     /// True if contacts were found where the grains are now.
     pub(crate) evaluated: bool,
     /// Flux into the pores through every wall at the last step, m³/s, if it is measured; none before the first.
     pub(crate) inflows: Option<Vec<f64>>,
 }
 
-/// State remembered from step to step.
+/// State of the pores that is remembered from step to step.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
-pub(crate) struct Clock {
-    /// Volumes of the cells where grains are now, m³.
+pub struct PoreState {
+    /// Volumes of all cells where the grains are now, m³; they add up to the box.
     pub volumes: Vec<f64>,
     /// Rates at which they changed in the last step, m³/s; none before the first.
     pub rates: Vec<f64>,
-    /// Pressures of the last step, Pa.
+    /// Pressures of all cells at the last step, Pa.
     pub pressures: Vec<f64>,
     /// Strain summed since the mesh was made.
-    pub strain: f64,
+    pub(crate) strain: f64,
     /// Steps since then.
-    pub age: u64,
-    /// Meshes made.
+    pub(crate) age: u64,
+    /// Number of meshes made, the first included.
     pub meshes: u64,
     /// The last step, s; none before the first.
-    pub last_step: Option<f64>,
+    pub(crate) last_step: Option<f64>,
     /// Step for which a fluid that gives way was factorised, s.
-    pub storage_step: f64,
+    pub(crate) storage_step: f64,
     /// Mode of strongest drag, and whether it is that of this mesh.
-    pub mode: Mode,
-    pub fresh: bool,
+    pub(crate) mode: Mode,
+    pub(crate) fresh: bool,
+}
+
+impl Deref for CoupledSystem {
+    type Target = PoreState;
+
+    fn deref(&self) -> &PoreState {
+        &self.clock
+    }
 }
 
 /// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
@@ -65,7 +75,7 @@ pub struct State {
     setup: FlowSetup,
     /// Places at which the mesh was made; it is made again there.
     places: Places,
-    clock: Clock,
+    clock: PoreState,
 }
 
 impl CoupledSystem {
@@ -88,12 +98,12 @@ impl CoupledSystem {
         setup: FlowSetup,
         law: Box<dyn Conductance>,
     ) -> Result<Self, CoupledError> {
-        check(&grains, &setup)?;
+        setup.check(&grains)?;
         let places = Places::from_grains(&grains);
-        let clock = Clock {
+        let clock = PoreState {
             meshes: 1,
             storage_step: 0.1 * grains.critical_step(),
-            ..Clock::default()
+            ..PoreState::default()
         };
         let mut system = Self::meshed(grains, setup, law, (places, GIVEN), clock)?;
         let clock = &mut system.clock;
@@ -109,7 +119,7 @@ impl CoupledSystem {
         setup: FlowSetup,
         law: Box<dyn Conductance>,
         (places, deepest): (Places, f64),
-        clock: Clock,
+        clock: PoreState,
     ) -> Result<Self, CoupledError> {
         let step = clock.storage_step;
         Ok(Self {
@@ -374,7 +384,7 @@ impl CoupledSystem {
     ) -> Result<Self, CoupledError> {
         let grains = GrainSystem::resume(state.grains, laws)?;
         let (setup, places, clock) = (state.setup, state.places, state.clock);
-        check(&grains, &setup)?;
+        setup.check(&grains)?;
         let bad = |problem| Err(CoupledError::BadState(problem));
         if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
             return bad("the mesh is that of other grains or walls");
@@ -387,14 +397,4 @@ impl CoupledSystem {
         }
         Ok(system)
     }
-}
-
-fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
-    if !grains.meshes.is_empty() {
-        return Err(CoupledError::Meshes(grains.meshes.len()));
-    }
-    if let Some(axis) = grains.period.iter().position(Option::is_some) {
-        return Err(CoupledError::Periodic(axis));
-    }
-    setup.check(grains.walls.len())
 }

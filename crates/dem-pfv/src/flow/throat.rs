@@ -131,10 +131,8 @@ impl Pores<'_> {
             Vertex::Sphere(k) => base.unwrap_or_default() - self.mesh.spheres[k].centre,
             Vertex::Wall(w) => self.mesh.walls[w].normal,
         };
-        match area.dot(&direction) < 0.0 {
-            true => -area,
-            false => area,
-        }
+        let inwards = area.dot(&direction) < 0.0;
+        if inwards { -area } else { area }
     }
 
     /// Sectors, volume and wetted areas of the spheres.

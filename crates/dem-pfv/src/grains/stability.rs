@@ -27,11 +27,8 @@ impl GrainSystem {
             let law = self.law_of(part);
             let wall = part.checked_sub(1).and_then(|k| self.walls.get(k));
             let piston = wall.map(Wall::mass).filter(|mass| mass.is_finite());
-            let weight = if part == 0 || piston.is_some() {
-                2.0
-            } else {
-                1.0
-            };
+            let both_move = part == 0 || piston.is_some();
+            let weight = if both_move { 2.0 } else { 1.0 };
             let mut stiffness_of_wall = 0.0;
             for slot in slots.iter().filter(|s| s.active) {
                 let first = slot.first as usize;

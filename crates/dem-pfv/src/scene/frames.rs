@@ -104,15 +104,15 @@ fn pores(system: &CoupledSystem) -> Piece<'static> {
             }
         }));
     }
-    let rates = system.volume_rates().iter().zip(system.volumes());
+    let rates = system.rates.iter().zip(&system.volumes);
     let rates = rates.map(|(rate, volume)| rate / volume);
     Piece {
         name: "pores".into(),
         points: places.into(),
         cells: Cells::Tetrahedra(cells.into()),
         fields: vec![
-            at_cells("pressure", "Pa", system.pressures().to_vec()),
-            at_cells("volume", "m³", system.volumes().to_vec()),
+            at_cells("pressure", "Pa", system.pressures.to_vec()),
+            at_cells("volume", "m³", system.volumes.to_vec()),
             at_cells("void", "m³", system.pores().void_volumes.to_vec()),
             at_cells("strain_rate", "1/s", rates.collect()),
         ],
@@ -124,7 +124,7 @@ fn throats(system: &CoupledSystem) -> Piece<'static> {
     let places = system.pores().middles().into_iter().map(<[f64; 3]>::from);
     let all = &system.pores().throats;
     let lines: Vec<[u32; 2]> = all.iter().map(|t| t.cells.map(|c| c as u32)).collect();
-    let pressure = |cell: usize| system.pressures()[cell];
+    let pressure = |cell: usize| system.pressures[cell];
     let difference = |t: &Throat| pressure(t.cells[0]) - pressure(t.cells[1]);
     let radii = all.iter().map(|t| t.hydraulic_radius());
     let radii = radii.map(|r| if r.is_finite() { r } else { 0.0 });
@@ -308,7 +308,7 @@ fn pore_pressures(model: &Model) -> Vec<f64> {
     let mut sums = vec![[0.0; 2]; model.grains().grains.len()];
     if let Some(system) = model.wet() {
         let cells = system.pores().mesh.cells.iter();
-        for ((cell, p), volume) in cells.zip(system.pressures()).zip(system.volumes()) {
+        for ((cell, p), volume) in cells.zip(&system.pressures).zip(&system.volumes) {
             for k in cell.vertices().into_iter().filter_map(Vertex::sphere) {
                 sums[k][0] += p * volume;
                 sums[k][1] += volume;

@@ -213,7 +213,7 @@ static COMMON: [Common; 8] = [
         m.grains().porosity().unwrap_or(f64::NAN)
     }),
     ("meshes", "", |m, _| {
-        m.wet().map_or(0.0, |w| w.meshes() as f64)
+        m.wet().map_or(0.0, |w| w.meshes as f64)
     }),
 ];
 

@@ -189,7 +189,7 @@ fn a_suspension_settles_from_the_fluid_to_the_floor() {
     println!(
         "fluid {start:.3} at first, {fluid:.4} at last; floor {floor:.4}; together {mean:.4} on the way \
          ({steps} steps, {} meshes)",
-        system.meshes()
+        system.meshes
     );
     assert!(
         (mean - 1.0).abs() < 0.01,
