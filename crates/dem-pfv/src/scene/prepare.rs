@@ -14,12 +14,16 @@ pub(crate) const FAR: f64 = 1e4;
 /// Porosity at which a poured bed is expected to lie.
 pub(crate) const POURED: f64 = 0.4;
 /// A listener to the steps of a preparation.
-type Tell<'a> = &'a mut dyn FnMut(&str);
+type Listener<'a> = &'a mut dyn FnMut(&str);
 /// Share of the box that grains fill before they grow.
 const BEFORE_GROWTH: f64 = 0.25;
 
 /// The grains of a scene, prepared, with the laws of the run.
-pub fn grains(loaded: &Loaded, mut laws: Laws, tell: Tell<'_>) -> Result<GrainSystem, DemError> {
+pub fn grains(
+    loaded: &Loaded,
+    mut laws: Laws,
+    tell: Listener<'_>,
+) -> Result<GrainSystem, DemError> {
     let scene = &loaded.scene;
     let placed = place(loaded)?;
     let prepared = std::mem::take(&mut laws.prepared);
@@ -60,7 +64,7 @@ pub fn grains(loaded: &Loaded, mut laws: Laws, tell: Tell<'_>) -> Result<GrainSy
 }
 
 /// Lets the grains come to rest under their `weight` and the prepared stress of pistons.
-fn settled(loaded: &Loaded, system: &mut GrainSystem, tell: Tell<'_>) -> Result<(), DemError> {
+fn settled(loaded: &Loaded, system: &mut GrainSystem, tell: Listener<'_>) -> Result<(), DemError> {
     let scene = &loaded.scene;
     let poured = scene.start.rained.as_ref().map(|_| 1e-2);
     let Some(tolerance) = scene.start.settle.or(poured) else {
