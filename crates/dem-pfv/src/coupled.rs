@@ -39,6 +39,6 @@ mod system;
 pub use crate::Vector;
 pub use crate::error::{CoupledError, StepLimit};
 pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
-pub use measure::Terzaghi;
+pub use measure::{State, Terzaghi};
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
-pub use system::{CoupledSystem, PoreState, State};
+pub use system::{CoupledSystem, PoreState};

@@ -1,10 +1,26 @@
-//! Readings of a coupled system: pressures and stresses of layers, mobility, outflow; exact consolidation.
+//! Readings of a coupled system: pressures and stresses of layers, mobility, outflow, its state; exact consolidation.
 
 use std::f64::consts::PI;
 
-use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Vector, WallBoundary, condition};
-use crate::flow::{FlowSystem, PoreGeometry, Solver};
-use crate::grains::{GrainError, GrainSystem};
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::pores::{PRESSED, Places};
+use crate::coupled::{
+    CoupledError, CoupledSystem, FlowSetup, PoreState, Vector, WallBoundary, condition,
+};
+use crate::flow::{Conductance, FlowSystem, PoreGeometry, Solver};
+use crate::grains::{self, ContactLaw, GrainError, GrainSystem};
+
+/// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
+/// keeps every bit of a number.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct State {
+    grains: grains::State,
+    setup: FlowSetup,
+    /// Places at which the mesh was made; it is made again there.
+    places: Places,
+    clock: PoreState,
+}
 
 impl CoupledSystem {
     /// Mean pressure (Pa) of the cells whose places lie between two places along an axis (m), by their volumes; none
@@ -126,6 +142,41 @@ impl CoupledSystem {
     /// Cells and throats of the mesh; grains have moved a little since it was made.
     pub fn pores(&self) -> &PoreGeometry {
         &self.pores.geometry
+    }
+
+    /// State to resume.
+    pub fn save(&self) -> State {
+        State {
+            grains: self.grains.save(),
+            setup: self.setup.clone(),
+            places: self.pores.places.clone(),
+            clock: self.clock.clone(),
+        }
+    }
+
+    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together.
+    pub fn resume(
+        state: State,
+        laws: Vec<Box<dyn ContactLaw>>,
+        law: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        let grains = GrainSystem::resume(state.grains, laws)?;
+        let (setup, places, clock) = (state.setup, state.places, state.clock);
+        setup.check(&grains)?;
+        let bad = |problem| Err(CoupledError::BadState(problem));
+        if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
+            return bad("the mesh is that of other grains or walls");
+        }
+        let system = Self::meshed(grains, setup, law, (places, PRESSED), clock)?;
+        let (clock, cells) = (&system.clock, system.pores.geometry.volumes.len());
+        let columns = [&clock.volumes, &clock.rates, &clock.pressures];
+        if columns.iter().any(|c| c.len() != cells) {
+            return bad("columns of the pores differ in length from the mesh");
+        }
+        Ok(system)
     }
 }
 

@@ -100,13 +100,6 @@ impl Default for Remeshing {
     }
 }
 
-impl Remeshing {
-    pub(crate) fn due(&self, strain: f64, steps: u64) -> bool {
-        self.strain.is_some_and(|most| strain >= most)
-            || self.most_steps.is_some_and(|n| steps >= n)
-    }
-}
-
 /// Everything about the fluid that a [`crate::coupled::CoupledSystem`] starts from.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct FlowSetup {

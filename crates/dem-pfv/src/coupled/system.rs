@@ -1,4 +1,4 @@
-//! The coupled system: made, stepped, meshed anew, saved and resumed.
+//! The coupled system: made, stepped, meshed anew.
 
 use std::ops::Deref;
 
@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::coupled::limit::{Mode, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores, transferred};
-use crate::coupled::{CoupledError, FlowSetup, StepLimit, WallBoundary, condition};
+use crate::coupled::{CoupledError, FlowCondition, FlowSetup, StepLimit, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
-use crate::grains::{self, ContactLaw, GrainSystem};
+use crate::grains::GrainSystem;
 use crate::{POSITIVE, require, sphere};
 
 /// Grains that move, and the fluid in the pores between them.
@@ -67,17 +67,6 @@ impl Deref for CoupledSystem {
     }
 }
 
-/// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
-/// keeps every bit of a number.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct State {
-    grains: grains::State,
-    setup: FlowSetup,
-    /// Places at which the mesh was made; it is made again there.
-    places: Places,
-    clock: PoreState,
-}
-
 impl CoupledSystem {
     /// Fills the box of the grains with fluid, conductances by hydraulic radii.
     ///
@@ -114,7 +103,7 @@ impl CoupledSystem {
     }
 
     /// With the mesh of grains at their places and the deepest overlap.
-    fn meshed(
+    pub(crate) fn meshed(
         grains: GrainSystem,
         setup: FlowSetup,
         law: Box<dyn Conductance>,
@@ -176,7 +165,9 @@ impl CoupledSystem {
         let strain = self.measure_rates(&here, step);
         self.clock.strain += strain;
         self.clock.age += 1;
-        if self.setup.remeshing.due(self.clock.strain, self.clock.age) {
+        let (clock, remeshing) = (&self.clock, self.setup.remeshing);
+        let strained = remeshing.strain.is_some_and(|most| clock.strain >= most);
+        if strained || remeshing.most_steps.is_some_and(|n| clock.age >= n) {
             self.rebuild(here.clone())?;
             self.clock.volumes = self.pores.volumes(&before);
             self.measure_rates(&here, step);
@@ -248,7 +239,9 @@ impl CoupledSystem {
 
     /// Pressures of the rates of now, and the fluid's forces on grains and walls.
     fn press(&mut self) -> Result<(), CoupledError> {
-        if self.setup.sides.iter().any(WallBoundary::varies) {
+        use FlowCondition::{Recorded, Wave};
+        let varies = |s: &WallBoundary| matches!(s.condition, Wave(_) | Recorded(_));
+        if self.setup.sides.iter().any(varies) {
             self.pores.refresh(&self.setup, self.grains.time);
         }
         let (pores, clock) = (&mut self.pores, &mut self.clock);
@@ -347,10 +340,11 @@ impl CoupledSystem {
             return Err(CoupledError::BadCondition(wall, problem));
         };
         let old = std::mem::replace(slot, side.clone());
-        let done = if old.like(&side) {
+        let same = old.sticks == side.sticks;
+        let done = if same && old.presses() == side.presses() {
             self.pores.refresh(&self.setup, self.grains.time);
             Ok(())
-        } else if old.sticks == side.sticks {
+        } else if same {
             let now = [self.grains.time, self.clock.storage_step];
             self.clock.fresh = false;
             self.pores.reassemble(&self.setup, &*self.law, now)
@@ -361,40 +355,5 @@ impl CoupledSystem {
             self.setup.sides[wall] = old;
         }
         done
-    }
-
-    /// State to resume.
-    pub fn save(&self) -> State {
-        State {
-            grains: self.grains.save(),
-            setup: self.setup.clone(),
-            places: self.pores.places.clone(),
-            clock: self.clock.clone(),
-        }
-    }
-
-    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
-    ///
-    /// # Errors
-    /// A state whose parts do not fit together.
-    pub fn resume(
-        state: State,
-        laws: Vec<Box<dyn ContactLaw>>,
-        law: Box<dyn Conductance>,
-    ) -> Result<Self, CoupledError> {
-        let grains = GrainSystem::resume(state.grains, laws)?;
-        let (setup, places, clock) = (state.setup, state.places, state.clock);
-        setup.check(&grains)?;
-        let bad = |problem| Err(CoupledError::BadState(problem));
-        if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
-            return bad("the mesh is that of other grains or walls");
-        }
-        let system = Self::meshed(grains, setup, law, (places, PRESSED), clock)?;
-        let (clock, cells) = (&system.clock, system.pores.geometry.volumes.len());
-        let columns = [&clock.volumes, &clock.rates, &clock.pressures];
-        if columns.iter().any(|c| c.len() != cells) {
-            return bad("columns of the pores differ in length from the mesh");
-        }
-        Ok(system)
     }
 }

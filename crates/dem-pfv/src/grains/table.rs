@@ -183,10 +183,10 @@ impl State {
     /// Makes the table anew; contacts keep their memory.
     pub(crate) fn renew(&mut self) {
         let (grains, skin) = (&self.grains, self.skin);
-        let largest = grains.largest_radius();
-        let grid = Grid::new(&grains.position, &self.period, 2.0 * largest + skin);
+        let reach = 2.0 * grains.largest_radius() + skin;
+        let grid = Grid::new(&grains.position, &self.period, reach);
         let mut new = Table {
-            slots: pairs(grains, &grid, &self.period, skin),
+            slots: self.pairs(&grid),
             ..Table::default()
         };
         let pairs = new.slots.len();
@@ -198,8 +198,7 @@ impl State {
             new.ends.push(new.slots.len());
         }
         for mesh in &self.meshes {
-            let near = triangles(grains, &grid, mesh, largest, skin);
-            new.slots.extend(near);
+            new.slots.extend(self.triangles(&grid, mesh));
             new.ends.push(new.slots.len());
         }
         new.carry(&self.table);
@@ -217,57 +216,52 @@ impl State {
         self.table = new;
         self.renewals += 1;
     }
-}
 
-fn pairs(grains: &Grains, grid: &Grid, period: &Period, skin: f64) -> Vec<Slot> {
-    let n = grains.len();
-    let task = |task: usize| {
-        let mut slots = Vec::with_capacity(8 * TASK);
-        let mut partners = Vec::new();
-        for i in task * TASK..n.min((task + 1) * TASK) {
-            let (at, radius) = (grains.position[i], grains.radius[i] + skin);
-            partners.clear();
-            grid.around(&at, |j| {
-                let reach = radius + grains.radius[j as usize];
-                let apart = || separation(&at, &grains.position[j as usize], period);
-                if j as usize > i && apart().norm_squared() < reach * reach {
-                    partners.push(j);
+    fn pairs(&self, grid: &Grid) -> Vec<Slot> {
+        let (grains, n) = (&self.grains, self.grains.len());
+        let task = |task: usize| {
+            let mut slots = Vec::with_capacity(8 * TASK);
+            let mut partners = Vec::new();
+            for i in task * TASK..n.min((task + 1) * TASK) {
+                let (at, radius) = (grains.position[i], grains.radius[i] + self.skin);
+                partners.clear();
+                grid.around(&at, |j| {
+                    let reach = radius + grains.radius[j as usize];
+                    let apart = || separation(&at, &grains.position[j as usize], &self.period);
+                    if j as usize > i && apart().norm_squared() < reach * reach {
+                        partners.push(j);
+                    }
+                });
+                partners.sort_unstable();
+                slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
+            }
+            slots
+        };
+        let tasks = (0..n.div_ceil(TASK)).into_par_iter().map(task);
+        tasks.collect::<Vec<_>>().concat()
+    }
+
+    fn triangles(&self, grid: &Grid, mesh: &Mesh) -> impl Iterator<Item = Slot> {
+        let (grains, largest) = (&self.grains, self.grains.largest_radius());
+        let found = (0..mesh.triangles.len()).into_par_iter().map(|t| {
+            let corners = mesh.corners(t);
+            let reach = Vector::repeat(largest + self.skin);
+            let low = corners[0].inf(&corners[1]).inf(&corners[2]) - reach;
+            let high = corners[0].sup(&corners[1]).sup(&corners[2]) + reach;
+            let mut near = Vec::new();
+            grid.within(&low, &high, |i| {
+                let at = &grains.position[i as usize];
+                let reach = grains.radius[i as usize] + self.skin;
+                if (nearest(at, corners) - at).norm_squared() < reach * reach {
+                    near.push((i, t as u32));
                 }
             });
-            partners.sort_unstable();
-            slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
-        }
-        slots
-    };
-    let tasks = (0..n.div_ceil(TASK)).into_par_iter().map(task);
-    tasks.collect::<Vec<_>>().concat()
-}
-
-fn triangles(
-    grains: &Grains,
-    grid: &Grid,
-    mesh: &Mesh,
-    largest: f64,
-    skin: f64,
-) -> impl Iterator<Item = Slot> {
-    let found = (0..mesh.triangles.len()).into_par_iter().map(|t| {
-        let corners = mesh.corners(t);
-        let reach = Vector::repeat(largest + skin);
-        let low = corners[0].inf(&corners[1]).inf(&corners[2]) - reach;
-        let high = corners[0].sup(&corners[1]).sup(&corners[2]) + reach;
-        let mut near = Vec::new();
-        grid.within(&low, &high, |i| {
-            let at = &grains.position[i as usize];
-            let reach = grains.radius[i as usize] + skin;
-            if (nearest(at, corners) - at).norm_squared() < reach * reach {
-                near.push((i, t as u32));
-            }
+            near
         });
-        near
-    });
-    let mut keys = found.collect::<Vec<_>>().concat();
-    keys.sort_unstable();
-    keys.into_iter().map(|(i, t)| Slot::new(i, t))
+        let mut keys = found.collect::<Vec<_>>().concat();
+        keys.sort_unstable();
+        keys.into_iter().map(|(i, t)| Slot::new(i, t))
+    }
 }
 
 /// Grains by cell; a cell is at least as long as the reach of a pair.
