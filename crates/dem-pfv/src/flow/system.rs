@@ -3,10 +3,8 @@
 use serde::{Deserialize, Serialize};
 use sparse::{Cholesky, Order, UpperTriangle, conjugate_gradient, nested_dissection};
 
-use crate::flow::assembly::{
-    GIVEN, assemble, conductances, firsts, givers, joined, numbered, reachable,
-};
-use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
+use crate::flow::assembly::{GIVEN, assemble, givers, joined, numbered, reachable};
+use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry, Throat};
 use crate::{POSITIVE, require};
 
 /// Solvers of the system.
@@ -81,17 +79,30 @@ impl FlowSystem {
         solver: Solver,
     ) -> Result<Self, FlowError> {
         require("viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
-        let conductances = conductances(geometry, law, viscosity)?;
+        let conductance = |t: &Throat| {
+            if t.open || t.fluid_area <= 0.0 {
+                return Ok(0.0);
+            }
+            match law.conductance(t) {
+                g if g >= 0.0 && g.is_finite() => Ok(g / (viscosity * t.length)),
+                g => Err(FlowError::BadConductance(t.cells, g)),
+            }
+        };
+        let conductances = geometry.throats.iter().map(conductance);
+        let conductances = conductances.collect::<Result<Vec<_>, _>>()?;
         let ends = geometry.throats.iter().map(|t| t.cells.map(|c| c as u32));
         let ends: Vec<_> = ends.collect();
         let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
         let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
-        let first = firsts(boundary, &pores);
+        let givers = givers(boundary, &pores);
+        let known = givers
+            .iter()
+            .map(|c| boundary.pressures[*c as usize].is_some());
+        let known: Vec<_> = known.collect();
         if storage.is_none() {
-            reachable(&conductances, &ends, &first, &pores)?;
+            reachable(&conductances, &ends, &known, &pores)?;
         }
-        let givers = givers(boundary, &pores, &first);
-        let (unknowns, count) = numbered(&pores, &first);
+        let (unknowns, count) = numbered(&pores, &known);
         let (diagonal, matrix) = assemble(&conductances, &ends, &unknowns, count);
         let mut system = Self {
             conductances,
