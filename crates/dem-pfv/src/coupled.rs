@@ -29,7 +29,6 @@
 //! ```
 
 mod condition;
-mod edge_forces;
 mod limit;
 mod measure;
 mod pores;

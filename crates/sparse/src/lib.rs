@@ -15,7 +15,6 @@ mod error;
 mod groups;
 mod matrix;
 mod substitution;
-mod vertex_cover;
 
 pub use cholesky::{Cholesky, Order};
 pub use conjugate_gradient::conjugate_gradient;

@@ -62,8 +62,8 @@ fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<Box<E::Ma
 fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>, DemError> {
     let law = chosen::<ContactLawEntry>(plugins, path)?;
     for (law, name) in law.iter().zip(plugins.keys()) {
-        law.check()
-            .map_err(|e| DemError::at(format!("{path}.{name}"), e))?;
+        let checked = law.check();
+        checked.map_err(|e| DemError::at(format!("{path}.{name}"), e))?;
     }
     Ok(law)
 }
