@@ -159,8 +159,8 @@ pub enum GrainError {
     /// A grain in a triangle of a mesh, and the depth.
     #[error("grain {0} reaches {2:.3e} m into {1}, more than a tenth of its radius")]
     InMesh(usize, Partner, f64),
-    /// A grain that overlaps another body too deep for a step: its number, its centre, the other body, the depth, and the
-    /// depth over its radius.
+    /// A grain that overlaps another body too deep for a step: its number, its centre, the other body, the depth, and
+    /// the depth over its radius.
     #[error(
         "grain {0} at ({x:.4e}, {y:.4e}, {z:.4e}) m overlaps {2} by {3:.3e} m, {4:.2} of its radius; \
          contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
@@ -326,6 +326,6 @@ pub struct StepLimit {
     pub grain: usize,
 }
 
-/// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small beside the
-/// radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
+/// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
+/// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
 pub(crate) const DEEPEST: f64 = 0.25;

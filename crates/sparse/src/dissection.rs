@@ -113,9 +113,9 @@ fn neighbours(matrix: &UpperTriangle) -> Groups {
 /// No end.
 const NONE: u32 = u32::MAX;
 
-/// Marks of the ends on the left, and on the right of which there are `right`, that are in a smallest cover of the joins of
-/// each end on the left with ends on the right.
-/// Source: König 1931, from a largest matching by augmenting paths.
+/// Marks of the ends on the left, and on the right of which there are `right`, that are in a smallest cover of the
+/// joins of each end on the left with ends on the right. Source: König 1931, from a largest matching by augmenting
+/// paths.
 fn cover(joins: &Groups, right: usize) -> [Vec<bool>; 2] {
     let left = joins.starts.len() - 1;
     let mut mates = [vec![NONE; left], vec![NONE; right]];

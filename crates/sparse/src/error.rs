@@ -9,8 +9,8 @@ pub enum SparseError {
     /// There is not enough memory for the factor of a system of this size.
     #[error("not enough memory to factorise {0} unknowns; conjugate gradients need less")]
     NoMemory(usize),
-    /// The matrix is not positive definite: the row whose pivot is not positive, in the order of elimination and counted
-    /// from 1, and the size of the system.
+    /// The matrix is not positive definite: the row whose pivot is not positive, in the order of elimination and
+    /// counted from 1, and the size of the system.
     #[error("the matrix of {1} unknowns is not positive definite: row {0}")]
     NotPositive(usize, usize),
     /// Conjugate gradients did not end: the residual relative to the right side, and the iterations allowed.

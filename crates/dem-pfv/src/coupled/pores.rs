@@ -1,5 +1,5 @@
-//! The pores of one mesh: geometry, linear system, forces of unit pressures, pressures from the mesh before; forces between
-//! neighbours that slide past each other, or part, along the edges of the mesh.
+//! The pores of one mesh: geometry, linear system, forces of unit pressures, pressures from the mesh before; forces
+//! between neighbours that slide past each other, or part, along the edges of the mesh.
 
 use std::f64::consts::PI;
 
@@ -53,8 +53,8 @@ pub(crate) struct Pores {
 }
 
 impl Pores {
-    /// Makes the mesh of grains at their places, and its system, at their time and for a step (s). Overlaps may be as deep
-    /// as `deepest` in terms of the smaller radius.
+    /// Makes the mesh of grains at their places, and its system, at their time and for a step (s). Overlaps may be as
+    /// deep as `deepest` in terms of the smaller radius.
     pub fn new(
         places: Places,
         grains: &GrainSystem,

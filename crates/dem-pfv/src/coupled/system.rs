@@ -197,9 +197,9 @@ impl CoupledSystem {
     /// λ_max Δt / 2 + ω_max² Δt² / 4 < 1
     /// ```
     ///
-    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found anew every
-    /// hundred steps. Walls that follow a servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it
-    /// moved alone and is too long by a factor of three to six for narrow gradings.
+    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found
+    /// anew every hundred steps. Walls that follow a servo count as fixed. The rule of the thesis, Eq. (4.20), takes
+    /// every grain as if it moved alone and is too long by a factor of three to six for narrow gradings.
     ///
     /// # Errors
     /// A system that cannot be solved.

@@ -160,8 +160,8 @@ impl Grown {
     /// by Catalano 2012, ch. 2, without equations.
     ///
     /// # Errors
-    /// A box that is not closed; a target out of range; [`GrainError::NotReached`] after so many steps, `most`; the refusals of a
-    /// step.
+    /// A box that is not closed; a target out of range; [`GrainError::NotReached`] after so many steps, `most`; the
+    /// refusals of a step.
     pub fn run(&self, system: &mut GrainSystem, safety: f64, most: u64) -> Result<u64, GrainError> {
         let goal = self.stress.or(self.porosity).unwrap_or(f64::NAN);
         let (what, fine) = match self.stress {

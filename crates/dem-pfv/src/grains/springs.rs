@@ -280,8 +280,8 @@ fn slide(contact: &mut Contact, normal: f64, [shear, mut total]: [Vector; 2], fr
     contact.force = contact.normal * normal + total;
 }
 
-/// Checks the parameters of a law: two of its own by name, value, valid values and whether it is one of them, then those
-/// that both laws have.
+/// Checks the parameters of a law: two of its own by name, value, valid values and whether it is one of them, then
+/// those that both laws have.
 fn check(
     law: &str,
     own: [(&str, f64, &'static str, bool); 2],

@@ -246,8 +246,8 @@ fn at(rows: &[(f64, f64)], time: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (time - t0) / (t1 - t0))
 }
 
-/// C aⁿ at an aspect ratio a by the rows of a geometry and a quantity in a table with the columns geometry, quantity, range
-/// (`a<2.3`), C, n (`2/3`); not a number beyond all ranges.
+/// C aⁿ at an aspect ratio a by the rows of a geometry and a quantity in a table with the columns geometry, quantity,
+/// range (`a<2.3`), C, n (`2/3`); not a number beyond all ranges.
 fn scaling(path: &Path, [geometry, quantity]: [&str; 2], aspect: f64) -> Result<f64, String> {
     let text = scene_text::read_text(path)?;
     let rows = text.lines().filter(|l| !l.starts_with('#')).skip(1);
