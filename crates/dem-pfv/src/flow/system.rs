@@ -33,8 +33,12 @@ pub struct Storage {
     pub step: f64,
 }
 
-/// Above this many unknowns, `Automatic` iterates.
+/// Above this many unknowns, `Automatic` iterates so.
 const FACTORISED: usize = 100_000;
+const ITERATED: Solver = Solver::ConjugateGradient {
+    tolerance: 1e-10,
+    limit: 20_000,
+};
 
 /// Σ_j k_ij (p_i − p_j) + V/(K Δt) (p_i − p_i,old) = −dV_i/dt + Q_i for all pores without a given pressure.
 /// Symmetric and positive definite. Source: Catalano 2012, Eqs. (3.2), (3.3), (4.8).
@@ -115,7 +119,11 @@ impl FlowSystem {
             storage,
             diagonal,
             matrix,
-            solver: chosen(solver, count),
+            solver: match solver {
+                Solver::Automatic if count <= FACTORISED => Solver::Direct,
+                Solver::Automatic => ITERATED,
+                chosen => chosen,
+            },
             factor: None,
             last: vec![0.0; count],
         };
@@ -312,16 +320,5 @@ impl FlowSystem {
             }
         });
         flux.sum()
-    }
-}
-
-fn chosen(solver: Solver, unknowns: usize) -> Solver {
-    match solver {
-        Solver::Automatic if unknowns <= FACTORISED => Solver::Direct,
-        Solver::Automatic => Solver::ConjugateGradient {
-            tolerance: 1e-10,
-            limit: 20_000,
-        },
-        chosen => chosen,
     }
 }

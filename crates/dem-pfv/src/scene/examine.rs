@@ -175,14 +175,10 @@ fn stages(fluid: Option<&Fluid>) -> Vec<&'static str> {
 }
 
 fn limits(coupled: bool) -> [&'static str; 2] {
-    let stable = match coupled {
-        false => "contacts: Δt < 2/ω, ω a bound from the stiffness of all contacts of a grain",
-        true => {
-            "contacts and drag: λ Δt/2 + ω² Δt²/4 < 1, λ the largest eigenvalue of the drag by power iterations"
-        }
-    };
+    let contacts = "contacts: Δt < 2/ω, ω a bound from the stiffness of all contacts of a grain";
+    let drag = "contacts and drag: λ Δt/2 + ω² Δt²/4 < 1, λ the largest eigenvalue of the drag by power iterations";
     let motion = "motion: no grain goes further than a tenth of its radius in a step";
-    [stable, motion]
+    [if coupled { drag } else { contacts }, motion]
 }
 
 fn derived(scene: &Scene) -> Vec<(&'static str, f64, &'static str)> {

@@ -246,12 +246,9 @@ impl sph_run::Model for Running<'_> {
             Err(_) => return Ok(None),
         };
         let (scene, parts) = (&self.loaded.scene, self.parts()?);
-        let summary = Summary::new(scene, parts, &self.progress, status, books);
-        Ok(Some(Summary {
-            errors,
-            warnings,
-            ..summary
-        }))
+        let mut summary = Summary::new(scene, parts, &self.progress, status, books);
+        (summary.errors, summary.warnings) = (errors, warnings);
+        Ok(Some(summary))
     }
 }
 
